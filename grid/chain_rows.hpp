@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where a chain stands in a pair of rows or numbers: left, right.
+/// The index of a chain in a pair of rows or numbers: left, right.
 #pragma once
 
 #include <Eigen/Core>

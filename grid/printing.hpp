@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The gate that every printed number passes: NaN and infinity do not get through.
+/// A check on every printed number: NaN and infinity are not printed.
 ///
-/// In grid/ and tools/ <fmt/format.h> leads here (grid/printing/ comes first on their include path),
-/// and code in namespace chaintrue that says fmt::format, fmt::format_to or fmt::print means these:
-/// they are fmt's own, and throw std::logic_error where a number is not finite. Such a number is a
-/// mistake of the program's; that it stops here keeps it out of files, tables, pages and sentences.
-/// JSON has the same gate in its writer (grid/files/json_text.hpp), charts in theirs
-/// (tools/report/render.cpp).
+/// In grid/ and tools/ <fmt/format.h> includes this file (grid/printing/ comes first on their
+/// include path), and fmt::format, fmt::format_to and fmt::print in namespace chaintrue are the
+/// functions below: they call fmt's own, and throw std::logic_error where a number is not finite.
+/// Such a number is a bug; throwing here keeps it out of files, tables, pages and sentences. The
+/// JSON writer (grid/files/json_text.hpp) and the charts (tools/report/render.cpp) have the same
+/// check.
 #pragma once
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@
 
 namespace chaintrue::fmt {
 
-using namespace ::fmt;  // NOLINT(google-build-using-namespace): stands in for it
+using namespace ::fmt;  // NOLINT(google-build-using-namespace): replaces it
 
 namespace gate {
 
@@ -51,7 +51,8 @@ template <class... Args>
   return ::fmt::format(text, std::forward<Args>(args)...);
 }
 
-/// By way of a string: fmt would compile all of its formatting once more for every kind of output.
+/// Formats to a string first: otherwise fmt compiles all of its formatting once more for every kind
+/// of output.
 template <class Output, class... Args>
 Output format_to(Output output, ::fmt::format_string<Args...> text, Args&&... args) {
   const std::string whole = fmt::format(text, std::forward<Args>(args)...);
@@ -64,7 +65,7 @@ void print(::fmt::format_string<Args...> text, Args&&... args) {
   ::fmt::print(text, std::forward<Args>(args)...);
 }
 
-/// Talk that cannot be told (standard error is full or closed) is no reason to stop.
+/// A message that cannot be written (standard error is full or closed) is no reason to stop.
 template <class... Args>
 void print(std::FILE* file, ::fmt::format_string<Args...> text, Args&&... args) {
   (gate::pass(args), ...);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How far a long piece of work is, told to whoever listens. Neither a clock nor any output here:
-/// who shows it knows how long it took so far.
+/// Progress of a long computation, reported to a callback. No clock and no output here: the caller
+/// measures the time.
 ///
 /// \code
 ///   FitOptions options;
@@ -14,17 +14,17 @@
 
 namespace chaintrue::grid {
 
-/// A step of the work, as a person at the machine would call it.
+/// A step of the work, in a user's words.
 struct WorkStep {
   std::string_view what;  ///< a literal
-  int number = 1;         ///< from 1; steps that the data do not ask for are passed over
+  int number = 1;         ///< from 1; steps that the data do not need are skipped
   int of = 1;
-  /// Of this step, or of its pass, that is done, 0 to 1; negative: nobody can know.
+  /// Share of this step, or of its pass, that is done, 0 to 1; negative: unknown.
   double share = -1.0;
-  int pass = 0;  ///< of a step that ends when it has settled, from 1; 0: of others
+  int pass = 0;  ///< of a step that iterates until it converges, from 1; 0: of others
 };
 
-/// Called by the thread that works; empty where nobody listens.
+/// Called by the working thread; may be empty.
 using Progress = std::function<void(const WorkStep&)>;
 
 inline void tell(const Progress& progress, const WorkStep& step) {

@@ -13,20 +13,20 @@ namespace chaintrue::grid {
 /// std::invalid_argument for no values.
 [[nodiscard]] double median(std::vector<double> values);
 
-/// sqrt(mean(v^2)); of nothing 0.
+/// sqrt(mean(v^2)); 0 for no values.
 [[nodiscard]] double rms(const std::vector<double>& values);
-/// Of all components alike; of nothing 0.
+/// Over all components; 0 for no values.
 [[nodiscard]] double rms(const std::vector<Eigen::Vector2d>& values);
 
-/// Of the vectors' lengths; of nothing 0.
+/// Of the vectors' lengths; 0 for no values.
 [[nodiscard]] double rms_length(const std::vector<Eigen::Vector2d>& values);
 
-/// The logarithm of nothing.
+/// log(0).
 inline constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
-/// log(exp(a) + exp(b)), without overflow; minus infinity stands for nothing.
+/// log(exp(a) + exp(b)), without overflow; minus infinity is log(0).
 [[nodiscard]] double log_sum(double a, double b);
-/// log(sum exp(t)); of nothing minus infinity.
+/// log(sum exp(t)); minus infinity for no terms.
 [[nodiscard]] double log_sum(const std::vector<double>& terms);
 
 }  // namespace chaintrue::grid

@@ -29,7 +29,7 @@ AlglibSpline::AlglibSpline(const std::vector<double>& x_nodes,
     throw std::invalid_argument("a value of the grid is not finite");
   }
   domain_ = {x_nodes.front(), x_nodes.back(), y_nodes.front(), y_nodes.back()};
-  const Eigen::MatrixXd column_major = values;  // x fastest, as ALGLIB wants it
+  const Eigen::MatrixXd column_major = values;  // x fastest, as in ALGLIB
   alglib::real_1d_array x;
   alglib::real_1d_array y;
   alglib::real_1d_array f;

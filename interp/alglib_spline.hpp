@@ -2,9 +2,9 @@
 #pragma once
 
 /// \file
-/// ALGLIB's spline2d as a surface: bicubic, parabolic ends, the cubic continues outside. Slower
-/// and, at few points, less accurate than TensorSpline with not-a-knot ends; it is the outside
-/// opinion.
+/// ALGLIB's spline2d as a surface: bicubic, parabolic ends; the cubic of the edge cell continues
+/// outside. Slower and, at few points, less accurate than TensorSpline with not-a-knot ends; used
+/// as an independent check.
 
 #include <memory>
 #include <vector>

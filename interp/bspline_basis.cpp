@@ -196,9 +196,9 @@ Eigen::MatrixXd BsplineBasis::polynomial_coefficients(int degree) const {
   if (degree != 1 && degree != 2) {
     throw std::invalid_argument(fmt::format("polynomials of degree {}; known are 1 and 2", degree));
   }
-  // Marsden's identity (de Boor, chapter IX, (30)): a uniform cubic B-spline has a straight line's
-  // values at the knot averages for coefficients, and a parabola's less a third of the squared
-  // step.
+  // Marsden's identity (de Boor, chapter IX, (30)): the coefficients of a straight line are its
+  // values at the knot averages; those of a parabola are its values there less a third of the
+  // squared step.
   const double step_u = 2.0 * step_x_ / rectangle_.width();
   const double step_v = 2.0 * step_y_ / rectangle_.height();
   Eigen::MatrixXd polynomials(size(), degree == 1 ? 3 : 6);

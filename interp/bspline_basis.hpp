@@ -10,8 +10,8 @@
 /// Eilers and B. Marx, Statist. Sci. 11 (1996) 89-121 for their use with a penalty). They sum to
 /// one.
 ///
-/// Outside the rectangle each axis continues linearly from its edge: the surface stays C1 across
-/// the edge, and is a polynomial of degree one in the direction of leaving.
+/// Outside the rectangle each axis continues linearly from its edge: the surface is C1 across the
+/// edge, and linear in the direction across it.
 
 #include <array>
 

@@ -33,8 +33,8 @@ struct Place {
 CHAINTRUE_INLINE Place locate(const CompiledPair::Grid& g, double x, double y) {
   const double u = (x - g.x_min) * g.inverse_step_x;
   const double v = (y - g.y_min) * g.inverse_step_y;
-  // One maximum, one minimum each: as nested choices they become branches, and near the edges of a
-  // small table those are mispredicted.
+  // One maximum, one minimum each: nested conditionals become branches, which are mispredicted near
+  // the edges of a small table.
   const double u_low = u > 0.0 ? u : 0.0;
   const double v_low = v > 0.0 ? v : 0.0;
   const double u_cell = u_low < g.last_cell_x ? u_low : g.last_cell_x;
@@ -142,8 +142,8 @@ CHAINTRUE_INLINE InverseResult invert(const CompiledPair::Grid& g,
   constexpr int kMostEvaluations = 40;
   const double diagonal =
       std::sqrt(domain.width() * domain.width() + domain.height() * domain.height());
-  // Newton's error follows step' = C step^2. Before two steps have shown C, the curvature of
-  // lengths that reach across the domain is a safe guess.
+  // The error of a Newton step follows step' = C step^2. Before two steps have given C, the
+  // curvature of lengths whose radius is an eighth of the domain's diagonal is a safe guess.
   const double curvature = 8.0 / diagonal;
   InverseResult result{hint.x, hint.y, InverseStatus::not_converged, 0};
   double previous = 0.0;

@@ -74,7 +74,7 @@ bool uniform(std::span<const double> nodes) {
   const auto n = static_cast<double>(nodes.size() - 1);
   const double step = (nodes.back() - nodes.front()) / n;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    // Nodes written in decimals are off by their rounding; 1e-12 of a step moves nothing.
+    // Decimal nodes are off by their rounding; 1e-12 of a step is negligible.
     if (std::abs(nodes[i] - (nodes.front() + step * static_cast<double>(i))) > 1e-12 * step * n) {
       return false;
     }
@@ -97,7 +97,7 @@ std::vector<double> uniform_nodes(double low, double high, int cells) {
   return nodes;
 }
 
-/// Without an extent there is none, which the constructor refuses.
+/// 0 for an empty extent, which the constructor rejects.
 double cells_per_unit(int count, double extent) { return extent > 0.0 ? count / extent : 0.0; }
 
 }  // namespace

@@ -5,13 +5,13 @@
 /// Two surfaces on one uniform table, made for speed: value and gradient of both at a point,
 /// batches of points, and the inverse map by Newton's method.
 ///
-/// Each cell holds the power coefficients of both bicubics interleaved, c[i][j][surface] for
-/// u^i v^j with u, v in [0, 1]: 256 bytes a cell. The kernels are written with the compiler's
-/// vector extensions and chosen at start-up (AVX2, or what plain x86-64 has); contraction to fused
-/// multiply-add is off, so that every path gives the same bits.
+/// Each cell holds the power coefficients of both bicubics interleaved, c[i][j][surface] for u^i
+/// v^j with u, v in [0, 1]: 256 bytes a cell. The kernels use the compiler's vector extensions and
+/// are chosen at start-up (AVX2 or plain x86-64); contraction to fused multiply-add is off, so that
+/// every path gives the same bits.
 ///
-/// Outside the rectangle the bicubic of the nearest edge cell continues; `domain` says where that
-/// begins. Coordinates must be finite.
+/// Outside the rectangle the bicubic of the nearest edge cell continues; `domain` is the rectangle.
+/// Coordinates must be finite.
 
 #include <array>
 #include <functional>
@@ -38,7 +38,7 @@ struct PlanePoint {
 enum class InverseStatus {
   converged,      ///< the point lies in the table's rectangle
   outside,        ///< converged, but outside it
-  not_converged,  ///< no point of the table has these values; x and y are meaningless
+  not_converged,  ///< no point of the table has these values; x and y have no meaning
 };
 
 struct InverseResult {
@@ -48,13 +48,13 @@ struct InverseResult {
   int evaluations;
 };
 
-/// How a table was made and how well it follows what it was made from.
+/// The resolution of a table and its error against the function it was compiled from.
 struct TableError {
   double largest_seen = 0.0;  ///< over both surfaces at five points inside every cell
   double bound = 0.0;         ///< 1.25 times that
 };
 
-/// Immutable, thread safe; nothing but the constructors allocates.
+/// Immutable, thread safe; only the constructors allocate.
 ///
 ///     auto table = CompiledPair::compile(bed, 100, 50, [&](double x, double y) {
 ///       return std::array{left(x, y), right(x, y)};
@@ -65,16 +65,16 @@ class CompiledPair {
  public:
   using Function = std::function<std::array<double, 2>(double x, double y)>;
 
-  /// Samples `function` at (nx + 1)(ny + 1) points, joins them by not-a-knot bicubics and measures
-  /// the error at five points inside every cell. Throws std::invalid_argument when a sample is not
-  /// finite or the rectangle or the counts are empty.
+  /// Samples `function` at (nx + 1)(ny + 1) points, interpolates them by not-a-knot bicubics and
+  /// measures the error at five points inside every cell. Throws std::invalid_argument when a
+  /// sample is not finite or the rectangle or the counts are empty.
   [[nodiscard]] static CompiledPair compile(const Rectangle& rectangle,
                                             int nx,
                                             int ny,
                                             const Function& function);
 
-  /// The same two surfaces, exact to rounding. Throws std::invalid_argument unless both stand on
-  /// the same uniform axes.
+  /// The same two surfaces, exact to rounding. Throws std::invalid_argument unless both have the
+  /// same uniform axes.
   [[nodiscard]] static CompiledPair from_splines(const TensorSpline& first,
                                                  const TensorSpline& second);
 
@@ -89,7 +89,8 @@ class CompiledPair {
   [[nodiscard]] InverseResult inverse(const std::array<double, 2>& target,
                                       const PlanePoint& hint,
                                       double tolerance = 1e-9) const;
-  /// Each from the one before, the first from `hint`: points along a path.
+  /// A sequence of targets along a path: each search starts from the result before it, the first
+  /// from `hint`.
   void inverse(std::span<const std::array<double, 2>> targets,
                const PlanePoint& hint,
                std::span<InverseResult> results,
@@ -128,7 +129,7 @@ class CompiledPair {
 
 /// The instruction set the kernels run on: "avx2" or "x86-64".
 [[nodiscard]] const char* compiled_pair_instructions();
-/// Runs the plain kernels from now on where `plain`; for tests and benchmarks, not thread safe.
+/// Runs the plain kernels from then on if `plain`; for tests and benchmarks, not thread safe.
 void force_plain_instructions(bool plain);
 
 }  // namespace chaintrue::interp

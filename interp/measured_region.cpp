@@ -110,7 +110,7 @@ NearestPoint ConvexHull::nearest(double x, double y) const {
     if (distance < best.distance) {
       best = {foot, distance, {}, s > 0.0 && s < 1.0};
       if (best.on_edge) {
-        // The edge's own normal: the difference of two near points has no digits left.
+        // The edge's own normal: the difference of two nearby points has no significant digits.
         const double length = std::hypot(ex, ey);
         best.direction = {ey / length, -ex / length};
       } else if (distance > 0.0) {

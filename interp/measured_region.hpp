@@ -2,10 +2,11 @@
 #pragma once
 
 /// \file
-/// Where a surface rests on measurements, and what it answers where it does not.
+/// The region that is covered by measurements, and the policies for evaluating a surface outside
+/// it.
 ///
-/// The measured region is the convex hull of the points. Outside it a surface is asked through a
-/// policy, and every answer says how it came about; nothing is clamped silently.
+/// The measured region is the convex hull of the points. Outside it a surface is evaluated under a
+/// policy, and every result carries its status; nothing is clamped silently.
 
 #include <string_view>
 #include <vector>
@@ -46,12 +47,12 @@ enum class OutsidePolicy {
   clamp,   ///< the value at the nearest measured point
 };
 
-/// How a value came about.
+/// Status of a value.
 enum class PointStatus {
   inside,        ///< in the measured region
-  edge,          ///< outside it by no more than edge_width: continued linearly, except by `clamp`
+  edge,          ///< outside by at most edge_width: continued linearly, except by `clamp`
   extrapolated,  ///< further out, by the policy
-  outside,       ///< refused: there is no value
+  outside,       ///< no value
 };
 
 [[nodiscard]] std::string_view to_string(PointStatus status);
@@ -67,9 +68,9 @@ struct RegionAnswer {
   PointStatus status;
 };
 
-/// `surface` at (x, y) under the policy. Continuous across the hull and through every policy's
-/// zones (`refuse` ends); `fade` and `linear` are C1 across the hull's edges. The gradient beside an
-/// edge uses a difference of the surface's gradient along the edge (error about 1e-6 of a second
+/// `surface` at (x, y) under the policy. Continuous across the hull and through every policy's zones
+/// (`refuse` ends); `fade` and `linear` are C1 across the hull's edges. The gradient next to an edge
+/// uses a difference of the surface's gradient along the edge (error about 1e-6 of a second
 /// derivative).
 [[nodiscard]] RegionAnswer evaluate(const Surface& surface,
                                     const ConvexHull& hull,

@@ -13,7 +13,7 @@
 namespace chaintrue::interp {
 namespace {
 
-/// What the line through a hole says of it: weights of the line's nodes, zero at its holes.
+/// Value at a hole from the spline along one line: weights of the line's nodes, zero at its holes.
 struct LineFill {
   Eigen::VectorXd weights;
   double value;
@@ -40,7 +40,7 @@ std::optional<LineFill> along(const std::vector<double>& nodes,
   return fill;
 }
 
-/// R C f of (1); nothing where a node that it needs is a hole.
+/// R C f of (1); empty where a node that it needs is missing.
 std::optional<double> across(const Eigen::Ref<const Eigen::MatrixXd>& values,
                              const LineFill& row,
                              const LineFill& column) {

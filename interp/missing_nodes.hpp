@@ -2,18 +2,18 @@
 #pragma once
 
 /// \file
-/// Filling the holes of a grid of values so that a tensor surface can be put through it.
+/// Fills the missing nodes (holes) of a grid so that a tensor surface can be fitted to it.
 ///
-/// R f and C f being what the not-a-knot splines along the row and along the column through a hole
-/// say of it (holes at the end of a line: their continuation), the hole is filled with
+/// With R f and C f the values at a hole of the not-a-knot splines along its row and along its
+/// column (continued to holes at the end of a line), the hole is filled with
 ///
 ///     R f + C f - R C f                                                                     (1)
 ///
 /// the blending of W. Gordon (SIAM J. Numer. Anal. 8 (1971) 158-177): its error (1 - R)(1 - C) f is
-/// that of one line predicting the error of the other, none for g(x) + h(y). Where another hole
-/// leaves R C f open, the line with more nodes present decides alone. Meant for what a model leaves
-/// over: residuals are smooth at the scale of a cell; raw chain lengths are filled some millimetres
-/// wrong next to the motors.
+/// the error of one line in predicting the error of the other, zero for g(x) + h(y). Where another
+/// hole leaves R C f undefined, the line with more nodes present is used alone. Meant for residuals
+/// of a model, which are smooth at the scale of a cell; raw chain lengths are filled with errors of
+/// some millimetres next to the motors.
 
 #include <vector>
 
@@ -26,8 +26,8 @@ struct FilledNode {
   Eigen::Index ix;
   Eigen::Index iy;
   double value;
-  double doubt;    ///< how far the nearer of two lines is off; by one line: 0
-  double by_line;  ///< what the line with more nodes present says alone
+  double doubt;    ///< error of the nearer of the two lines; 0 if filled by one line
+  double by_line;  ///< value of the line with more nodes present
 };
 
 struct FilledGrid {

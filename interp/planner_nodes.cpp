@@ -19,7 +19,7 @@ std::vector<double> chebyshev_lobatto(double low, double high, int count) {
   const double half = 0.5 * (high - low);
   std::vector<double> nodes(static_cast<std::size_t>(count), middle);
   for (int i = 0; i < count / 2; ++i) {
-    // The sine of an angle about the middle is odd to the last bit; the cosine from one end is not.
+    // The sine of an angle from the middle is odd to the last bit; the cosine from one end is not.
     const double offset =
         half * std::sin(std::numbers::pi * (count - 1 - 2 * i) / (2.0 * (count - 1)));
     nodes[static_cast<std::size_t>(i)] = middle - offset;
@@ -42,7 +42,7 @@ GridShape grid_shape(double width, double height, int points) {
   double best_score = -1e300;
   for (int columns = 2; 2 * columns <= points; ++columns) {
     const GridShape shape{columns, points / columns};
-    // A tenth of unevenness weighs as much as a twentieth of the points.
+    // Spacings 10 % apart cost as much as 5 % of the points.
     const double used = static_cast<double>(shape.columns * shape.rows) / points;
     const double score = used - 0.5 * badness(shape);
     if (score > best_score) {

@@ -2,7 +2,7 @@
 #pragma once
 
 /// \file
-/// Where to measure along an axis so that a polynomial or spline through the points errs least.
+/// Nodes along an axis that minimise the error of a polynomial or spline through them.
 
 #include <vector>
 
@@ -14,9 +14,9 @@ namespace chaintrue::interp {
 /// std::invalid_argument unless low < high and count >= 2.
 [[nodiscard]] std::vector<double> chebyshev_lobatto(double low, double high, int count);
 
-/// How to share `points` among columns and rows over width by height: columns * rows <= points,
-/// both at least 2. The score is the share of the points used less half the logarithm of the ratio
-/// of the two spacings. Throws std::invalid_argument for fewer than 4 points or an empty rectangle.
+/// Columns and rows for `points` over width by height: columns * rows <= points, both at least 2.
+/// The score is the share of the points used less half the logarithm of the ratio of the two
+/// spacings. Throws std::invalid_argument for fewer than 4 points or an empty rectangle.
 struct GridShape {
   int columns = 0;
   int rows = 0;

@@ -16,7 +16,7 @@ namespace {
 
 using Axis = QuinticSpline::Axis;
 
-// The functions that live at a point, and their slopes.
+// The basis functions that do not vanish at a point, and their slopes.
 struct Support {
   Eigen::Index first;
   std::array<double, 6> value;
@@ -29,7 +29,7 @@ Axis make_axis(const std::vector<double>& nodes, int highest_degree) {
   Axis axis;
   axis.degree = std::min(highest_degree, n >= 6 ? 5 : std::min(n - 1, 3));
   axis.knots.assign(static_cast<std::size_t>(axis.degree) + 1, nodes.front());
-  // As many knots dropped at each end as make n functions; a parabola has no interior knot at all.
+  // Drop as many knots at each end as leave n functions; a parabola has no interior knot.
   const int drop = (axis.degree + 1) / 2;
   for (int i = drop; axis.degree != 2 && i < n - drop; ++i) {
     axis.knots.push_back(nodes[static_cast<std::size_t>(i)]);

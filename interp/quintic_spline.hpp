@@ -23,7 +23,7 @@ namespace chaintrue::interp {
 class QuinticSpline final : public Surface {
  public:
   /// `values(ix, iy)`; throws std::invalid_argument as TensorSpline does. `highest_degree` 3 gives
-  /// the cubic not-a-knot spline by another way than TensorSpline.
+  /// the cubic not-a-knot spline, computed independently of TensorSpline.
   QuinticSpline(const std::vector<double>& x_nodes,
                 const std::vector<double>& y_nodes,
                 const Eigen::Ref<const Eigen::MatrixXd>& values,

@@ -103,7 +103,8 @@ tl::expected<PenalisedFit, FitFailure> fit_with_smoothing(
     throw std::invalid_argument(
         "each penalty needs a positive lambda, and sigma2 must be positive");
   }
-  // One lambda: A as it is costs less than what makes many of them cheap, where it has the digits.
+  // For one lambda the dense form costs less than the preparation for many lambdas, if it is
+  // accurate enough.
   const Eigen::VectorXd theta = lambda.array().log();
   std::optional<reml::Marginal> marginal;
   std::optional<reml::State> state;
@@ -154,7 +155,7 @@ tl::expected<Eigen::LLT<Eigen::MatrixXd>, FitFailure> without_group(
     const Eigen::Ref<const Eigen::MatrixXd>& spread, double sigma2) {
   const Eigen::Index m = spread.rows();
   Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(m, m) - spread / sigma2);
-  // The rounding of covariance * gram leaves about 1e-12 of one.
+  // The rounding of covariance * gram is about 1e-12.
   constexpr double kSmallestPivot = 1e-9;
   if (factor.info() != Eigen::Success ||
       factor.matrixLLT().diagonal().array().square().minCoeff() < kSmallestPivot) {
@@ -213,7 +214,8 @@ tl::expected<Eigen::VectorXd, FitFailure> held_out_residual_by_root(
   if (root.rows() <= root.cols()) {
     return held_out_residual(residual, root * root.transpose(), sigma2);
   }
-  // (I - W W' / s2)^-1 = I + W (s2 I - W' W)^-1 W', and both are positive where one is.
+  // (I - W W' / s2)^-1 = I + W (s2 I - W' W)^-1 W'; one is positive definite if and only if the
+  // other is.
   Eigen::MatrixXd inner = Eigen::MatrixXd::Zero(root.cols(), root.cols());
   inner.selfadjointView<Eigen::Lower>().rankUpdate(root.transpose());
   inner.triangularView<Eigen::StrictlyUpper>() = inner.transpose();

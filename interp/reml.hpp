@@ -22,16 +22,16 @@
 ///     V = n log sigma2 + |y - X b|^2 / sigma2 + (b - b0)' S (b - b0) + log|A| - log|S|_+    (3)
 ///
 /// with b = A^-1 (X'y / sigma2 + S0 b0) and |S|_+ the product of the non-zero eigenvalues. A noise
-/// scale known from d degrees of freedom adds d log sigma2 + d / sigma2. With few points V often
-/// runs out flat towards lambda -> infinity and plain REML then claims that the field vanishes. A
-/// prior flat in the standard deviations lambda^(-1/2) and (where it is unknown) sigma keeps the
-/// fit off that boundary: it adds sum log lambda_k - log sigma2 to V, is worth one unit of log
-/// lambda beside the dozens the data bring, and at 28 points lowers the error by 2 % (noise stated)
-/// to 11 % (unknown). The corrected covariance averages b over lambda and sigma2 under that prior.
-/// Sources: S. Wood, Fast stable restricted maximum likelihood ..., J. R. Statist. Soc. B 73 (2011)
-/// 3-36, equations (4) and (5), for V; Y. Chung, S. Rabe-Hesketh, V. Dorie, A. Gelman, J. Liu, A
-/// nondegenerate penalized likelihood estimator for variance parameters ..., Psychometrika 78
-/// (2013) 685-709, for the prior.
+/// scale known from d degrees of freedom adds d log sigma2 + d / sigma2. With few points V is often
+/// flat towards lambda -> infinity, and plain REML then estimates a field of zero. A prior flat in
+/// the standard deviations lambda^(-1/2) and (where it is unknown) sigma keeps the fit away from
+/// that boundary: it adds sum log lambda_k - log sigma2 to V, one unit of log lambda against dozens
+/// from the data, and at 28 points lowers the error by 2 % (noise stated) to 11 % (unknown). The
+/// corrected covariance averages b over lambda and sigma2 under that prior. Sources: S. Wood, Fast
+/// stable restricted maximum likelihood ..., J. R. Statist. Soc. B 73 (2011) 3-36, equations (4)
+/// and (5), for V; Y. Chung, S. Rabe-Hesketh, V. Dorie, A. Gelman, J. Liu, A nondegenerate
+/// penalized likelihood estimator for variance parameters ..., Psychometrika 78 (2013) 685-709, for
+/// the prior.
 ///
 /// lambda multiplies an absolute precision, so that priors in S0 keep their stated sigmas whatever
 /// sigma2 turns out to be. The usual smoothing parameter relative to the noise is sigma2 * lambda.
@@ -54,7 +54,7 @@ struct Penalty {
   double balance = 0.0;
 };
 
-/// What is known of the noise scale sigma2 beforehand.
+/// Prior knowledge of the noise scale sigma2.
 enum class NoiseKnowledge {
   exact,         ///< sigma2 = 1: the whitening is right
   from_repeats,  ///< sigma2 about 1, known from `degrees_of_freedom` (scaled inverse chi-square)
@@ -93,9 +93,9 @@ struct PenalisedProblem {
   Eigen::VectorXd prior_mean;       ///< b0; empty: zero
   std::vector<Penalty> penalties;
   NoiseScale noise;
-  /// Set before the first row: add_rows keeps X and y as well. Where one penalty is the identity,
-  /// no prior touches its columns and there are no more rows than such columns, a fit then keeps
-  /// all its digits however small the noise is, which X'X has squared away.
+  /// Set before the first row: add_rows then keeps X and y as well. Where one penalty is the
+  /// identity, no prior touches its columns and there are no more rows than such columns, a fit
+  /// keeps full precision however small the noise is; X'X alone loses it by squaring.
   bool keeps_rows = false;
   Eigen::MatrixXd design;
   Eigen::VectorXd response;
@@ -108,16 +108,16 @@ enum class SmoothingEnd {
   interpolate,  ///< lambda at its lower limit: the penalty does nothing
 };
 
-/// What a fit says about itself when it has no answer.
+/// Why a fit has no result.
 struct FitFailure {
   enum class Reason {
     rank_deficient,  ///< data, priors and penalties together leave a combination of columns free
-    not_converged,   ///< the search for the smoothing did not settle
+    not_converged,   ///< the search for the smoothing did not converge
   } reason;
   std::string sentence;
 };
 
-/// A group of rows seen as if it had been left out of the fit, smoothing held fixed.
+/// Residuals of a group of rows left out of the fit, smoothing held fixed.
 struct HeldOut {
   Eigen::VectorXd residual;    ///< y_g - X_g b(without g) = (I - H_gg)^-1 (y_g - X_g b)
   Eigen::MatrixXd covariance;  ///< of that residual: sigma2 (I - H_gg)^-1
@@ -139,28 +139,28 @@ struct PenalisedFit {
   double minus_two_log_reml = 0.0;  ///< V of (3), plus the prior's terms where there is one
   int iterations = 0;
 
-  /// Closed-form residuals and their covariance with the rows of `design` left out. Empty when the
-  /// rest of the data cannot do without these rows (I - H_gg not positive definite).
+  /// Closed-form residuals and their covariance with the rows of `design` left out. An error when
+  /// the remaining data do not determine the fit (I - H_gg not positive definite).
   [[nodiscard]] tl::expected<HeldOut, FitFailure> held_out(
       const Eigen::Ref<const Eigen::MatrixXd>& design,
       const Eigen::Ref<const Eigen::VectorXd>& response) const;
 };
 
-/// The residual alone, from the group's residuals y_g - X_g b (m of them) and their spread X_g A^-1
-/// X_g' (m x m): who leaves out many groups finds many spreads in one product.
+/// The residual alone, from the group's m residuals y_g - X_g b and X_g A^-1 X_g' (m x m). To leave
+/// out many groups, these matrices can be computed in one product.
 [[nodiscard]] tl::expected<Eigen::VectorXd, FitFailure> held_out_residual(
     const Eigen::Ref<const Eigen::VectorXd>& residual,
     const Eigen::Ref<const Eigen::MatrixXd>& spread,
     double sigma2);
 
-/// The same of a group of many rows, with W W' its spread (W m x q): costs m q^2 + q^3, not m^3,
-/// where m is the larger.
+/// The same for a group of many rows, with W W' = X_g A^-1 X_g' (W is m x q): costs m q^2 + q^3,
+/// not m^3.
 [[nodiscard]] tl::expected<Eigen::VectorXd, FitFailure> held_out_residual_by_root(
     const Eigen::Ref<const Eigen::VectorXd>& residual,
     const Eigen::Ref<const Eigen::MatrixXd>& root,
     double sigma2);
 
-/// What is assumed of lambda and, where it is unknown, of sigma2 before the data.
+/// Prior on lambda and, where it is unknown, on sigma2.
 enum class SmoothingPrior {
   none,             ///< plain REML
   avoids_boundary,  ///< flat in the standard deviations lambda^(-1/2) and sigma; see above

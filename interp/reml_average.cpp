@@ -14,7 +14,7 @@ struct ThetaNode {
   double weight;
 };
 
-// Walks one or two components of theta outward from the optimum while the posterior is worth e^-4
+// Steps one or two components of theta outward from the optimum while the posterior is above e^-4
 // of its peak.
 class PosteriorGrid {
  public:
@@ -28,7 +28,7 @@ class PosteriorGrid {
     return normalized();
   }
 
-  // `i` is walked anew, from its best so far, at each value of `outer`.
+  // `i` is stepped anew, from its best value so far, at each value of `outer`.
   std::vector<ThetaNode> over(Eigen::Index i, Eigen::Index outer) {
     peak_ = -std::numeric_limits<double>::infinity();
     nodes_.clear();
@@ -58,8 +58,8 @@ class PosteriorGrid {
     double log_weight;
   };
 
-  // The averaging always has the prior, so that it is proper; the fit has it where it was asked
-  // for.
+  // The average always includes the prior, so that the posterior is proper; the fit includes it on
+  // request.
   [[nodiscard]] double missing_prior(const Eigen::VectorXd& theta) const {
     double sum = 0.0;
     for (Eigen::Index i = 0; marginal_.prior() == SmoothingPrior::none && i < theta.size(); ++i) {
@@ -153,7 +153,8 @@ Averaged averaged_covariance(const Marginal& marginal,
   for (std::size_t j = 0; j < shifts.size(); ++j) {
     shift_columns.col(static_cast<Eigen::Index>(j)) = shifts[j];
   }
-  // Weights below zero on the plain part may leave a rounding below zero where nothing was added.
+  // Weights below zero on the plain part may leave a negative rounding error where nothing was
+  // added.
   sum.diagonal = sum.diagonal.cwiseMax(0.0);
   return {marginal.structure().covariance_to_columns(sum, shift_columns),
           std::move(inverse_lambda)};

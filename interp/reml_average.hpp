@@ -2,8 +2,8 @@
 #pragma once
 
 /// \file
-/// The posterior averaged over theta rather than taken at its best (internal to interp; notation as
-/// in reml.hpp and reml_marginal.hpp).
+/// The posterior averaged over theta instead of evaluated at its optimum (internal to interp;
+/// notation as in reml.hpp and reml_marginal.hpp).
 
 #include "interp/reml_search.hpp"
 

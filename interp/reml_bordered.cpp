@@ -85,7 +85,7 @@ class BorderedStructure final : public Structure {
       result.selfadjointView<Eigen::Lower>().rankUpdate(to_columns(shifts));
     }
     if (!covariance.roots.empty()) {
-      // In one go for each sign: a wide product costs less than many narrow ones.
+      // One product for each sign: one wide product is faster than many narrow ones.
       Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(columns_, columns_);
       for (const double sign : {1.0, -1.0}) {
         const Eigen::MatrixXd wide = side_by_side(covariance.roots, sign);
@@ -100,7 +100,8 @@ class BorderedStructure final : public Structure {
   }
 
  private:
-  /// The roots whose weights have that sign, each times the root of its weight's size.
+  /// The roots whose weights have that sign, each times the square root of its weight's absolute
+  /// value, as columns.
   [[nodiscard]] Eigen::MatrixXd side_by_side(const std::vector<WorkingCovariance::Root>& roots,
                                              double sign) const {
     Eigen::Index width = 0;
@@ -200,7 +201,7 @@ class BorderedStructure final : public Structure {
     return true;
   }
 
-  /// (1) where the penalty is the identity: the eigenvectors of G alone do it.
+  /// (1) where the penalty is the identity: the eigenvectors of G suffice.
   static bool diagonalise_ridge(const Eigen::MatrixXd& gram, Block& block) {
     const SymmetricEigen solver(gram);
     const Eigen::VectorXd sum = solver.eigenvalues().cwiseMax(0.0).array() + block.balance;

@@ -12,10 +12,10 @@
 ///   U        diag(1 / a) C / sigma2
 ///   H        Schur complement on the shared columns:
 ///            G_pp / sigma2 + S0 - sum C' diag(1 / a) C / sigma2^2
-/// A^-1 is diag(1 / a) + U H^-1 U' within the blocks, -U H^-1 beside them, H^-1 in the corner. (2)
+/// A^-1 is diag(1 / a) + U H^-1 U' within the blocks, -U H^-1 off them, H^-1 in the corner. (2)
 ///
-/// With little noise H loses its digits to that difference. Where the rows are known and one penalty
-/// is the identity (F the n x m part of X that it touches, Z the rest, F F' = Q diag(e) Q'):
+/// With little noise that difference cancels. Where the rows are known and one penalty is the
+/// identity (F the n x m part of X that it touches, Z the rest, F F' = Q diag(e) Q'):
 ///   D        diag(1 / (sigma2 + e / lambda)): Q D Q' is the inverse of sigma2 I + F F' / lambda
 ///   H        = S0 + Z' Q D Q' Z, all its terms positive                                       (3)
 /// the shared coefficients are s = H^-1 (S0 s0 + Z' Q D Q' y), and with r = y - Z s the others are

@@ -74,7 +74,7 @@ void Marginal::find_ranks() {
     total.block(penalty.first_column, penalty.first_column, m, m) +=
         penalty.matrix / penalty.matrix.cwiseAbs().maxCoeff();
   }
-  // Ranks that add up to q, and a definite sum: the ranges fill the space and cannot overlap.
+  // Ranks that add up to q, and a definite sum: the ranges span the space and cannot overlap.
   if (sum_of_ranks == q) {
     const Eigen::LLT<Eigen::MatrixXd> factor(total);
     if (factor.info() == Eigen::Success &&
@@ -112,7 +112,7 @@ double Marginal::flat_slope(Eigen::Index i) const {
 }
 
 double Marginal::response_variance() const {
-  // Of responses that are nothing but rounding the sizes mean nothing.
+  // Responses below this are rounding errors.
   constexpr double kLeast = 1e-20;
   return std::max(
       problem_.response_square / static_cast<double>(std::max<Eigen::Index>(problem_.rows, 1)),

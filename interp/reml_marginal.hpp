@@ -13,10 +13,10 @@
 namespace chaintrue::interp::reml {
 
 enum class Order { value, hessian };
-/// How A is worked with: whichever is cheaper for many lambda, or as it is.
+/// Factorisation of A: whichever is cheaper for many lambda, or dense.
 enum class Shape { any, dense };
 
-/// V and what belongs to it at one theta. Coefficients are in working coordinates.
+/// V and its derivatives at one theta. Coefficients are in working coordinates.
 struct State {
   double value = 0.0;     ///< V of (3)
   double deviance = 0.0;  ///< |y - X b|^2 / sigma2 + (b - b0)' S (b - b0)
@@ -29,7 +29,7 @@ struct State {
 /// theta = (log lambda_1 .. log lambda_K, then log sigma2 unless it is fixed).
 class Marginal {
  public:
-  /// `fixed_sigma2` overrides what the problem says about the noise scale.
+  /// `fixed_sigma2` overrides the problem's noise scale.
   Marginal(const PenalisedProblem& problem,
            std::optional<double> fixed_sigma2,
            SmoothingPrior prior = SmoothingPrior::none,
@@ -41,19 +41,20 @@ class Marginal {
   [[nodiscard]] Eigen::Index unknowns() const { return penalties() + (sigma2_free_ ? 1 : 0); }
   [[nodiscard]] double sigma2(const Eigen::VectorXd& theta) const;
 
-  /// Where penalty k weighs as much as the data (traces equal); the search is centred there.
+  /// Log lambda at which the traces of penalty k and of the data are equal; the search is centred
+  /// there.
   [[nodiscard]] double balanced_log_lambda(Eigen::Index k) const;
 
-  /// What the prior flat in the standard deviations adds to V for each unit of theta_i.
+  /// Derivative of the flat prior's term in V by theta_i.
   [[nodiscard]] double flat_slope(Eigen::Index i) const;
   [[nodiscard]] SmoothingPrior prior() const { return prior_kind_; }
   [[nodiscard]] bool sigma2_free() const { return sigma2_free_; }
   [[nodiscard]] bool noise_from_repeats() const { return extra_degrees_ > 0.0; }
-  /// Mean square of the responses: no noise is larger. At least 1e-20: rows are whitened, and ten
-  /// digits below what was taken for a sigma is no noise.
+  /// Mean square of the responses, an upper bound of the noise. At least 1e-20: rows are whitened,
+  /// and ten digits below the assumed sigma is rounding.
   [[nodiscard]] double response_variance() const;
 
-  /// False where some columns are free whatever lambda is.
+  /// False if some columns are undetermined for every lambda.
   [[nodiscard]] bool positive() const { return structure_ != nullptr; }
   [[nodiscard]] const Structure& structure() const { return *structure_; }
 

@@ -15,8 +15,7 @@ namespace {
 constexpr double kHalfRange = 23.0;
 constexpr double kScanStep = 3.0;
 constexpr double kLongestStep = 4.0;
-// V is of order one where the data decide; a gradient of 1e-7 moves theta by about 1e-7 of its
-// sigma.
+// V is of order one near its minimum; a gradient of 1e-7 moves theta by about 1e-7 of its sigma.
 constexpr double kGradientTolerance = 1e-7;
 
 struct Limits {
@@ -33,7 +32,8 @@ Limits limits_of(const Marginal& marginal) {
     limits.high(k) += marginal.balanced_log_lambda(k);
   }
   if (marginal.sigma2_free()) {
-    // Noise below 1e-5 of the responses cannot be told from the rounding of a leverage near one.
+    // Noise below 1e-5 of the responses cannot be distinguished from the rounding of a leverage
+    // near one.
     const double largest = std::log(marginal.response_variance());
     limits.low(n - 1) = std::min(largest - kHalfRange, 0.0);
     limits.high(n - 1) = std::max(largest, 0.0) + 1.0;
@@ -46,8 +46,8 @@ double value_at(const Marginal& marginal, const Eigen::VectorXd& theta) {
   return state ? state->value : std::numeric_limits<double>::infinity();
 }
 
-// All lambdas are moved together over the range, and sigma2 below the responses' own size where
-// nothing is known of it; the best of them starts the search.
+// All lambdas are moved together over the range, and sigma2 below the responses' variance where it
+// is unknown; the best of them starts the search.
 Eigen::VectorXd scan(const Marginal& marginal,
                      const Eigen::VectorXd& balance,
                      const Limits& limits) {
@@ -110,7 +110,7 @@ Eigen::VectorXd newton_step(const State& state, const std::vector<bool>& held) {
   return longest > kLongestStep ? Eigen::VectorXd(step * (kLongestStep / longest)) : step;
 }
 
-// Far out V only creeps towards its limit: a flat gradient there is an end, not a minimum.
+// Far out V approaches its limit slowly: a flat gradient there is a boundary, not a minimum.
 SmoothingEnd end_of(double theta, double low, double high, double curvature) {
   constexpr double kFlat = 1e-4;
   const double middle = 0.5 * (low + high);
@@ -133,8 +133,8 @@ double largest_free_gradient(const Eigen::VectorXd& gradient, const std::vector<
   return largest;
 }
 
-// V tells theta to the root of its rounding only; its gradient tells it to its own. Newton's steps go on as long as the
-// gradient falls, where a minimum is near.
+// V determines theta only to the square root of its rounding; its gradient to its own. Near a minimum
+// Newton's steps continue as long as the gradient decreases.
 void polish(const Marginal& marginal, const Limits& limits, Eigen::VectorXd& theta, State& state) {
   constexpr int kMostSteps = 4;
   constexpr double kNear =
@@ -186,7 +186,7 @@ tl::expected<SearchResult, FitFailure::Reason> search(const Marginal& marginal,
     Eigen::VectorXd step = newton_step(*state, held);
     double fraction = 1.0;
     Eigen::VectorXd next;
-    // Halve until V falls; when it no longer does the rounding of V is reached.
+    // Halve until V decreases; if it does not, the rounding of V is reached.
     for (; fraction > 1e-6; fraction *= 0.5) {
       next = (result.theta + fraction * step).cwiseMax(limits.low).cwiseMin(limits.high);
       if (value_at(marginal, next) < state->value) {
@@ -199,11 +199,12 @@ tl::expected<SearchResult, FitFailure::Reason> search(const Marginal& marginal,
       result.theta = next;
       state = marginal.evaluate(result.theta, Order::hessian);
       if (!state) return tl::unexpected(FitFailure::Reason::rank_deficient);
-      // Nothing of V is worth 1e-10 of one; where its gradient is all rounding it never gets small.
+      // Changes of V below 1e-10 are negligible; where its gradient is all rounding it never gets
+      // small.
       settled = before - state->value < 1e-10;
     }
   }
-  // Where the gradient itself ended the search there is nothing to add.
+  // If the gradient itself ended the search there is nothing to refine.
   if (settled) polish(marginal, limits, result.theta, *state);
   for (Eigen::Index k = 0; k < marginal.penalties(); ++k) {
     result.ends.push_back(
@@ -228,7 +229,7 @@ Eigen::MatrixXd covariance_from_hessian(const Eigen::MatrixXd& hessian,
   }
   const Eigen::MatrixXd information = 0.5 * hessian(free, free);
   const SymmetricEigen solver(information);
-  // A flat direction would claim an unbounded spread: ten decades of lambda are the most there is.
+  // A flat direction would have an unbounded variance: ten decades of lambda are the limit.
   const double floor = 1.0 / (kHalfRange * kHalfRange);
   const Eigen::VectorXd variance = solver.eigenvalues().cwiseMax(floor).cwiseInverse();
   covariance(free, free) =

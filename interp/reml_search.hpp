@@ -15,15 +15,15 @@ struct SearchResult {
   Eigen::VectorXd theta;
   Eigen::VectorXd low;  ///< the search's limits
   Eigen::VectorXd high;
-  std::vector<SmoothingEnd> ends;  ///< one a penalty
+  std::vector<SmoothingEnd> ends;  ///< one for each penalty
   int iterations = 0;
 };
 
 [[nodiscard]] tl::expected<SearchResult, FitFailure::Reason> search(const Marginal& marginal,
                                                                     int maximum_iterations);
 
-/// The covariance of theta from the Hessian of V (twice the information). Unknowns that ended at a
-/// limit are left out: their rows and columns are zero.
+/// The covariance of theta from the Hessian of V (twice the information). The rows and columns of
+/// unknowns that ended at a limit are zero.
 [[nodiscard]] Eigen::MatrixXd covariance_from_hessian(const Eigen::MatrixXd& hessian,
                                                       const std::vector<SmoothingEnd>& ends);
 

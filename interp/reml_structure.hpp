@@ -2,7 +2,7 @@
 #pragma once
 
 /// \file
-/// Two ways to work with A = X'X / sigma2 + S0 + sum lambda_k S_k at many lambda (internal to
+/// Two factorisations of A = X'X / sigma2 + S0 + sum lambda_k S_k at many lambda (internal to
 /// interp; notation as in reml.hpp). Both answer in working coordinates, b = T (working b).
 ///
 ///   dense     any penalties; each lambda costs O(q^3). T is the identity.
@@ -28,7 +28,7 @@ struct Traces {
 };
 
 /// A covariance in working coordinates: diag(diagonal) + dense + sum of weight W W' over the roots
-/// W. An empty part is zero; the dense way fills `dense` alone, the bordered one the others.
+/// W. An empty part is zero; the dense form fills `dense` alone, the bordered one the others.
 struct WorkingCovariance {
   struct Root {
     double weight;
@@ -49,7 +49,7 @@ struct BestFit {
 class Factor {
  public:
   virtual ~Factor() = default;
-  /// Where it is known to more digits than solve(X'y / sigma2 + S0 b0) has.
+  /// Where it is more accurate than solve(X'y / sigma2 + S0 b0).
   [[nodiscard]] virtual std::optional<BestFit> best() const { return std::nullopt; }
   [[nodiscard]] virtual double log_determinant() const = 0;
   [[nodiscard]] virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const = 0;
@@ -82,18 +82,18 @@ class Structure {
 /// Null where a block's own data and penalty leave some of its columns free.
 [[nodiscard]] std::unique_ptr<Structure> make_bordered(const PenalisedProblem& problem);
 [[nodiscard]] std::unique_ptr<Structure> make_dense(const PenalisedProblem& problem);
-/// Whether the problem has the shape that make_bordered asks for.
+/// Whether the problem has the structure that make_bordered needs.
 [[nodiscard]] bool is_bordered(const PenalisedProblem& problem);
 
 /// A pivot of the unit-diagonal A below this share of q means that a combination of columns is
 /// free.
 inline constexpr double kZeroPivot = 1e-12;
 
-/// Cholesky factor of a matrix scaled to unit diagonal: what a column is measured in must not
-/// decide its rank.
+/// Cholesky factor of a matrix scaled to unit diagonal: the units of a column must not affect its
+/// rank.
 class ScaledCholesky {
  public:
-  /// `diagonal` is what the pivots are compared with; empty: the matrix's own.
+  /// `diagonal` is what the pivots are compared with; empty: the matrix's own diagonal.
   explicit ScaledCholesky(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& diagonal = {});
   [[nodiscard]] bool positive() const { return positive_; }
   [[nodiscard]] double log_determinant() const;

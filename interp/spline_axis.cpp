@@ -10,8 +10,8 @@
 namespace chaintrue::interp {
 namespace {
 
-// With too few nodes the not-a-knot condition names no equation of its own; a vanishing third
-// derivative is what remains of it.
+// With too few nodes the not-a-knot condition gives no separate equation; it reduces to a vanishing
+// third derivative.
 EndCondition effective_end(EndCondition end, const AxisEnds& ends, std::size_t nodes) {
   const bool both = ends.low == EndCondition::not_a_knot && ends.high == EndCondition::not_a_knot;
   if (end == EndCondition::not_a_knot && (nodes == 2 || (nodes == 3 && both))) {
@@ -98,7 +98,8 @@ void SplineAxis::factor() {
   }
   const EndCondition low = effective_end(ends_.low, ends_, n);
   const EndCondition high = effective_end(ends_.high, ends_, n);
-  // Two nodes, no slope given: both ends say the same, and the straight line is the answer.
+  // Two nodes, no slope given: the two end equations are the same, and the straight line is the
+  // solution.
   straight_line_ = n == 2 && low == EndCondition::parabolic && high == EndCondition::parabolic;
   if (straight_line_) {
     return;
@@ -132,8 +133,8 @@ void SplineAxis::slopes(const double* values,
                         const LineLayout& layout,
                         const double* low_slopes,
                         const double* high_slopes) const {
-  // Eight lines abreast: their recurrences are independent, and whichever way the lines run in
-  // memory each visit uses what it fetched.
+  // Eight lines at a time: their recurrences are independent, and every fetched cache line is used
+  // whichever way the lines run in memory.
   constexpr std::size_t kAbreast = 8;
   for (std::size_t first = 0; first < layout.lines; first += kAbreast) {
     const auto offset = static_cast<std::ptrdiff_t>(first) * layout.line_step;

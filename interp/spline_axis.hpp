@@ -23,7 +23,7 @@
 
 namespace chaintrue::interp {
 
-/// What closes the spline at one end of an axis.
+/// The condition at one end of an axis.
 enum class EndCondition {
   not_a_knot,  ///< the first two cells carry one cubic (MATLAB, Octave, FITPACK)
   natural,     ///< second derivative zero (GSL)
@@ -46,7 +46,7 @@ struct HermiteWeights {
   double slope_high;
 };
 
-/// Where a run of numbers lies in memory: element i of line j is at base[i * step + j * line_step].
+/// Memory layout of lines: element i of line j is at base[i * step + j * line_step].
 struct LineLayout {
   std::size_t lines = 1;
   std::ptrdiff_t step = 1;
@@ -66,7 +66,7 @@ class SplineAxis {
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
   [[nodiscard]] AxisEnds ends() const { return ends_; }
 
-  /// The cell that answers for x: 0 .. size()-2, the end cells also for what lies beyond them.
+  /// The cell used for x: 0 .. size()-2; the end cells are also used beyond them.
   [[nodiscard]] std::size_t cell(double x) const;
 
   /// Slopes at the nodes for every line of `values`; both arrays share the layout. The slopes at a

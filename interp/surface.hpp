@@ -2,8 +2,8 @@
 #pragma once
 
 /// \file
-/// What every surface z = f(x, y) of this folder answers. Units are the caller's: x and y share one
-/// (mm throughout chaintrue), z has its own. Nothing here knows what z means.
+/// The interface of every surface z = f(x, y). Units are the caller's: x and y share one (mm
+/// throughout chaintrue), z has its own.
 
 namespace chaintrue::interp {
 
@@ -29,14 +29,14 @@ struct Rectangle {
 };
 
 /// A smooth surface. Implementations are immutable after construction, allocate nothing in `at`,
-/// and may be read from any number of threads. Every point of the plane has an answer: outside the
-/// domain each class states how it continues; whether that answer may be used is the caller's
-/// policy.
+/// and may be read from any number of threads. Every point of the plane has a value: each class
+/// states how it continues outside its domain; whether that value may be used is for the caller to
+/// decide.
 class Surface {
  public:
   virtual ~Surface() = default;
   [[nodiscard]] virtual ValueGradient at(double x, double y) const = 0;
-  /// Where the surface rests on data.
+  /// The rectangle that the data cover.
   [[nodiscard]] virtual Rectangle domain() const = 0;
 
  protected:

@@ -2,9 +2,8 @@
 #pragma once
 
 /// \file
-/// The table of ways to put a surface through a full grid. To add one: its class, its build
-/// function in surface_methods.cpp, one line in surface_methods.def; the contract tests find it
-/// there.
+/// The table of methods to interpolate a full grid. To add one: its class, its build function in
+/// surface_methods.cpp, one line in surface_methods.def; the contract tests run over the table.
 
 #include <memory>
 #include <span>
@@ -20,7 +19,7 @@ namespace chaintrue::interp {
 /// One method. `build` throws std::invalid_argument as TensorSpline does.
 struct SurfaceMethod {
   std::string_view id;
-  int exact_degree;  ///< polynomials of this degree in x times the same in y come out exactly
+  int exact_degree;  ///< polynomials of this degree in x times the same in y are reproduced
   std::string_view description;
   std::unique_ptr<Surface> (*build)(const std::vector<double>& x_nodes,
                                     const std::vector<double>& y_nodes,

@@ -2,8 +2,8 @@
 #pragma once
 
 /// \file
-/// Eigenvalues of symmetric matrices, compiled once: Eigen's solver is the slowest template of the
-/// room. Internal to interp.
+/// Eigenvalues of symmetric matrices, compiled once, since Eigen's solver is the template that
+/// takes longest to compile. Internal to interp.
 
 #include <Eigen/Core>
 
@@ -22,7 +22,7 @@ class SymmetricEigen {
   Eigen::MatrixXd vectors_;
 };
 
-/// The values alone, at a small part of the cost.
+/// The values alone, at a fraction of the cost.
 [[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 
 }  // namespace chaintrue::interp

@@ -23,8 +23,7 @@ void check_edge(const Eigen::VectorXd& slopes, std::size_t expected, const char*
 const double* data_or_null(const Eigen::VectorXd& v) { return v.size() == 0 ? nullptr : v.data(); }
 
 // f_xy along an edge y = const from the given f_y there: its slope along x. At the corners the
-// slope of the given edge values decides, so a clamped x axis is closed by its own not-a-knot
-// slope.
+// given edge slopes determine it, so a clamped x axis uses a not-a-knot end for it.
 Eigen::VectorXd edge_twist(const SplineAxis& x_axis, const Eigen::VectorXd& y_slopes) {
   if (y_slopes.size() == 0) {
     return {};
@@ -81,7 +80,7 @@ TensorSpline::TensorSpline(std::shared_ptr<const TensorAxes> axes,
       nodes_[iy * nx + ix].f = values(static_cast<Eigen::Index>(ix), static_cast<Eigen::Index>(iy));
     }
   }
-  // All four numbers of a node lie together: along x a step is one node, along y one row of nodes.
+  // The four numbers of a node are adjacent: a step along x is one node, along y one row of nodes.
   constexpr std::ptrdiff_t kNode = sizeof(NodeData) / sizeof(double);
   const auto row = static_cast<std::ptrdiff_t>(nx) * kNode;
   const LineLayout along_x{ny, kNode, row};

@@ -4,9 +4,10 @@
 /// \file
 /// Tensor-product bicubic spline on two non-uniform axes, C2 everywhere.
 ///
-/// Notation: f, f_x, f_y, f_xy are the value, the two slopes and the twist at a node; they fix the
-/// bicubic of each cell (C. de Boor, Bicubic spline interpolation, J. Math. and Phys. 41 (1962)
-/// 212-218). Exact for every bicubic polynomial where both ends of both axes are not-a-knot.
+/// Notation: f, f_x, f_y, f_xy are the value, the two slopes and the twist at a node; they
+/// determine the bicubic of each cell (C. de Boor, Bicubic spline interpolation, J. Math. and Phys.
+/// 41 (1962) 212-218). Exact for every bicubic polynomial where both ends of both axes are
+/// not-a-knot.
 ///
 /// Outside the rectangle of the nodes the bicubic of the nearest edge cell continues.
 
@@ -27,7 +28,7 @@ struct TensorEnds {
 };
 
 /// Slopes along clamped edges. An empty vector means zero slope. At a corner where two clamped
-/// edges meet, the twist is the slope of the given edge slopes along x (not-a-knot).
+/// edges meet, the twist is the derivative along x of the given edge slopes (not-a-knot).
 struct EdgeSlopes {
   Eigen::VectorXd x_low;   ///< df/dx along x = x_min, one for each y node
   Eigen::VectorXd x_high;  ///< df/dx along x = x_max
@@ -35,7 +36,7 @@ struct EdgeSlopes {
   Eigen::VectorXd y_high;  ///< df/dy along y = y_max
 };
 
-/// Two factored axes, shared by the surfaces that stand on the same grid.
+/// Two factored axes, shared by surfaces on the same grid.
 struct TensorAxes {
   TensorAxes(std::vector<double> x_nodes, std::vector<double> y_nodes, const TensorEnds& ends = {})
       : x(std::move(x_nodes), ends.x), y(std::move(y_nodes), ends.y) {}
@@ -43,7 +44,7 @@ struct TensorAxes {
   SplineAxis y;
 };
 
-/// Everything a cell needs to know about one node.
+/// The data of one node: value, slopes and twist.
 struct NodeData {
   double f;
   double fx;
@@ -64,7 +65,7 @@ class TensorSpline final : public Surface {
                const Eigen::Ref<const Eigen::MatrixXd>& values,
                const TensorEnds& ends = {},
                const EdgeSlopes& slopes = {});
-  /// Another surface on axes that are factored already.
+  /// A surface on axes that are already factored.
   TensorSpline(std::shared_ptr<const TensorAxes> axes,
                const Eigen::Ref<const Eigen::MatrixXd>& values,
                const EdgeSlopes& slopes = {});
@@ -78,8 +79,8 @@ class TensorSpline final : public Surface {
     return nodes_[iy * axes_->x.size() + ix];
   }
 
-  /// The surface at (x, y) as weights on the node values, w(ix, iy): what carries the covariance of
-  /// the measured values to any point. Clamped ends count as clamped to zero slope.
+  /// The surface at (x, y) as weights on the node values, w(ix, iy), which propagate the covariance
+  /// of the measured values to any point. Clamped ends count as clamped to zero slope.
   [[nodiscard]] Eigen::MatrixXd cardinal_weights(double x, double y) const;
 
  private:

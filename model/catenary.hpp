@@ -2,18 +2,18 @@
 /// \file
 /// One heavy elastic chain between two points: the elastic catenary in a form without cancellation.
 ///
-/// Notation (licensed in this file and the equilibrium's sources)
-///   H        horizontal tension, N, the same all along
+/// Notation (used in this file and the equilibrium's sources)
+///   H        horizontal tension, N, constant along the chain
 ///   V, Vb    vertical tension at the sled's end (s = 0) and at the sprocket (s = S): Vb = V + w S
 ///   Ta, Tb   tension at the two ends
 ///   S        unstretched length, mm
 ///   w, c     weight per unstretched mm (N/mm), strain per newton (1/N)
-///   u, y     sprocket's end seen from the sled's end: towards the sprocket, and up
+///   u, y     sprocket's end relative to the sled's end: towards the sprocket, and up
 ///   z, f     z = w S / (Ta + Tb), f = atanh(z) / z
 ///
 /// Irvine's equations (H. M. Irvine, Cable Structures, MIT Press 1981, section 2.6)
 ///   u = H/w (asinh(Vb/H) - asinh(V/H)) + c H S,   y = (Tb - Ta)/w + c (V S + w S^2 / 2)
-/// lose their digits for a light or taut chain. With
+/// cancel for a light or taut chain. With
 ///   tanh((b - a) / 2) = (sinh b - sinh a) / (cosh b + cosh a)
 /// they become
 ///   u = S H (2 f / (Ta + Tb) + c),   y = S (V + w S / 2) (2 / (Ta + Tb) + c)                (1)
@@ -55,7 +55,7 @@ inline double atanh_ratio_series(double z) {
                          q * (1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11 + q * (1.0 / 13 + q / 15))))));
 }
 
-/// atanh(z)/z for |z| < 1. kSeriesOnly: the caller has seen to z^2 < kSeriesMost (a loop without
+/// atanh(z)/z for |z| < 1. kSeriesOnly: the caller guarantees z^2 < kSeriesMost (a loop without
 /// branches).
 template <bool kSeriesOnly = false>
 inline double atanh_ratio(double z) {
@@ -75,8 +75,8 @@ inline double atanh_ratio_slope(double z) {
   return (1.0 / (1.0 - q) - std::atanh(z) / z) / z;
 }
 
-/// The whole chain's extent and how it yields: the symmetric flexibility matrix (u, y) by (H, V),
-/// which is the Hessian of the complementary energy and positive definite.
+/// The chain's extent and its symmetric flexibility matrix (u, y) by (H, V), which is the Hessian
+/// of the complementary energy and positive definite.
 struct CatenaryExtent {
   double vb_n = 0.0, ta_n = 0.0, tb_n = 0.0;
   double u_mm = 0.0, y_mm = 0.0;
@@ -104,14 +104,14 @@ inline CatenaryExtent catenary_extent(const CatenaryLoad& load, const ChainMater
   return e;
 }
 
-/// How the extent changes with the chain's weight per mm, at a fixed load.
+/// Derivatives of the extent by the chain's weight per mm, at a fixed load.
 struct CatenaryByWeight {
   double u_mm = 0.0, y_mm = 0.0;
 };
 [[nodiscard]] CatenaryByWeight catenary_by_weight(const CatenaryLoad& load,
                                                   const ChainMaterial& material);
 
-/// A place on the chain.
+/// A point of the chain.
 struct CatenaryPoint {
   double u_mm = 0.0, y_mm = 0.0;  ///< from the sled's end
   double tension_n = 0.0;
@@ -127,8 +127,8 @@ struct CatenaryPoint {
 /// Elastic energy stored in the chain, N mm: c/2 times the integral of T^2.
 [[nodiscard]] double catenary_strain_energy(const CatenaryLoad& load,
                                             const ChainMaterial& material);
-/// Weight moment about the sled's end, N mm: w times the integral of y(s); the chain's potential
-/// energy from there.
+/// Weight moment about the sled's end, N mm: w times the integral of y(s), the chain's potential
+/// energy relative to that end.
 [[nodiscard]] double catenary_weight_energy(const CatenaryLoad& load,
                                             const ChainMaterial& material);
 

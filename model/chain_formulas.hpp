@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The closed formulas for a chain's length, from the straight line to the one-shot catenary, once
-/// for plain numbers and for Duals: what firmwares compute, step by step, in double precision with
-/// exact pi.
+/// Closed formulas for a chain's length, from the straight line to the one-shot catenary, as
+/// templates for doubles and Duals: the steps of the firmwares in double precision with exact pi.
 ///
 /// Notation
 ///   U, Y  horizontal and vertical distance from the bit to the sprocket's axis (both positive
@@ -58,7 +57,7 @@ StraightChain<T> straight_chain(const T& u, const T& y, const T& r, double feed_
   using std::atan2;
   using std::sqrt;
   const T s = sqrt(u * u + y * y - r * r);
-  // Rotating (U, Y) by the tangent's own angle: the sum of the firmware's two arcsines, in one
+  // Rotate (U, Y) by the tangent's own angle: the sum of the firmware's two arcsines as one
   // arctangent.
   const T a = atan2(y * s + feed_sign * r * u, u * s - feed_sign * r * y);
   constexpr double kPi = 3.14159265358979323846;
@@ -116,7 +115,7 @@ FormulaLengths<T> firmware_lengths(const FormulaInputs<T>& in,
 template <class T>
 T sinh_ratio(const T& x) {
   const double v = plain(x);
-  // Odd by odd: below 1 the series to x^18/19! is exact to the last bit.
+  // Below 1 the series to x^18/19! is exact to the last bit.
   if (std::abs(v) < 1.0) {
     const T q = x * x;
     T sum = 1.0;
@@ -131,8 +130,8 @@ T sinh_ratio(const T& x) {
 }
 
 /// The one-shot catenary: tensions of straight chains under the sled and half of both chains, the
-/// catenary through the chord's ends at that horizontal tension, and the mean tension's stretch
-/// taken out.
+/// catenary through the chord's ends at that horizontal tension, less the stretch at the mean
+/// tension.
 template <class T>
 FormulaLengths<T> one_shot_lengths(const FormulaInputs<T>& in, const Tolerances& tolerance = {}) {
   using std::cos;
@@ -160,8 +159,8 @@ FormulaLengths<T> one_shot_lengths(const FormulaInputs<T>& in, const Tolerances&
           length(r, cr, per_sine * cl, tolerance.right_percent)};
 }
 
-/// The sag factor that makes the firmware's parabola the chain's: 1e12 (w / W)^2 / 24, in 1e-12 /
-/// mm^2. Gravity and the frame's tilt cancel.
+/// The sag factor with which the firmware's parabola is the chain's: 1e12 (w / W)^2 / 24, in 1e-12
+/// / mm^2. Gravity and the frame's tilt cancel.
 inline double closed_form_sag_correction(double chain_weight_n_per_mm, double sled_weight_n) {
   const double ratio = chain_weight_n_per_mm / sled_weight_n;
   return 1e12 * ratio * ratio / 24.0;

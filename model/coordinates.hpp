@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The two spaces that must never be mixed up: points on the bed and pairs of chain lengths.
+/// The two spaces, kept apart as types: points on the bed and pairs of chain lengths.
 ///
-/// Frame: origin at the bed's centre, x to the right, y up the sheet, mm. A chain length counts
+/// Frame: origin at the bed's centre, x to the right, y up the sheet, mm. A chain length is the
 /// unstretched chain from the pin at 12 o'clock to the chain's end at the ring (the ring's radius
 /// is not part of it), plus the machine's chain_zero.
 #pragma once
@@ -15,20 +15,20 @@ struct BedPoint {
   double y_mm = 0.0;
 };
 
-/// A mark, or any place by its sheet's own numbers: what a person reads on the paper. Where the sheet
-/// lies on the bed says SheetPlacement (model/calibration).
+/// A mark, or any point in its sheet's own coordinates: the numbers written on the paper.
+/// SheetPlacement (model/calibration) maps it to the bed.
 struct MarkPoint {
   double x_mm = 0.0;
   double y_mm = 0.0;
 };
 
-/// The same numbers, of a sheet that lies as the bed does.
+/// The mark of a sheet whose coordinates are the bed's.
 constexpr BedPoint identity_placement(MarkPoint mark) { return {mark.x_mm, mark.y_mm}; }
 constexpr MarkPoint identity_placement(BedPoint place) { return {place.x_mm, place.y_mm}; }
 
 enum class Side { left, right };
 
-/// What the two motors have paid out; addressed by side where that is a variable.
+/// The lengths paid out by the two motors; addressed by side where that is a variable.
 struct ChainLengths {
   double left_mm = 0.0;
   double right_mm = 0.0;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A number that carries its exact derivatives along: forward-mode differentiation for the closed
-/// formulas.
+/// A number with its exact derivatives: forward-mode differentiation for the closed formulas.
 ///
 /// Dual<N> holds a value and its derivatives by N inputs; the functions here obey the chain rule
-/// exactly, so that a formula written once as a template yields value and derivatives that cannot
-/// drift apart. Stateless, thread safe.
+/// exactly, so that one template of a formula gives its value and its derivatives. Stateless,
+/// thread safe.
 ///
 /// \code
 ///   const auto x = Dual<2>::variable(3.0, 0), y = Dual<2>::variable(4.0, 1);
@@ -24,7 +23,7 @@ struct Dual {
   std::array<double, N> d{};
 
   constexpr Dual() = default;
-  // A plain number is a Dual without derivatives; formulas mix both freely.
+  // A plain number is a Dual without derivatives; formulas mix both.
   constexpr Dual(double plain) : value(plain) {}  // NOLINT(google-explicit-constructor)
   static constexpr Dual variable(double value, int index) {
     Dual result(value);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The equilibrium of sled and chains as equations and their derivatives: the common ground of the
-/// pose, its Jacobian and its sensitivities. Internal to model/; kinematics.hpp is the interface.
+/// The equilibrium of sled and chains as equations and their derivatives, shared by the pose, its
+/// Jacobian and its sensitivities. Internal to model/; kinematics.hpp is the interface.
 ///
-/// Notation, beside catenary.hpp's
+/// Notation, in addition to catenary.hpp's
 ///   u, y     per chain: horizontal from the sled towards its sprocket, and up
 ///   sg, r    +1 over the top, -1 off the bottom; sprocket radius
 ///   phi      slope of the chain where it leaves the sprocket, atan2(Vb, H)
@@ -12,16 +12,16 @@
 ///   k        beam flexibility
 ///   W        sled weight
 ///   f        side force, H_left - H_right
-///   psi, a   sled's rotation (brackets), and the attachment points seen from the bit
+///   psi, a   sled's rotation (brackets), and the attachment points relative to the bit
 ///
 /// Per chain, from the attachment to the motor's axis (U, Y):
 ///   F_u = rho H/Ta + u + sg r Vb/Tb + k H  - U = 0
 ///   F_y = rho V/Ta + y - sg r H/Tb  + k Vb - Y = 0                                          (1)
 /// and on the sled V_left + V_right = W, H_left - H_right = f, and for brackets, about the bit,
 ///   M = aLx V_L + aLy H_L + aRx V_R - aRy H_R - W cg sin(psi) = 0                           (2)
-/// The ring lets both pulls pass through the bit, so that its sled is a point. Unknowns: H_left,
+/// With a ring both pulls pass through the bit, so that the sled is a point. Unknowns: H_left,
 /// V_left, S of both chains and psi; each chain's S is eliminated by projecting (1) on the normal
-/// of its S column, which leaves a 2 x 2 or 3 x 3 system. The same elimination answers every
+/// of its S column, which leaves a 2 x 2 or 3 x 3 system. The same elimination gives every
 /// derivative.
 #pragma once
 
@@ -33,7 +33,7 @@
 
 namespace chaintrue::model {
 
-/// What the equations read of the parameters, in the hot path's own layout.
+/// Constants of the equations from the parameters, laid out for the hot path.
 struct EquilibriumConstants {
   PerSide<MotorPosition> motors;
   double r = 0.0, sg = 1.0, rho = 0.0;
@@ -91,7 +91,7 @@ inline ChainTerms chain_terms(const EquilibriumConstants& m, double h, double v,
   return t;
 }
 
-/// The attachment points seen from the bit; zero for a ring, whose radius is in rho.
+/// The attachment points relative to the bit; zero for a ring, whose radius is in rho.
 struct Attachments {
   double left_x = 0.0, left_y = 0.0, right_x = 0.0, right_y = 0.0;
 };
@@ -104,8 +104,7 @@ inline Attachments attachments(const EquilibriumConstants& m, double psi) {
           m.half_spacing * s + m.bracket_height * c};
 }
 
-/// Right-hand sides: what the equations' left sides are (Newton), or how a parameter moves them
-/// (derivatives).
+/// Right-hand sides: the residuals of the equations (Newton), or their derivatives by a parameter.
 struct EquilibriumLoad {
   PerSide<double> u, y;
   double moment = 0.0;
@@ -118,7 +117,7 @@ inline PerSide<ChainTerms> terms_of(const EquilibriumConstants& m, const Equilib
           chain_terms(m, q.h_left - m.f, m.W - q.v_left, q.s.right)};
 }
 
-/// The answer of the unknowns.
+/// The step of the unknowns.
 struct EquilibriumStep {
   double h_left = 0.0, v_left = 0.0, h_right = 0.0, v_right = 0.0;
   PerSide<double> s;
@@ -143,16 +142,15 @@ inline double moment_by_psi(const EquilibriumConstants& m,
          a.right_x * t.right.h - m.W * m.cg * std::cos(psi);
 }
 
-/// One chain's balance after its S (and what else only it knows) is eliminated: by its own H and V,
-/// by psi, and the load.
+/// One chain's equations with its S (and other unknowns of its own) eliminated: coefficients of its
+/// H and V and of psi, and the load.
 struct SledRow {
   double h = 0.0, v = 0.0, psi = 0.0, load = 0.0;
 };
 
 /// The sled's part of the linearised equations: rows * step + load = 0 with V_left + V_right and
 /// H_left - H_right given, and for brackets the moment (its derivative by psi in `moment_psi`).
-/// Fills all of `step` but s. Zero determinants end in infinities, which no convergence test
-/// passes.
+/// Fills all of `step` but s. Zero determinants give infinities, which fail every convergence test.
 template <bool kRotates>
 EquilibriumStep solve_sled(const EquilibriumConstants& m,
                            const SledRow& l,

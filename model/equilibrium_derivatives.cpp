@@ -8,7 +8,7 @@
 namespace chaintrue::model {
 namespace {
 
-/// The state that a pose speaks of.
+/// The state of the pose.
 EquilibriumState state_of(const Pose& pose) {
   return {pose.chains.left.horizontal_n,
           pose.chains.left.vertical_at_sled_n,
@@ -96,7 +96,7 @@ Eigen::Vector2d EquilibriumKinematics<kRotates>::sensitivity(const Pose& pose,
     case Parameter::chain_weight_n_per_mm:
       each([&](Side side, const ChainTerms& c, double s) {
         const CatenaryByWeight by_w = catenary_by_weight({c.h, c.v, s}, m_.chain);
-        // Vb grows by S: the tangent turns and the beam is pulled harder.
+        // Vb grows by S: the tangent turns and the pull on the beam grows.
         const double phi_w = c.phi_v * s;
         load.u[side] = by_w.u_mm + m_.sg * m_.r * c.h / c.tb * phi_w;
         load.y[side] = by_w.y_mm + m_.sg * m_.r * c.vb / c.tb * phi_w + m_.k * s;

@@ -31,7 +31,7 @@ Pose pose_of(const EquilibriumConstants& m, const EquilibriumState& q, BedPoint 
   return pose;
 }
 
-/// Newton on (1) and (2) from `q`. \returns iterations, or 0 where it did not settle.
+/// Newton on (1) and (2) from `q`. \returns iterations, or 0 where it did not converge.
 template <bool kRotates>
 int settle_inverse(const EquilibriumConstants& m, BedPoint p, EquilibriumState& q) {
   for (int n = 1; n <= kMaxIterations; ++n) {
@@ -126,7 +126,7 @@ PoseResult EquilibriumKinematics<kRotates>::forward(ChainLengths lengths) const 
     };
     const Row l = row(t.left, q.s.left, lengths.left_mm);
     const Row r = row(t.right, q.s.right, lengths.right_mm);
-    // Both chains end at one sled: across and in height.
+    // Both chains end at the same sled, across and in height.
     const double cx = l.u + r.u - a.left_x + a.right_x - span;
     const double cy = l.y - r.y + a.left_y - a.right_y - rise;
     const double a00 = l.u_h + r.u_h, a01 = l.u_v - r.u_v, a10 = l.y_h - r.y_h, a11 = l.y_v + r.y_v;
@@ -154,7 +154,7 @@ PoseResult EquilibriumKinematics<kRotates>::forward(ChainLengths lengths) const 
     if (!advance<kRotates>(m_, step, q)) continue;
     const PerSide<ChainTerms> end = terms_of(m_, q);
     if constexpr (kRotates) a = attachments(m_, q.psi);
-    // Left and right say the same to rounding; their mean keeps the mirror exact.
+    // Left and right are equal to rounding; their mean keeps the mirror symmetry exact.
     const BedPoint p{0.5 * (m_.motors.left.x_mm + end.left.tip_u - a.left_x +
                             (m_.motors.right.x_mm - end.right.tip_u - a.right_x)),
                      0.5 * (m_.motors.left.y_mm - end.left.tip_y - a.left_y +

@@ -9,16 +9,17 @@
 
 namespace chaintrue::model {
 
-/// What a simpler model leaves out: zero in the parameters, and lengths that do not depend on it.
+/// For models that leave something out: zero in the parameters, and lengths that do not depend on
+/// it.
 struct NotModelled {
   bool sprocket = false;
   bool chain_weight = false;
   bool compliance = false;
 };
 
-/// \tparam kRotates brackets: the sled's rotation is an unknown.
-/// Accuracy (inverse and forward, against 40-digit tables): 1e-11 mm over the default bed, 1e-9 mm
-/// down to 23 mm below the beam and 19 mm beside a sprocket's vertical.
+/// \tparam kRotates brackets: the sled's rotation is an unknown. Accuracy (inverse and forward,
+/// against 40-digit tables): 1e-11 mm over the default bed, 1e-9 mm down to 23 mm below the beam
+/// and 19 mm from a sprocket's vertical.
 template <bool kRotates>
 class EquilibriumKinematics final : public Kinematics {
  public:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the equilibrium's solvers share: where Newton starts, how far a step may go, when it has
-/// settled, and the walk that replaces a cold start near the rim of the domain. Internal to model/;
-/// notation in equilibrium.hpp.
+/// Shared by the equilibrium's solvers: Newton's starting point, bounds on a step, the convergence
+/// test, and the continuation that replaces a cold start near the edge of the domain. Internal to
+/// model/; notation in equilibrium.hpp.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace chaintrue::model {
 
 inline constexpr int kMaxIterations = 50;
-// Newton is quadratic: a step below these leaves less than rounding behind it.
+// Newton converges quadratically: the error after a step below these is less than rounding.
 inline constexpr double kLengthStepMm = 1e-7;
 inline constexpr double kRelativeForceStep = 1e-7;
 inline constexpr double kAngleStepRad = 1e-9;
@@ -27,7 +27,7 @@ inline DomainLimits limits_of(const EquilibriumConstants& m) {
           m.rho + std::sqrt(m.half_spacing * m.half_spacing + m.bracket_height * m.bracket_height)};
 }
 
-/// Straight tangents carry sled and chains: the start of every solution.
+/// Straight tangents carry sled and chains: the starting point of every solution.
 inline EquilibriumState straight_start(const EquilibriumConstants& m, BedPoint p) {
   const Attachments a = attachments(m, 0.0);
   const double ul = p.x_mm + a.left_x - m.motors.left.x_mm;
@@ -41,7 +41,7 @@ inline EquilibriumState straight_start(const EquilibriumConstants& m, BedPoint p
   const double tan_r = (yr * sr + m.sg * m.r * ur) / (ur * sr - m.sg * m.r * yr);
   const double w = m.chain.weight_n_per_mm;
   const double load = m.W + 0.5 * w * (sl + sr);
-  // Beside a bracket's vertical or at the beam the straight line has no equilibrium; Newton starts
+  // Next to a bracket's vertical or at the beam the straight line has no equilibrium; Newton starts
   // from a taut chain.
   const double slopes = tan_l > 0.0 && tan_r > 0.0 ? tan_l + tan_r : std::max(tan_l + tan_r, 0.05);
   EquilibriumState q;
@@ -65,7 +65,7 @@ bool advance(const EquilibriumConstants& m, const EquilibriumStep& step, Equilib
   keep(q.s.left, step.s.left);
   keep(q.s.right, step.s.right);
   if constexpr (kRotates) {
-    constexpr double kMaxTurn = 0.3;  // rad: the bracket's moment is no longer nearly linear beyond
+    constexpr double kMaxTurn = 0.3;  // rad: beyond it the bracket's moment is not nearly linear
     if (std::abs(share * step.psi) > kMaxTurn) share = kMaxTurn / std::abs(step.psi);
     q.psi += share * step.psi;
   }
@@ -80,8 +80,8 @@ bool advance(const EquilibriumConstants& m, const EquilibriumStep& step, Equilib
          std::abs(step.psi) < kAngleStepRad;
 }
 
-/// Walks from below the beam's middle to the point in steps that Newton can follow: the branch of
-/// solutions that belongs to taut chains, where a cold start finds none.
+/// Continuation from below the beam's middle to the point in steps that Newton can follow: the branch
+/// of solutions with taut chains, where a cold start finds none.
 /// \param start  State(BedPoint): the cold start
 /// \param settle int(BedPoint, State&): iterations, or 0
 template <class State, class Start, class Settle>
@@ -112,7 +112,7 @@ int settle_by_walking(
   return total;
 }
 
-/// The likeliest reason for a point inside the domain where nothing settles.
+/// The likeliest reason why Newton does not converge for a point inside the domain.
 inline PoseFailure why_unsettled(const EquilibriumConstants& m, BedPoint p) {
   const double u = std::min(p.x_mm - m.motors.left.x_mm, m.motors.right.x_mm - p.x_mm);
   if (u - m.half_spacing <= m.sg * m.r) return PoseFailure::outside_verticals;

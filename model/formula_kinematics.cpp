@@ -16,7 +16,7 @@ FormulaKinematics::FormulaKinematics(const EquilibriumParameters& parameters,
   if (ring == nullptr) {
     throw std::invalid_argument("a closed formula for the chains needs a ring sled, not brackets");
   }
-  // The straight line knows no sprocket.
+  // The straight line has no sprocket.
   if (formula == Formula::straight) parameters_.sprocket_radius_mm = 0.0;
   limits_ = {parameters_.motors,
              parameters_.sprocket_radius_mm,
@@ -84,7 +84,7 @@ PoseResult FormulaKinematics::inverse(BedPoint p) const {
   };
   pose.chains = {state(l, tl_n, total.left_mm), state(r, tr_n, total.right_mm)};
   if (formula_ == Formula::straight) {
-    // A line to the axis has no arc, whichever way the chain would leave.
+    // A line to the axis has no arc, whichever the feed.
     for (const Side side : kSides) {
       pose.chains[side].wrap_mm = 0.0;
     }

@@ -15,15 +15,15 @@ enum class Formula { straight, wrap, firmware, one_shot };
 
 class FormulaKinematics final : public Kinematics {
  public:
-  /// \throws std::invalid_argument for brackets: the closed formulas know no rotating sled.
+  /// \throws std::invalid_argument for brackets: the closed formulas have no rotating sled.
   FormulaKinematics(const EquilibriumParameters& parameters,
                     Formula formula,
                     const Tolerances& tolerance = {});
   [[nodiscard]] PoseResult inverse(BedPoint point) const override;
   [[nodiscard]] PoseResult forward(ChainLengths lengths) const override;
   [[nodiscard]] Eigen::Matrix2d jacobian(const Pose& pose) const override;
-  /// Zero for what the formula does not know: the firmware's sag factor is a number of its own and
-  /// no weight.
+  /// Zero for parameters that are not in the formula: the firmware's sag factor is a number of its
+  /// own, not a weight.
   [[nodiscard]] Eigen::Vector2d sensitivity(const Pose& pose, Parameter parameter) const override;
 
  private:

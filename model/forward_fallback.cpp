@@ -18,7 +18,7 @@ CircleGuess intersect(const PerSide<MotorPosition>& motors, double left_mm, doub
   CircleGuess guess;
   guess.circles_meet = square > 0.0;
   guess.hopeless = !(1.2 * (left_mm + right_mm) > span);  // NaN is hopeless too
-  // Chains that miss each other are drawn taut just below the beam: a hundredth of the spacing.
+  // Chains that do not meet are drawn taut just below the beam: a hundredth of the spacing.
   const double share = guess.circles_meet ? along / span : left_mm / (left_mm + right_mm);
   const double below = guess.circles_meet ? std::sqrt(square) : 0.01 * span;
   guess.point = {motors.left.x_mm + share * dx + below * dy / span,
@@ -46,8 +46,8 @@ double miss_mm(const Pose& pose, ChainLengths lengths) {
 CircleGuess circle_guess(const DomainLimits& limits, ChainLengths lengths) {
   const double r = limits.sprocket_radius_mm, rho = limits.ring_radius_mm;
   CircleGuess guess = intersect(limits.motors, lengths.left_mm + rho, lengths.right_mm + rho);
-  // The wrap of the guess's own angle is taken off the length; twice leaves under a micrometre of
-  // it.
+  // The wrap at the guess's own angle is subtracted from the length; two passes leave under a
+  // micrometre of it.
   for (int pass = 0; pass < 2; ++pass) {
     const BedPoint p = pulled_inside(limits, guess.point);
     const auto l = straight_chain(
@@ -74,7 +74,8 @@ PoseResult forward_by_inverse(const Kinematics& kinematics,
     return tl::unexpected(guess.circles_meet ? PoseFailure::not_converged : PoseFailure::too_short);
   };
   PoseResult pose = kinematics.inverse(guess.point);
-  // A light sled's far chain may not be solvable at the guess; the middle below the beam always is.
+  // A light sled's far chain may have no solution at the guess; the middle below the beam always
+  // has one.
   if (!pose) {
     const MotorPosition &l = limits.motors.left, &r = limits.motors.right;
     pose = kinematics.inverse(
@@ -90,13 +91,13 @@ PoseResult forward_by_inverse(const Kinematics& kinematics,
     const double dx = per_det * (j(1, 1) * bl - j(0, 1) * br);
     const double dy = per_det * (j(0, 0) * br - j(1, 0) * bl);
     PoseResult next = tl::unexpected(PoseFailure::not_converged);
-    // Halve until the point exists and comes closer.
+    // Halve until the point has a pose and is closer.
     for (double share = 1.0; share > 1e-6; share *= 0.5) {
       next =
           kinematics.inverse({pose->position.x_mm + share * dx, pose->position.y_mm + share * dy});
       if (next && miss_mm(*next, lengths) < miss) break;
       next = tl::unexpected(PoseFailure::not_converged);
-      if (last) return pose;  // at the floor of rounding no step comes closer any more
+      if (last) return pose;  // at the level of rounding no step comes closer
     }
     if (!next) return failure();
     next->iterations += pose->iterations;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The point for chain lengths by a damped Newton on inverse(): slower than the direct closure and
-/// for every kinematics alike, it serves where the direct one does not settle and where there is
-/// none.
+/// The point for chain lengths by a damped Newton on inverse(). Slower than the direct closure and
+/// independent of the kinematics; used where the direct closure does not converge and where there
+/// is none.
 #pragma once
 
 #include "model/inverse_domain.hpp"
@@ -10,13 +10,13 @@
 
 namespace chaintrue::model {
 
-/// Straight lines from the axes to a common point: the guess that every forward starts from.
-/// Lengths past 12 o'clock with the ring; wrap taken from the guess's own angles. A point below the
-/// beam where the circles do not meet.
+/// Straight lines from the axes to a common point: the initial guess of every forward solution.
+/// Lengths are past 12 o'clock and include the ring; the wrap is taken from the guess's own angles.
+/// A point below the beam where the circles do not meet.
 struct CircleGuess {
   BedPoint point;
   bool circles_meet = false;
-  bool hopeless = false;  ///< no chain stretches that far (20 %)
+  bool hopeless = false;  ///< more than 20 % stretch would be needed
 };
 [[nodiscard]] CircleGuess circle_guess(const DomainLimits& limits, ChainLengths lengths);
 

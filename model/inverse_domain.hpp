@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where a pose can exist at all, shared by every kinematics: between the verticals through the
-/// sprockets' tangents, below the line between the sprockets, and farther from them than the ring
-/// reaches. Notation in equilibrium.hpp.
+/// The domain in which a pose can exist, shared by every kinematics: between the verticals through
+/// the sprockets' tangents, below the line between the sprockets, and farther from them than the
+/// ring reaches. Notation in equilibrium.hpp.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace chaintrue::model {
 
-/// What the check reads.
+/// The numbers that the check needs.
 struct DomainLimits {
   PerSide<MotorPosition> motors;
   double sprocket_radius_mm = 0.0;
@@ -29,8 +29,7 @@ inline double depth_below_beam_mm(const DomainLimits& limits, BedPoint p) {
          std::min(0.0, limits.feed_sign) * limits.sprocket_radius_mm;
 }
 
-/// Why there is no pose at the point, if that can be told from geometry alone. NaN is no point:
-/// outside_verticals.
+/// Why there is no pose at the point, if geometry alone decides it. NaN: outside_verticals.
 inline std::optional<PoseFailure> domain_failure(const DomainLimits& limits, BedPoint p) {
   const double u_left = p.x_mm - limits.motors.left.x_mm;
   const double u_right = limits.motors.right.x_mm - p.x_mm;

@@ -51,7 +51,7 @@ void require_sound(const EquilibriumParameters& p) {
   require("sled_weight_n", p.sled_weight_n, std::numeric_limits<double>::min(), kMost);
   require("chain_weight_n_per_mm", p.chain_weight_n_per_mm, 0.0, 1.0);
   require("chain_compliance_per_n", p.chain_compliance_per_n, 0.0, 0.01);
-  require("tilt_rad", p.tilt_rad, -1.55, 1.55);  // a frame that lies flat hangs nothing
+  require("tilt_rad", p.tilt_rad, -1.55, 1.55);  // on a flat frame nothing hangs
   require("beam_flexibility_mm_per_n", p.beam_flexibility_mm_per_n, 0.0, 10.0);
   require("side_force_n", p.side_force_n, -kMost, kMost);
   require("sag_correction", p.sag_correction, -kInfinity, kInfinity);
@@ -69,7 +69,7 @@ std::unique_ptr<const Kinematics> equilibrium(EquilibriumParameters p,
 }
 
 /// The weightless limit: where the beam yields or the sled rotates there is no closed form, and the
-/// equilibrium itself is solved with weightless inextensible chains.
+/// equilibrium is solved with weightless inextensible chains.
 std::unique_ptr<const Kinematics> weightless(const EquilibriumParameters& p, Formula formula) {
   const bool closed =
       std::holds_alternative<Ring>(p.attachment) && p.beam_flexibility_mm_per_n == 0.0;
@@ -142,7 +142,7 @@ std::unique_ptr<const Kinematics> make_kinematics(const EquilibriumParameters& p
       return weightless(parameters, Formula::straight);
     case Model::wrap:
       return weightless(parameters, Formula::wrap);
-    // The firmware's quadrilateral knows neither sag nor stretch: it is the weightless one.
+    // The firmware's quadrilateral has neither sag nor stretch: it is the weightless model.
     case Model::firmware:
       if (!ring) return weightless(parameters, Formula::wrap);
       return std::make_unique<FormulaKinematics>(parameters, Formula::firmware);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Chain lengths for a point and the point for chain lengths: the interface of every kinematics,
-/// and the pose that they answer with.
+/// and the pose that they return.
 ///
 /// Lengths here are physical: unstretched chain past 12 o'clock, without the machine's chain_zero
-/// and without the effects that stand at the chain or at the reading (reading_model.hpp adds
-/// those).
+/// and without effects at the chain or at the reading (added by reading_model.hpp).
 ///
 /// \code
 ///   const auto kinematics = make_kinematics(equilibrium_parameters(machine), Model::elastic);
@@ -25,42 +24,41 @@
 
 namespace chaintrue::model {
 
-/// The numbers that the equilibrium sees.
+/// The parameters of the equilibrium.
 struct EquilibriumParameters {
   PerSide<MotorPosition> motors;
   double sprocket_radius_mm = 0.0;
   Feed feed = Feed::over_top;
   Attachment attachment = Ring{};
-  /// Weight of the sled and of a millimetre of chain, as the frame's tilt leaves them in the
-  /// sheet's plane.
+  /// Weight of the sled and of a millimetre of chain: the components in the sheet's plane.
   double sled_weight_n = 0.0;
   double chain_weight_n_per_mm = 0.0;
   double chain_compliance_per_n = 0.0;
-  /// Angle of the frame from the vertical; only Model::elastic_3d looks at it.
+  /// Angle of the frame from the vertical; used by Model::elastic_3d only.
   double tilt_rad = 0.0;
   /// Each motor's axis moves along its chain's pull, towards the sled, by this times the tension
   /// there (beam_flex).
   double beam_flexibility_mm_per_n = 0.0;
   /// H_left - H_right: a hose or cord that pulls the sled towards +x (side_pull).
   double side_force_n = 0.0;
-  /// Firmware's sag factor in 1e-12 / mm^2 (Model::firmware); 1e12 (lambda/m)^2/24 where the
-  /// machine does not say.
+  /// The firmware's sag factor in 1e-12 / mm^2 (Model::firmware); 1e12 (lambda/m)^2/24 unless the
+  /// machine states it.
   double sag_correction = 0.0;
 };
 
 [[nodiscard]] EquilibriumParameters equilibrium_parameters(const Machine& machine);
 
-/// What is known of a chain, from crudest to finest.
+/// Models of a chain, from crudest to finest.
 enum class Model { straight, wrap, firmware, one_shot, inextensible, elastic, elastic_3d };
 
-/// Outcomes that are no pose.
+/// Reasons why there is no pose.
 enum class PoseFailure {
-  outside_verticals,  ///< beside the vertical through a sprocket's tangent: no equilibrium exists
+  outside_verticals,  ///< outside the vertical through a sprocket's tangent: no equilibrium exists
   above_sprockets,    ///< at or above the line between the sprockets
-  link_does_not_fit,  ///< the ring or bracket is longer than the way to the sprocket
-  slack,              ///< a chain would have to push, or hangs slack
+  link_does_not_fit,  ///< the ring or bracket is longer than the distance to the sprocket
+  slack,              ///< a chain would be in compression, or hangs slack
   too_short,          ///< chains that cannot meet each other
-  not_converged,      ///< the iteration did not settle
+  not_converged,      ///< the iteration did not converge
 };
 
 /// Stable names (`outside_verticals`, ...), used in files and tests.
@@ -70,7 +68,7 @@ enum class PoseFailure {
 
 /// One chain in equilibrium. s = 0 is the sled's end.
 struct ChainState {
-  double horizontal_n = 0.0;  ///< H, the same all along
+  double horizontal_n = 0.0;  ///< H, constant along the chain
   /// V, upward pull on the sled; negative: the chain hangs below its end.
   double vertical_at_sled_n = 0.0;
   double out_of_sheet_n = 0.0;     ///< N, pull off the sheet at the sled; Model::elastic_3d only
@@ -91,7 +89,7 @@ struct Pose {
 
 using PoseResult = tl::expected<Pose, PoseFailure>;
 
-/// What lengths can be differentiated by.
+/// Parameters of the lengths' derivatives.
 enum class Parameter {
   motor_left_x_mm,
   motor_left_y_mm,
@@ -112,7 +110,7 @@ class Kinematics {
   virtual ~Kinematics() = default;
   [[nodiscard]] virtual PoseResult inverse(BedPoint point) const = 0;
   [[nodiscard]] virtual PoseResult forward(ChainLengths lengths) const = 0;
-  /// d(left, right)/d(x, y) at a pose that this kinematics returned.
+  /// d(left, right)/d(x, y) at a pose returned by this object.
   [[nodiscard]] virtual Eigen::Matrix2d jacobian(const Pose& pose) const = 0;
   /// d(left, right)/d(parameter) at fixed (x, y).
   [[nodiscard]] virtual Eigen::Vector2d sensitivity(const Pose& pose,

@@ -12,11 +12,11 @@
 namespace chaintrue::model {
 namespace {
 
-/// Collects what is wrong. Ranges hold every real hanging router with room to spare, so that what
-/// is outside is a slip.
+/// Collects problems. The ranges contain every real hanging router, so that a value outside is a
+/// mistake.
 class Checker {
  public:
-  /// Where `ranges` are wanted, each that is looked at is noted there.
+  /// With `ranges`, every range that is checked is appended to it.
   explicit Checker(std::vector<MachineRange>* ranges = nullptr) : ranges_(ranges) {}
   void range(std::string_view place,
              double value,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A hanging two-chain router as its owner describes it: one struct a part, the same words as in a
-/// chaintrue_machine file, and the stated uncertainties. Data only; the equilibrium is in kinematics.hpp.
+/// A hanging two-chain router: one struct for each part, with the names of a chaintrue_machine file, and
+/// the stated uncertainties. Data only; the equilibrium is in kinematics.hpp.
 ///
 /// \code
 ///   Machine machine;                      // the classic Maslow on a ten-foot beam
@@ -41,7 +41,7 @@ struct Sprocket {
   [[nodiscard]] double effective_radius_mm() const;
 };
 
-/// Which way the chain leaves the sprocket: over its top, the slack hanging down; or off its
+/// Which way the chain leaves the sprocket: over its top, with the slack hanging down, or off its
 /// bottom.
 enum class Feed { over_top, off_bottom };
 
@@ -73,7 +73,7 @@ struct Frame {
   double tilt_from_vertical_deg = 15.0;
 };
 
-/// One sigma of what was taped.
+/// One sigma of each taped dimension.
 struct Uncertainty {
   double motor_position_mm = 3.0;
   double chain_zero_mm = 1.0;
@@ -101,12 +101,12 @@ struct Machine {
   Sled sled;
   Frame frame;
   Uncertainty uncertainty;
-  /// What the firmware believes.
+  /// The controller's firmware and settings.
   Controller controller;
   std::vector<AppliedEffect> effects;
 };
 
-/// One reason why a machine cannot be computed with.
+/// One reason why a machine is invalid.
 struct MachineProblem {
   /// JSON pointer below the machine, such as "/sled/mass_kg".
   std::string parameter;
@@ -114,9 +114,9 @@ struct MachineProblem {
   std::string expected;
 };
 
-/// All reasons at once; empty when the machine is sound. Ranges are wide (any real hanging router
-/// passes), so that a value outside is a slip of units or of the keyboard: inches for mm, grams for
-/// kg, motors below the bed.
+/// All problems at once; empty when the machine is valid. Ranges are wide (any real hanging router
+/// passes), so that a value outside is a mistake in units or typing: inches for mm, grams for kg,
+/// motors below the bed.
 [[nodiscard]] std::vector<MachineProblem> problems_of(const Machine& machine);
 
 }  // namespace chaintrue::model

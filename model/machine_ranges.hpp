@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the numbers of a machine may be, for reference pages and editors; problems_of
-/// (model/machine.hpp) goes by the same.
+/// Ranges of a machine's numbers, for reference pages and editors; the same ranges as in
+/// problems_of (model/machine.hpp).
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace chaintrue::model {
 
-/// What a number of a machine may be, by its place as a JSON pointer; both ends are allowed.
+/// Range of a number of a machine, by its JSON pointer; both ends are allowed.
 struct MachineRange {
   std::string place;
   double least = 0.0;
   double most = 0.0;
   std::string unit;
 };
-/// Those that problems_of goes by, of a ring and of brackets, with every setting of a controller.
+/// The ranges of problems_of for a ring and for brackets, with every setting of a controller.
 [[nodiscard]] std::vector<MachineRange> machine_ranges();
 
 }  // namespace chaintrue::model

@@ -74,12 +74,12 @@ tl::expected<ToolPosition, MechanismFailure> locate_by_newton(const Mechanism& m
                                                               const MechanismVisit& visit,
                                                               const ToolPosition& start,
                                                               const std::vector<bool>& counting) {
-  // Where four lengths agree to a few millimetres Gauss and Newton converge linearly by the ratio
-  // of what they miss to the lengths, some 1e-3 a step.
+  // Where four lengths agree to a few millimetres Gauss-Newton converges linearly; the rate is the
+  // ratio of the residuals to the lengths, some 1e-3 a step.
   constexpr int kMostSteps = 50;
   constexpr int kMostHalvings = 40;
   constexpr double kConvergedMm = 1e-9;
-  // At the minimum what the lengths miss no longer falls, to the lengths' own rounding.
+  // At the minimum the residuals decrease by no more than the lengths' rounding.
   constexpr double kRoundingMm = 1e-9;
   Eigen::VectorXd weight = Eigen::VectorXd::Ones(lengths_mm.size());
   for (std::size_t i = 0; i < counting.size(); ++i)

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What hangs, as an interface: parameters with what is known of them beforehand, effects that may
-/// act, lengths for a position of the tool and the position for lengths.
+/// The interface of a hanging machine: parameters with priors, effects that may act, lengths for a
+/// position of the tool and the position for lengths.
 ///
 /// Notation
 ///   q       position of the tool in the mechanism's own frame                       2, mm
 ///   v       visit: its number, how each length was reached, which were pulled
 ///   theta   parameters                                                              p of them
-///   f       lengths as they are read                                                n of them, mm
+///   f       lengths as read                                                         n of them, mm
 ///
 ///   f = f(q, v; theta, effects)                                                     (1)
 ///
-/// A Mechanism has its values of theta and its effects; with_values() and with_effects() give
-/// another one. Every implementation is immutable and thread safe. What no mechanism may break is
-/// in tests/contracts/mechanism_contract_test.cpp.
+/// A Mechanism holds values of theta and effects; with_values() and with_effects() return another
+/// one. Every implementation is immutable and thread safe. The contract is tested in
+/// tests/contracts/mechanism_contract_test.cpp.
 ///
 /// \code
 ///   const auto mechanism = make_chain_mechanism(machine);     // or make_belt_mechanism(belts)
@@ -45,10 +45,10 @@ struct ToolPosition {
 
 /// A parameter that can be calibrated.
 struct MechanismParameter {
-  std::string_view name;         ///< ends in its unit; the word of files and messages
+  std::string_view name;         ///< ends in its unit; as in files and messages
   std::string_view unit;         ///< "mm"; empty for a number without a unit
-  std::optional<double> stated;  ///< empty: nobody has stated it
-  /// One sigma of what was stated; empty: nothing is known beforehand.
+  std::optional<double> stated;  ///< empty: not stated
+  /// Prior sigma of the stated value; empty: no prior.
   std::optional<double> prior_sigma;
   /// Setting the machine's zeros anew sets it.
   bool set_by_zeroing = false;
@@ -59,7 +59,7 @@ struct MechanismVisit {
   int order = 0;  ///< the visit's number
   /// +1 where the length was paid out to get there, -1 where it was taken in; empty: paid out.
   std::vector<double> direction = {};
-  /// Its motor pulled at the reading while others held; empty: none did.
+  /// Whether a motor pulled its length tight at the reading while others held; empty: none did.
   std::vector<bool> pulled = {};
 };
 
@@ -67,12 +67,12 @@ struct MechanismVisit {
 struct LengthsPrediction {
   Eigen::VectorXd lengths_mm;
   Eigen::MatrixX2d by_position;  ///< n x 2, mm per mm
-  /// n x p, mm per unit of the parameter; n x 0 where it was not asked for.
+  /// n x p, mm per unit of the parameter; n x 0 unless requested.
   Eigen::MatrixXd by_parameter;
 };
 
-/// Why there are no lengths at a position, or no position for lengths. Both live as long as the
-/// program.
+/// Why there are no lengths at a position, or no position for lengths. Both strings have static
+/// lifetime.
 struct MechanismFailure {
   std::string_view name;      ///< stable, for programs: "outside_verticals"
   std::string_view sentence;  ///< for a person
@@ -96,7 +96,7 @@ class Mechanism {
  public:
   virtual ~Mechanism() = default;
 
-  /// One word for it: "chains", "belts".
+  /// Identifier: "chains", "belts".
   [[nodiscard]] virtual std::string_view kind() const = 0;
   /// Words for its lengths, in the order of every vector of lengths: left, right. The first two place
   /// the tool: they are what a controller pays out for a command.
@@ -104,20 +104,20 @@ class Mechanism {
   [[nodiscard]] virtual std::span<const MechanismParameter> parameters() const = 0;
   /// theta, in the order of parameters(); 0 where nothing is stated yet.
   [[nodiscard]] virtual const Eigen::VectorXd& values() const = 0;
-  /// Positions at which predict() answers for a mechanism in order.
+  /// Positions at which predict() succeeds for a valid mechanism.
   [[nodiscard]] virtual MechanismExtent extent() const = 0;
 
-  /// The same mechanism with other values of its parameters. What was stated of them stays.
-  /// \throws std::invalid_argument for values that are no machine, with the first reason.
+  /// The same mechanism with other values of its parameters. Stated values and priors are kept.
+  /// \throws std::invalid_argument for values that are not valid, with the first reason.
   [[nodiscard]] virtual std::shared_ptr<const Mechanism> with_values(
       const Eigen::VectorXd& values) const = 0;
 
-  /// What may be wrong with it, in the order in which effects act.
+  /// The effects that may act, in the order in which they act.
   [[nodiscard]] virtual std::span<const effects::Effect* const> effects() const = 0;
   /// Why it cannot have these effects, each with its place ("/effects/0/side"); empty: it can.
   [[nodiscard]] virtual std::vector<MachineProblem> problems_of_effects(
       const std::vector<AppliedEffect>& applied) const = 0;
-  /// With these effects besides those that it has. \throws std::invalid_argument for effects with
+  /// With these effects in addition to those it has. \throws std::invalid_argument for effects with
   /// problems.
   [[nodiscard]] virtual std::shared_ptr<const Mechanism> with_effects(
       const std::vector<AppliedEffect>& applied) const = 0;
@@ -127,8 +127,8 @@ class Mechanism {
       const ToolPosition& position,
       const MechanismVisit& visit,
       Derivatives wanted = Derivatives::by_position_and_parameter) const = 0;
-  /// Where the tool is when these lengths are read at a visit: the inverse of predict(), 1e-9 mm.
-  /// Of more than two lengths the position with the least sum of squares of what they miss.
+  /// The position of the tool when these lengths are read at a visit: the inverse of predict(),
+  /// 1e-9 mm. For more than two lengths the position with the least sum of squared residuals.
   [[nodiscard]] virtual tl::expected<ToolPosition, MechanismFailure> locate(
       const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const = 0;
   /// The first two lengths of predict(), of a machine at rest: without a visit.
@@ -163,8 +163,8 @@ inline constexpr double kParameterShiftSigma = 5.0;
                                                                        const ToolPosition& mark,
                                                                        const MechanismVisit& visit);
 
-/// locate() of a mechanism that has no closed form: Gauss and Newton from `start`, halving steps
-/// that leave the domain. `counting` says which lengths are read, at least two; empty: all. Fails
+/// locate() for a mechanism without a closed form: Gauss-Newton from `start`, halving steps that
+/// leave the domain. `counting` selects the lengths that are read, at least two; empty: all. Fails
 /// with "not_converged" after 50 steps.
 [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate_by_newton(
     const Mechanism& mechanism,

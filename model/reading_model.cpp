@@ -28,7 +28,7 @@ constexpr double kStepMm = 4.0;
 constexpr std::array<double, 4> kStencil = {-2.0, -1.0, 1.0, 2.0};
 constexpr std::array<double, 4> kWeights = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
 
-// The two numbers of a chain that effects look at beside its length.
+// The two numbers of a chain, besides its length, that effects depend on.
 struct AngleAndFree {
   double angle_rad = 0.0;
   double free_mm = 0.0;
@@ -83,8 +83,8 @@ double sign_of_change(double change, double last) {
   return last;
 }
 
-// The first effect of the catalogue that depends on the direction of travel: what stands before it
-// makes the length whose change gives the direction.
+// The first effect of the catalogue that depends on the direction of travel: the effects before it
+// make the length whose change gives the direction.
 std::size_t place_of_direction() {
   const auto table = effects::catalogue();
   const auto found = std::find_if(table.begin(), table.end(), [](const effects::Effect* e) {
@@ -135,13 +135,13 @@ struct ReadingModel::State {
   double turn_mm = 0.0;
   /// Sum of the elongations of a chain.
   PerSide<double> elongation;
-  /// Something is added to a chain that looks at its angle or free length.
+  /// An effect depends on the chain's angle or free length.
   bool looks_at_state = false;
 
   enum class Part { before_direction, after_direction, whole };
   [[nodiscard]] ChainAddition additions(const Pose& pose, Side side, Part part) const;
   [[nodiscard]] double zero(Side side) const { return machine.chain_zero[side]; }
-  /// The reading of a chain that has been paid out to this length with all that is added.
+  /// The reading of a chain paid out to this length, with all effects.
   [[nodiscard]] double counted(double length_mm, Side side) const {
     return length_mm / (1.0 + elongation[side]) + zero(side);
   }
@@ -253,8 +253,8 @@ Eigen::Vector2d ReadingModel::sensitivity(const PointReading& reading, Setting s
   if (state.looks_at_state) {
     const auto found = state_slope(
         [&](double mm) { return state.pose_beside(reading.pose.position, setting, mm); });
-    // A pose exists here and its neighbours within 16 um do not: on the very edge only the length's
-    // own slope counts.
+    // A pose exists here but not at its neighbours within 16 um: at the very edge only the length's
+    // own slope is used.
     if (found) slope = *found;
   }
   return state.through_effects(
@@ -275,7 +275,7 @@ tl::expected<PointReading, PoseFailure> ReadingModel::find(ChainLengths lengths,
     Eigen::Vector2d move = reading->position_jacobian.inverse() * missing;
     if (!move.allFinite()) break;
     if (move.norm() > kMaxStrideMm) move *= kMaxStrideMm / move.norm();
-    // A step out of reach is shortened until it stays within.
+    // A step out of reach is shortened.
     while (move.norm() >= kConvergedMm &&
            !state_->kinematics->inverse({point.x_mm + move[0], point.y_mm + move[1]})) {
       move *= 0.5;
@@ -302,7 +302,7 @@ ChainLengths ReadingModel::added_at_visit(int order, const PerSide<double>& dire
   return added;
 }
 
-/// The part of a session that remembers: the direction in which each chain last moved.
+/// The state of a session: the direction in which each chain last moved.
 class Session {
  public:
   explicit Session(const ReadingModel& model) : state_(*model.state_) {}

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From a machine with its effects to the lengths that a person would read off it: machine -> chain
-/// -> reading, and the frame in which the marks are written.
+/// From a machine with its effects to the lengths read off it (machine -> chain -> reading), and
+/// the frame of the marks.
 ///
 ///   reading = (L0 + chain effects) / (1 + e) + chain_zero + reading effects                 (1)
 ///
 /// L0 from the equilibrium with every machine effect on; chain effects in the catalogue's order on
-/// that state; e the sum of the elongations of chain_pitch_error. ReadingModel answers the
-/// repeatable part of a reading: what it would be without drift, skips and hysteresis, which depend
-/// on the visit and not on the place. readings() answers whole sessions with all of it.
+/// that state; e the sum of the elongations of chain_pitch_error. ReadingModel gives the repeatable
+/// part of a reading: without drift, skips and hysteresis, which depend on the visit and not on the
+/// position. readings() gives whole sessions with all effects.
 ///
-/// Points are true positions of the tool; MarkFrame turns them into what is written beside the
+/// Points are true positions of the tool; MarkFrame turns them into the coordinates written at the
 /// marks.
 ///
 /// \code
@@ -34,7 +34,7 @@
 
 namespace chaintrue::model {
 
-/// What a grid can calibrate before anything is named (shared words with the file formats).
+/// Settings that can be calibrated without named effects (the identifiers of the file formats).
 enum class Setting {
   motor_left_x_mm,
   motor_left_y_mm,
@@ -51,7 +51,7 @@ struct PointReading {
   Pose pose;
   ChainLengths lengths;
   /// d(left, right)/d(x, y). Exact for the equilibrium and for effects of the length; where an
-  /// effect looks at a chain's angle or free length, the derivative of those is a five-point
+  /// effect depends on a chain's angle or free length, the derivative of those is a five-point
   /// difference, good to 1e-9 of its size. At the knee of angular_kink it is the one-sided
   /// derivative above the knee.
   Eigen::Matrix2d position_jacobian = Eigen::Matrix2d::Zero();
@@ -69,12 +69,13 @@ class ReadingModel {
   /// position_jacobian. \throws std::invalid_argument for the sheet's settings: they move the
   /// point, not the machine.
   [[nodiscard]] Eigen::Vector2d sensitivity(const PointReading& reading, Setting setting) const;
-  /// Where the tool is when these lengths are read, searched from `start` (Newton on at(), 1e-9
+  /// The tool's position when these lengths are read, searched from `start` (Newton on at(), 1e-9
   /// mm).
   [[nodiscard]] tl::expected<PointReading, PoseFailure> find(ChainLengths lengths,
                                                              BedPoint start) const;
-  /// What a visit adds to the reading of each chain wherever the tool is: drift, skips and, by the
-  /// `direction` in which each chain reached its length (+1 paid out, -1 taken in), hysteresis.
+  /// What a visit adds to the reading of each chain, independent of the tool's position: drift,
+  /// skips and hysteresis, the latter by the `direction` in which each chain reached its length (+1
+  /// paid out, -1 taken in).
   [[nodiscard]] ChainLengths added_at_visit(int order, const PerSide<double>& direction) const;
   [[nodiscard]] const Machine& machine() const;
   [[nodiscard]] Model model() const;
@@ -85,7 +86,7 @@ class ReadingModel {
   std::shared_ptr<const State> state_;
 };
 
-/// A visit of the tool: where it truly is, and the visit's number.
+/// A visit of the tool: its true position and its number.
 struct Visit {
   BedPoint position;
   int order = 0;
@@ -96,25 +97,25 @@ struct VisitFailure {
   PoseFailure reason = PoseFailure::not_converged;
 };
 
-/// What is read at each visit, in the order of `visits`; they are gone through by rising `order`.
-/// Hysteresis follows the sign of the change of a chain's length since the visit before, taken
-/// before hysteresis and pitch error; no change keeps the sign, the first visit counts as paid out
-/// (+1). `told` hears after each visit how many are done.
-/// \throws std::invalid_argument where two visits bear the same number.
+/// The readings at each visit, in the order of `visits`; visits are processed by increasing
+/// `order`. Hysteresis follows the sign of the change of a chain's length since the visit before,
+/// taken before hysteresis and pitch error; no change keeps the sign, the first visit counts as
+/// paid out (+1). `told` is called after each visit with the number done. \throws
+/// std::invalid_argument where two visits have the same number.
 [[nodiscard]] tl::expected<std::vector<ChainLengths>, VisitFailure> readings(
     const ReadingModel& model,
     std::span<const Visit> visits,
     const std::function<void(std::size_t read)>& told = {});
 
-/// The frame in which the marks are written: the paper effects of a machine, in the catalogue's
-/// order. They are linear.
+/// The frame of the marks: the paper effects of a machine, in the catalogue's order. They are
+/// linear.
 class MarkFrame {
  public:
   /// \throws std::invalid_argument as ReadingModel.
   explicit MarkFrame(const Machine& machine);
-  /// What is written beside a mark that truly is at `place`.
+  /// The written coordinates of a mark whose true position is `place`.
   [[nodiscard]] MarkPoint written(MarkPoint place) const;
-  /// Where the mark truly is that bears these numbers.
+  /// The true position of the mark with these written coordinates.
   [[nodiscard]] MarkPoint place(MarkPoint written) const;
 
  private:

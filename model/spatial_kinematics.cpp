@@ -12,7 +12,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// What one evaluation of a chain needs to know of the machine.
+/// Constants of the machine for the evaluation of one chain.
 struct Spatial {
   const EquilibriumConstants& m;
   Vector3d up;
@@ -27,7 +27,7 @@ struct SpatialState {
   PerSide<double> n;
 };
 
-/// From the attachment to the motor's axis, and its derivatives by (H, V, N) and S; z must vanish.
+/// From the attachment to the motor's axis, and derivatives by (H, V, N) and S; z must vanish.
 struct SpatialTerms {
   Vector3d tip = Vector3d::Zero();
   Matrix3d by_pull = Matrix3d::Zero();
@@ -91,7 +91,7 @@ PerSide<SpatialTerms> terms_of(const Spatial& q, const SpatialState& x) {
           spatial_terms(q, {p.h_left - q.m.f, q.m.W - p.v_left, x.n.right}, p.s.right)};
 }
 
-/// The moment about the bit sees the pulls in the sheet alone.
+/// The moment about the bit depends on the pulls in the sheet alone.
 PerSide<ChainTerms> in_sheet(const PerSide<SpatialTerms>& t) {
   PerSide<ChainTerms> plane;
   for (const Side side : kSides) {
@@ -111,8 +111,8 @@ struct SpatialStep {
   PerSide<double> n;
 };
 
-/// Solves terms * step + load = 0: N and S of each chain go by projecting on the normal of their
-/// two columns.
+/// Solves terms * step + load = 0: N and S of each chain are eliminated by projection on the normal
+/// of their two columns.
 template <bool kRotates>
 SpatialStep solve_linearised(const EquilibriumConstants& m,
                              const PerSide<SpatialTerms>& t,
@@ -155,7 +155,7 @@ SpatialStep solve_linearised(const EquilibriumConstants& m,
 SpatialState spatial_start(const Spatial& q, BedPoint p) {
   SpatialState x;
   x.plane = straight_start(q.m, p);
-  // Half of the chain's weight off the sheet rests on each end.
+  // Each end carries half of the chain's weight off the sheet.
   for (const Side side : kSides) x.n[side] = -0.5 * q.w0 * q.up.z() * x.plane.s[side];
   return x;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The equilibrium with three-dimensional sag: on a frame that leans back, gravity's part off the
-/// sheet bends the chains too (up to 10 % of the sag at 15 degrees).
+/// sheet deflects the chains too (up to 10 % of the sag at 15 degrees).
 ///
-/// Notation beside equilibrium.hpp's, per chain in the frame (u, y, z), z off the sheet
+/// Notation in addition to equilibrium.hpp's, per chain in the frame (u, y, z), z off the sheet
 ///   t    the frame's tilt
 ///   n    straight up, (0, cos t, sin t)
 ///   w0   the chain's full weight per mm, w / cos t

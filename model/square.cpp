@@ -14,8 +14,7 @@ namespace {
 
 double distance_mm(BedPoint a, BedPoint b) { return std::hypot(b.x_mm - a.x_mm, b.y_mm - a.y_mm); }
 
-/// How far p stands to the left of the line from a to b: outwards, for an outline that runs
-/// clockwise.
+/// Distance of p to the left of the line from a to b: outwards, for a clockwise outline.
 double outwards_mm(BedPoint a, BedPoint b, BedPoint p) {
   const double dx = b.x_mm - a.x_mm, dy = b.y_mm - a.y_mm;
   return (dx * (p.y_mm - a.y_mm) - dy * (p.x_mm - a.x_mm)) / std::hypot(dx, dy);
@@ -27,7 +26,8 @@ std::array<BedPoint, 4> corners_of(const SquareTask& task) {
   return {{{x, y}, {x, y + s}, {x + s, y + s}, {x + s, y}}};
 }
 
-/// The corners' middle, length-weighted direction of the sides against the commanded ones.
+/// The corners' mean, and the length-weighted direction of the sides relative to the commanded
+/// ones.
 void place(CutSquare& square,
            const std::array<BedPoint, 4>& commanded,
            const std::array<BedPoint, 4>& cut) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The test square that a person cuts and measures: what its sides, diagonals and bows will be when
-/// a controller that believes one machine drives another.
+/// The test square: its sides, diagonals and bows when a controller with the kinematics of one
+/// machine drives another.
 ///
-/// At each point of the commanded outline the controller pays out the chain that its own kinematics
-/// asks for; the tool goes where the true machine, with its effects, reads those lengths. Visits
+/// At each point of the commanded outline the controller pays out the lengths of its own
+/// kinematics; the tool goes where the true machine, with its effects, reads those lengths. Visits
 /// (hysteresis, drift) are not modelled.
 ///
 /// \code
@@ -32,7 +32,7 @@ struct SquareTask {
   int points_per_side = 101;
 };
 
-/// Clockwise from the lower left corner, as the seed's squares were traced.
+/// Clockwise from the lower left corner.
 enum class SquareSide { left, top, right, bottom };
 inline constexpr SquareSide kSquareSides[] = {
     SquareSide::left, SquareSide::top, SquareSide::right, SquareSide::bottom};
@@ -44,7 +44,7 @@ struct CutSide {
 };
 
 struct CutSquare {
-  /// The outline, side by side, clockwise; a corner ends one side and begins the next, and stands
+  /// The outline, side by side, clockwise; a corner ends one side and begins the next, and occurs
   /// twice.
   std::vector<BedPoint> commanded;
   std::vector<BedPoint> cut;
@@ -62,15 +62,15 @@ struct CutSquare {
 /// \throws std::invalid_argument for a size that is no positive number or fewer than two points to a
 /// side.
 [[nodiscard]] std::vector<BedPoint> outline_of(const SquareTask& task);
-/// What a ruler shows where the tool went through `cut`, a point for each of the outline.
-/// \throws std::invalid_argument as above, and for another number of points.
+/// The measurements of a square cut through `cut`, one point for each of the outline. \throws
+/// std::invalid_argument as above, and for another number of points.
 [[nodiscard]] CutSquare measured_square(const SquareTask& task, std::vector<BedPoint> cut);
 
 /// Which commanded point, and why.
 struct SquareFailure {
   BedPoint commanded;
   PoseFailure reason = PoseFailure::not_converged;
-  bool controllers = false;  ///< the controller itself has no chain for it
+  bool controllers = false;  ///< the controller's own kinematics has no length for it
 };
 
 /// \throws std::invalid_argument for a size that is no positive number, fewer than two points to a

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Work done at the same time, a thread each; one after the other where there are no threads (WebAssembly).
+/// Runs functions concurrently, one thread each; sequentially where there are no threads (WebAssembly).
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Normal numbers that are the same on every platform (Box and Muller 1958), unlike
+/// Normal random numbers that are identical on every platform (Box and Muller 1958), unlike
 /// std::normal_distribution.
 #pragma once
 

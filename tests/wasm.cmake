@@ -1,8 +1,9 @@
-# The tests of interp, model and grid compiled to WebAssembly, a program a room, under node: tools/page --suite.
+# The tests of interp, model and grid compiled to WebAssembly, one program for each folder, under node:
+# tools/page --suite.
 set(chaintrue_wasm_rooms
   accuracy belts contracts diagnosis effects estimation generator grid_files holes interp map model sealed sweep synthetic)
 
-# GoogleTest from its sources, as Debian gives them.
+# GoogleTest from the sources of its Debian package.
 set(googletest /usr/src/googletest)
 if(NOT EXISTS ${googletest}/googlemock/src/gmock-all.cc)
   message(FATAL_ERROR "${googletest} was not found: run tools/page --suite, which installs what it needs")
@@ -17,7 +18,7 @@ target_compile_features(chaintrue_googletest PUBLIC cxx_std_20)
 add_library(GTest::gmock ALIAS chaintrue_googletest)
 add_library(GTest::gtest_main ALIAS chaintrue_googletest)
 
-# What starts the command or threads: there are neither processes nor threads in one module.
+# Tests that start the command or threads: there are neither processes nor threads in one module.
 function(chaintrue_leave_out_processes list)
   foreach(source ${${list}})
     file(STRINGS ${source} processes REGEX "command_fixture\\.hpp|<thread>|CHAINTRUE_COMMAND")
@@ -29,10 +30,10 @@ function(chaintrue_leave_out_processes list)
 endfunction()
 
 add_custom_target(wasm_suite)
-# Not as Emscripten's own module says: its options are those of node's first years with WebAssembly.
+# Not as in Emscripten's own module: its options are those of the first node versions with WebAssembly.
 find_program(CHAINTRUE_NODE node REQUIRED)
 
-# The linker's own optimiser is left out: it takes longer than the tests gain.
+# Without the linker's own optimiser: it takes longer than the tests gain.
 function(chaintrue_test_under_node target)
   target_link_options(${target} PRIVATE -O0 -sASSERTIONS=0 -sENVIRONMENT=node -sNODERAWFS -sWASM_ASYNC_COMPILATION=0 -sEXIT_RUNTIME -sALLOW_MEMORY_GROWTH
     -sTOTAL_STACK=8388608)

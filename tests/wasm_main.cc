@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Of a test program under node: files are made with the rights that a shell would give them.
+// For a test program under node: files are created with the permissions that a shell would give
+// them.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 

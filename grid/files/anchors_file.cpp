@@ -66,7 +66,7 @@ const Record<BeltResidual>& residual_record() {
   return record;
 }
 
-/// A list of exactly so many numbers; what is wrong is reported.
+/// A list of exactly that length; problems are reported.
 std::optional<std::vector<double>> numbers(const Cursor& at,
                                            std::size_t count,
                                            const Range& range) {
@@ -169,7 +169,7 @@ const Record<StatedBeltPrediction>& both_foretold_record() {
   return record;
 }
 
-/// All but the name, which stands before.
+/// All fields but the name.
 void add_fit(Record<BeltsFit>& record) {
   record.required("machine", &BeltsFit::machine, object(belt_machine_record()))
       .custom("coordinates",

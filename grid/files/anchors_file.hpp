@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue_anchors files: what a fit of four belts found. Unknown keys are errors, except
+/// chaintrue_anchors files: the result of a fit of four belts. Unknown keys are errors, except
 /// "comment". Same fit, same bytes.
 ///
 ///     { "file_type": "chaintrue_anchors", "format_version": "1.1", "name": "...",
@@ -16,9 +16,9 @@
 ///       "bad": [ {"point": 17, "belt": "tl", "off_mm": 80.2} ], "bad_points": [],
 ///       "places": [ {"x_mm": .., "y_mm": .., "covariance_mm2": [xx, xy, yy],
 ///                    "tl": {"off_mm": .., "counts": true, "sigmas": .., "beside_mm": ..}, ...} ] },
-///       "holes": { what holes that were cut and taped tell beside the belts } }
+///       "holes": { the fit's residuals and positions of holes that were cut and taped } }
 ///
-/// `scale` is not there where it is not known. Lengths are in the belts' own millimetres.
+/// `scale` is absent if it is not known. Lengths are in the belts' own millimetres.
 ///
 /// \code
 ///   const FittedAnchors found = parse_anchors(read_whole_file("anchors.json"), "anchors.json");
@@ -39,27 +39,27 @@ namespace chaintrue::grid::files {
 struct FittedAnchors {
   std::string name;
   BeltsFit fit;
-  std::optional<HolesBesideBelts> holes = std::nullopt;  ///< where some were fitted beside them
+  std::optional<HolesBesideBelts> holes = std::nullopt;  ///< if holes were fitted as well
 };
 
-/// `file` is the name used in messages; what was assumed is added to `warnings`.
-/// \throws InputError with every problem.
+/// `file` is the name used in messages; assumptions are added to `warnings`. \throws InputError
+/// with every problem.
 [[nodiscard]] FittedAnchors parse_anchors(const std::string& text,
                                           const std::string& file,
                                           std::vector<Warning>* warnings = nullptr);
 /// \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_anchors(const FittedAnchors& anchors);
 
-/// Lines to paste into the machine's terminal, and what is to be said beside them.
+/// Lines to paste into the machine's terminal, with remarks for the user.
 struct Maslow4Settings {
   std::string text;
   std::vector<std::string> remarks;
 };
 [[nodiscard]] Maslow4Settings write_maslow4_settings(const BeltsFit& fit);
-/// Of a diagnosis of belts: the anchors with its causes beside them, and what of these is a number of
-/// the machine's own. \throws std::invalid_argument for one of chains.
+/// From a diagnosis of belts: the anchors, with those of its causes that are settings of the machine
+/// applied. \throws std::invalid_argument for a diagnosis of chains.
 [[nodiscard]] Maslow4Settings write_maslow4_settings(const diagnosis::Diagnosis& found);
-/// What the machine believes once they are pasted.
+/// The machine's settings once the lines are pasted.
 [[nodiscard]] model::BeltMachine machine_as_pasted(const BeltsFit& fit);
 
 }  // namespace chaintrue::grid::files

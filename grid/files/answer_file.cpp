@@ -20,7 +20,7 @@ Json points_of(const std::vector<Place>& places, const std::vector<model::ChainL
   return points;
 }
 
-/// What a set of holes and a grid have in common, in their order; `bad` is the key of `indices`.
+/// The common part of a set of holes and a grid, in their order; `bad` is the key of `indices`.
 struct Hidden {
   std::uint64_t seed;
   const std::vector<model::AppliedEffect>& effects;
@@ -54,7 +54,7 @@ std::string written(Hidden hidden) {
   return print_json(file);
 }
 
-/// By how much the true settings differ from those stated.
+/// True settings less stated ones.
 std::vector<synthetic::SettingOffset> offsets_of(const synthetic::SyntheticHoles& made) {
   std::vector<synthetic::SettingOffset> offsets;
   for (const model::Setting setting : model::kMachineSettings) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue_answer files: what a simulated grid hides. Written apart from the grid, or not at all.
+/// chaintrue_answer files: the truth of a simulated grid. Written to a separate file, or not at
+/// all.
 ///
 ///   { "file_type": "chaintrue_answer", "format_version": "1.0", "seed": 1,
 ///     "effects": [ as in a machine file ],                       // the hidden ones
@@ -8,7 +9,7 @@
 ///     "sheet": {"x_mm": 0, "y_mm": 0, "rotation_rad": 0},
 ///     "bad_points": [indices into points],
 ///     "points": [ {"x_mm", "y_mm", "left_mm", "right_mm"} ],  // true places, no noise in readings
-///     "machine": { the machine as it truly is } }
+///     "machine": { the true machine } }
 #pragma once
 
 #include <string>
@@ -19,8 +20,9 @@
 namespace chaintrue::grid::files {
 
 [[nodiscard]] std::string write_answer(const synthetic::SyntheticAnswer& answer);
-/// Of holes: `points` are the holes where they truly are on the sheet, and what the controller paid
-/// out for them; "bad_distances", indices into the distances, stands in place of "bad_points".
+/// For holes: `points` are the holes' true positions on the sheet and the lengths that the
+/// controller paid out for them; "bad_distances", indices into the distances, replaces
+/// "bad_points".
 [[nodiscard]] std::string write_answer(const synthetic::SyntheticHoles& made,
                                        const synthetic::HolesSpec& spec);
 

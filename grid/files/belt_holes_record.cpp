@@ -15,7 +15,7 @@ constexpr Range kFactor{"", 1e-3, 1e3};
 constexpr Range kAngle{"rad", -1.0, 1.0};
 constexpr int kMostSets = 1000;
 
-/// A coordinate of a point that the object holds.
+/// A coordinate of a point that is a member of the object.
 template <class T, class Point>
 void add_coordinate(Record<T>& record, const char* key, Point T::*point, double Point::*member) {
   record.custom(
@@ -68,7 +68,7 @@ struct StatedDisplacement {
   std::vector<std::vector<double>> places;
 };
 
-/// x, y, and how far the tool lies beside in x and y.
+/// x, y, and the tool's offset in x and y.
 constexpr std::size_t kNumbersOfAPlace = 4;
 
 const Record<StatedDisplacement>& displacement_record() {

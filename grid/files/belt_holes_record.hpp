@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a fit of belts says of the holes beside them, as it stands in a chaintrue_anchors file.
-/// Private to grid/files.
+/// The part of a chaintrue_anchors file for holes that were fitted together with the belts. Private
+/// to grid/files.
 #pragma once
 
 #include "grid/belts/belts_and_holes.hpp"

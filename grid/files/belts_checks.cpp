@@ -62,8 +62,8 @@ void check_orders(const MeasuredBelts& belts, const BeltPlaces& places, Problems
   }
 }
 
-/// The machine was read several times at one place without moving it: then two readings may well be
-/// the same to the last digit.
+/// The machine was read several times at one position without moving: then two readings may be
+/// equal to the last digit.
 bool holds_repeats(const MeasuredBelts& belts) {
   constexpr double kSamePlaceMm = 2.0;
   for (std::size_t i = 1; i < belts.points.size(); ++i) {
@@ -125,7 +125,8 @@ void check_swap(const MeasuredBelts& belts, const BeltPlaces& places, Problems& 
   };
   std::string found = fmt::format("{} swapped", pair(swap->belts));
   if (swap->or_else) found += fmt::format(", or {}", pair(*swap->or_else));
-  // Mirrored frames agree as well as true ones; others contradict themselves, up to any length.
+  // Mirrored frames agree as well as true ones; the misfit of other permutations can be of any
+  // size.
   constexpr double kMirroredMm = 15.0;
   constexpr double kMostTold = 1000.0;
   problems.add(

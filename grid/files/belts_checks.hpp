@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What lengths of four belts must be like, whatever file they came from. Private to grid/files.
+/// Input checks of lengths of four belts, independent of the file format. Private to grid/files.
 #pragma once
 
 #include <cstddef>
@@ -14,22 +14,22 @@
 
 namespace chaintrue::grid::files {
 
-/// Where things stand in their file.
+/// The places of values in their file, for messages.
 struct BeltPlaces {
   std::string points;
   std::function<std::string(std::size_t index, std::string_view field)> point;
   std::string machine;
 };
 
-/// Inches, orders, readings that stand twice, belts that were pulled where they cannot have been. Call
-/// it only when no value was wrong before.
+/// Checks for inches, orders, readings that occur twice, and belts that cannot have been pulled. Call
+/// it only if no value had a problem before.
 void check_belt_points(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems);
-/// Ends of distances that are none. `distances` is their place in the file.
+/// Checks the ends of distances. `distances` is their place in the file.
 void check_belt_distances(const MeasuredBelts& belts,
                           const std::string& distances,
                           Problems& problems);
-/// Enough places, spread out, that make one frame with each belt under its own name. Of a log that is
-/// only imported the first two are said, and do not stop it.
+/// Enough positions, spread out, that are consistent with one frame and the belts' names. For a log
+/// that is only imported the first two are warnings.
 void check_belts_together(const MeasuredBelts& belts,
                           const BeltPlaces& places,
                           BeltsUse use,

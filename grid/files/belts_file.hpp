@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue_belts files: what a router on four belts measured by itself. Unknown keys are errors,
+/// chaintrue_belts files: the lengths that a router on four belts measured. Unknown keys are errors,
 /// except "comment". Same belts, same bytes.
 ///
 ///     { "file_type": "chaintrue_belts", "format_version": "1.0", "name": "...",
@@ -20,11 +20,11 @@
 ///                       "distance_mm": 1795} ],
 ///       "firmware_fit": {"rms_mm": 1.02, "max_mm": 3.4} }
 ///
-/// Only the points are required: what is left out of the machine is its firmware's default
-/// (model/belts/belt_machine.hpp), x_mm and y_mm of the anchors are not known where they are left
-/// out of all four. `lengths` says what a length counts: belt | belt_and_arm | span. `orientation` is
-/// upright | flat. A distance ends at a point of the file (its number, from 0), at an anchor (tl, tr,
-/// bl, br) or at a hole that was cut (where it was commanded).
+/// Only the points are required: fields missing from the machine have the firmware's defaults
+/// (model/belts/belt_machine.hpp); x_mm and y_mm of the anchors are unknown if all four are missing.
+/// `lengths` is the kind of length: belt | belt_and_arm | span. `orientation` is upright | flat. A
+/// distance ends at a point of the file (its number, from 0), at an anchor (tl, tr, bl, br) or at a
+/// hole that was cut (its commanded position).
 ///
 /// \code
 ///   const ReadBelts read = read_belts("belts.json");
@@ -42,10 +42,10 @@
 
 namespace chaintrue::grid::files {
 
-/// What is asked of the points beyond being sound one by one.
+/// Requirements on the points as a whole.
 enum class BeltsUse {
-  fit,     ///< enough of them, spread out, that make one frame
-  import,  ///< a log: few of them, or in one spot, are written and said
+  fit,     ///< enough points, spread out, consistent with one frame
+  import,  ///< a log: few points, or all in one spot, give a warning
 };
 
 struct ReadBelts {
@@ -53,13 +53,12 @@ struct ReadBelts {
   std::vector<Warning> warnings;
 };
 
-/// "-" reads standard input. Slips that can be recognised (inches, belts that were swapped, a reading
-/// that stands twice, lengths that no place fits) are said in words. \throws InputError with every
-/// problem.
+/// "-" reads standard input. Messages name recognised mistakes (inches, belts that were swapped, a
+/// reading that occurs twice, lengths that fit no position). \throws InputError with every problem.
 [[nodiscard]] ReadBelts read_belts(const std::filesystem::path& path);
 /// `file` is the name used in messages.
 [[nodiscard]] ReadBelts parse_belts(const std::string& text, const std::string& file);
-/// `comments` go under the key "comment", one line each; readers pass over them. \throws
+/// `comments` go under the key "comment", one line each; readers ignore them. \throws
 /// std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_belts(const MeasuredBelts& belts,
                                       const std::vector<std::string>& comments = {});

@@ -89,7 +89,7 @@ const Record<StatedBelt>& belt_record() {
 void check_machine(const Cursor& at, BeltMachine& machine) {
   for (const model::MachineProblem& problem : model::problems_of(machine)) {
     const std::string place = at.pointer() + problem.parameter;
-    // A field that could not be read keeps its default, of which there is nothing to say.
+    // A field that could not be read keeps its default, which needs no check.
     if (!at.problems().at_or_below(place))
       at.problems().add(place, problem.value, problem.expected);
   }

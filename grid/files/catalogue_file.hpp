@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The catalogue of effects and the picture of one of them as JSON, for programs.
+/// The catalogue of effects, and the picture of one effect, as JSON for programs.
 #pragma once
 
 #include <string>

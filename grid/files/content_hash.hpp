@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Whether a file still says what was once written into it. Private to grid/files.
+/// A hash that detects changes of a file since it was written. Private to grid/files.
 ///
 /// FNV-1a, 64 bits (http://www.isthe.com/chongo/tech/comp/fnv/), over the values as the writer
-/// would write them on one line: layout and comments do not count, every number, name and key does.
-/// It finds slips and damage; it is no protection against somebody who computes it anew.
+/// would write them on one line: layout and comments do not count; every number, name and key does.
+/// It detects mistakes and damage, not tampering.
 #pragma once
 
 #include <string>
@@ -18,14 +18,14 @@ namespace chaintrue::grid::files {
 /// 16 hexadecimal digits. The root's "content_hash" and "comment" keys anywhere are left out.
 [[nodiscard]] std::string content_hash(const Json& document);
 
-/// The text of a file that ends in the hash of its content.
+/// The text of the document with the hash of its content as its last key.
 [[nodiscard]] std::string print_with_hash(Json document);
 
-/// The hash stands in files of the newest version, and wherever it stands it must be right.
+/// Files of the newest version must have the hash; wherever it is present it must be right.
 void check_content(const Cursor& at, const Format& format);
 
 /// The key of the hash, for a record whose files are printed by print_with_hash and checked by
-/// check_content: of the file, not of what is in it.
+/// check_content. It belongs to the file, not to the object.
 template <class T>
 Record<T>& add_content_hash(Record<T>& record) {
   return record.custom(

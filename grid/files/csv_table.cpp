@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string_view without_byte_order_mark(std::string_view text) {
-  // Some programs write one before the one that is there.
+  // Some programs write a second byte order mark.
   while (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   return text;
 }
@@ -39,8 +39,8 @@ void for_each_line(std::string_view text, const Visit& visit) {
   }
 }
 
-/// A cell from the line's `begin`; `begin` moves behind its separator, or past the line's end at
-/// the last one.
+/// The cell at the line's `begin`; `begin` moves past its separator, or past the line's end at the
+/// last cell.
 CsvCell take_cell(std::string_view line,
                   char separator,
                   std::size_t& begin,
@@ -159,8 +159,8 @@ std::vector<std::optional<double>> read_row(const CsvRow& row,
   return values;
 }
 
-/// Spreadsheets of half the world write 1493,63 and separate by semicolons. One point in a number
-/// of the file, and nobody knows what the commas are.
+/// Many countries' spreadsheets write 1493,63 and separate by semicolons. If any number of the file
+/// has a point, the meaning of the commas is ambiguous and nothing is changed.
 void take_decimal_commas(char separator, std::vector<CsvRow>& rows) {
   if (separator == ',') return;
   for (const CsvRow& row : rows) {

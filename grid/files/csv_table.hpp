@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A small CSV of numbers under a header line. Private to grid/files. Knows what spreadsheets make
-/// of such a file: a byte order mark, CRLF, semicolons or tabs, quoted cells, blank lines, trailing
-/// separators; lines that begin with # are comments. Numbers are read without the locale.
+/// A small CSV of numbers under a header line. Private to grid/files. Accepts what spreadsheets
+/// write: a byte order mark, CRLF, semicolons or tabs, quoted cells, blank lines, trailing
+/// separators; lines that begin with # are comments. Numbers are read independent of the locale.
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ struct CsvCell {
 using CsvRow = std::vector<CsvCell>;
 
 /// The lines that are neither blank nor comments, cut at `separator`. Blanks around cells and
-/// quotes are taken off. Where no comma separates and no number has a point, decimal commas become
+/// quotes are removed. Where no comma separates and no number has a point, decimal commas become
 /// points.
 [[nodiscard]] std::vector<CsvRow> split_csv(std::string_view text,
                                             char separator,
@@ -39,21 +39,22 @@ struct CsvColumn {
   std::string name;
   Range range;
   bool is_required = true;
-  /// Of a required column: its cells may be empty, as those of a sheet that is not filled in.
+  /// For a required column: cells may be empty, as in a sheet that is not filled in.
   bool may_be_blank = false;
 };
 
-/// Rows of numbers by column, in the order of `columns`; absent where a cell is empty that may be.
+/// Rows of numbers by column, in the order of `columns`; absent for empty cells of columns that
+/// allow them.
 struct CsvTable {
   std::vector<std::vector<std::optional<double>>> rows;
   /// The cell of each value, for messages; an empty place where there is none.
   std::vector<CsvRow> cells;
-  /// False for a row with a problem of its own.
+  /// False for a row with a problem.
   std::vector<bool> clean;
 };
 
-/// Reads text whose header names `columns`, in any order. Every problem is added; the rows that
-/// could be cut are given.
+/// Reads text whose header names `columns`, in any order. Every problem is added; all rows that
+/// could be split are returned.
 [[nodiscard]] CsvTable read_csv(std::string_view text,
                                 const std::vector<CsvColumn>& columns,
                                 Problems& problems);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What belts tell in a chaintrue_diagnosis file.
+// The results from belts in a chaintrue_diagnosis file.
 #include <algorithm>
 
 #include "grid/files/belts_record.hpp"
@@ -14,7 +14,7 @@ using diagnosis::BeltsFindings;
 using diagnosis::DiagnosedCoordinate;
 using diagnosis::ToolError;
 
-/// As chaintrue_anchors has a value for each belt: one table serves both.
+/// Shared with chaintrue_anchors, which has a value for each belt as well.
 constexpr Range kPerMetre{"mm a metre", 0.0, 1e4};
 constexpr int kMostVisits = 1000000000;
 

@@ -53,7 +53,7 @@ const Record<StatedTape>& stated_tape_record() {
   return record;
 }
 
-/// Where a bad point's tool would have to have been; or by how much a bad distance, or a belt, is off.
+/// The displacement that explains a bad point; or the residual of a bad distance or belt.
 struct Shift {
   std::optional<double> x_mm;
   std::optional<double> y_mm;
@@ -80,7 +80,7 @@ const Record<Shift>& shift_record() {
   return record;
 }
 
-/// The points' indices and, beside them, how far each is off: two lists of one length.
+/// The indices of outliers and their displacements: two lists of the same length.
 void outlier_keys(Record<Diagnosis>& record) {
   static const Value<std::vector<int>> indices = list(integer(0, kMostNumbered));
   static const Value<std::vector<Shift>> shifts = list(object(shift_record()));
@@ -152,7 +152,7 @@ void outlier_keys(Record<Diagnosis>& record) {
       });
 }
 
-/// The word stands only where it is not points, and the pictures of holes only where there are any.
+/// The key is absent for points, and the pictures of holes are absent without holes.
 void distance_keys(Record<Diagnosis>& record) {
   static const Value<Observations> word =
       choice<Observations>({{"points", Observations::points},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue_diagnosis files: what a diagnosis found, with every number that its report shows.
+/// chaintrue_diagnosis files: the result of a diagnosis, with every number that its report shows.
 /// Unknown keys are errors, except "comment". Same diagnosis, same bytes.
 ///
 ///   { "file_type": "chaintrue_diagnosis", "format_version": "1.0",
@@ -19,17 +19,18 @@
 ///                    "verdict", "causes", "stands", "probability", "support"} ]},
 ///     "normal_plot": {"values", "expected", "low", "high", "p_value"}, ... }
 ///
-/// Of holes ("observations": "distances"; without the key: points) there are no points but
+/// For holes ("observations": "distances"; without the key: points) the file has, instead of
+/// points,
 ///
 ///     "holes":       [ {"name", "x_mm", "y_mm", "commanded_mm": [x, y]} ],
 ///     "distances":   [ {"index", "from", "to", "bad", "read_mm", "before_mm", "after_mm", ...} ],
 ///     "stated_tape": {"tape_sigma_mm", "hole_sigma_mm", "dof"}
 ///
-/// Holes lie where the machine puts them. bad_points are then indices into the holes file's
-/// distances, their shifts {"off_mm", "sigmas"}: read less what all the others make of it. The
-/// gain's errors are of distances.
+/// Holes are at the positions where the machine cuts them. bad_points are then indices into the
+/// holes file's distances, and bad_point_shifts are {"off_mm", "sigmas"}: the residual from the
+/// prediction of all other distances. The errors of "gain" are those of distances.
 ///
-/// A side, a follow-up's place and what a left-over follows are null where there is none.
+/// A side, the place of a next measurement and "follows" of left_over are null if there is none.
 ///
 /// \code
 ///   const grid::diagnosis::Diagnosis found = read_diagnosis("diagnosis.json");
@@ -46,8 +47,8 @@
 
 namespace chaintrue::grid::files {
 
-/// "-" reads standard input; what was assumed is added to `warnings` where they are wanted.
-/// \throws InputError with every problem of the file.
+/// "-" reads standard input; assumptions are added to `warnings` if it is given. \throws InputError
+/// with every problem of the file.
 [[nodiscard]] diagnosis::Diagnosis read_diagnosis(const std::filesystem::path& path,
                                                   std::vector<Warning>* warnings = nullptr);
 /// Parses text; `file` is the name used in messages.

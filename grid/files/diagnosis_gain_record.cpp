@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Held-out errors in a chaintrue_diagnosis file: one object a figure, one key a way of modelling.
+// Held-out errors in a chaintrue_diagnosis file: one object for each figure, one key for each
+// modelling scheme.
 #include <array>
 #include <string_view>
 
@@ -15,7 +16,7 @@ using diagnosis::Transfer;
 
 constexpr int kMostFolds = 1000;
 
-/// A way of modelling by its key; the sheet's placement alone is not there for every grid.
+/// A modelling scheme by its key; the sheet's placement alone does not exist for every grid.
 template <class T>
 struct ErrorRow {
   std::string_view key;
@@ -48,7 +49,7 @@ constexpr std::array kTransferRows = {
     ErrorRow<Transfer>{"extended_and_surface", &Transfer::extended_and_surface},
 };
 
-/// One figure of a row: how it is read into the row and written from it.
+/// One figure of a row: read into the row and written from it.
 struct Figure {
   Expected expected;
   std::function<void(const Cursor&, HeldOut&)> read;
@@ -85,7 +86,7 @@ Figure interval() {
           }};
 }
 
-/// An object of one figure for every row; `floor`, where given, stands at its end.
+/// An object with one figure for every row; `floor`, if given, is its last key.
 template <class T, std::size_t kCount>
 Record<T> figure_record(const std::array<ErrorRow<T>, kCount>& rows,
                         const Figure& figure,
@@ -106,7 +107,7 @@ Record<T> figure_record(const std::array<ErrorRow<T>, kCount>& rows,
   return record;
 }
 
-/// A nested record that fills the very object that holds it.
+/// A nested record that fills the object that contains it.
 template <class T>
 void nested(Record<T>& record, const std::string& key, const Record<T>& part) {
   record.custom(

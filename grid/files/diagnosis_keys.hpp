@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Keys that several parts of a chaintrue_diagnosis file have. Private to grid/files.
+/// Keys shared by several parts of a chaintrue_diagnosis file. Private to grid/files.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace chaintrue::grid::files {
 
-/// A side on which an effect acts, as files have it.
+/// The side of an effect, as in files.
 [[nodiscard]] inline Value<std::string> side_word() {
   return one_of({"left", "right", "both", "x", "y", "tl", "tr", "bl", "br", "all"});
 }
 
 [[nodiscard]] Value<diagnosis::Verdict> verdict_word();
 
-/// An empty text is null in the file.
+/// A text that is null in the file when empty.
 template <class T>
 void nullable_text(Record<T>& record,
                    const std::string& key,

@@ -64,7 +64,7 @@ void vector_key(Record<PointPicture>& record,
       [member](PointPicture& point, const Eigen::Vector2d& pair) { point.*member = pair; });
 }
 
-/// A chain's number each, as [left, right].
+/// One number for each chain, as [left, right].
 void chains_key(Record<PointPicture>& record,
                 const std::string& key,
                 const Range& range,

@@ -41,7 +41,7 @@ constexpr EffectSide kSides[] = {EffectSide::left,
                                  EffectSide::br,
                                  EffectSide::all};
 
-/// Of chains, and of belts where chains have none of that name.
+/// An effect of chains, or of belts if chains have none of that name.
 Value<const Effect*> effect_word() {
   std::vector<std::pair<std::string, const Effect*>> names;
   for (const Effect* effect : model::effects::catalogue()) names.emplace_back(effect->id, effect);
@@ -56,7 +56,7 @@ bool acts_at(const Effect& effect, EffectSide side) {
   return std::find(effect.sides.begin(), effect.sides.end(), side) != effect.sides.end();
 }
 
-/// The keys of an effect and its side; `id` takes the object to its CauseId.
+/// The keys of an effect and its side; `id` maps the object to its CauseId.
 template <class T, class Access>
 void cause_keys(Record<T>& record, const Access& id) {
   const Value<const Effect*> effect = effect_word();
@@ -87,7 +87,7 @@ void cause_keys(Record<T>& record, const Access& id) {
     if (!at.child("effect").clean() || !at.child("side").clean()) return;
     CauseId& found = id(object);
     if (found.effect == nullptr || acts_at(*found.effect, found.side)) return;
-    // Chains and belts both drift and skip: the side says whose it is.
+    // Both chains and belts have drift and skips: the side decides which.
     const model::belts::BeltEffect* of_belts = model::belts::find_belt_effect(found.effect->id);
     if (of_belts != nullptr && acts_at(model::belts::described(*of_belts), found.side)) {
       found.effect = &model::belts::described(*of_belts);
@@ -121,7 +121,7 @@ const Record<ParameterEstimate>& estimate_record() {
   return record;
 }
 
-/// An object with one key a parameter, in the order of the effect's parameters.
+/// An object with one key for each parameter, in the order of the effect's parameters.
 template <class T>
 void parameter_keys(Record<T>& record) {
   record.custom(
@@ -173,7 +173,7 @@ const Record<SameCause>& same_cause_record() {
   return record;
 }
 
-/// The effect that these data tell from a cause least.
+/// The effect that is hardest to distinguish from a cause with these data.
 struct Rival {
   CauseId cause;
   double collinearity = 0.0;
@@ -224,7 +224,7 @@ const Record<Cause>& cause_record() {
 const Record<Hypothesis>& hypothesis_record() {
   static const auto record = [] {
     Record<Hypothesis> hypothesis("a hypothesis");
-    // Two effects at once stand as "first + second", with their sides in the same way.
+    // Two effects at once are written as "first + second", and their sides likewise.
     hypothesis.required("effect", &Hypothesis::effect, text());
     nullable_text(hypothesis, "side", &Hypothesis::side, text());
     hypothesis.required("probability", &Hypothesis::probability, number(kShare));
@@ -301,7 +301,7 @@ const Record<Separation>& separation_record() {
          {std::pair("first", &Separation::first), std::pair("second", &Separation::second)}) {
       separation.required(key, member, object(cause_id_record()));
     }
-    // Null: no strength is enough.
+    // Null: no strength is sufficient.
     const Value<double> needed = number(kNotNegative);
     separation.required("rho", &Separation::collinearity, number(kShare))
         .custom(

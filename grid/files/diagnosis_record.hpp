@@ -28,10 +28,10 @@ namespace chaintrue::grid::files {
 /// diagnosis_stability_record.cpp.
 [[nodiscard]] const Record<diagnosis::Stability>& stability_record();
 [[nodiscard]] const Record<diagnosis::NormalPlot>& normal_plot_record();
-/// Places on the bed; diagnosis_point_record.cpp.
+/// Positions on the bed; diagnosis_point_record.cpp.
 [[nodiscard]] const Record<diagnosis::NextMeasurement>& next_measurement_record();
 [[nodiscard]] const Record<diagnosis::PointPicture>& point_picture_record();
-/// Both speak of held-out errors row by row; diagnosis_gain_record.cpp.
+/// Both contain held-out errors row by row; diagnosis_gain_record.cpp.
 [[nodiscard]] const Record<diagnosis::Gain>& gain_record();
 [[nodiscard]] const Record<diagnosis::Transfer>& transfer_record();
 

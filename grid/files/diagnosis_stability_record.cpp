@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a diagnosis rests on, in a chaintrue_diagnosis file: what it would say without some of its
-// points, and whether what is left has the shape of noise.
+// The stability of a diagnosis, in a chaintrue_diagnosis file: its results without some of the points,
+// and the test of normality of the residuals.
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/record_values.hpp"
@@ -32,7 +32,7 @@ bool is_line(const Removal& removal) {
   return removal.what == Removal::What::column || removal.what == Removal::What::row;
 }
 
-/// What has a number: among the points, the distances or the holes.
+/// Something numbered: a point, a distance or a hole.
 struct Numbered {
   Removal::What what;
   const char* key;
@@ -42,7 +42,7 @@ constexpr Numbered kNumbered[] = {{Removal::What::point, "point", "a point's ind
                                   {Removal::What::distance, "distance", "a distance's index"},
                                   {Removal::What::hole, "hole", "a hole's index"}};
 
-/// The number, where it is one of the kind that is left out. Lines say that they are no point.
+/// The number, for the kind that is left out. Lines have none.
 void index_key(const Numbered& numbered, Record<Removal>& record) {
   static const Value<int> whole = integer(0, kMostNumbered);
   record.custom(
@@ -58,7 +58,7 @@ void index_key(const Numbered& numbered, Record<Removal>& record) {
       });
 }
 
-/// Where a column or row lies.
+/// The position of a column or row.
 void line_key(Record<Removal>& record) {
   record.custom(
       "at_mm",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Which file a path means, whatever it is called: `g.json`, `./g.json`, a link to it.
+/// Identity of the file that a path names, however it is written: `g.json`, `./g.json`, a link to
+/// it.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +11,21 @@
 
 namespace chaintrue::grid::files {
 
-/// Device and number on the device. Two paths with one identity are one file.
+/// Device and inode. Two paths with equal identity are the same file.
 struct FileIdentity {
   std::uint64_t device = 0;
   std::uint64_t number = 0;
   friend bool operator==(const FileIdentity&, const FileIdentity&) = default;
 };
 
-/// The regular file behind a path, symbolic links followed; nothing where there is none, or a
+/// The regular file that a path names, symbolic links followed; empty if there is none, or it is a
 /// device, a pipe or a folder.
 [[nodiscard]] std::optional<FileIdentity> identity_of(const std::filesystem::path& path);
-/// The regular file that an open descriptor (1: standard output) goes to.
+/// The regular file of an open descriptor (1: standard output).
 [[nodiscard]] std::optional<FileIdentity> identity_of_descriptor(int descriptor);
 
-/// Every regular file that read_whole_file has read in this process, also those that only another
-/// file named. Safe from any thread.
+/// Every regular file that read_whole_file has read in this process, including files named by other
+/// files. Thread safe.
 [[nodiscard]] std::vector<FileIdentity> files_read();
 
 }  // namespace chaintrue::grid::files

@@ -81,7 +81,7 @@ FileKind kind_of_csv(std::string_view text) {
   return is_of_holes ? FileKind::holes : FileKind::grid;
 }
 
-/// Anchors are what a machine on four belts has, and no other.
+/// Only a machine on four belts has anchors.
 bool names_belts(const std::string& text, const std::string& file) {
   Problems problems(file);
   const Json json = parse_json(text, problems);
@@ -109,7 +109,7 @@ std::string file_type_of(const std::string& text, const std::string& file) {
   TypeFinder finder;
   (void)Json::sax_parse(text, &finder);
   if (finder.found) return finder.type;
-  // Without a type before the first fault: the whole text, read as leniently as files are.
+  // If no type precedes the first syntax error: the whole text, read as leniently as files are.
   Problems problems(file);
   const Json json = parse_json(text, problems);
   if (!json.is_object()) return {};
@@ -157,7 +157,7 @@ std::string expected_kinds(const std::vector<FileKind>& kinds) {
   };
   std::string words;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    // Both sorts of holes bear one name.
+    // Both kinds of holes have one name.
     if (kinds[k] == FileKind::belt_holes && takes(FileKind::holes)) continue;
     const bool is_last = k + 1 == kinds.size();
     words += (words.empty() ? "" : is_last ? " or " : ", ") + words_of(kinds[k]);

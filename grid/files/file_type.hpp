@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a file says that it is, for verbs that take several kinds.
+/// The type of a file, for verbs that accept several kinds.
 ///
 /// \code
 ///   if (kind_of(text, "points.csv") == FileKind::holes) ...
@@ -16,7 +16,7 @@ namespace chaintrue::grid::files {
 enum class FileKind {
   machine,
   grid,        ///< JSON or CSV
-  holes,       ///< JSON or CSV, cut by a machine on two chains or by one that the file does not name
+  holes,       ///< JSON or CSV, cut by a machine on two chains, or one that the file does not name
   belt_holes,  ///< JSON, cut by the machine on four belts that the file names
   belts,
   map,
@@ -26,17 +26,17 @@ enum class FileKind {
 };
 
 /// JSON by its "file_type"; any other text is CSV, of holes by its first header and of a grid
-/// otherwise. Of JSON no more is read than that takes. `file` is the name used in messages.
-/// \throws InputError for JSON that breaks off or is none before its type is known.
+/// otherwise. JSON is read only as far as needed. `file` is the name used in messages. \throws
+/// InputError for JSON that ends or is malformed before its type is known.
 [[nodiscard]] FileKind kind_of(const std::string& text, const std::string& file);
 
-/// "\"chaintrue_grid\" or \"chaintrue_belts\"", as messages say what is expected.
+/// "\"chaintrue_grid\" or \"chaintrue_belts\"", as in the "expected" part of messages.
 [[nodiscard]] std::string expected_kinds(const std::vector<FileKind>& kinds);
 /// What was found: "\"chaintrue_map\"", "a CSV of points"; empty for JSON without a type.
 [[nodiscard]] std::string found_kind(const std::string& text, const std::string& file);
 
 /// "; this is a map; did you mean chaintrue report, query, gcode or export?"; empty for a type that
-/// no verb takes.
+/// no verb accepts.
 [[nodiscard]] std::string what_takes(std::string_view file_type);
 
 /// The value of "file_type" in a JSON object; empty where there is none. \throws InputError for a

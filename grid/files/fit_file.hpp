@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a fit tells, as JSON, for scripts; the map itself is in its own file. Written only. Same
+/// The report of a fit as JSON, for scripts; the map itself is in its own file. Written only. Same
 /// map, same bytes.
 #pragma once
 

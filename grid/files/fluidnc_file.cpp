@@ -14,7 +14,7 @@
 namespace chaintrue::grid::files {
 namespace {
 
-/// The numbers of the file; a missing one is a problem and reads as 0.
+/// Reads the file's numbers; a missing one is reported and reads as 0.
 class YamlReader {
  public:
   YamlReader(std::map<std::string, YamlValue> values, Problems& problems)
@@ -52,7 +52,7 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
     problems.throw_if_any();
   }
   YamlReader reader(yaml_values(text), problems);
-  // As model::problems_of, which the machine meets in any case.
+  // The same as in model::problems_of, which is applied in any case.
   constexpr Range kAnchor{"mm", -20000.0, 20000.0};
   constexpr Range kTravel{"mm", 200.0, 20000.0};
   const std::string anchors = "kinematics/WallPlotter/";

@@ -14,9 +14,9 @@
 ///     y:
 ///       max_travel_mm: 1200
 ///
-/// WallPlotter knows straight lines to the anchors and nothing of sprockets, weights and rings: all
-/// of these are assumed, and said. Its zero is taken for the bed's middle. Only this much of YAML is
-/// read: keys by their indentation, and what stands behind the colon. Source: bdring/FluidNC,
+/// WallPlotter uses straight lines to the anchors, without sprockets, weights and rings: all of
+/// these are assumed, with a warning. Its origin is taken as the bed's centre. Only this part of
+/// YAML is read: keys by their indentation, and the value after the colon. Source: bdring/FluidNC,
 /// src/Kinematics/WallPlotter.cpp.
 #pragma once
 

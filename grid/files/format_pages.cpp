@@ -101,7 +101,8 @@ const Described& described(std::string_view name) {
   return *found;
 }
 
-/// The object that has the first key of `place` ("/bed/width_mm"), here or in an alternative.
+/// The object that has the first key of `place` ("/bed/width_mm"), in this schema or in an
+/// alternative.
 Json* property_at(Json& schema, std::string_view place) {
   const std::string_view rest = place.substr(1);
   const std::size_t slash = rest.find('/');
@@ -116,7 +117,7 @@ Json* property_at(Json& schema, std::string_view place) {
   return slash == std::string_view::npos ? &property : property_at(property, rest.substr(slash));
 }
 
-/// The reader keeps only what is no number of anything away; what a machine may be is the model's.
+/// Adds the model's ranges; the reader's own ranges only exclude meaningless numbers.
 void put_machine_ranges(Json& schema) {
   for (const model::MachineRange& range : model::machine_ranges()) {
     Json* property = property_at(schema, range.place);
@@ -133,7 +134,7 @@ Json schema_with_units(const Described& d) {
   return schema;
 }
 
-/// Editors show descriptions, and know no units.
+/// Appends units to descriptions: editors show descriptions but have no field for units.
 void tell_units(Json& schema) {
   if (schema.is_array()) {
     for (Json& element : schema) tell_units(element);
@@ -152,14 +153,14 @@ void tell_units(Json& schema) {
 
 std::string number_text(const Json& number) { return fmt::format("{}", number.get<double>()); }
 
-/// What an object is called; in messages a noun may go on behind it.
+/// The name of an object in the page, from its noun in messages.
 std::string noun_of(const Json& schema) {
   auto noun = schema["title"].get<std::string>();
   if (noun.ends_with(',')) noun.pop_back();
   return noun;
 }
 
-/// An object's keys stand in a table of their own, found by its noun.
+/// The link to an object's own table of keys, derived from its noun.
 std::string anchor_of(const std::string& noun) {
   std::string anchor;
   for (const char c : noun) {
@@ -210,7 +211,7 @@ std::string one_of_words(const Json& names) {
   return words;
 }
 
-/// What may stand there, and where its own keys are told.
+/// The allowed values, with a link to the table of their own keys.
 std::string values_of(const Json& schema) {
   if (schema.contains("$ref")) {
     const auto reference = schema["$ref"].get<std::string>();
@@ -256,7 +257,7 @@ std::string absent_words(const Json& object, const std::string& key, const Json&
   return "may be left out";
 }
 
-/// Tables of an object and of what it holds, each noun once.
+/// Tables of an object and of the objects in it, each noun once.
 class Tables {
  public:
   explicit Tables(std::string& text) : text_(text) {}

@@ -11,7 +11,7 @@
 namespace chaintrue::grid::files {
 namespace {
 
-/// "1.12" as (1, 12); nothing where the text is no version.
+/// "1.12" as (1, 12); empty if the text is not a version.
 std::optional<std::pair<int, int>> major_and_minor(std::string_view text) {
   std::pair<int, int> version;
   const char* const end = text.data() + text.size();

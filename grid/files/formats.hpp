@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Every file format with its version, and which older ones are still read. Private to grid/files.
+/// Every file format with its version and the older versions that are still read. Private to
+/// grid/files.
 ///
-/// Versions are "major.minor". A file of an older version that stands here is read, and what is
-/// assumed in place of what it does not say is a warning. A newer one is refused with both versions
-/// named: what it holds beyond this version would be lost unseen.
+/// Versions are "major.minor". A file of a listed older version is read, with a warning for what is
+/// assumed in place of the missing keys. A newer version is rejected with both versions in the
+/// message: its additional content would be lost silently.
 ///
-/// A format that grows gets its next minor version here, the one before it among the older ones
-/// with the sentence of what is then assumed, and a sample of that one in
+/// To extend a format: give it the next minor version here, add the previous one to the older
+/// versions with the sentence of what is then assumed, and add a sample of it to
 /// tests/contracts/formats_contract_test.cpp.
 #pragma once
 
@@ -23,14 +24,14 @@ namespace chaintrue::grid::files {
 /// A version that is still read.
 struct OlderVersion {
   std::string_view version;
-  std::string_view assumed;  ///< sentence of what is then taken for granted
+  std::string_view assumed;  ///< sentence of what is then assumed
 };
 
 struct Format {
   std::string_view file_type;
-  std::string_view version;  ///< that is written; the newest that is read
+  std::string_view version;  ///< the version that is written, the newest that is read
   std::span<const OlderVersion> older = {};
-  bool is_read = true;  ///< some are for other programs alone
+  bool is_read = true;  ///< false for formats that only other programs read
 };
 
 inline constexpr std::array kOlderMaps = {
@@ -89,17 +90,17 @@ inline constexpr std::array<const Format*, 14> kFormats = {&kMachineFormat,
                                                            &kEffectsFormat,
                                                            &kEffectPictureFormat};
 
-/// What stands behind chaintrue_: "machine".
+/// The name without chaintrue_: "machine".
 [[nodiscard]] std::string name_of(const Format& format);
 
-/// An object that begins as such a file begins.
+/// An object with the type and version of such a file.
 [[nodiscard]] Json headed(const Format& format);
 
-/// What a file of that older version lacks; null where no such version is read.
+/// The assumption for a file of that older version; null if that version is not read.
 [[nodiscard]] const OlderVersion* find_older(const Format& format, const Json& version);
 
-/// What is expected in place of a version that is not read; where it is newer, in a sentence that
-/// names both.
+/// The versions expected in place of one that is not read; for a newer one, a sentence with both
+/// versions.
 [[nodiscard]] std::string expected_version(const Format& format, const Json& found);
 
 }  // namespace chaintrue::grid::files

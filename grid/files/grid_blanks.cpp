@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part of grid_checks.hpp about lists that are filled in: what is left blank, what is copied.
+// The part of grid_checks.hpp for lists that are filled in: blank and copied points.
 #include <fmt/format.h>
 
 #include <algorithm>

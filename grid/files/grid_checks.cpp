@@ -15,7 +15,7 @@ namespace {
 
 using Getter = std::function<std::optional<double>(const MeasuredPoint&)>;
 
-/// No hanging router has lengths or a bed below this in mm; in inches every one of them has.
+/// No hanging router has lengths or a bed below this in mm; in inches all have.
 constexpr double kLongestInInches = 250.0;
 
 void check_parts(const StatedPoint& point, const std::string& place, Problems& problems) {
@@ -73,14 +73,14 @@ void check_orders(const std::vector<StatedPoint>& points,
   }
 }
 
-/// The slope of a plane through some value of the points, value per mm of x and of y.
+/// The gradient of a plane fitted to some value of the points, value per mm of x and of y.
 struct Slope {
   double per_x = 0.0;
   double per_y = 0.0;
   [[nodiscard]] double steepness() const { return std::hypot(per_x, per_y); }
 };
 
-/// Nothing where fewer than three points have the value or they do not span an area.
+/// Empty if fewer than three points have the value or they do not span an area.
 std::optional<Slope> slope_of(const std::vector<MeasuredPoint>& points, const Getter& value_of) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0.0;
@@ -101,7 +101,7 @@ std::optional<Slope> slope_of(const std::vector<MeasuredPoint>& points, const Ge
       together += place * (*value - mean.z());
     }
   }
-  constexpr double kThinnest = 1e-4;  // width to length, squared: a plane on 1 : 100 is no plane
+  constexpr double kThinnest = 1e-4;  // width to length, squared: a 1 : 100 strip spans no plane
   if (spread.determinant() <= kThinnest * spread.trace() * spread.trace()) return std::nullopt;
   const Eigen::Vector2d slope = spread.ldlt().solve(together);
   return Slope{slope.x(), slope.y()};
@@ -139,12 +139,12 @@ Extent extent_of(const MeasuredGrid& grid) {
 }
 
 /// A chain grows by at most a millimetre for each that the tool moves, and over a bed by 0.7 mm or
-/// more; 25.4 times that or the 25.4th part of it is a change of unit. The limits stand half-way,
-/// in ratios.
+/// more; a ratio 25.4 times larger or smaller is a change of unit. The limits are half-way, in
+/// ratios.
 bool is_inches_under(double steepness) { return steepness > 5.0; }
 bool is_inches_over(double steepness) { return steepness < 0.2; }
 
-/// Says where inches stand for mm; true where they do.
+/// Reports inches in place of mm; true if found.
 bool check_inches(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
   const Extent extent = extent_of(grid);
   if (extent.length > 0.0 && extent.length < kLongestInInches &&
@@ -180,7 +180,8 @@ bool check_inches(const MeasuredGrid& grid, const PointPlaces& places, Problems&
   return false;
 }
 
-/// How much L - R differs from what a machine of straight chains has; `sign` -1 swaps the columns.
+/// Mean difference of L - R from that of a machine with straight chains; `sign` -1 swaps the
+/// columns.
 double mean_misfit(const MeasuredGrid& grid, double sign) {
   double sum = 0.0;
   double count = 0.0;
@@ -197,8 +198,9 @@ double mean_misfit(const MeasuredGrid& grid, double sign) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
-/// Lengths of a machine whose motors are above change with x in opposite ways and shrink towards
-/// them; a command changes with its own coordinate. True where x and y are exchanged, which is said.
+/// The lengths of a machine whose motors are above change with x in opposite ways and decrease
+/// towards the motors; a command changes with its own coordinate. True if x and y are exchanged,
+/// which is reported.
 bool check_axes(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
   constexpr double kClearly = 0.3;
   const char* swapped = "x_mm to the right and y_mm up the sheet; the two columns look swapped";
@@ -238,7 +240,7 @@ void check_sides(const MeasuredGrid& grid, const PointPlaces& places, Problems& 
     }
     return;
   }
-  // A handful of points has no slope; a machine tells its sides apart all the same.
+  // A few points have no slope; the sides can still be distinguished by the lengths of a machine.
   constexpr double kClearlyMm = 100.0;
   if (grid.machine && mean_misfit(grid, 1.0) > mean_misfit(grid, -1.0) + kClearlyMm) {
     problems.add(places.all, "lengths that fit the machine with left and right exchanged", swapped);
@@ -266,8 +268,8 @@ double width_across_best_line(const std::vector<MeasuredPoint>& points) {
   return widest;
 }
 
-/// Commands and marks both in inches fit each other; only the bed shows that they cover a
-/// twenty-fifth of it. True where they do.
+/// Commands and marks both in inches are consistent with each other; only the bed shows that they
+/// cover a twenty-fifth of it. True if so.
 bool warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
   constexpr double kInchMm = 25.4;
   if (!grid.machine) return false;

@@ -22,13 +22,13 @@ namespace {
 namespace fs = std::filesystem;
 using model::Machine;
 
-// Wide enough for any hanging router, narrow enough to catch a slipped decimal point or another
+// Wide enough for any hanging router, narrow enough to catch a misplaced decimal point or another
 // unit.
 constexpr Range kCoordinate{"mm", -20000.0, 20000.0};
 constexpr Range kLength{"mm", 1.0, 20000.0};
 constexpr int kLargestOrder = 1'000'000'000;
 
-/// The file as it stands, before the machine is fetched and the points are checked together.
+/// The content of the file, before the machine is read and the points are checked together.
 struct StatedGrid {
   std::string name;
   std::optional<Machine> machine;
@@ -71,7 +71,7 @@ const Record<StatedPoint>& point_record() {
   return record;
 }
 
-/// A point has lengths, or the command that it was sent to; blank, null stands for what was not read.
+/// A point has lengths, or the command it was sent to; null is a value that was not read.
 Json points_schema() {
   Json point = point_record().schema();
   for (const char* key : {"x_mm", "y_mm"}) point["properties"][key]["type"] = {"number", "null"};
@@ -91,7 +91,7 @@ bool is_blank(const Cursor& at) {
                                   : is_null("left_mm") && is_null("right_mm");
 }
 
-/// Like list(object(point_record())), and notes which points were wrong and which left blank.
+/// Like list(object(point_record())), and records which points were wrong and which left blank.
 void read_points(const Cursor& at, StatedGrid& grid) {
   if (!at.json().is_array()) return at.expect("a list of points");
   for (std::size_t i = 0; i < at.json().size(); ++i) {
@@ -135,7 +135,7 @@ const Record<StatedGrid>& grid_record() {
   return record;
 }
 
-/// Reads the machine that the grid names, or takes the one given in its place.
+/// Reads the machine that the grid names, or uses the one given in its place.
 void fetch_machine(StatedGrid& grid, const GridOptions& options, Problems& problems) {
   if (options.machine) {
     grid.machine = options.machine;
@@ -152,7 +152,7 @@ void fetch_machine(StatedGrid& grid, const GridOptions& options, Problems& probl
   if (!grid.machine && grid.machine_file.empty()) grid.machine = options.otherwise;
 }
 
-/// What JSON and CSV have in common once the fields are read.
+/// The common part of JSON and CSV, once the fields are read.
 ReadGrid finish(StatedGrid stated,
                 PointPlaces places,
                 const GridOptions& options,
@@ -195,7 +195,7 @@ ReadGrid parse_json_grid(const std::string& text, const GridOptions& options, Pr
   return finish(std::move(stated.value()), places, options, problems);
 }
 
-/// A row without any of what was to be read is blank; with half of it, it is reported.
+/// A row without any of its readings is blank; one with half of them is reported.
 void take_blanks(
     const CsvTable& table, std::size_t i, bool commanded, StatedPoint& point, Problems& problems) {
   if (point.is_spoilt) return;

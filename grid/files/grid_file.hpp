@@ -4,13 +4,13 @@
 /// bytes.
 ///
 /// A CSV has a header line with the names of its columns in any order: x_mm, y_mm, left_mm,
-/// right_mm, and where wanted order, commanded_x_mm, commanded_y_mm. Cells are parted by commas,
-/// semicolons or tabs; numbers have a decimal point, or a decimal comma where commas part no cells
-/// and no number has a point; lines that begin with # are comments; an empty cell is an absent
-/// value.
+/// right_mm, and optionally order, commanded_x_mm, commanded_y_mm. Cells are separated by commas,
+/// semicolons or tabs; numbers have a decimal point, or a decimal comma if commas do not separate
+/// cells and no number has a point; lines that begin with # are comments; an empty cell is an
+/// absent value.
 ///
-/// A point of which nothing was read is left out, and said: a mark with both lengths empty, a
-/// command with x_mm and y_mm empty (in JSON null).
+/// A point without readings is left out, with a warning: a mark with both lengths empty, a command
+/// with x_mm and y_mm empty (in JSON null).
 ///
 /// \code
 ///   const ReadGrid read = read_grid("grid.csv", {.machine = read_machine("machine.json")});
@@ -30,36 +30,36 @@
 
 namespace chaintrue::grid::files {
 
-/// What a CSV cannot say, or what the command line puts in place of the file's own.
+/// Values that a CSV does not contain, or that override the file's own.
 struct GridOptions {
   std::optional<model::Machine> machine;  ///< --machine
   std::optional<StatedNoise> noise;       ///< --noise-length-mm, --noise-position-mm, --noise-dof
-  /// From this many on, the points must also span an area. A handful that only checks a map
-  /// passes 1.
+  /// From this number on, the points must also span an area. A few points that only check a map
+  /// pass 1.
   std::size_t fewest_points = 8;
-  /// Of a file that names no machine: that of the map that is checked.
+  /// Used for a file that names no machine: the machine of the map to be checked.
   std::optional<model::Machine> otherwise = std::nullopt;
 };
 
 struct ReadGrid {
   MeasuredGrid grid;
-  /// What is odd but not fatal: points measured twice that disagree, values that were assumed.
+  /// Problems that are not fatal: repeats that disagree, values that were assumed.
   std::vector<Warning> warnings;
 };
 
-/// "-" reads standard input. A file that begins with "{" is JSON, anything else CSV with a header
-/// line. Slips that can be recognised (columns swapped left for right, inches for mm, decimal
-/// commas) are said in words. A "machine_file" is looked for beside the grid's file. \throws
-/// InputError with every problem of the file.
+/// "-" reads standard input. A file that begins with "{" is JSON, any other CSV with a header line.
+/// Messages name recognised mistakes (left and right columns swapped, inches for mm, decimal
+/// commas). The path of a "machine_file" is relative to the grid's folder. \throws InputError with
+/// every problem of the file.
 [[nodiscard]] ReadGrid read_grid(const std::filesystem::path& path,
                                  const GridOptions& options = {});
-/// `file` is the name used in messages, and its folder is where a "machine_file" is looked for.
+/// `file` is the name used in messages; a "machine_file" is looked for in its folder.
 [[nodiscard]] ReadGrid parse_grid(const std::string& text,
                                   const std::string& file,
                                   const GridOptions& options = {});
 /// JSON. \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_grid(const MeasuredGrid& grid);
-/// A list to fill in, of the same kind: null for both coordinates of a point that has a command,
+/// A sheet to fill in, in the same format: null for both coordinates of a point that has a command,
 /// for both lengths of any other.
 [[nodiscard]] std::string write_grid_sheet(const MeasuredGrid& plan);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points measured twice, as a grid's reader compares them.
+// Checks of points measured twice.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 constexpr double kSigmas = 4.0;
 constexpr std::size_t kMostWarnings = 20;
 
-/// A reading with what the machine model says of its place taken off.
+/// The residual of a reading from the machine model's prediction for its position.
 struct Compared {
   std::size_t index;
   model::MarkPoint mark;
@@ -24,7 +24,7 @@ struct Compared {
   double second_mm;
 };
 
-/// Of what a reading is compared, and how far it may change from one point to a near one.
+/// The reference for a reading, and how far the residual may change from one point to a near one.
 struct Comparison {
   const char* first_name;
   const char* second_name;
@@ -33,8 +33,8 @@ struct Comparison {
   std::vector<Compared> readings;
 };
 
-/// A taped motor, a sheet laid by hand and the model's own faults change the way between two points
-/// by this share of it.
+/// Errors of taped motors, of a sheet placed by hand and of the model itself change the predicted
+/// difference between two points by this share.
 double share_unknown_to_model(const MeasuredGrid& grid) {
   constexpr double kMachineAsTaped = 0.01;
   constexpr double kReachMm = 1000.0;
@@ -43,7 +43,7 @@ double share_unknown_to_model(const MeasuredGrid& grid) {
 }
 
 Comparison compare_lengths(const MeasuredGrid& grid, const StatedNoise& noise) {
-  // A chain grows by at most the tool's way, but for traces of sag and stretch.
+  // A chain grows by at most the tool's distance, plus 2 % for sag and stretch.
   constexpr double kWithoutModel = 1.02;
   Comparison lengths{
       "left", "right", std::hypot(noise.length_mm, noise.position_mm), kWithoutModel, {}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The other half of groundcontrol_file.hpp: a machine as the numbers to type in.
+// The export of groundcontrol_file.hpp: a machine as the numbers to type in.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -26,13 +26,13 @@ std::string to_type(double value) {
   return text == "-0" ? "0" : text;
 }
 
-/// Every import has these; of a machine without them all lines are written.
+/// Every import has these; for a machine without them all lines are written.
 bool is_imported(const model::ControllerSettings& settings) {
   return settings.bed_width_mm && settings.bed_height_mm && settings.motor_spacing_mm &&
          settings.motor_offset_y_mm;
 }
 
-/// Gathers the lines, and says where one differs from what the controller has now, and by what.
+/// Collects the lines, with remarks on how each differs from the controller's present value.
 class Lines {
  public:
   Lines(const Machine& machine, GroundcontrolText& out)
@@ -41,7 +41,7 @@ class Lines {
   void section(const std::string& name) {
     out_.text += fmt::format("{}[{}]\n", out_.text.empty() ? "" : "\n", name);
   }
-  /// What the file has under a key that no controller's setting keeps.
+  /// The value of the file under a key that is not a setting of the controller.
   void number(const std::string& key, double value) {
     word(key, imported_ ? fmt::format("{}", value) : to_type(value));
   }
@@ -51,12 +51,12 @@ class Lines {
               std::string_view by) {
     const std::string typed = to_type(value);
     // The settings went through sines and sums on their way to the machine and back; 1e-9 of them
-    // is a thousand roundings, and far below what anybody types.
+    // is a thousand roundings, and far below the digits that are typed.
     constexpr double kSame = 1e-9;
     if (now && std::abs(value - *now) <= kSame * std::max(1.0, std::abs(*now))) {
       return word(key, fmt::format("{}", *now));
     }
-    // What the imported file did not say stays unsaid until something says otherwise.
+    // A setting missing from the imported file is written only if something changes it.
     if (imported_ && !now && typed == "0") return;
     word(key, typed);
     if (now || imported_) changes(key, now ? fmt::format("{}", *now) : "not set", typed, by);
@@ -77,12 +77,12 @@ class Lines {
   GroundcontrolText& out_;
 };
 
-/// The machine with those effects put into its numbers that a setting can take up, and what its
-/// chain tolerances are as GroundControl counts them.
+/// The machine with the effects that a setting can represent applied to its numbers, and its chain
+/// tolerances in GroundControl's terms.
 struct TypedMachine {
   Machine machine;
   model::PerSide<double> tolerance_percent;
-  /// Something says of the chain's pitch; where nothing does, the tolerance stays as it is.
+  /// The pitch is stated by some effect; otherwise the tolerance is unchanged.
   model::PerSide<bool> pitch_is_stated;
   bool stretch_was_named = false;
   bool sag_was_named = false;
@@ -119,7 +119,7 @@ void take_stretch(TypedMachine& typed, const model::AppliedEffect& effect) {
   typed.stretch_was_named = true;
 }
 
-/// No setting holds it; the remark on the sprocket says so with the radius that comes of it.
+/// No setting represents it; the remark gives the resulting radius of the sprocket.
 void take_sprocket_radius(TypedMachine& typed, const model::AppliedEffect& effect) {
   model::Sprocket& sprocket = typed.machine.sprocket;
   sprocket.radius_mm = sprocket.effective_radius_mm() + parameter_of(effect, "offset_mm");
@@ -155,7 +155,7 @@ TypedMachine typed_machine(const Machine& machine, std::vector<std::string>& rem
   return typed;
 }
 
-/// GroundControl's own firmware knows no stretch; WebControl and the holey firmware do.
+/// GroundControl's own firmware has no stretch; WebControl and the holey firmware have.
 bool knows_stretch(const Machine& machine) {
   return machine.controller.kind == model::ControllerKind::holey ||
          machine.controller.settings.chain_elongation_per_n.has_value();
@@ -163,7 +163,7 @@ bool knows_stretch(const Machine& machine) {
 
 constexpr double kWorthSayingMm = 0.05;
 
-/// Of a controller whose settings have no topbeamtilt.
+/// For a controller whose settings have no topbeamtilt.
 void remark_on_the_beam(double right_above_left_mm, std::vector<std::string>& remarks) {
   if (std::abs(right_above_left_mm) <= kWorthSayingMm) return;
   remarks.push_back(fmt::format(
@@ -205,7 +205,7 @@ void remark_on_what_cannot_be_typed(const Machine& machine, std::vector<std::str
   }
 }
 
-/// Who says so where a number changes.
+/// The sources of a change, for remarks.
 constexpr std::string_view kByBed = "the machine's bed (/bed)";
 constexpr std::string_view kByMotors = "the machine's motors (/motors)";
 constexpr std::string_view kByRing = "the machine's ring (/attachment, the effect ring_radius)";

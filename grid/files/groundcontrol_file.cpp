@@ -27,7 +27,7 @@ const std::vector<std::string> kSections = {"Maslow Settings", "Advanced Setting
 
 enum class Need { always, ring, brackets, never };
 
-/// A number of the ini file. `setting` is where the controller keeps it, if it does.
+/// A number of the ini file. `setting` is the controller's member for it, if there is one.
 struct NumberKey {
   const char* key;
   Range range;
@@ -35,8 +35,8 @@ struct NumberKey {
   std::optional<double> ControllerSettings::*setting;
 };
 
-// Ranges as in model::problems_of and in the catalogue of effects, which a file meets in any case;
-// here they speak of the ini's own lines.
+// The ranges of model::problems_of and of the catalogue of effects, applied here too so that
+// messages name the ini file's lines.
 constexpr NumberKey kNumberKeys[] = {
     {"bedwidth", {"mm", 200, 20000}, Need::always, &ControllerSettings::bed_width_mm},
     {"bedheight", {"mm", 200, 20000}, Need::always, &ControllerSettings::bed_height_mm},
@@ -68,7 +68,7 @@ constexpr NumberKey kNumberKeys[] = {
      &ControllerSettings::chain_elongation_per_n},
 };
 
-/// Reads settings one by one and keeps what was wrong.
+/// Reads settings one by one and collects problems.
 class IniReader {
  public:
   IniReader(const IniTable& table, Problems& problems) : table_(table), problems_(problems) {}
@@ -109,8 +109,7 @@ class IniReader {
 /// The numbers of the file by key.
 using Numbers = std::map<std::string, std::optional<double>>;
 
-/// All lengths of a router in one hand's breadth: a file in inches has lengths from 10 to 250, a
-/// file in mm has not.
+/// Every length of the router is between 10 and 250: true of a file in inches, never of one in mm.
 bool is_in_inches(const IniTable& table) {
   for (const char* key : {"bedwidth", "bedheight", "motorspacingx"}) {
     const IniEntry* entry = table.find(kSections, key);
@@ -139,7 +138,7 @@ void attach_sled(const Numbers& numbers, bool has_brackets, Machine& machine) {
   }
 }
 
-/// A tolerance other than 0 is the pitch that the owner found for this chain.
+/// A tolerance other than 0 is the pitch that the owner measured for this chain.
 void state_pitch(const Numbers& numbers, Machine& machine, Problems& problems) {
   std::vector<std::string> stated;
   for (const auto& [key, side] :
@@ -158,8 +157,7 @@ void state_pitch(const Numbers& numbers, Machine& machine, Problems& problems) {
                             100.0 * effect->parameters.front().prior_sigma));
 }
 
-/// Sled, chain and frame: from the file where it says them, otherwise the default machine's, said
-/// as assumed.
+/// Sled, chain and frame: from the file if stated, otherwise the default machine's, with a warning.
 void weigh(const Numbers& numbers, Machine& machine, Problems& problems) {
   const auto assume = [&problems](std::string what) {
     problems.warn("", fmt::format("the settings do not say {}", std::move(what)));
@@ -173,7 +171,7 @@ void weigh(const Numbers& numbers, Machine& machine, Problems& problems) {
   if (const auto compliance = numbers.at("chainelongationfactor")) {
     machine.chain.compliance_per_n = *compliance;
   } else {
-    // The elongation that MaslowCNC/Firmware holds as its default (setting $45).
+    // The default elongation of MaslowCNC/Firmware (setting $45).
     machine.chain.compliance_per_n = 5.1685e-6;
     assume(fmt::format("how far the chain stretches; assumed {} per N (/chain/compliance_per_n)",
                        machine.chain.compliance_per_n));
@@ -200,7 +198,7 @@ Numbers read_numbers(IniReader& reader, std::optional<bool> has_brackets) {
         key.need == Need::ring ? has_brackets == false : has_brackets == true;
     const bool is_of_a_sled = key.need == Need::ring || key.need == Need::brackets;
     const bool is_needed = key.need == Need::always || (is_of_a_sled && is_of_this_sled);
-    // The settings of the other kind of sled stand in every file and mean nothing.
+    // Every file contains the settings of the other kind of sled, which have no meaning.
     if (is_of_a_sled && !is_of_this_sled) continue;
     numbers[key.key] = reader.number(key, is_needed);
   }

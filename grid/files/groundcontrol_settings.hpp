@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The settings that GroundControl and WebControl share, whichever form they are kept in. Private
-/// to grid/files.
+/// The settings that GroundControl and WebControl share, independent of the file format. Private to
+/// grid/files.
 #pragma once
 
 #include "grid/files/groundcontrol_file.hpp"
@@ -9,7 +9,7 @@
 
 namespace chaintrue::grid::files {
 
-/// As groundcontrol_file.hpp says. \throws InputError with every problem of the file.
+/// As in groundcontrol_file.hpp. \throws InputError with every problem of the file.
 [[nodiscard]] ReadMachine machine_of_settings(const IniTable& table,
                                               Tolerances tolerances,
                                               Problems& problems);

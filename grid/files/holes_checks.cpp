@@ -26,7 +26,7 @@ std::optional<std::size_t> hole_of(const std::string& word, const std::vector<Ho
   for (std::size_t i = 0; i < holes.size(); ++i) {
     if (holes[i].name == word) return i;
   }
-  // A number counts the holes where no hole bears it as a name.
+  // A number is the index of a hole if no hole has it as its name.
   const auto number = number_of(word);
   if (number && *number >= 0.0 && *number < static_cast<double>(holes.size()) &&
       *number == std::floor(*number)) {
@@ -41,8 +41,8 @@ std::string names_of(const std::vector<Hole>& holes) {
   return joined(names);
 }
 
-/// True where inches stand for mm, which is said. A machine cuts true to some per cent: a factor
-/// of five or more is a change of unit.
+/// Reports inches in place of mm; true if found. A machine cuts true to a few per cent: a factor of
+/// five or more is a change of unit.
 bool check_inches(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
   std::vector<double> ratios;
   double farthest_mm = 0.0;
@@ -81,7 +81,7 @@ bool check_inches(const MeasuredHoles& set, const HolesPlaces& places, Problems&
   return false;
 }
 
-/// Two holes so near that the direction from one to the other is not known.
+/// Reports two holes so near that the direction from one to the other is undetermined.
 void check_apart(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
   constexpr double kLeastMm = 20.0;
   for (std::size_t i = 0; i < set.distances.size(); ++i) {
@@ -99,8 +99,8 @@ using Pair = std::pair<std::size_t, std::size_t>;
 
 Pair pair_of(const HoleDistance& distance) { return std::minmax(distance.from, distance.to); }
 
-/// Each triangle whose three sides were measured: the longest is no longer than the others
-/// together, but for the tape's error.
+/// Checks each triangle with three measured sides: the longest is no longer than the sum of the
+/// others, within the tape's error.
 void check_triangles(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
   std::map<Pair, std::size_t> first;
   for (std::size_t i = 0; i < set.distances.size(); ++i) {
@@ -171,7 +171,7 @@ void check_enough(const MeasuredHoles& set,
     pairs.insert(pair_of(distance));
     used.insert({distance.from, distance.to});
   }
-  // n holes have a shape of 2 n - 3 distances; more than these repeat what is known.
+  // The shape of n holes is 2 n - 3 distances; more distances are redundant.
   const std::size_t shape = used.size() < 2 ? 0 : 2 * used.size() - 3;
   const std::size_t independent = std::min(pairs.size(), shape);
   if (independent >= fewest) return;
@@ -195,7 +195,7 @@ void check_enough(const MeasuredHoles& set,
                expected);
 }
 
-/// Without it the map would bend for the hook, by as much.
+/// Without the offset the map would be distorted by the same amount.
 void check_hook(const MeasuredHoles& set,
                 bool is_stated,
                 const HolesPlaces& places,
@@ -258,15 +258,15 @@ void leave_out_blanks(std::vector<StatedDistance>& distances,
 }
 
 void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
-  // A tape that is read to the millimetre falls on the commanded one now and then; to the
-  // hundredth, or on most of the lines, it does not.
+  // A tape read to the millimetre equals the command now and then; read to the hundredth, or on
+  // most of the lines, it does not.
   constexpr double kSameMm = 0.005;
   std::vector<std::string> exact;
   std::vector<std::string> rounded;
   for (const HoleDistance& distance : set.distances) {
     if (distance.edge) continue;
     const double beside_mm = std::abs(distance.distance_mm - commanded_mm(set, distance));
-    // Halves of a millimetre are what a tape is read to.
+    // A tape is read to half a millimetre.
     const bool by_eye = 2.0 * distance.distance_mm == std::round(2.0 * distance.distance_mm);
     if (beside_mm < kSameMm && !by_eye) exact.push_back(words_of(set, distance));
     if (distance.distance_mm == std::round(commanded_mm(set, distance)) || beside_mm < kSameMm)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What holes and distances must be like, whatever file they came from. Private to grid/files.
+/// Input checks of holes and distances, independent of the file format. Private to grid/files.
 #pragma once
 
 #include <cstddef>
@@ -21,13 +21,13 @@ struct StatedDistance {
   std::string to;
   double distance_mm = 0.0;
   std::optional<double> sigma_mm;
-  /// A value was wrong and is reported already.
+  /// A value was wrong and is already reported.
   bool is_spoilt = false;
-  /// Of a sheet to fill in: nothing was read here yet.
+  /// Line of a sheet to fill in that has not been read yet.
   bool is_blank = false;
 };
 
-/// Where things stand in their file.
+/// The places of values in their file, for messages.
 struct HolesPlaces {
   std::string holes;
   std::string distances;
@@ -35,25 +35,25 @@ struct HolesPlaces {
   std::function<std::string(std::size_t index, std::string_view field)> distance;
 };
 
-/// Takes the distances out that were left blank, and says which; `places` are then those of the
-/// others. \throws InputError where every distance is blank.
+/// Removes the distances that were left blank and reports them; `places` are then those of the
+/// others. \throws InputError if every distance is blank.
 void leave_out_blanks(std::vector<StatedDistance>& distances,
                       HolesPlaces& places,
                       Problems& problems);
 
-/// Names that are missing become the holes' numbers; names that repeat, or are an edge's, are
-/// reported.
+/// Missing names become the holes' numbers; names that repeat or equal an edge's are reported.
 void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& problems);
-/// Ends that are no hole and no edge, or the same hole twice, are reported.
+/// Reports ends that are neither a hole nor an edge, and distances from a hole to itself.
 [[nodiscard]] std::vector<HoleDistance> resolved_distances(
     const std::vector<StatedDistance>& stated,
     const std::vector<Hole>& holes,
     const HolesPlaces& places,
     Problems& problems);
-/// Warns of distances that read exactly as commanded.
+/// Warns of distances that equal the commanded ones exactly.
 void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems);
-/// Units, triangles, a hook offset that was forgotten, and whether there is enough. An offset that
-/// was stated in so many words is only asked about. Call it only when nothing was wrong before.
+/// Units, triangles, a tape zero offset that was forgotten, and whether there are enough distances.
+/// For a stated offset that is doubtful there is only a warning. Call it only if nothing was wrong
+/// before.
 void check_holes_together(const MeasuredHoles& set,
                           std::size_t fewest_distances,
                           bool hook_is_stated,

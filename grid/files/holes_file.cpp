@@ -33,7 +33,7 @@ void fetch_machine(StatedHoles& stated, const HolesOptions& options, Problems& p
   if (!stated.machine && stated.machine_file.empty()) stated.machine = options.otherwise;
 }
 
-/// What JSON and CSV have in common once the fields are read.
+/// The common part of JSON and CSV, once the fields are read.
 ReadHoles finish(StatedHoles stated,
                  HolesPlaces places,
                  const HolesOptions& options,
@@ -138,7 +138,7 @@ std::string write_holes_sheet(const MeasuredHoles& plan) {
   StatedHoles stated = stated_holes(plan);
   for (StatedDistance& distance : stated.distances) distance.is_blank = true;
   Json json = holes_record().write(stated);
-  // How the tape will be held nobody knows yet.
+  // The tape's zero offset is not known before the measurement.
   json["tape"].erase("hook_offset_mm");
   return print_json(json);
 }

@@ -15,15 +15,15 @@
 ///                      {"from": "A", "to": "top", "distance_mm": 249} ] }
 ///
 /// `from` and `to` name holes, or count them from 0; `to` may be an edge of the sheet: left, right,
-/// top, bottom. A hole without a name bears its number. The machine says which controller cut the
-/// holes and with which settings.
+/// top, bottom. A hole without a name is named by its number. The machine includes the controller
+/// that cut the holes, with its settings.
 ///
 /// `readings` are those of a chaintrue_grid, and optional.
 ///
 /// A CSV has two tables: lines below `hole,x_mm,y_mm`, and lines below
 /// `from,to,distance_mm,sigma_mm` (the last column may be missing; a plan's `as_commanded_mm` is
-/// passed over). The rest comes as options. A distance that is left blank (in JSON null) is left
-/// out, and said.
+/// ignored). The rest is given as options. A distance that is left blank (in JSON null) is left out,
+/// with a warning.
 ///
 /// \code
 ///   const ReadHoles read = read_holes("holes.json");
@@ -43,38 +43,38 @@
 
 namespace chaintrue::grid::files {
 
-/// What a CSV cannot say, or what the command line puts in place of the file's own.
+/// Values that a CSV does not contain, or that override the file's own.
 struct HolesOptions {
   std::optional<model::Machine> machine;
   std::optional<double> tape_sigma_mm;
   std::optional<double> hook_offset_mm;
   std::optional<double> hook_sigma_mm;
   std::optional<double> hole_sigma_mm;
-  /// A handful that only checks a map passes 1.
+  /// A few distances that only check a map pass 1.
   std::size_t fewest_distances = kFewestHoleDistances;
-  /// Of a file that names no machine.
+  /// Used for a file that names no machine.
   std::optional<model::Machine> otherwise = std::nullopt;
 };
 
 struct ReadHoles {
   MeasuredHoles holes;
-  /// Of a file whose machine hangs on four belts; then the holes have none.
+  /// For a file whose machine hangs on four belts; the holes then have no machine of chains.
   std::optional<model::BeltMachine> belt_machine = std::nullopt;
   std::vector<Warning> warnings;
 };
 
-/// "-" reads standard input. Slips that can be recognised (inches, a triangle that cannot close, a
-/// hook offset that was forgotten) are said in words. \throws InputError with every problem.
+/// "-" reads standard input. Messages name recognised mistakes (inches, a triangle that cannot
+/// close, a tape zero offset that was forgotten). \throws InputError with every problem.
 [[nodiscard]] ReadHoles read_holes(const std::filesystem::path& path,
                                    const HolesOptions& options = {});
-/// `file` is the name used in messages, and its folder is where a "machine_file" is looked for.
+/// `file` is the name used in messages; a "machine_file" is looked for in its folder.
 [[nodiscard]] ReadHoles parse_holes(const std::string& text,
                                     const std::string& file,
                                     const HolesOptions& options = {});
 /// JSON. \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_holes(
     const MeasuredHoles& holes, const std::optional<model::BeltMachine>& belts = std::nullopt);
-/// A list to fill in, of the same kind: null for every distance.
+/// A sheet to fill in, in the same format: null for every distance.
 [[nodiscard]] std::string write_holes_sheet(const MeasuredHoles& plan);
 
 }  // namespace chaintrue::grid::files

@@ -105,7 +105,7 @@ const Record<StatedDistance>& distance_record() {
   return record;
 }
 
-/// Reads a list of records and notes which were wrong.
+/// Reads a list of records and records which were wrong.
 template <class T>
 void read_list(const Cursor& at,
                const Record<T>& record,
@@ -120,7 +120,7 @@ void read_list(const Cursor& at,
   }
 }
 
-/// The one that hangs on belts has anchors.
+/// A machine with anchors hangs on belts.
 void read_stated_machine(const Cursor& at, StatedHoles& stated) {
   if (at.json().is_object() && at.has("anchors")) {
     stated.belt_machine = belt_machine_record().read(at);

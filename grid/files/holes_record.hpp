@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A chaintrue_holes file as it stands, before the machine is fetched and the ends of distances are
-/// looked up: its JSON record, and its two tables as CSV. Private to grid/files.
+/// The content of a chaintrue_holes file before the machine is read and the ends of distances are
+/// resolved: its JSON record, and its two tables as CSV. Private to grid/files.
 #pragma once
 
 #include <optional>
@@ -22,10 +22,10 @@ inline constexpr Range kTapeDistance{"mm", 0.1, 20000.0};
 struct StatedHoles {
   std::string name;
   std::optional<model::Machine> machine;
-  std::optional<model::BeltMachine> belt_machine;  ///< in place of it
+  std::optional<model::BeltMachine> belt_machine;  ///< instead of it
   std::string machine_file;
   Tape tape;
-  /// The tape says of its hook, 0 if it is 0.
+  /// The tape's zero offset is stated, be it 0.
   bool hook_is_stated = false;
   double hole_sigma_mm = MeasuredHoles{}.hole_sigma_mm;
   double noise_dof = MeasuredHoles{}.noise_dof;
@@ -38,12 +38,12 @@ struct StatedHoles {
 
 [[nodiscard]] const Record<StatedHoles>& holes_record();
 
-/// What a CSV says, and where: `places` refer to `rows`, which they keep.
+/// The content of a CSV with its places: `places` refer to `rows`, which they share.
 struct HolesTables {
   StatedHoles stated;
   HolesPlaces places;
 };
-/// \throws InputError with everything that is wrong.
+/// \throws InputError with every problem.
 [[nodiscard]] HolesTables read_holes_tables(const std::string& text, Problems& problems);
 
 }  // namespace chaintrue::grid::files

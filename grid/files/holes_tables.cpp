@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kHoleHeader[] = {"hole", "x_mm", "y_mm"};
 constexpr std::string_view kDistanceHeader[] = {"from", "to", "distance_mm", "sigma_mm"};
-// The last one is a plan's, for the person who holds the tape.
+// The last column is a plan's, for the user who measures.
 constexpr std::string_view kPlannedHeader[] = {"from", "to", "distance_mm", "as_commanded_mm"};
 
 bool begins_with(const CsvRow& row, std::string_view word) {

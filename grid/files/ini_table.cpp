@@ -18,7 +18,7 @@ std::string in_small_letters(std::string_view text) {
   return small;
 }
 
-/// More lines than this that make no sense, and the file is something else.
+/// With more unrecognised lines than this the file is not an ini file.
 constexpr std::size_t kMostStrangeLines = 5;
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// An ini file as sections of keys with their lines. Private to grid/files. Keys and sections are
-/// blind to case; lines that begin with ; or # are comments.
+/// case-insensitive; lines that begin with ; or # are comments.
 #pragma once
 
 #include <map>
@@ -14,19 +14,19 @@
 namespace chaintrue::grid::files {
 
 struct IniEntry {
-  std::string key;  ///< in small letters
+  std::string key;  ///< in lower case
   std::string text;
   std::string place;  ///< "line 12"
 };
 
 class IniTable {
  public:
-  /// Reports lines that are neither a section, an entry, a comment nor blank, and keys that stand
+  /// Reports lines that are neither a section, an entry, a comment nor blank, and keys that occur
   /// twice in a section.
   IniTable(std::string_view text, Problems& problems);
-  /// Of a program that keeps the same sections in another form: entries by section.
+  /// For a program that has the same sections in another format: entries by section.
   explicit IniTable(std::map<std::string, std::vector<IniEntry>> sections);
-  /// Nothing where no section has the key. `sections` are looked through in turn.
+  /// Null if no section has the key. `sections` are searched in order.
   [[nodiscard]] const IniEntry* find(const std::vector<std::string>& sections,
                                      const std::string& key) const;
   /// All keys of a section.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Bad input, reported whole: every problem of a file at once, each with file, place, value found
-/// and what was expected.
+/// Bad input, reported completely: every problem of a file at once, each with file, place, value
+/// found and what was expected.
 #pragma once
 
 #include <stdexcept>
@@ -16,13 +16,13 @@ struct InputProblem {
   std::string place;
   /// As found, shortened to 60 characters; empty where something is missing.
   std::string value;
-  /// A sentence: what was expected, and the likely slip where one is recognised.
+  /// A sentence: what was expected, and the likely mistake if one is recognised.
   std::string expected;
   /// `grid.json: /points/3/x_mm: found "abc", expected a number in mm`
   [[nodiscard]] std::string message() const;
 };
 
-/// Something odd that does not stop the reading; the caller prints it.
+/// A problem that does not stop the reading; the caller prints it.
 struct Warning {
   std::string file;
   /// As in InputProblem.
@@ -43,10 +43,10 @@ class InputError : public std::runtime_error {
   std::vector<InputProblem> problems_;
 };
 
-/// \throws InputError whose one problem is the file as a whole.
+/// \throws InputError with one problem: the file as a whole.
 [[noreturn]] void refuse_file(std::string file, std::string found, std::string expected);
 
-/// The system's own words for an error number, in English whatever the locale.
+/// The system's message for an error number, in English in every locale.
 [[nodiscard]] std::string system_words(int error_number);
 
 }  // namespace chaintrue::grid::files

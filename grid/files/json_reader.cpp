@@ -11,7 +11,7 @@
 namespace chaintrue::grid::files {
 namespace {
 
-/// The same, or null: how a key that may be absent may stand.
+/// The schema with null allowed as well: for a key that may be absent.
 Json or_null(Json schema) {
   if (schema.contains("enum")) {
     schema["enum"].push_back(nullptr);
@@ -61,7 +61,7 @@ void RecordTable::add_member(const std::string& key,
        std::move(expected),
        [locate, value](const Cursor& at, void* object) { value->read(at, locate(object)); },
        [locate, value](const void* object) {
-         // The member is looked for, and not changed, in what is only read.
+         // `locate` only finds the member; nothing is changed through it.
          return value->write(locate(const_cast<void*>(object)));
        }});
 }

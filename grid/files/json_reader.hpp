@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A file format as a table. Private to grid/files; a format states its fields once and gets
-/// reading, checking and writing from that: missing and unknown keys (with the nearest known one),
-/// wrong types, values out of range, keys that stand twice, all in one go and each by its JSON
-/// pointer; and the same bytes for the same object.
+/// A file format as a table. Private to grid/files; a format declares its fields once, and reading,
+/// checking and writing follow from that: missing and unknown keys (with the nearest known one),
+/// wrong types, values out of range and keys that occur twice are reported together, each by its
+/// JSON pointer; the same object gives the same bytes.
 ///
 /// \code
 ///   struct Hole {
@@ -39,7 +39,7 @@
 ///   std::string write_holes(const Holes& holes) { return write_document(holes_record(), holes); }
 /// \endcode
 ///
-/// How a field stands in the file:
+/// Kinds of fields:
 ///   required   must be there; always written
 ///   optional   may be absent or null. A plain member keeps its default and is always written; a
 ///              std::optional member is empty, and written only when it holds a value
@@ -64,9 +64,9 @@
 
 namespace chaintrue::grid::files {
 
-/// How the values of one field are read into a member and written from it, whatever the object.
-/// What a format's tables share stands once for each type of value, not once for each field: most of
-/// the time of compiling grid/files went there.
+/// Reads the values of one field into a member and writes them from it, independent of the object's
+/// type. Code shared by the formats' tables is instantiated once for each type of value, not once
+/// for each field: that dominated the compile time of grid/files.
 class MemberValue {
  public:
   explicit MemberValue(Expected in_words) : expected_(std::move(in_words)) {}
@@ -75,9 +75,9 @@ class MemberValue {
   MemberValue& operator=(const MemberValue&) = delete;
 
   [[nodiscard]] const Expected& expected() const { return expected_; }
-  /// A value that is wrong is reported and leaves a plain member as it is.
+  /// A wrong value is reported and leaves a plain member unchanged.
   virtual void read(const Cursor& at, void* member) const = 0;
-  /// Nothing where the key is to be left out.
+  /// Empty if the key is to be left out.
   [[nodiscard]] virtual std::optional<Json> write(const void* member) const = 0;
 
  private:
@@ -125,23 +125,23 @@ class SparseMember : public PlainMember<V> {
   }
 };
 
-/// The part of a record that does not depend on its type: its keys and its fields. Objects are
-/// passed by their address; Record knows their type.
+/// The part of a record that does not depend on the object's type: its keys and its fields. Objects
+/// are passed by address; Record has their type.
 class RecordTable {
  public:
   RecordTable(std::string noun, const Format* format) : noun_(std::move(noun)), format_(format) {}
 
   [[nodiscard]] const std::string& noun() const { return noun_; }
-  /// What is expected of an object; where this is a file's record, by reference to that file's
-  /// schema. The record must outlive it.
+  /// What is expected of an object; for a file's record a reference to that file's schema. The
+  /// record must outlive it.
   [[nodiscard]] Expected expected() const;
-  /// Of the object itself, also where it is a file's.
+  /// Schema of the object itself, also for a file's record.
   [[nodiscard]] Json schema() const;
 
  protected:
-  /// From an object to its member.
+  /// Maps an object to its member.
   using Locate = std::function<void*(void*)>;
-  /// A new object, as its type makes it.
+  /// Makes a new default object.
   using Make = std::shared_ptr<void> (*)();
   struct Field {
     std::string key;
@@ -157,7 +157,7 @@ class RecordTable {
                   bool is_required,
                   Locate locate,
                   std::shared_ptr<const MemberValue> value);
-  /// An optional field whose member keeps its default: that is part of the schema.
+  /// An optional field with a default, which becomes part of the schema.
   void add_defaulted(const std::string& key,
                      Locate locate,
                      std::shared_ptr<const MemberValue> value,
@@ -170,11 +170,10 @@ class RecordTable {
   [[nodiscard]] Json write_fields(const void* object) const;
 
  private:
-  /// False, and reported, where this is no object or a file of another type or version. Warns of
-  /// what is assumed of an older version.
+  /// False, and reported, if this is not an object or is a file of another type or version. Warns
+  /// of assumptions for an older version.
   [[nodiscard]] bool open(const Cursor& at, bool is_root) const;
-  /// Reports keys that nobody knows; gives those known keys that one of them was probably meant to
-  /// be.
+  /// Reports unknown keys; returns the known keys for which one of them is probably a typing error.
   [[nodiscard]] std::vector<std::string> report_unknown_keys(const Cursor& at) const;
   [[nodiscard]] bool has_key(const std::string& key) const;
   [[nodiscard]] std::vector<std::string> keys() const;
@@ -190,10 +189,10 @@ class RecordTable {
 template <class T>
 class Record : public RecordTable {
  public:
-  /// `noun` with its article, as in "expected a sprocket".
+  /// `noun` with its article, for messages such as "expected a sprocket".
   explicit Record(std::string noun) : RecordTable(std::move(noun), nullptr) {}
-  /// A file's record begins with its type and version; as part of another file both may be left
-  /// out. The format must outlive the record.
+  /// A file's record begins with its type and version; inside another file both may be left out.
+  /// The format must outlive the record.
   Record(std::string noun, const Format& format) : RecordTable(std::move(noun), &format) {}
 
   template <class V>
@@ -220,7 +219,7 @@ class Record : public RecordTable {
     return *this;
   }
 
-  /// `write` gives nothing where the key is to be left out.
+  /// `write` returns nothing if the key is to be left out.
   Record& custom(const std::string& key,
                  bool is_required,
                  Expected expected,
@@ -238,13 +237,13 @@ class Record : public RecordTable {
     return *this;
   }
 
-  /// A key that always holds the same word, such as the kind in a variant.
+  /// A key with a constant value, such as the kind in a variant.
   Record& constant(const std::string& key, const std::string& word) {
     add_constant(key, word);
     return *this;
   }
 
-  /// Runs after the fields, also where some were wrong; see Cursor::clean.
+  /// Runs after the fields, even if some were wrong; see Cursor::clean.
   Record& check(std::function<void(const Cursor&, T&)> check) {
     add_check([own = std::move(check)](const Cursor& at, void* object) {
       own(at, *static_cast<T*>(object));
@@ -252,20 +251,20 @@ class Record : public RecordTable {
     return *this;
   }
 
-  /// What a schema says beside the keys: `{"not": {"required": ["machine", "machine_file"]}}`.
+  /// Additional rules of the schema: `{"not": {"required": ["machine", "machine_file"]}}`.
   Record& schema_also(Json rule) {
     add_rule(std::move(rule));
     return *this;
   }
 
-  /// Nothing where this is no object at all; otherwise the object, with what could be read.
+  /// Empty if this is not an object; otherwise the object, with what could be read.
   [[nodiscard]] std::optional<T> read(const Cursor& at, bool is_root = false) const {
     T object{};
     if (!read_fields(at, &object, is_root)) return std::nullopt;
     return object;
   }
 
-  /// The same into an object that other records fill as well; false where this is no object at all.
+  /// The same into an object that other records fill as well; false if this is not an object.
   bool read_into(const Cursor& at, T& object, bool is_root = false) const {
     return read_fields(at, &object, is_root);
   }
@@ -288,8 +287,8 @@ template <class T>
           record.expected()};
 }
 
-/// `problems` knows the file's name and receives the warnings.
-/// \throws InputError with every problem of the text.
+/// `problems` has the file's name and receives the warnings. \throws InputError with every problem
+/// of the text.
 template <class T>
 [[nodiscard]] T read_document(const Record<T>& record,
                               const std::string& text,

@@ -23,7 +23,8 @@ bool is_word_character(char c) {
          c == '-' || c == '.';
 }
 
-/// The text with NaN, Infinity, 1e999 and their like between quotes, and where the quotes were put.
+/// The text with NaN, Infinity, 1e999 and the like in quotes, and the positions of the inserted
+/// quotes.
 struct QuotedText {
   std::string text;
   std::vector<std::size_t> quotes;
@@ -64,7 +65,7 @@ QuotedText quote_what_is_no_number(std::string_view source) {
   return quoted;
 }
 
-/// Why text of this kind is often not JSON, from what stands around the place; empty where nothing
+/// The likely reason why the text is not JSON, from the characters around the place; empty if none
 /// is recognised.
 std::string likely_slip(std::string_view text, std::size_t offset) {
   const std::string_view rest = text.substr(std::min(offset, text.size()));
@@ -93,7 +94,7 @@ struct Token {
   std::string_view text;
 };
 
-/// The word, text or single character that reaches over `offset`.
+/// The word, text or single character at `offset`.
 Token token_at(std::string_view text, std::size_t offset) {
   if (offset >= text.size()) return {text.size(), "the end of the text"};
   std::size_t begin = offset;
@@ -111,7 +112,7 @@ Token token_at(std::string_view text, std::size_t offset) {
   return {begin, text.substr(begin, end - begin)};
 }
 
-/// What the parser wanted, from its own words.
+/// What the parser expected, from its message.
 std::string expected_by_parser(std::string_view what) {
   constexpr std::string_view kExpected = "; expected ";
   constexpr std::string_view kInvalid = "invalid string: ";
@@ -125,7 +126,7 @@ std::string expected_by_parser(std::string_view what) {
   return "JSON";
 }
 
-/// Builds the value from the parser's events; the parser itself does not tell of keys that stand
+/// Builds the value from the parser's events; the parser itself does not report keys that occur
 /// twice.
 class Builder : public nlohmann::json_sax<Json> {
  public:
@@ -154,8 +155,8 @@ class Builder : public nlohmann::json_sax<Json> {
   bool parse_error(std::size_t position,
                    const std::string&,
                    const nlohmann::detail::exception& error) override {
-    // The parser counts what it has read: the last character is the one that did not fit, or the
-    // end of one that did.
+    // The parser counts the characters it has read: the last one did not fit, or ended a token that
+    // did not.
     const bool at_end = position > source_.text.size();
     const Token token =
         at_end ? Token{original_.size(), "the end of the text"}
@@ -185,7 +186,7 @@ class Builder : public nlohmann::json_sax<Json> {
       if (!level.value->is_array()) {
         text += pointer_token(level.key);
       } else {
-        // An element that is still open stands in its array already.
+        // An element that is still open is already in its array.
         const bool holds_next = &level == &open_.back();
         text += fmt::format("{}", level.value->size() - (holds_next ? 0 : 1));
       }
@@ -204,7 +205,7 @@ class Builder : public nlohmann::json_sax<Json> {
       return &level.value->back();
     }
     if (level.key_stands_twice) {
-      // An object or list is empty as yet.
+      // An object or list is still empty here.
       problems_.add(pointer(),
                     value.is_object()  ? "an object"
                     : value.is_array() ? "a list"
@@ -212,7 +213,7 @@ class Builder : public nlohmann::json_sax<Json> {
                     "this key once; it stands here a second time");
     }
     auto& members = level.value->get_ref<Json::object_t&>();
-    // Appends without looking for the key again, which would make a long object slow.
+    // Appends without a search for the key, which would be slow for long objects.
     members.Container::emplace_back(level.key, std::move(value));
     return &members.back().second;
   }
@@ -278,7 +279,7 @@ void append_compact(const Json& value, std::string& out) {
   out += object ? '}' : ']';
 }
 
-/// Numbers fill their lines; everything else stands one to a line.
+/// Numbers fill their lines; everything else is one value a line.
 void append_wrapped_numbers(const Json& numbers, std::size_t indent, std::string& out) {
   const std::string margin = "\n" + std::string(indent + 2, ' ');
   out += '[';
@@ -302,7 +303,7 @@ bool holds_scalars_only(const Json& value) {
   return std::none_of(value.begin(), value.end(), [](const Json& v) { return v.is_structured(); });
 }
 
-/// A record in a list stays on one line, however long: a point is a line.
+/// A record in a list is written on one line, however long: one point, one line.
 bool is_a_line(const Json& value, bool in_list, std::size_t used, std::size_t length) {
   return !value.is_structured() || value.empty() || used + length <= kLineWidth ||
          (in_list && value.is_object() && holds_scalars_only(value));

@@ -9,13 +9,13 @@ namespace {
 
 const Json kNull;
 
-/// What a text that stands in a number's place probably was meant to be.
+/// What a text in a number's place was probably meant to be.
 std::string_view hint_for_text(std::string_view text) {
   if (looks_like_decimal_comma(text)) return ", with a decimal point and without quotes";
   return number_of(text) ? ", without quotes" : "";
 }
 
-/// NaN, Infinity and 1e999 reach the fields as texts (json_text.hpp); they are shown as they stand
+/// NaN, Infinity and 1e999 are passed to the fields as texts (json_text.hpp); they are printed as
 /// in the file.
 std::string shown(const Json& value) {
   const bool as_it_stands =
@@ -84,7 +84,7 @@ std::optional<bool> Cursor::boolean() const {
 
 Value<double> number(Range range) {
   return {[range](const Cursor& at) { return at.number(range); },
-          // A negative zero would come back as a zero: the same number, other bytes.
+          // A negative zero would be read back as a zero: the same number, other bytes.
           [](const double& value) { return Json(value + 0.0); },
           {range.expected(), [range] { return number_schema(range); }}};
 }
@@ -143,7 +143,7 @@ Json with_default(Json schema, const Json& value) {
 }
 
 Json number_schema(const Range& range) {
-  // Wider ranges only keep what is no measure of anything away from arithmetic.
+  // Only excludes numbers that have no meaning.
   constexpr double kWiderThanAnyMeaning = 1e9;
   Json schema = {{"type", "number"}};
   if (!range.unit.empty()) schema["unit"] = std::string(range.unit);

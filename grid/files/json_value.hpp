@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// One value of a JSON document: where it stands, how it is read, checked and written, and what is
-/// expected of it, in words and as a JSON Schema. json_reader.hpp makes formats of these. Private to
-/// grid/files.
+/// One value of a JSON document: its place, how it is read, checked and written, and what is
+/// expected of it, in words and as a JSON Schema. json_reader.hpp builds formats from these.
+/// Private to grid/files.
 #pragma once
 
 #include <fmt/format.h>
@@ -21,8 +21,8 @@
 
 namespace chaintrue::grid::files {
 
-/// A place in the document: the value, the way to it, and where to say what is wrong. Lives on the
-/// stack while its parents do.
+/// A place in the document: the value, its pointer, and the list for problems. Must not outlive its
+/// parents.
 class Cursor {
  public:
   Cursor(const Json& root, Problems& problems) : json_(&root), problems_(&problems) {}
@@ -34,18 +34,18 @@ class Cursor {
   [[nodiscard]] Cursor child(std::string_view key) const;
   [[nodiscard]] Cursor element(std::size_t index) const;
   [[nodiscard]] bool has(std::string_view key) const;
-  /// Nothing was wrong here or below so far.
+  /// Nothing was reported here or below so far.
   [[nodiscard]] bool clean() const {
     return !problems_->any() || !problems_->at_or_below(pointer());
   }
 
-  /// Reports this value as not the expected one; `missing` reports that nothing is there.
+  /// Reports that this value is not the expected one; `missing` reports that it is absent.
   void expect(std::string expected) const;
   void missing(std::string expected) const;
-  /// A whole sentence about something odd here that does not stop the reading.
+  /// Adds a warning, a complete sentence, about this place; reading continues.
   void warn(std::string sentence) const { problems_->warn(pointer(), std::move(sentence)); }
 
-  /// The value where it has the type and range; otherwise reports and gives nothing.
+  /// The value if it has the type and range; otherwise reports it and returns nothing.
   [[nodiscard]] std::optional<double> number(const Range& range) const;
   [[nodiscard]] std::optional<int> integer(int least, int most) const;
   [[nodiscard]] std::optional<std::string> text() const;
@@ -62,11 +62,11 @@ class Cursor {
   std::size_t index_ = 0;
 };
 
-/// What is expected of a value: in words for messages, and as a JSON Schema for editors and for the
-/// reference pages (schema.hpp). A schema is made when it is asked for; words without one allow
+/// What is expected of a value: in words for messages, and as a JSON Schema for editors and the
+/// reference pages (schema.hpp). A schema is made on request; words without a schema allow
 /// anything.
 struct Expected {
-  Expected(const char* in_words) : words(in_words) {}  // NOLINT: words are the usual case
+  Expected(const char* in_words) : words(in_words) {}  // NOLINT: a text is the usual case
   Expected(std::string in_words) : words(std::move(in_words)) {}  // NOLINT
   Expected(std::string in_words, std::function<Json()> as_schema)
       : words(std::move(in_words)), schema(std::move(as_schema)) {}
@@ -84,8 +84,8 @@ struct Value {
   Expected expected;
 };
 
-/// `schema` with that default where it is a number, a word, a truth or a list of such that is not
-/// empty. Texts have none: an empty one says nothing.
+/// `schema` with that default if it is a number, a choice, a boolean or a non-empty list of these.
+/// Texts have no default.
 [[nodiscard]] Json with_default(Json schema, const Json& value);
 /// Schema of a number in its range.
 [[nodiscard]] Json number_schema(const Range& range);
@@ -120,7 +120,7 @@ template <class E>
 
 /// Schema of a list of such elements.
 [[nodiscard]] Json list_schema(const Json& element, std::size_t fewest);
-/// Schema of an object whose keys are not known beforehand.
+/// Schema of an object whose keys are not known in advance.
 [[nodiscard]] Json dictionary_schema(const Json& element);
 
 /// `fewest` elements at least.
@@ -139,8 +139,8 @@ template <class V>
             values.reserve(at.json().size());
             for (std::size_t i = 0; i < at.json().size(); ++i) {
               auto value = element.read(at.element(i));
-              // A value that was wrong and reported keeps its place, so that later places still
-              // count right.
+              // A value that was wrong and reported keeps its index, so that later indices are
+              // right.
               values.push_back(value ? std::move(*value) : V{});
             }
             if (values.size() < fewest) {
@@ -156,7 +156,7 @@ template <class V>
           {expected, [element, fewest] { return list_schema(element.expected.schema(), fewest); }}};
 }
 
-/// Keys that are not known beforehand.
+/// Keys that are not known in advance.
 template <class V>
 [[nodiscard]] Value<std::map<std::string, V>> dictionary(Value<V> element) {
   const std::string expected = fmt::format("an object, each value {}", element.expected.words);

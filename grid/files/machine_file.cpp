@@ -173,7 +173,7 @@ const Record<Controller>& controller_record() {
   return record;
 }
 
-/// The default controller, ideal and without settings, is left out of the file.
+/// The default controller, ideal and without settings, is not written.
 std::optional<Json> write_controller(const Machine& machine) {
   if (machine.controller.kind == ControllerKind::ideal &&
       controller_settings_record().write(machine.controller.settings).empty()) {
@@ -182,7 +182,7 @@ std::optional<Json> write_controller(const Machine& machine) {
   return controller_record().write(machine.controller);
 }
 
-/// No hanging router has a bed and motors within a hand's breadth; in inches every one of them has.
+/// No hanging router has a bed and motors below this in mm; in inches all have.
 bool is_in_inches(const Machine& machine) {
   constexpr double kLongestInInches = 250.0;
   constexpr double kShortestInInches = 10.0;
@@ -194,7 +194,7 @@ bool is_in_inches(const Machine& machine) {
 }
 
 void check_machine(const Cursor& at, Machine& machine) {
-  // The struct's default names a machine that this file does not speak of.
+  // The struct's default name does not apply to this file's machine.
   if (!at.has("name")) machine.name.clear();
   if (!at.has("uncertainty") || at.child("uncertainty").json().is_null()) {
     const Uncertainty& assumed = machine.uncertainty;
@@ -221,18 +221,18 @@ void check_machine(const Cursor& at, Machine& machine) {
   }
   for (const model::MachineProblem& problem : model::problems_of(machine)) {
     const std::string place = at.pointer() + problem.parameter;
-    // A field that could not be read keeps its default, of which there is nothing to say.
+    // A field that could not be read keeps its default, which needs no check.
     if (!at.problems().at_or_below(place))
       at.problems().add(place, problem.value, problem.expected);
   }
-  // The sums of effects and machine are only looked at where the machine itself is sound.
+  // The sums of effects and machine are checked only if the machine itself is valid.
   if (!at.clean()) return;
   for (const model::MachineProblem& problem : model::effects::problems_of_effects(machine)) {
     at.problems().add(at.pointer() + problem.parameter, problem.value, problem.expected);
   }
 }
 
-/// An object without a key is what somebody writes who wants to be told what belongs there.
+/// An object without keys is probably a question about the required keys: list them all.
 void refuse_emptiness(const std::string& text, Problems& problems) {
   if (text.find_first_not_of(" \t\r\n{}") != std::string::npos ||
       text.find('{') == std::string::npos)

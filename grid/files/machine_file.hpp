@@ -19,7 +19,7 @@ namespace chaintrue::grid::files {
 
 struct ReadMachine {
   model::Machine machine;
-  /// What the file does not say and was assumed.
+  /// What was assumed because the file does not state it.
   std::vector<Warning> warnings;
 };
 
@@ -30,8 +30,8 @@ struct ReadMachine {
 [[nodiscard]] model::Machine parse_machine(const std::string& text, const std::string& file);
 [[nodiscard]] ReadMachine parse_machine_with_warnings(const std::string& text,
                                                       const std::string& file);
-/// `comments` go under the key "comment", one line each; readers pass over them.
-/// \throws std::logic_error where a number of the machine is not finite.
+/// `comments` go under the key "comment", one line each; readers ignore them. \throws
+/// std::logic_error where a number of the machine is not finite.
 [[nodiscard]] std::string write_machine(const model::Machine& machine,
                                         const std::vector<std::string>& comments = {});
 

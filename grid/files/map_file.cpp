@@ -224,7 +224,7 @@ void add_surface(Record<MapContents>& record, const std::string& key, const Reco
       });
 }
 
-/// Written where it is not the rule that files without it follow.
+/// Written only if it differs from the default of files without it.
 std::optional<Json> write_outside(const MapContents& map) {
   if (map.outside.way == OutsideRule{}.way) return std::nullopt;
   return outside_record().write(map.outside);

@@ -4,11 +4,11 @@
 /// its own error. Unknown keys are errors, except "comment". Same map, same bytes.
 ///
 /// Version 1.1 ends in a "content_hash" over everything else (FNV-1a, 64 bits; layout and comments
-/// do not count): a map that does not match it is refused, since a chain length would be wrong
-/// without a sign. Version 1.0 has none and is taken as it is, with a warning.
+/// do not count): a map that does not match it is rejected, since its chain lengths would be
+/// silently wrong. Version 1.0 has none and is accepted with a warning.
 ///
 /// The covariance of the unknowns is kept as the rows of its lower triangular factor, to seven
-/// digits: a sigma is never worth more.
+/// digits: a sigma is never known better.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,8 @@
 
 namespace chaintrue::grid::files {
 
-/// "-" reads standard input. \param warnings where not null, what was odd is added to it
+/// "-" reads standard input.
+/// \param warnings if not null, warnings are added to it
 /// \throws InputError with every problem of the file.
 [[nodiscard]] CompensationMap read_map(const std::filesystem::path& path,
                                        std::vector<Warning>* warnings = nullptr);

@@ -91,7 +91,7 @@ struct NodeValues {
   const std::vector<Numbers>* rows;
 };
 
-/// Nodes that rise, and as many values as there are nodes.
+/// Checks that nodes increase, and that there are as many values as nodes.
 template <class Part>
 void check_nodes(const Cursor& at, const Part& part, std::initializer_list<NodeValues> values) {
   if (!at.clean()) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The surfaces of a map as they stand in a chaintrue_map file. Private to grid/files.
+/// The surfaces of a map in a chaintrue_map file. Private to grid/files.
 #pragma once
 
 #include <optional>

@@ -20,7 +20,7 @@ using model::BeltMachine;
 using model::kBelts;
 using model::Orientation;
 
-/// Settings of maslow.yaml; what is not in them stays as it is and is noted.
+/// Applies settings of maslow.yaml; missing ones keep their values and are noted.
 class Settings {
  public:
   Settings(const Maslow4Options& options, std::vector<std::string>& assumed)
@@ -31,7 +31,7 @@ class Settings {
     }
   }
 
-  /// Of any of these keys; false where none is there.
+  /// The value of any of these keys; false if none is present.
   bool take(const std::vector<std::string>& keys, double& value) {
     constexpr Range kSetting{"", -1e6, 1e6};
     for (const std::string& key : keys) {
@@ -62,7 +62,7 @@ class Settings {
   std::vector<std::string>& assumed_;
 };
 
-/// Where today's settings have a value, and where those of 2024 had it.
+/// The keys of a setting: today's name, and that of 2024.
 std::vector<std::string> keys_of(const std::string& key) {
   return {"kinematics/MaslowKinematics/" + key, "Maslow_" + key};
 }
@@ -75,7 +75,7 @@ void take_anchors(Settings& settings, BeltMachine& machine, std::vector<std::str
     const std::string corner(name(belt));
     model::Anchor& anchor = machine.anchors[belt];
     const bool is_origin = belt == Belt::bl;
-    // bl and the y of br are 0 by the choice of the frame, and not always in the settings.
+    // bl and the y of br are 0 by definition of the frame, and not always among the settings.
     known += settings.take(keys_of(corner + "X"), anchor.x_mm) || is_origin ? 1 : 0;
     known +=
         settings.take(keys_of(corner + "Y"), anchor.y_mm) || is_origin || belt == Belt::br ? 1 : 0;
@@ -251,7 +251,7 @@ Maslow4Import parse_maslow4(const std::string& text,
                             std::min(own.last, wanted.last) - own.first};
     take_run(runs[i], within, belts.machine.orientation, belts, lines);
   }
-  // The machine's own words are of the whole run.
+  // The machine's own figures refer to the whole run.
   const ScannedRun& taken = runs[result.taken];
   if (taken.points.size() == belts.points.size()) belts.firmware_fit = taken.fit;
   choose_lengths(options, taken.is_list, belts.machine, result.assumed);

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a Maslow 4 prints while it finds its anchors, from a pasted serial log or an older note of
-/// readings: lines in any order with anything between them.
+/// The output of a Maslow 4 while it finds its anchors, from a pasted serial log or an older list of
+/// readings: lines in any order, with any other text between them.
 ///
 ///     [MSG:INFO: Waypoints [0-29]: (0:-9.0,10.4) (1:141.0,10.4) ...]      where it is to go
 ///     [MSG:INFO: Top Left 2664.769]                                       single readings that did
 ///                                                                         not agree
 ///     [MSG:INFO: Measured waypoint 7]
-///     [MSG:INFO: Waypoint 7 coordinates: X=141.00 Y=10.40]                where it was told to go
+///     [MSG:INFO: Waypoint 7 coordinates: X=141.00 Y=10.40]                where it was sent
 ///     CLBM:[{bl:2960.58, br:3150.08, tr:3067.72, tl:3049.85},{...}]       the readings, averaged
 ///     [MSG:INFO: Find Anchors fit: rms=1.2mm max=3.4mm perAnchor=[..]mm converged=1]
 ///
 /// Older prints have no `CLBM:[`, one `{...}` a line, trailing commas, comments and blank lines.
 ///
-/// The list grows while the machine measures and is printed again: a list that begins as the one
-/// before it is that one, longer. A list that does not, a heading ("Run 2:") and a list of waypoints
-/// from 0 on begin another run.
+/// The list grows while the machine measures and is printed again: a list that begins with the
+/// previous one continues it. Any other list, a heading ("Run 2:") and a list of waypoints from 0 on
+/// begin another run.
 ///
-/// Sources: MaslowCNC/Maslow_4, firmware/FluidNC/src/Maslow/Calibration.cpp (the prints, which belts
-/// are pulled, that the lengths are level spans) and Maslow.cpp before pull 157 of October 2024 (that
-/// they slanted); firmware/FluidNC/data/maslow.yaml (the settings).
+/// Sources: MaslowCNC/Maslow_4, firmware/FluidNC/src/Maslow/Calibration.cpp (the format, which belts
+/// are pulled, that the lengths are horizontal spans) and Maslow.cpp before pull 157 of October 2024
+/// (that they were slanting); firmware/FluidNC/data/maslow.yaml (the settings).
 ///
 /// \code
 ///   Maslow4Options options;
@@ -50,23 +50,23 @@ struct Maslow4Options {
   std::optional<std::string> settings;  ///< text of maslow.yaml
   std::string settings_file = "maslow.yaml";
   std::optional<int> run;            ///< from 1; absent: the last
-  std::optional<PointRange> points;  ///< in place of a run
+  std::optional<PointRange> points;  ///< instead of a run
   std::optional<model::BeltLengths> lengths;
   std::optional<model::Orientation> orientation;
 };
 
 /// A run of the machine's own calibration.
 struct LoggedRun {
-  std::string heading;   ///< as the file has it; may be empty
+  std::string heading;   ///< from the file; may be empty
   std::size_t line = 0;  ///< of its first reading
   PointRange points;
 };
 
 struct Maslow4Import {
   MeasuredBelts belts;
-  std::vector<LoggedRun> runs;       ///< all that the file holds
-  std::size_t taken = 0;             ///< into the runs; of a range of points that of its first
-  std::vector<std::string> assumed;  ///< sentences: what neither log nor settings say
+  std::vector<LoggedRun> runs;       ///< all runs in the file
+  std::size_t taken = 0;             ///< into the runs; for a range of points the run of its first
+  std::vector<std::string> assumed;  ///< sentences: values that neither log nor settings contain
   std::vector<Warning> warnings;
 };
 

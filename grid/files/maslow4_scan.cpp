@@ -24,7 +24,7 @@ std::string_view unquoted(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// The number that begins at `from`, blanks passed over.
+/// The number that begins at `from`, blanks skipped.
 std::optional<double> number_at(std::string_view line, std::size_t from) {
   while (from < line.size() && line[from] == ' ') ++from;
   const std::size_t end = line.find_first_not_of("+-.0123456789eE", from);
@@ -36,9 +36,9 @@ std::optional<double> number_after(std::string_view line, std::string_view word)
   return at == std::string_view::npos ? std::nullopt : number_at(line, at + word.size());
 }
 
-/// The number of a waypoint; nothing where a line that looks like a message holds none.
+/// The number of a waypoint; empty if a line that looks like a message contains none.
 std::optional<int> waypoint_of(std::optional<double> number) {
-  constexpr double kMost = 1e6;  // a firmware's own are a few hundred
+  constexpr double kMost = 1e6;  // the firmware's are a few hundred
   if (!number || !(*number >= 0.0) || !(*number <= kMost) || *number != std::floor(*number))
     return std::nullopt;
   return static_cast<int>(*number);
@@ -79,7 +79,7 @@ class Scanner {
     return runs_.back();
   }
 
-  /// What comes from here on is of another run, if readings come.
+  /// Readings from here on belong to another run.
   void begin_run(std::string heading) {
     if (!runs_.empty() && runs_.back().points.empty()) {
       if (!heading.empty()) runs_.back().heading = std::move(heading);
@@ -119,7 +119,7 @@ class Scanner {
     take_list();
   }
 
-  /// Readings of a line, or the part of one that goes on.
+  /// Readings of a line, or its part of a list that continues over lines.
   void take_braces(std::string_view line) {
     for (std::size_t at = 0; at < line.size(); ++at) {
       const char c = line[at];
@@ -142,7 +142,7 @@ class Scanner {
     if (open_reading_) reading_ += ' ';
   }
 
-  /// `bl:2960.58, br:3150.08, tr:3067.72, tl:3049.85`; other programs' objects are passed over.
+  /// `bl:2960.58, br:3150.08, tr:3067.72, tl:3049.85`; objects of other programs are skipped.
   void take_reading() {
     ScannedPoint point;
     point.line = reading_line_;
@@ -185,8 +185,8 @@ class Scanner {
     }
   }
 
-  /// Waypoints may be told anew in the middle of a run: if the list begins as the run before, it is
-  /// that run which goes on.
+  /// Waypoints may be printed again in the middle of a run: a list that begins with the previous
+  /// run continues it.
   void join_longer_list() {
     if (runs_.size() < 2 || !runs_.back().points.empty()) return;
     ScannedRun& before = runs_[runs_.size() - 2];
@@ -204,7 +204,7 @@ class Scanner {
     runs_.pop_back();
   }
 
-  /// A list grows, and is printed again; single points follow it one by one.
+  /// A list grows and is printed again; single points follow one by one.
   void take_list() {
     if (list_.empty()) return;
     const auto same = [](const ScannedPoint& a, const ScannedPoint& b) {
@@ -275,7 +275,7 @@ class Scanner {
     }
   }
 
-  /// Single readings are printed before the waypoint is measured that they were thrown away at.
+  /// Single readings that were discarded are printed before the measurement of their waypoint.
   void note_thrown_away(int waypoint) {
     if (loose_ == model::PerBelt<std::vector<double>>{}) return;
     run().thrown_away_mm[waypoint] = std::move(loose_);

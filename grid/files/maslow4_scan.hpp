@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The runs of a Maslow 4's log, before anything is made of them. Private to grid/files.
+/// The runs of a Maslow 4's log, before they are interpreted. Private to grid/files.
 #pragma once
 
 #include <map>
@@ -27,7 +27,7 @@ struct ScannedRun {
   std::optional<FirmwareFit> fit;
 };
 
-/// Runs that hold readings. What is wrong with a reading, and a list that has no end, is reported.
+/// Runs with readings. Problems with a reading, and a list without an end, are reported.
 [[nodiscard]] std::vector<ScannedRun> scan_maslow4(const std::string& text, Problems& problems);
 
 }  // namespace chaintrue::grid::files

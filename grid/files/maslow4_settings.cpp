@@ -16,7 +16,7 @@ using diagnosis::Diagnosis;
 using diagnosis::Verdict;
 using model::BeltMachine;
 
-/// Commands are multiplied by it, and then paid out in the belts' own millimetres.
+/// Commands are multiplied by this, and the result is paid out in the belts' own millimetres.
 double scale_of(const BeltScale& scale) { return 1.0 / scale.factor; }
 
 bool is_in_force(const BeltMachine& machine, const BeltScale& scale) {
@@ -66,7 +66,7 @@ Maslow4Settings anchors_of(const BeltMachine& machine) {
   return settings;
 }
 
-/// A height is a number of the machine's; what else acts no number takes out.
+/// A height is a setting of the machine; other effects cannot be removed by a setting.
 void add_cause(const Cause& cause, const BeltMachine& machine, Maslow4Settings& settings) {
   const auto belt = model::belt_of(name(cause.cause.side));
   if (cause.cause.effect->id == "anchor_height" && belt && !cause.parameters.empty()) {

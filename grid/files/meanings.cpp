@@ -8,7 +8,7 @@ namespace chaintrue::grid::files {
 namespace {
 
 struct Meaning {
-  std::string_view noun;  ///< of the object; empty: in any
+  std::string_view noun;  ///< of the object; empty: any object
   std::string_view key;
   std::string_view words;
 };

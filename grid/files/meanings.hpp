@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What each key of each file means, for reference pages and editors. Private to grid/files. Every
-/// key that a record has stands here (tests/grid_files/format_pages_test.cpp).
+/// The meaning of every key of every file, for reference pages and editors. Private to grid/files.
+/// Complete for all records (tests/grid_files/format_pages_test.cpp).
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace chaintrue::grid::files {
 
-/// `noun` as the record has it ("a sprocket"); a sentence, or nothing where the key is unknown.
+/// `noun` as in the record ("a sprocket"). Returns a sentence; empty for an unknown key.
 [[nodiscard]] std::string meaning_of(std::string_view noun, std::string_view key);
 
 }  // namespace chaintrue::grid::files

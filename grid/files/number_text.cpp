@@ -33,8 +33,8 @@ Parsed parse(std::string_view text) {
   return parsed;
 }
 
-/// Of two texts that are out of a double's range, the one with a negative exponent is near zero; so
-/// is a text without any, 0.000...
+/// Of the texts outside a double's range, those with a negative exponent are near zero; so are
+/// those without an exponent, 0.000...
 bool is_near_zero(std::string_view text) {
   const std::size_t exponent = text.find_first_of("eE");
   if (exponent != std::string_view::npos && exponent + 1 < text.size())

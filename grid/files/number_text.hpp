@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Numbers as people and programs write them into files and on the command line, read without the
-/// locale.
+/// Numbers as users and programs write them into files and on the command line, read independent of
+/// the locale.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace chaintrue::grid::files {
 
-/// What a number may be; `unit` may be empty. Both ends are allowed.
+/// Range of a number; `unit` may be empty. Both ends are allowed.
 struct Range {
   std::string_view unit;
   double least = 0.0;
@@ -21,18 +21,19 @@ struct Range {
   [[nodiscard]] std::string expected() const;
 };
 
-/// The finite number that the whole text is. A plus sign may stand before it; a number nearer to
-/// zero than the smallest double is zero; one beyond the largest, NaN and infinity are no numbers.
+/// The finite number that the whole text denotes. A leading plus sign is allowed; a number nearer
+/// to zero than the smallest double is zero; numbers beyond the largest, NaN and infinity are
+/// rejected.
 [[nodiscard]] std::optional<double> number_of(std::string_view text);
 
-/// True for a number that no double holds: 1e999, NaN, Infinity.
+/// True for a number outside a double's range: 1e999, NaN, Infinity.
 [[nodiscard]] bool is_beyond_double(std::string_view text);
 
 /// True for `12,5` and `-1.200,5`: a number written with a decimal comma.
 [[nodiscard]] bool looks_like_decimal_comma(std::string_view text);
 
-/// The number in its range; otherwise reports it at `place` and gives nothing. `name` says whose
-/// value it is.
+/// The number in its range; otherwise reports it at `place` and returns nothing. `name` is the name
+/// of the value in the message.
 [[nodiscard]] std::optional<double> checked_number(std::string_view text,
                                                    const std::string& place,
                                                    std::string_view name,

@@ -18,7 +18,7 @@ namespace {
 constexpr int kRows = 15;
 constexpr int kColumns = 31;
 constexpr std::size_t kLines = 2 * kRows;
-/// A machine that misses by more would not find the square with its camera.
+/// A machine with larger errors would not find the square with its camera.
 constexpr Range kError{"mm", -500.0, 500.0};
 
 using Block = std::array<std::array<double, kColumns>, kRows>;
@@ -73,11 +73,11 @@ Blocks read_blocks(const std::string& text, Problems& problems) {
   return blocks;
 }
 
-/// Places and errors are decimals, and so are their sums and products: to a nanometre, which takes
-/// off what binary fractions add.
+/// Positions and errors are decimals, and so are their sums and products: rounded to a nanometre,
+/// which removes the error of binary fractions.
 double as_decimal(double value_mm) { return std::round(value_mm * 1e6) / 1e6; }
 
-/// The number of a square's visit had all of them been visited; distinct, and in the order of the
+/// The number of a square's visit if all squares had been visited; distinct and in the order of the
 /// visits.
 int visit(VisitOrder order, int row, int column) {
   const bool by_rows = order == VisitOrder::rows || order == VisitOrder::serpentine_rows;
@@ -89,7 +89,7 @@ int visit(VisitOrder order, int row, int column) {
   return outer * length + (serpentine && outer % 2 == 1 ? length - 1 - inner : inner);
 }
 
-/// Visits count from 0 without gaps over the squares that were visited.
+/// Numbers the visited squares from 0 without gaps.
 void number_visits(std::vector<StatedPoint>& points) {
   std::vector<StatedPoint*> in_order;
   for (StatedPoint& point : points) in_order.push_back(&point);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The scan that the optical calibration of WebControl and GroundControl writes: where the camera
-/// on the sled had to be sent to stand over each printed square.
+/// The scan that the optical calibration of WebControl and GroundControl writes: the command that
+/// puts the sled's camera over each printed square.
 ///
-/// Two blocks of 15 lines with 31 numbers, mm, an empty line between them: first the errors in x,
-/// then those in y. The first line is the top of the sheet (iy = 7 .. -7), the first number its
+/// Two blocks of 15 lines with 31 numbers, mm, with an empty line between them: first the errors in
+/// x, then those in y. The first line is the top of the sheet (iy = 7 .. -7), the first number its
 /// left end (ix = -15 .. 15). A square lies at (ix, iy) times the pitch. The error is the command
-/// less the square's place, so
+/// less the square's position, so
 ///
 ///   command = square + error                                                                (1)
 ///
-/// puts the tool on the square. 0.00 in both blocks: not visited. A scan of what remains with a
-/// compensation switched on has the same form and another meaning; (1) does not hold for it.
+/// puts the tool on the square. 0.00 in both blocks: not visited. A scan of the remaining errors
+/// with a compensation switched on has the same form but another meaning; (1) does not hold for it.
 #pragma once
 
 #include <filesystem>
@@ -23,16 +23,16 @@
 
 namespace chaintrue::grid::files {
 
-/// In which order the squares were visited; the file does not say.
+/// The order in which the squares were visited; the file does not contain it.
 enum class VisitOrder {
   rows,                ///< each row from left to right, the top row first
   columns,             ///< each column from top to bottom, the left column first
-  serpentine_rows,     ///< as rows, every second one from right to left
-  serpentine_columns,  ///< as columns, every second one from bottom to top
+  serpentine_rows,     ///< as rows, every second row from right to left
+  serpentine_columns,  ///< as columns, every second column from bottom to top
 };
 
 struct OpticalOptions {
-  /// With the controller that carried the commands out.
+  /// Includes the controller that executed the commands.
   model::Machine machine;
   /// Between two squares; 3 inches on the printed banner.
   double pitch_mm = 76.2;
@@ -45,8 +45,8 @@ struct ReadOptical {
   int squares = 0;
 };
 
-/// "-" reads standard input. \throws InputError with every problem of the file, or where the
-/// machine has no controller.
+/// "-" reads standard input. \throws InputError with every problem of the file, or if the machine
+/// has no controller.
 [[nodiscard]] ReadOptical read_optical(const std::filesystem::path& path,
                                        const OpticalOptions& options);
 /// `file` is the name used in messages and, without its folder, the grid's.

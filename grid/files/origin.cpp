@@ -28,12 +28,12 @@ constexpr std::array kSignedTypes = {std::pair{"chaintrue_grid", Origin::measure
                                      std::pair{"chaintrue_belts", Origin::measured},
                                      std::pair{"chaintrue_machine", Origin::machine}};
 
-/// What the description of a file format holds.
+/// The first words of the description of a file format.
 constexpr std::string_view kPageOfFormat = "This page is written by `chaintrue formats ";
 constexpr std::string_view kSchemaOfFormat =
     "{\n  \"$schema\": \"http://json-schema.org/draft-07/schema#\",\n  \"title\": \"chaintrue_";
 
-/// What results begin with.
+/// The first words of results.
 constexpr std::array<std::string_view, 7> kTables = {
     "cell,machine,effects,used_on,",
     "x_mm,y_mm,left_mm,right_mm,left_sigma_mm,right_sigma_mm,status\n",

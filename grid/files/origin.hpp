@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What kind of file a text is, as far as this program writes that kind, and whether a person's
-/// work would be lost with it.
+/// The kind of a text among those that this program writes, and whether a user's work would be lost
+/// if it were overwritten.
 ///
-/// A map, a diagnosis, a page or a compensated program is made from something else and can be made
-/// again. A grid, a set of holes, a machine or a list may hold what somebody measured or typed:
-/// such a file counts as this program's only while nothing in it has changed since it was written,
-/// which its signature tells: a comment with the content's hash.
+/// A map, a diagnosis, a page or a compensated program is computed and can be computed again. A
+/// grid, a set of holes, a machine or a list may contain measurements or typed values: such a file
+/// counts as this program's only if it is unchanged since it was written, which is checked by its
+/// signature, a comment with the content's hash.
 ///
 /// \code
 ///   write_whole_file("plan.csv", signed_text(marks, Origin::list));
-///   if (origin_of(read_whole_file("plan.csv")) == Origin::list) ...  // nobody filled it in
+///   if (origin_of(read_whole_file("plan.csv")) == Origin::list) ...  // not filled in
 /// \endcode
 #pragma once
 
@@ -20,27 +20,27 @@
 namespace chaintrue::grid::files {
 
 enum class Origin {
-  foreign,  ///< not recognised: a person's, or another program's
-  changed,  ///< of a kind that this program writes, but with something in it that it did not write
+  foreign,  ///< not recognised: a user's, or another program's
+  changed,  ///< of a kind that this program writes, but changed since
   map,
   diagnosis,
   anchors,
   measured,  ///< chaintrue_grid, chaintrue_holes or chaintrue_belts
   machine,
-  answer,  ///< what a simulation hid
+  answer,  ///< the truth of a simulation
   check,
   page,         ///< HTML
   drawing,      ///< SVG
   program,      ///< G-code
-  table,        ///< results: CSV, lines of JSON, words
-  list,         ///< to be filled in, or to be typed into another program
+  table,        ///< results: CSV, lines of JSON, text
+  list,         ///< to be filled in, or typed into another program
   description,  ///< of a file format: its page or its schema
 };
 
-/// Never fails: whatever is not recognised is foreign.
+/// Never fails: unrecognised texts are foreign.
 [[nodiscard]] Origin origin_of(std::string_view text);
 
-/// The text as it goes into a file of its kind: with the signature where the kind has one.
+/// The text to be written: with the signature if the kind has one.
 [[nodiscard]] std::string signed_text(const std::string& text, Origin kind);
 
 }  // namespace chaintrue::grid::files

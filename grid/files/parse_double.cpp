@@ -27,8 +27,8 @@ namespace {
 
 bool is_decimal_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// fast_float answers infinity or zero where the standard says out of range: infinity for a text
-/// of digits, zero for a text whose mantissa is not.
+/// fast_float returns infinity or zero where the standard requires out of range: infinity for a
+/// text of digits, zero for a text whose mantissa is not zero.
 bool is_out_of_range(const char* first, const char* end, double value) {
   if (std::isinf(value)) return std::any_of(first, end, is_decimal_digit);
   if (value != 0.0) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// std::from_chars for double, also where the standard library has none (libc++ before 20).
+/// std::from_chars for double, also for standard libraries without it (libc++ before 20).
 #pragma once
 
 #include <system_error>
@@ -10,9 +10,9 @@ namespace chaintrue::grid::files {
 enum class NumberForm { general, fixed };
 
 struct ParsedDouble {
-  /// Behind the last character that belongs to the number; `first` where there is none.
+  /// After the last character that belongs to the number; `first` if there is no number.
   const char* end;
-  /// invalid_argument: no number; result_out_of_range: `value` is left as it was.
+  /// invalid_argument: no number; result_out_of_range: `value` is unchanged.
   std::errc error;
 };
 

@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a signal handler may look at: names of temporary files, in memory that never moves. A slot
-/// is claimed before its file is made, so that no file is ever without one.
+/// Data for the signal handler: names of temporary files, at fixed addresses. A slot is claimed
+/// before its file is created, so that every file has one.
 struct Slot {
   std::atomic<bool> is_taken{false};
   std::atomic<bool> is_named{false};
@@ -61,7 +61,7 @@ void free_slot(int& slot) {
   slot = -1;
 }
 
-/// The open descriptor that a path such as /dev/stdout or /proc/self/fd/3 stands for.
+/// The open descriptor that a path such as /dev/stdout or /proc/self/fd/3 names.
 std::optional<int> descriptor_behind(const fs::path& path) {
   if (path == "-" || path == "/dev/stdout") return STDOUT_FILENO;
   if (path == "/dev/stderr") return STDERR_FILENO;
@@ -73,8 +73,8 @@ std::optional<int> descriptor_behind(const fs::path& path) {
                                                                       : std::nullopt;
 }
 
-/// The file that a path names in the end; empty where it is no file but a device, a pipe or an open
-/// descriptor, which are written to directly.
+/// The file that a path resolves to; empty if it is a device, a pipe or an open descriptor, which
+/// are written to directly.
 fs::path file_behind(const fs::path& path) {
   if (path.empty()) refuse_file("output file", "an empty name", "the name of a file");
   if (descriptor_behind(path)) return {};
@@ -89,13 +89,13 @@ fs::path file_behind(const fs::path& path) {
   }
   struct stat status = {};
   if (::stat(target.c_str(), &status) != 0) {
-    // A name that no file can have shows only when it is to be taken, after others took theirs.
+    // An invalid name would be detected only at the rename, after other files were renamed.
     if (errno != ENOENT) refuse_file(path.string(), system_words(errno), "the name of a file");
     return target;
   }
   if (!S_ISREG(status.st_mode)) return {};
-  // An administrator may write everywhere; a file without any right to be written to is protected
-  // against that too.
+  // An administrator may write to any file; files without any write permission are protected all
+  // the same.
   constexpr mode_t kAnybodyWrites = S_IWUSR | S_IWGRP | S_IWOTH;
   const bool is_protected = (status.st_mode & kAnybodyWrites) == 0;
   if (is_protected || ::access(target.c_str(), W_OK) != 0) {
@@ -106,7 +106,7 @@ fs::path file_behind(const fs::path& path) {
   return target;
 }
 
-/// A new file takes the rights that the process gives new files, an old one keeps its own.
+/// A new file gets the process's default permissions, an existing one keeps its own.
 mode_t rights_for(const struct stat* old) {
   if (old != nullptr) return old->st_mode & 07777U;
   const mode_t mask = ::umask(0);
@@ -118,7 +118,7 @@ std::string unpredictable_name_beside(const fs::path& target) {
   std::random_device bits;
   const std::uint64_t number = (static_cast<std::uint64_t>(bits()) << 32U) | bits();
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  // A name may have 255 bytes; the target's own name in front helps whoever finds one.
+  // A name may have 255 bytes; it begins with the target's name to show where it belongs.
   return (folder / fmt::format(".{}.{:016x}", target.filename().string().substr(0, 200), number))
       .string();
 }
@@ -185,7 +185,7 @@ void PendingFile::finish() {
   if (flushed().empty()) return;
   struct stat old = {};
   const bool replaces = ::stat(target_.c_str(), &old) == 0;
-  // Only an administrator may give a file away; for everybody else it is their own already.
+  // Only an administrator may change the owner; for other users it is their own already.
   if (replaces && ::fchown(descriptor_, old.st_uid, old.st_gid) != 0 && errno != EPERM)
     refuse(errno);
   if (::fchmod(descriptor_, rights_for(replaces ? &old : nullptr)) != 0 ||
@@ -204,7 +204,7 @@ void PendingFile::take_name() {
 void PendingFile::put_out() const {
   if (!target_.empty()) return;
   const auto open_already = descriptor_behind(path_);
-  // What was printed before comes first.
+  // Buffered output is written first.
   if (open_already) std::fflush(*open_already == STDERR_FILENO ? stderr : stdout);
   const int descriptor = open_already ? *open_already : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
   const bool is_written = descriptor >= 0 && write_all(descriptor, held_);

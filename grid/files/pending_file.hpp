@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// An output that appears whole or not at all, written piece by piece.
+/// An output file that is written piece by piece and appears complete or not at all.
 ///
-/// The pieces go to a file without the right name, in the folder of the one that is wanted, which
-/// then takes the name in one step: whoever looks sees the old file or the new one. Its name is
-/// unpredictable and it is made anew (O_EXCL), never opened. Symbolic links are followed, an
-/// existing file's rights and owner are kept, one that nobody may write to is refused. Devices,
-/// pipes and "-" (standard output) are held in memory and written to at the end, without any
-/// temporary file.
+/// The pieces go to a temporary file in the target's folder, which is then renamed in one step:
+/// readers see either the old file or the new one. Its name is unpredictable and it is created with
+/// O_EXCL. Symbolic links are followed, permissions and owner of an existing file are kept, a file
+/// without write permission is rejected. Output to devices, pipes and "-" (standard output) is held
+/// in memory and written at the end, without a temporary file.
 ///
 /// \code
 ///   PendingFile program("part.true.nc"), page("part.html");
@@ -15,7 +14,7 @@
 ///   take_places({&program, &page});  // both or none
 /// \endcode
 ///
-/// Not for two writers of one name at once: the last one wins, whole.
+/// With two writers of the same name the last one wins, with its complete file.
 #pragma once
 
 #include <exception>
@@ -28,16 +27,17 @@ namespace chaintrue::grid::files {
 
 class PendingFile {
  public:
-  /// \throws InputError where the path is a folder, lies in none, or may not be written to.
+  /// \throws InputError if the path is a folder, its folder does not exist, or it may not be
+  /// written to.
   explicit PendingFile(std::filesystem::path path);
-  /// Without take_places nothing stays behind.
+  /// Removes the temporary file unless take_places was called.
   ~PendingFile();
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;
 
-  /// A piece that does not fit on the disk is reported by take_places.
+  /// An error, such as a full disk, is reported by take_places.
   void write(std::string_view bytes);
-  /// Where what was written so far can be read before it takes its place; empty where it is held in
+  /// A file with what was written so far, before it takes its place; empty if the output is held in
   /// memory.
   [[nodiscard]] std::string flushed();
   [[nodiscard]] const std::string& held() const { return held_; }
@@ -59,19 +59,19 @@ class PendingFile {
   int error_number_ = 0;
 };
 
-/// All of them or none: no name is taken before everything lies beside its place. What goes to
-/// devices and standard output comes last. \throws InputError for the first that cannot be
-/// written, ReaderGone where a pipe's reader left.
+/// Renames all of them or none: no file is renamed before all are completely written. Output to
+/// devices and standard output comes last. \throws InputError for the first that cannot be written,
+/// ReaderGone if a pipe's reader is gone.
 void take_places(const std::vector<PendingFile*>& files);
 
-/// The reader of standard output or of a pipe wants no more: not an error of anybody.
+/// The reader of standard output or of a pipe has closed it: not an error.
 class ReaderGone : public std::exception {
  public:
   [[nodiscard]] const char* what() const noexcept override { return "nobody reads the output"; }
 };
 
-/// From here on SIGINT, SIGTERM, SIGHUP and SIGPIPE remove what is pending and then end the process
-/// as they would have; those that are ignored stay ignored. For a program's main().
+/// After this call SIGINT, SIGTERM, SIGHUP and SIGPIPE remove pending files and then end the
+/// process as before; ignored signals stay ignored. For a program's main().
 void remove_pending_files_on_signals();
 
 }  // namespace chaintrue::grid::files

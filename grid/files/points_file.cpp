@@ -10,12 +10,12 @@ namespace chaintrue::grid::files {
 
 std::vector<model::MarkPoint> parse_points(const std::string& text, const std::string& file) {
   constexpr Range kCoordinate{"mm", -20000.0, 20000.0};
-  // A plan numbers its points in the order of the walk; the lines stand in that order. What was, or
-  // will be, read at them is passed over.
+  // A plan numbers its points in the order of visits, which is the order of the lines. Columns of
+  // readings are ignored.
   constexpr Range kNumber{"", 0.0, 1e9};
   constexpr Range kLength{"mm", 1.0, 20000.0};
   Problems problems(file);
-  // A list of commands: there the tool was sent, wherever it went.
+  // A list of commands: the positions that the tool was sent to.
   const std::vector<std::string> header = csv_header(text);
   const bool is_sheet = std::find(header.begin(), header.end(), "commanded_x_mm") != header.end();
   const CsvTable table = read_csv(text,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Points of the bed from a CSV with the columns x_mm and y_mm; of a list of commands, such as a
-/// plan's, the commands. What such a CSV may look like is said in grid_file.hpp.
+/// Points of the bed from a CSV with the columns x_mm and y_mm; from a list of commands, such as a
+/// plan's, the commands. The CSV format is that of grid_file.hpp.
 #pragma once
 
 #include <filesystem>

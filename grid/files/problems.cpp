@@ -15,7 +15,7 @@ bool is_continuation_byte(char c) { return (static_cast<unsigned char>(c) & 0xC0
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// Levenshtein's distance, blind to case.
+/// Levenshtein distance, case-insensitive.
 std::size_t slips_between(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -31,7 +31,7 @@ std::size_t slips_between(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// `left` for `left_mm`: the unit is what people leave out.
+/// True for `left` and `left_mm`: people omit the unit.
 bool is_without_unit(std::string_view word, std::string_view candidate) {
   return !word.empty() && candidate.size() > word.size() && candidate[word.size()] == '_' &&
          std::equal(word.begin(), word.end(), candidate.begin(), [](char a, char b) {
@@ -39,8 +39,8 @@ bool is_without_unit(std::string_view word, std::string_view candidate) {
          });
 }
 
-/// Of one kind are those of one file that expect the same. What is over is counted where the last
-/// one that is listed stands.
+/// Limits the number of problems of one kind: of one file, with the same expectation. The number of
+/// the omitted ones is given at the last one listed.
 std::vector<InputProblem> few_of_a_kind(const std::vector<InputProblem>& all) {
   const auto kind_of = [](const InputProblem& problem) {
     return std::pair(problem.file, problem.expected);
@@ -52,7 +52,7 @@ std::vector<InputProblem> few_of_a_kind(const std::vector<InputProblem>& all) {
   for (const InputProblem& problem : all) {
     const std::size_t most = Problems::kMostOfAKind;
     const std::size_t number = ++listed[kind_of(problem)];
-    // One more line takes no more room than a count of one.
+    // One more line is no longer than a count of one.
     if (number <= most || total[kind_of(problem)] == most + 1) few.push_back(problem);
     if (number == most && total[kind_of(problem)] > most + 1) {
       few.push_back({problem.file,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Gathers what is wrong with one file, so that its owner mends everything in one go, and the small
-/// helpers that make findings readable. Shared by the JSON, CSV and ini readers.
+/// Collects the problems of one file, so that all are reported at once, and helpers for readable
+/// messages. Shared by the JSON, CSV and ini readers.
 ///
 /// \code
 ///   Problems problems("grid.csv");
@@ -26,17 +26,17 @@ class Problems {
   /// `value` is shortened to 60 characters and made printable here.
   void add(std::string place, std::string_view value, std::string expected);
   void warn(std::string place, std::string sentence);
-  /// Those of another file that this one names.
+  /// Adds those of another file that this one names.
   void add_all(const InputError& error);
   void add_warnings(const std::vector<Warning>& warnings);
-  /// True where something was found at this JSON pointer or below it.
+  /// True if something was reported at this JSON pointer or below it.
   [[nodiscard]] bool at_or_below(std::string_view pointer) const;
   [[nodiscard]] bool any() const { return !list_.empty(); }
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const std::vector<InputProblem>& list() const { return list_; }
   [[nodiscard]] const std::vector<Warning>& warnings() const { return warnings_; }
-  /// \throws InputError with everything gathered; past kMostOfAKind of those that expect the same,
-  /// and past kMostProblems in all, the rest is counted, not listed.
+  /// \throws InputError with everything collected; beyond kMostOfAKind with the same expectation,
+  /// and beyond kMostProblems in all, the rest is counted, not listed.
   void throw_if_any() const;
 
   static constexpr std::size_t kMostOfAKind = 5;
@@ -53,7 +53,7 @@ class Problems {
 /// `line 4, column 12`, both from 1; the column counts bytes.
 [[nodiscard]] std::string line_and_column(std::size_t line, std::size_t column);
 [[nodiscard]] std::string line_and_column_of(std::string_view text, std::size_t offset);
-/// The candidate with the fewest typing slips, or the word with the unit that it lacks; empty where
+/// The candidate with the smallest edit distance, or the word with the unit that it lacks; empty if
 /// none is near.
 [[nodiscard]] std::string nearest(std::string_view word,
                                   const std::vector<std::string>& candidates);

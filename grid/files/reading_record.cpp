@@ -8,11 +8,11 @@
 namespace chaintrue::grid::files {
 namespace {
 
-/// A measurement that is not a point.
+/// A measurement other than a point.
 struct ReadingKind {
   const char* what;
   Range value;
-  std::vector<std::string> sides = {};  ///< that it may have; none at all where empty
+  std::vector<std::string> sides = {};  ///< allowed sides; empty: none
 };
 
 const std::vector<ReadingKind>& reading_kinds() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Values that many records hold. Their ranges only keep numbers that are no measure of anything
-/// away from arithmetic. Private to grid/files.
+/// Values shared by several records. Their ranges only exclude numbers without a meaning. Private
+/// to grid/files.
 #pragma once
 
 #include <string_view>
@@ -18,11 +18,11 @@ inline constexpr Range kShare{"", 0.0, 1.0};
 inline constexpr Range kMillimetres{"mm", -1e6, 1e6};
 inline constexpr Range kSigmaMm{"mm", 0.0, 1e6};
 inline constexpr Range kPlaceMm{"mm", -1e5, 1e5};
-/// Of points, distances and places.
+/// Largest number of points, distances and positions.
 inline constexpr int kMostNumbered = 1000000;
 
-/// A measure of a machine: model::problems_of says what it may reasonably be, in one place for files
-/// and programs alike.
+/// A dimension of a machine: its range is checked by model::problems_of, for files and programs in
+/// one place.
 [[nodiscard]] inline Value<double> number_in(std::string_view unit) {
   constexpr double kBeyondMeaning = 1e6;
   return number({unit, -kBeyondMeaning, kBeyondMeaning});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The tables of the formats as JSON Schemas, each made by the file that reads the format. Private to
-/// grid/files; format_pages.hpp is what others see.
+/// The tables of the formats as JSON Schemas, each made by the file that reads the format. Private
+/// to grid/files; format_pages.hpp is the public interface.
 #pragma once
 
 #include "grid/files/json_text.hpp"

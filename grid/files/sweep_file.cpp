@@ -35,7 +35,7 @@ struct StatedMachine {
   double unmodelled_mm = 0.0;
 };
 
-/// The file as it stands.
+/// The content of the file.
 struct StatedSweep {
   SweepSpec spec;
   std::vector<StatedMachine> machines;
@@ -113,7 +113,7 @@ const Record<UseLevel>& use_record() {
   return record;
 }
 
-/// What a sweep does where its file does not say.
+/// The defaults of a sweep.
 void fill_defaults(SweepSpec& spec) {
   if (spec.grids.empty()) spec.grids = {GridLevel{}};
   if (spec.spacings.empty()) spec.spacings = {DesignKind::regular};
@@ -124,7 +124,7 @@ void fill_defaults(SweepSpec& spec) {
   if (spec.uses.empty()) spec.uses = {{"the same machine", {}, false}};
 }
 
-/// A field of the specification inside the file as it stands.
+/// A field of the specification inside the file's content.
 template <class V>
 void add_to(Record<StatedSweep>& record,
             const std::string& key,
@@ -212,7 +212,7 @@ const Record<StatedSweep>& sweep_record() {
 }
 
 void read_machines(const fs::path& path, StatedSweep& stated, Problems& problems) {
-  // Several levels may name one file; what it does not say is told once.
+  // Several levels may name one file; its warnings are given once.
   std::map<std::string, model::Machine> known;
   const auto beside = [&](const std::string& name) {
     const auto [at, is_new] = known.try_emplace(name);
@@ -234,7 +234,7 @@ void read_machines(const fs::path& path, StatedSweep& stated, Problems& problems
   }
 }
 
-/// Every effect must be able to act on every machine it meets.
+/// Every effect must be able to act on every machine of the sweep.
 void check_effects(const SweepSpec& spec, Problems& problems) {
   const auto check = [&](const std::string& list,
                          std::size_t index,

@@ -5,7 +5,7 @@
 ///   { "file_type": "chaintrue_sweep", "format_version": "1.0",
 ///     "name": "how many points", "question": "How many points do I need?",
 ///     "seed": 1, "repetitions": 50, "repeats": 6, "draw_settings": true,
-///     "evaluation": "40x25",           // raster on which maps are held against the truth
+///     "evaluation": "40x25",           // raster on which maps are compared with the truth
 ///     "grids": ["4x3", "7x4"], "spacings": ["regular", "chebyshev"],
 ///     "noises": [{"length_mm": 0.2, "position_mm": 0.3}], "jitters_mm": [8],
 ///     "surfaces": ["residual", "direct"],
@@ -29,7 +29,7 @@ namespace chaintrue::grid::files {
 
 struct ReadSweep {
   sweep::SweepSpec spec;
-  /// Of everything that the results depend on, machines included.
+  /// Hash of everything that the results depend on, machines included.
   std::uint64_t hash = 0;
   std::vector<Warning> warnings;
 };
@@ -37,8 +37,8 @@ struct ReadSweep {
 /// \throws InputError with every problem of the file.
 [[nodiscard]] ReadSweep read_sweep(const std::filesystem::path& path);
 
-/// The pieces of summary.json, written one after the other: head, a line a combination with commas
-/// between, tail.
+/// The parts of summary.json, written one after the other: head, one line for each combination with
+/// commas between, tail.
 [[nodiscard]] std::string sweep_summary_head(const sweep::SweepSpec& spec);
 [[nodiscard]] std::string sweep_summary_line(const sweep::SweepSpec& spec,
                                              const sweep::Levels& levels,

@@ -27,7 +27,7 @@ constexpr std::size_t kWords = 8;
 using CellRecord = std::array<std::uint64_t, kWords>;
 constexpr std::size_t kRecordBytes = sizeof(CellRecord);
 
-/// "shard-3-of-16", and the process where there are several.
+/// "shard-3-of-16", with the process's number if there are several.
 std::string part_name(const sweep::Share& share) {
   std::string name = fmt::format("shard-{}-of-{}", share.index + 1, share.count);
   if (share.ranks > 1) name += fmt::format("-rank-{}-of-{}", share.rank + 1, share.ranks);
@@ -99,7 +99,7 @@ bool read_record(std::istream& in, CellRecord& record) {
 
 fs::path parts_of(const fs::path& directory) { return directory / "parts"; }
 
-/// For this process alone, and gone with it, however it ends.
+/// A file of this process only, removed however the process ends.
 OpenPart unnamed_file_in(const fs::path& directory) {
   std::string name = (directory / "cells-XXXXXX").string();
   const int descriptor = ::mkstemp(name.data());
@@ -157,7 +157,7 @@ ResultStore::ResultStore(fs::path directory, std::uint64_t spec_hash, std::uint6
 void ResultStore::read_parts(
     const std::function<void(std::uint64_t, const CellResult&)>& visit) const {
   std::vector<fs::path> parts;
-  // No folder yet: no parts yet.
+  // No folder yet: no parts.
   std::error_code error;
   for (fs::directory_iterator entry(parts_of(directory_), error), end; !error && entry != end;
        entry.increment(error)) {
@@ -184,7 +184,7 @@ void ResultStore::for_each(
   if (!complete()) {
     throw precondition("sweep: {} of {} cells are missing", cells() - finished_, cells());
   }
-  // Sorted on disk: the record of a cell stands at its number.
+  // Sorted on disk: the record of a cell is at its number.
   const OpenPart sorted = unnamed_file_in(directory_);
   const auto must = [&](bool done) {
     if (!done) refuse(directory_, "", "room on the disk");

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The finished cells of a sweep on disk: any number of part files, appended to cell by cell, so
-/// that a sweep can be stopped at any moment, go on, or be spread over processes; and the results
-/// that are assembled from them, the same bytes however they came about.
+/// that a sweep can be stopped at any moment, resumed, or spread over processes; and the results
+/// assembled from them, with the same bytes in every case.
 ///
-///   DIR/parts/NAME.cells   header, then records of 64 bytes, each with a checksum; a torn one at
+///   DIR/parts/NAME.cells   header, then records of 64 bytes, each with a checksum; a partial one at
 ///                          the end is ignored
 ///   DIR/results.csv        every cell, in the order of their numbers
 ///   DIR/summary.json       every combination: medians and worst values over the repetitions
 ///
-/// Memory: one bit a cell, and what one combination needs.
+/// Memory: one bit for each cell, and one combination.
 #pragma once
 
 #include <cstdint>
@@ -30,15 +30,15 @@ struct ClosePart {
 };
 using OpenPart = std::unique_ptr<std::FILE, ClosePart>;
 
-/// Appends to one part. Not for two threads at once.
+/// Appends to one part. Not thread safe.
 class PartWriter {
  public:
-  /// Opens DIR/parts/NAME.cells, cutting off a torn record. \throws InputError where it
-  /// cannot be written.
+  /// Opens DIR/parts/NAME.cells and cuts off an incomplete record. \throws InputError if it cannot
+  /// be written.
   PartWriter(const std::filesystem::path& directory,
              const std::string& name,
              std::uint64_t spec_hash);
-  /// On disk, as far as the process is concerned, when it returns.
+  /// Written to the file when it returns.
   void append(std::uint64_t cell, const sweep::CellResult& result);
 
  private:
@@ -68,15 +68,15 @@ class ResultStore {
   std::uint64_t finished_ = 0;
 };
 
-/// The cells of a folder for run_sweep: its parts, and a part of the share's own to append to.
-/// \throws InputError where the folder holds cells of another specification.
+/// The store of a folder for run_sweep: its parts, and a part of the share's own to append to.
+/// \throws InputError if the folder has cells of another specification.
 [[nodiscard]] sweep::CellStore cells_kept_in(const std::filesystem::path& directory,
                                              const sweep::SweepSpec& spec,
                                              std::uint64_t spec_hash,
                                              const sweep::Share& share);
 
-/// A point of the report's lines: one factor's level at one number of points, over all other
-/// factors and repetitions.
+/// A point of the report's lines: the error of one factor's level at one number of points, over all
+/// other factors and repetitions.
 struct LevelError {
   std::size_t factor = 0;
   std::size_t level = 0;
@@ -86,7 +86,7 @@ struct LevelError {
   double tool_max_mm = 0.0;
 };
 
-/// Writes results.csv and summary.json. \returns what the report draws.
+/// Writes results.csv and summary.json. \returns the data of the report's charts.
 std::vector<LevelError> write_results(const sweep::SweepSpec& spec,
                                       const ResultStore& store,
                                       const std::filesystem::path& directory);

@@ -9,7 +9,7 @@
 namespace chaintrue::grid::files {
 namespace {
 
-/// Numbers are kept as texts by most versions, as numbers by some.
+/// Most versions write numbers as texts, some as numbers.
 std::string text_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   return value.is_null() ? std::string() : value.dump();

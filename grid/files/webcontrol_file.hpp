@@ -6,7 +6,7 @@
 ///   { "Maslow Settings": [ {"key": "motorSpacingX", "value": "2978.4", ...}, ... ],
 ///     "Advanced Settings": [ ... ] }
 ///
-/// Everything else is as groundcontrol_file.hpp says. Source: WebControlCNC/WebControl,
+/// Everything else is as in groundcontrol_file.hpp. Source: WebControlCNC/WebControl,
 /// defaultwebcontrol.json.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace chaintrue::grid::files {
 
-/// JSON with its two sections. \throws InputError for a text that is not JSON.
+/// True for JSON with its two sections. \throws InputError for a text that is not JSON.
 [[nodiscard]] bool is_webcontrol(const std::string& text, const std::string& file);
 /// `file` is the name used in messages and, without its folder, the machine's.
 /// \throws InputError with every problem of the file.

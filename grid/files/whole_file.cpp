@@ -37,7 +37,7 @@ std::string read_to_the_end(std::FILE* file, const std::string& name) {
   return text;
 }
 
-/// Files that people take for text because a program shows them as a table.
+/// Rejects files that look like text because a program shows them as a table.
 void refuse_what_is_no_text(const std::string& text, const std::string& name) {
   struct Kind {
     std::string_view beginning;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A file is read whole and written whole or not at all (pending_file.hpp says how). "-" is
+/// Reads whole files, and writes files completely or not at all (see pending_file.hpp). "-" is
 /// standard input and standard output.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace chaintrue::grid::files {
 
-/// How messages call a path: itself, or "standard input" for "-".
+/// A path's name in messages: itself, or "standard input" for "-".
 [[nodiscard]] std::string name_in_messages(const std::filesystem::path& path);
 /// \throws InputError where the path cannot be opened, is a directory, or reading fails half-way.
 [[nodiscard]] std::string read_whole_file(const std::filesystem::path& path);
@@ -23,9 +23,9 @@ struct OutputFile {
   std::filesystem::path path;
   std::string text;
 };
-/// All of them or none: no name is taken before every text lies beside its place. Devices and
-/// standard output come last. \throws InputError as write_whole_file, for the first that fails, and
-/// where two name the same file; ReaderGone where a pipe's reader left.
+/// All of them or none: no file is renamed before all are completely written. Devices and standard
+/// output come last. \throws InputError as write_whole_file, for the first that fails, and if two
+/// outputs are the same file; ReaderGone if a pipe's reader is gone.
 void write_whole_files(const std::vector<OutputFile>& outputs);
 
 }  // namespace chaintrue::grid::files

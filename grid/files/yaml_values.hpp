@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// As much of YAML as FluidNC's settings have: keys by their indentation, and what stands behind the
+/// The part of YAML that FluidNC's settings use: keys by their indentation, and the value after the
 /// colon. Private to grid/files.
 #pragma once
 
@@ -14,7 +14,7 @@ struct YamlValue {
   std::string place;  ///< "line 4"
 };
 
-/// Values by the way to them: "kinematics/WallPlotter/left_anchor_x".
+/// Values by their path: "kinematics/WallPlotter/left_anchor_x".
 [[nodiscard]] std::map<std::string, YamlValue> yaml_values(const std::string& text);
 
 }  // namespace chaintrue::grid::files

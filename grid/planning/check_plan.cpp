@@ -21,11 +21,11 @@ namespace {
 using model::MarkPoint;
 using model::Side;
 
-/// Rows and columns of places that are tried.
+/// Rows and columns of candidate positions.
 constexpr int kCheckColumns = 9;
 constexpr int kCheckRows = 5;
 
-/// Where the map answers, row by row from the top left.
+/// Positions where the map has an answer, row by row from the top left.
 std::vector<MarkPoint> places_of(const CompensationMap& map, double margin_mm) {
   const model::Bed& bed = map.machine()->bed;
   std::vector<MarkPoint> places;
@@ -33,7 +33,7 @@ std::vector<MarkPoint> places_of(const CompensationMap& map, double margin_mm) {
     for (int ix = 0; ix < kCheckColumns; ++ix) {
       const double across = 2.0 * ix / (kCheckColumns - 1) - 1.0;
       const double up = 1.0 - 2.0 * iy / (kCheckRows - 1);
-      // Whole millimetres: that is what is typed and marked.
+      // Whole millimetres, as they are typed and marked.
       const MarkPoint mark{std::trunc((0.5 * bed.width_mm - margin_mm) * across),
                            std::trunc((0.5 * bed.height_mm - margin_mm) * up)};
       if (map.status(mark) != MapStatus::extrapolated && map.query(mark)) places.push_back(mark);
@@ -69,7 +69,7 @@ class Separation {
     return {white.col(0).squaredNorm(), white.col(1).squaredNorm()};
   }
 
-  /// Harmonic mean of both chains': near the lesser one, and moved by either.
+  /// Harmonic mean of both chains': near the smaller one, and increased by either.
   [[nodiscard]] double together(const std::vector<std::size_t>& points) const {
     const model::PerSide<double> told = told2(points);
     return 2.0 / (1.0 / told.left + 1.0 / told.right);
@@ -80,7 +80,7 @@ class Separation {
   Eigen::MatrixXd covariance_;
 };
 
-/// Exchanges points as long as one helps, from as many evenly taken ones.
+/// Exchanges points as long as an exchange is an improvement, from evenly spaced ones.
 std::vector<std::size_t> choose(const Separation& separation, std::size_t places, int points) {
   constexpr int kSweeps = 20;
   constexpr double kWorthwhile = 1e-6;
@@ -127,7 +127,7 @@ void check(const CompensationMap& map, const CheckPlanRequest& request) {
                      request.position_mm);
 }
 
-/// Readings that are what the map says.
+/// Readings equal to the map's prediction.
 tl::expected<CheckReadings, PlanFailure> readings_at(const CompensationMap& map,
                                                      const std::vector<MarkPoint>& marks,
                                                      const CheckPlanRequest& request) {

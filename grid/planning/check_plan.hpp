@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Which few points tell best, a month later, whether a map still holds.
+/// The few points that are best for checking, a month later, whether a map is still valid.
 ///
-/// Hardest to tell apart are a chain whose links grew and a chain whose zero shifted: over most of
-/// the bed both shorten its readings by about as much. The points are those where they differ most.
-/// With K, X and P of map_check.hpp, x what growth of one chain by kPitchGrowthSigma does to the
-/// readings and Z what shifted zeros do,
+/// The causes that are hardest to distinguish are a chain whose links grew and a chain whose zero
+/// shifted: over most of the bed both shorten its readings by about the same amount. The points are
+/// those where they differ most. With K, X and P of map_check.hpp, x the change of the readings by
+/// growth of one chain by kPitchGrowthSigma and Z that by shifted zeros,
 ///
 ///   told^2 = x' (K + Z P Z')^-1 x                                                           (1)
 ///
-/// is the square of what growth stands out by, in sigmas, beyond what shifted zeros imitate. The
-/// harmonic mean of both chains' is made as large as can be by exchanging points of a lattice.
-/// Source: A. Atkinson, A. Donev and R. Tobias, Optimum Experimental Designs, with SAS (2007),
-/// section 12.3, for the exchange.
+/// is the squared significance of growth, in sigmas, after projection on the shifted zeros. The
+/// harmonic mean over both chains is maximised by exchanging points of a lattice. Source: A.
+/// Atkinson, A. Donev and R. Tobias, Optimum Experimental Designs, with SAS (2007), section 12.3,
+/// for the exchange.
 ///
 /// \code
 ///   const auto plan = plan_check(map, {.points = 5});
@@ -47,15 +47,15 @@ struct CheckPlan {
   model::PerSide<double> told_sigmas;
 };
 
-/// (1) of given points; their number and the margin are not looked at. Fails in words where the map
-/// has no answer at one of them.
+/// (1) for given points; the request's number of points and margin are ignored. Fails with a
+/// message if the map has no answer at one of them.
 [[nodiscard]] tl::expected<model::PerSide<double>, PlanFailure> told_sigmas(
     const CompensationMap& map,
     const std::vector<model::MarkPoint>& marks,
     const CheckPlanRequest& request);
 
-/// Fails in words where the map has no machine or answers at too few places.
-/// \throws std::invalid_argument for numbers out of range.
+/// Fails with a message if the map has no machine, or answers at too few positions. \throws
+/// std::invalid_argument for numbers out of range.
 [[nodiscard]] tl::expected<CheckPlan, PlanFailure> plan_check(const CompensationMap& map,
                                                               const CheckPlanRequest& request);
 

@@ -15,10 +15,10 @@ namespace {
 using model::MarkPoint;
 using Holes = std::vector<const PlannedPlace*>;
 
-/// A tape is laid square to an edge by eye, to a degree: 0.15 mm at this length.
+/// A tape is held square to an edge by eye, to a degree: 0.15 mm at this length.
 constexpr double kLongestToEdgeMm = 1000.0;
-/// Two choices of the same worth, each other's mirror image say, differ by rounding, which many updates let grow to
-/// 1e-9; the first one stays.
+/// Choices of equal worth, such as mirror images, differ by rounding, which grows to 1e-9 over many updates;
+/// the first one is kept.
 constexpr double kBetterChoice = 1.0 + 1e-6;
 
 std::vector<MarkPoint> marks_of(const Holes& holes) {
@@ -52,7 +52,7 @@ std::vector<HoleDistance> DistanceChooser::in_reach(const Holes& holes) const {
   const model::Bed& bed = frame_.machine->bed;
   const double longest_mm = std::min(request_.longest_mm, kLongestToEdgeMm);
   for (std::size_t a = 0; a < holes.size(); ++a) {
-    // Of two edges the nearer: it tells as much.
+    // The nearer of two edges: it is as informative.
     const MarkPoint at = holes[a]->place;
     const SheetEdge edges[] = {at.x_mm > 0.0 ? SheetEdge::right : SheetEdge::left,
                                at.y_mm < 0.0 ? SheetEdge::bottom : SheetEdge::top};

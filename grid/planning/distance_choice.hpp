@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Which distances to measure between holes that are given, and to the sheet's edges. Private to
+/// Chooses the distances to measure between given holes, and to the sheet's edges. Private to
 /// grid/planning.
 ///
 /// Notation
-///   x   the unknowns of a plan: the machine's eight, then the sheet's place
+///   x   the unknowns of a plan: the machine's eight, then the sheet's placement
 ///   S   their covariance
 ///   A   the distances' derivative by x
 ///   V   the readings' covariance, (2) of tape_distances.hpp
@@ -14,7 +14,8 @@
 ///
 ///   |b_k|^2 / K_kk,  b = L S A',  K = A S A' + V                                            (1)
 ///
-/// and leaves b - b_k K_k' / K_kk and K - K_k K_k' / K_kk of the others, less the tape's part.
+/// and changes b and K of the others to b - b_k K_k' / K_kk and K - K_k K_k' / K_kk, less the
+/// tape's part.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,10 +25,11 @@
 
 namespace chaintrue::grid {
 
-/// The machine's, then the sheet's shift by x, by y and its turn.
+/// The machine's, then the sheet's shift in x, in y and its rotation.
 inline constexpr Eigen::Index kPlanUnknowns = estimation::kMachineUnknowns + 3;
 
-/// A place where a hole may be, and how the unknowns move what is cut there on the sheet.
+/// A candidate position of a hole, and the derivative of the hole's position on the sheet by the
+/// unknowns.
 struct PlannedPlace {
   model::MarkPoint place;
   Eigen::Matrix<double, 2, kPlanUnknowns> by_unknown;
@@ -36,7 +38,7 @@ struct PlannedPlace {
 /// Immutable, thread safe.
 class DistanceChooser {
  public:
-  /// `prior` is S with nothing measured; `root` is L.
+  /// `prior` is S before any measurement; `root` is L.
   DistanceChooser(const model::Machine& machine,
                   const HolesPlanRequest& request,
                   Eigen::MatrixXd prior,
@@ -46,16 +48,16 @@ class DistanceChooser {
     std::vector<HoleDistance> distances;
     double variance_mm2 = 0.0;  ///< trace(C S)
   };
-  /// Distances one by one, each time the one that lowers the variance most.
+  /// Adds distances one by one, each time the one that lowers the variance most.
   [[nodiscard]] Choice greedy(const std::vector<const PlannedPlace*>& holes) const;
-  /// Exchanges single distances as long as one helps.
+  /// Exchanges single distances as long as an exchange is an improvement.
   [[nodiscard]] Choice exchange(const std::vector<const PlannedPlace*>& holes, Choice choice) const;
-  /// S with these measured.
+  /// S after these measurements.
   [[nodiscard]] Eigen::MatrixXd covariance(const std::vector<const PlannedPlace*>& holes,
                                            const std::vector<HoleDistance>& distances) const;
 
  private:
-  /// Everything that a tape can reach, before any of it is measured.
+  /// Everything that a tape can reach, before any measurement.
   struct Measurable {
     std::vector<HoleDistance> distances;
     Eigen::MatrixXd by_unknown;  ///< A
@@ -66,7 +68,7 @@ class DistanceChooser {
                                       std::vector<HoleDistance> distances) const;
   [[nodiscard]] std::vector<HoleDistance> in_reach(
       const std::vector<const PlannedPlace*>& holes) const;
-  /// trace(C S) once those with these numbers are measured.
+  /// trace(C S) after measuring those with these numbers.
   [[nodiscard]] double variance_mm2(const Measurable& all,
                                     const std::vector<std::size_t>& chosen) const;
 

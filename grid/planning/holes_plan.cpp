@@ -42,7 +42,7 @@ std::vector<PlannedPlace> candidates(const model::Machine& machine, double margi
   std::vector<PlannedPlace> result;
   for (int iy = 0; iy < kRows; ++iy) {
     for (int ix = 0; ix < kColumns; ++ix) {
-      // Whole millimetres: that is what is typed and drilled.
+      // Whole millimetres, as they are typed and drilled.
       const MarkPoint place{std::trunc(half_width * (2.0 * ix / (kColumns - 1) - 1.0)),
                             std::trunc(half_height * (2.0 * iy / (kRows - 1) - 1.0))};
       if (const auto planned = planned_place(model, place)) result.push_back(*planned);
@@ -61,11 +61,11 @@ bool is_free(const Holes& holes, std::size_t moving, MarkPoint place, double apa
   return true;
 }
 
-/// Spread: each next hole as far as can be from those before, the first in a corner.
+/// Spread out: each next hole as far as possible from those before, the first in a corner.
 Holes spread(const std::vector<PlannedPlace>& places, std::size_t count) {
   Holes holes = {&places.front()};
   while (holes.size() < count) {
-    constexpr double kSameWayMm = 1e-6;  // as far but for rounding: the first one stays
+    constexpr double kSameWayMm = 1e-6;  // equally far except for rounding: the first one is kept
     const PlannedPlace* best = nullptr;
     double best_way = -1.0;
     for (const PlannedPlace& candidate : places) {
@@ -84,7 +84,7 @@ Holes spread(const std::vector<PlannedPlace>& places, std::size_t count) {
   return holes;
 }
 
-/// Moves single holes as long as one helps.
+/// Moves single holes as long as a move is an improvement.
 DistanceChooser::Choice move_holes(const DistanceChooser& chooser,
                                    const std::vector<PlannedPlace>& places,
                                    double apart_mm,
@@ -147,7 +147,7 @@ MeasuredHoles set_of(const model::Machine& machine,
     const auto [from, to] = std::minmax(number[distance.from], number[distance.to]);
     set.distances.push_back({.from = from, .to = to});
   }
-  // Edges last: the tape is held another way there.
+  // Edges last: the tape is held differently there.
   const auto key = [](const HoleDistance& one) { return std::tuple(one.edge, one.from, one.to); };
   std::sort(set.distances.begin(), set.distances.end(), [&key](const auto& a, const auto& b) {
     return key(a) < key(b);
@@ -176,7 +176,7 @@ void check(const model::Machine& machine, const HolesPlanRequest& request) {
       request.hole_sigma_mm);
 }
 
-/// Settings and scales in words, and where the sheet lies under the tool where that counts.
+/// Settings and scales, and the sheet's placement if it matters.
 std::vector<PlannedKnowledge> knowledge_of(const Eigen::MatrixXd& before,
                                            const Eigen::MatrixXd& after,
                                            const std::optional<Eigen::MatrixXd>& whole) {
@@ -218,7 +218,7 @@ std::vector<PlannedKnowledge> knowledge_of(const Eigen::MatrixXd& before,
   return result;
 }
 
-/// The sheet's place where it counts is not known beforehand.
+/// The sheet's placement has no prior if it matters.
 Eigen::MatrixXd prior_of(const model::Machine& machine, bool edges) {
   Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns);
   prior.topLeftCorner<estimation::kMachineUnknowns, estimation::kMachineUnknowns>() =

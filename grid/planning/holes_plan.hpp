@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Which holes to cut and which distances to measure, so that the map from them errs least over the
-/// bed.
+/// Chooses the holes to cut and the distances to measure that minimise the map's expected error
+/// over the bed.
 ///
 /// The criterion is the tool's expected variance, averaged over the bed: trace(C S), S the
 /// unknowns' covariance after the measurement, C their mean squared effect on the tool. Without
-/// distances to the sheet's edges the sheet is laid as well as it can be; with them its place is
-/// one of the unknowns, nothing is known of it beforehand, and the tool's whole error on the sheet
-/// counts. Distances are taken one by one, each time the one that lowers it most; then holes are
-/// moved and distances exchanged as long as that helps. Source: A. Atkinson, A. Donev and R.
+/// distances to the sheet's edges the best placement of the sheet is assumed; with them its
+/// placement is unknown, without a prior, and the tool's whole error on the sheet counts. Distances
+/// are added one by one, each time the one that lowers the criterion most; then holes are moved and
+/// distances exchanged as long as that is an improvement. Source: A. Atkinson, A. Donev and R.
 /// Tobias, Optimum Experimental Designs, with SAS (2007), sections 10.6 (I-optimality) and 12.3
 /// (exchange). The model is linear about the machine as stated.
 ///
@@ -36,7 +36,7 @@ struct HolesPlanRequest {
   int holes = 9;
   /// 0: twice the holes and two more, with edges six more, or all there are.
   int distances = 0;
-  /// To the sheet's edges as well: where the sheet lies counts.
+  /// Also to the sheet's edges: the sheet's placement matters.
   bool edges = false;
   double tape_sigma_mm = 0.5;
   double hole_sigma_mm = 0.3;
@@ -47,12 +47,12 @@ struct HolesPlanRequest {
   Progress progress{};
 };
 [[nodiscard]] int distances_of(const HolesPlanRequest& request);
-/// As many as there are unknowns that they tell of: the machine's, and the sheet's place.
+/// The number of unknowns that they determine: the machine's, and the sheet's placement.
 [[nodiscard]] int fewest_distances(bool edges);
-/// Between so many holes, and of each to one edge.
+/// Between that many holes, and from each to one edge.
 [[nodiscard]] int most_distances(int holes, bool edges);
 
-/// One thing that the set tells: a combination of settings and scales, before and after.
+/// One result of the set: a combination of settings and scales, before and after.
 struct PlannedKnowledge {
   std::string what;     ///< "motor spacing", "left chain scale"
   std::string unit;     ///< "mm", "%" or "mm per metre"
@@ -60,26 +60,25 @@ struct PlannedKnowledge {
   double after = 0.0;
 };
 
-/// An effect of the catalogue at its nominal strength, as this set sees it.
+/// An effect of the catalogue at its nominal strength, as observed by this set.
 struct SeenEffect {
   std::string effect;
   std::string side;
-  /// Length of what it does to the distances beyond what settings and scales can imitate, in
-  /// sigmas.
+  /// Norm of its change of the distances, in sigmas, after projection on settings and scales.
   double sigmas = 0.0;
   /// Effects whose pattern is the same to within 5 degrees, as indices.
   std::vector<std::size_t> same_as;
 };
 
 struct HolesPlan {
-  /// With commanded distances where readings will stand.
+  /// With commanded distances in place of readings.
   MeasuredHoles set;
-  /// Of the tool over the bed, one sigma; without edges, the sheet laid as well as it can be.
+  /// Of the tool over the bed, one sigma; without edges, for the best placement of the sheet.
   double expected_rms_mm = 0.0;
-  /// With nothing measured and the sheet laid as well as it can be.
+  /// Before any measurement, for the best placement of the sheet.
   double expected_before_mm = 0.0;
   std::vector<PlannedKnowledge> knowledge;
-  /// Of those effects that can act without drift, skips and hysteresis.
+  /// For the effects that can act, except drift, skips and hysteresis.
   std::vector<SeenEffect> effects;
 };
 
@@ -87,8 +86,8 @@ struct HolesPlan {
 [[nodiscard]] tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
                                                               const HolesPlanRequest& request);
 
-/// One sigma of the tool over the bed that a covariance of the machine's unknowns amounts to, the
-/// sheet laid as well as it can be; root mean square.
+/// Root mean square over the bed of the tool's sigma for a covariance of the machine's unknowns,
+/// for the best placement of the sheet.
 [[nodiscard]] double tool_sigma_mm(const model::Machine& machine,
                                    const Eigen::MatrixXd& covariance);
 

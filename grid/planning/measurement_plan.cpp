@@ -18,15 +18,15 @@ namespace {
 
 using model::MarkPoint;
 
-/// What good calibration leaves on real machines (root mean square 0.2 to 0.5 mm on the optical
+/// Errors of real machines after a good calibration (root mean square 0.2 to 0.5 mm on the optical
 /// scans of tests/accuracy/real_scans_test.cpp).
 constexpr double kDisturbanceMm = 0.5;
-/// Stands for noise known for certain: a plan is not to believe that its readings have none.
+/// In place of noise known exactly: the readings of a plan must not be assumed free of it.
 constexpr double kCertainDof = 1e6;
-/// Cells of the raster on which the largest expected error is looked for.
+/// Cells of the raster on which the largest expected error is searched.
 constexpr int kRasterColumns = 48;
 constexpr int kRasterRows = 24;
-/// By less than that a place's mirror image differs in rounding; the first one stays.
+/// Mirror images differ by rounding, less than this; the first one is kept.
 constexpr double kWorse = 1.0 + 1e-6;
 
 class Planner {
@@ -64,7 +64,7 @@ class Planner {
     return *std::move(map);
   }
 
-  /// The cell of the raster with the largest expected error that a mark may stand in.
+  /// The cell of the raster with the largest expected error where a mark is allowed.
   [[nodiscard]] std::optional<MarkPoint> worst_free(const CompensationMap& map,
                                                     const std::vector<MarkPoint>& marks) const {
     const model::Bed& bed = machine_.bed;
@@ -81,7 +81,7 @@ class Planner {
               std::clamp(bed.width_mm * ((column + 0.5) / kRasterColumns - 0.5), -half_x, half_x)),
           std::trunc(
               std::clamp(bed.height_mm * ((row + 0.5) / kRasterRows - 0.5), -half_y, half_y))};
-      // Nearer than this a point repeats its neighbour rather than tells something new.
+      // A point nearer than this to another one adds little information.
       const bool taken = std::any_of(marks.begin(), marks.end(), [&](const MarkPoint& mark) {
         return std::hypot(mark.x_mm - place.x_mm, mark.y_mm - place.y_mm) <=
                2.0 * kRepeatDistanceMm;
@@ -99,14 +99,14 @@ class Planner {
   const PlanRequest& request_;
 };
 
-/// The nodes towards the middle, in whole mm.
+/// The nodes rounded towards the middle to whole mm.
 std::vector<double> whole_mm(std::vector<double> nodes) {
   for (double& node : nodes) node = std::trunc(node);
   return nodes;
 }
 
-/// Rows from the bottom, every other from right to left; an extra point goes with the row that it
-/// is nearest to.
+/// Rows from the bottom, every other one from right to left; an extra point belongs to the nearest
+/// row.
 void walk(std::vector<MarkPoint>& marks, const std::vector<double>& rows) {
   const auto row_of = [&rows](const MarkPoint& mark) {
     const auto nearest = std::min_element(rows.begin(), rows.end(), [&](double a, double b) {

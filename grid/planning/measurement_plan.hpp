@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where to measure a machine with so many points, and how good the map from them will be.
+/// Chooses where to measure a machine with a given number of points, and predicts the map's
+/// accuracy.
 ///
-/// The points stand on columns and rows with Chebyshev-Lobatto spacing, denser towards the edges,
-/// where a surface errs most. Points that make no further row or column go, one after the other,
-/// where the map from the others is expected to err most.
+/// The points are on columns and rows with Chebyshev-Lobatto spacing, denser towards the edges,
+/// where the error of a surface is largest. Points beyond the last full row or column are placed
+/// one after the other at the largest expected error of the map from the others.
 ///
-/// The expected error is that of a map fitted to simulated readings of the stated machine with a
-/// smooth disturbance that it does not have, so that the surface has something to bend for; the
-/// readings are free of noise, but the fit takes them for as noisy as stated.
+/// The expected error is that of a map fitted to simulated readings of the stated machine plus a
+/// smooth disturbance, so that the smooth surface is not zero; the readings have no noise, but the
+/// fit assumes the stated noise.
 ///
 /// \code
 ///   const auto plan = plan_measurement(machine, {.points = 28});
@@ -35,28 +36,28 @@ struct PlanRequest {
   int points = 28;
   /// From the bed's edge to the outermost marks: a mark at the very edge cannot be drawn.
   double margin_mm = 10.0;
-  /// Of a reading, one sigma.
+  /// Noise of a reading, one sigma.
   observation::PointNoise noise = {};
 };
 
 struct MeasurementPlan {
-  /// In whole mm, in walking order: row by row from the bottom, turning round at the end of each.
+  /// In whole mm, in the order of visits: row by row from the bottom, in alternating directions.
   std::vector<model::MarkPoint> marks;
   int columns = 0;
   int rows = 0;
   /// Points beyond columns * rows.
   int extra = 0;
-  /// Of the simulated readings at the marks; its sigmas are the expected errors.
+  /// Fitted to the simulated readings at the marks; its sigmas are the expected errors.
   CompensationMap map;
 };
 
-/// Why there is no plan, with the place.
+/// Why there is no plan, with the position.
 struct PlanFailure {
   enum class Reason {
     no_machine,
     unreachable,     ///< a mark where the machine cannot hold the sled, or off the map
-    too_few_places,  ///< that could be measured or cut at all
-    no_map,          ///< what would be measured makes no map
+    too_few_places,  ///< that could be measured or cut
+    no_map,          ///< no map can be fitted to the planned measurements
   } reason;
   std::string sentence;
 };
@@ -67,7 +68,7 @@ struct PlanFailure {
     const model::Machine& machine, const PlanRequest& request);
 
 /// One sigma of the tool over a raster of the whole bed, row by row from the bottom left, at the
-/// middles of columns x rows equal cells; negative where the map has no answer.
+/// centres of columns x rows equal cells; negative where the map has no answer.
 [[nodiscard]] std::vector<double> expected_error_mm(const CompensationMap& map,
                                                     const model::Bed& bed,
                                                     int columns,

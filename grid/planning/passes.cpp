@@ -24,7 +24,7 @@ Eigen::MatrixXd after_one_more(const Eigen::MatrixXd& before, const Eigen::Matri
   return information.inverse();
 }
 
-/// Rms of measured less wanted distances between the holes.
+/// Rms of measured less intended distances between the holes.
 double as_cut_rms_mm(const MeasuredHoles& set, const std::vector<BedPoint>& wanted) {
   double squares = 0.0;
   int count = 0;
@@ -150,7 +150,7 @@ tl::expected<SimulatedPasses, FitFailure> simulate_passes(const model::Machine& 
       }
       design.holes[i].commanded = *command;
     }
-    // A stream of noise of its own for each pass.
+    // An independent noise stream for each round.
     spec.seed = request.seed + 1000003ULL * static_cast<std::uint64_t>(number);
     auto made = synthetic::simulate_holes(design, spec, truth);
     if (!made) return cannot_be_cut(made.error().sentence);

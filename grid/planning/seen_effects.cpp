@@ -13,10 +13,10 @@
 namespace chaintrue::grid {
 namespace {
 
-/// cos 5 degrees: patterns nearer than this take hundreds of readings to tell apart.
+/// cos 5 degrees: signatures nearer than this need hundreds of readings to be distinguished.
 constexpr double kAlike = 0.9962;
 
-/// An effect's secant: what it does to the distances at its nominal size.
+/// An effect's secant: the change of the distances at its nominal size.
 struct Secant {
   const model::effects::Effect* effect = nullptr;
   model::effects::EffectSide side{};
@@ -33,7 +33,7 @@ bool is_seen_by_distances(const model::effects::Effect& effect) {
          !model::effects::depends_on_visit(effect);
 }
 
-/// The set about the machine as stated.
+/// The set linearised about the stated machine.
 struct Stated {
   Eigen::MatrixXd covariance;  ///< K
   std::vector<Secant> secants;
@@ -43,8 +43,8 @@ std::optional<Stated> stated_of(const MeasuredHoles& set) {
   if (!set.machine) throw std::invalid_argument("effects on distances need a machine");
   const auto distances = observation::TapeDistances::in_given_order(set);
   if (!distances) return std::nullopt;
-  // Distances between holes do not know where the sheet lies; those to its edges must not take a
-  // shift of the whole for an effect.
+  // Distances between holes do not depend on the sheet's placement; in those to its edges a shift
+  // of the whole must not be taken for an effect.
   const observation::Columns columns{.parameters = true, .sheet = true};
   const auto line = distances->linearise({model::ReadingModel(*set.machine), {}}, columns);
   if (!line) return std::nullopt;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the unknowns of a plan do to the tool over the bed. Private to grid/planning.
+/// Derivatives of the tool's position over the bed by the unknowns of a plan. Private to
+/// grid/planning.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,20 +12,20 @@
 
 namespace chaintrue::grid {
 
-/// How the unknowns move, on the sheet, what is cut with the chain lengths that belong to a place;
-/// nothing where the machine has no pose.
+/// Derivative by the unknowns of the position on the sheet that is cut with the chain lengths of a
+/// given position; empty if the machine has no pose there.
 [[nodiscard]] std::optional<PlannedPlace> planned_place(const model::ReadingModel& model,
                                                         model::MarkPoint place);
 
-/// By the unknowns of a plan, kPlanUnknowns columns.
+/// Derivatives by the unknowns of a plan, kPlanUnknowns columns.
 struct ToolError {
   /// L: L' L is the mean squared motion of the tool over the bed.
   Eigen::MatrixXd root;
-  /// The part of it that all places share: shift by x, by y (mm) and turn (rad).
+  /// The part common to all positions: shift in x, in y (mm) and rotation (rad).
   Eigen::MatrixXd whole;
 };
-/// Where the sheet's place does not count, the sheet is laid as well as it can be: `root` is
-/// without the shared part.
+/// If the sheet's placement does not matter, `root` is without the common part (best placement of
+/// the sheet).
 [[nodiscard]] ToolError tool_error(const model::Machine& machine, bool sheet_counts);
 
 }  // namespace chaintrue::grid

@@ -11,7 +11,7 @@ namespace {
 using model::BedPoint;
 using synthetic::SyntheticSpec;
 
-// Random streams of a sweep's own, apart from the generator's.
+// Random streams of the sweep, distinct from the generator's.
 constexpr std::uint64_t kSessionStream = 1U << 20U;
 constexpr std::uint64_t kOtherMachineStream = 1U << 21U;
 
@@ -99,7 +99,7 @@ CellResult hold_against_truth(const SweepSpec& spec,
                               const model::Machine& machine) {
   const MachineLevel& level = spec.machines[at[0]];
   const model::ReadingModel truth(machine, level.model);
-  // The marked part of the bed, as the designs have it.
+  // The marked part of the bed, as in the designs.
   const auto span = [&spec](double bed_mm) {
     if (spec.whole_bed) return bed_mm;
     return std::min(bed_mm, std::max(std::floor(bed_mm / 100.0), 1.0) * 100.0);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a sweep asks: the product of its factors, each with some levels, so many repetitions of
-/// each combination.
+/// The specification of a sweep: the product of its factors, each with its levels, and the number
+/// of repetitions of each combination.
 ///
-/// A cell is one combination and one repetition: a session is made (grid/synthetic), a map is
-/// fitted to it, and the map is held against the truth over the bed. Repetitions draw alike in
-/// every combination, so that levels are compared on the same chances. Cells are numbered with the
-/// repetition fastest and the first factor slowest.
+/// A cell is one combination and one repetition: a session is simulated (grid/synthetic), a map is
+/// fitted to it, and the map is compared with the truth over the bed. A repetition uses the same
+/// random numbers in every combination, so that levels are compared pairwise. Cells are numbered
+/// with the repetition fastest and the first factor slowest.
 #pragma once
 
 #include <array>
@@ -29,16 +29,16 @@ struct NoiseLevel {
   double position_mm = 0.3;
 };
 
-/// The surfaces of grid/map/fit.hpp; direct ones by their ends.
+/// The surfaces of grid/map/fit.hpp; direct ones by their end conditions.
 enum class SurfaceLevel { residual, direct, direct_parabolic, direct_natural };
 
-/// A true machine and what its owner states of it.
+/// A true machine and its stated values.
 struct MachineLevel {
   std::string name;
   model::Machine truth;
   model::Machine stated;
   model::Model model = model::Model::elastic;
-  /// Of a smooth disturbance that no model has.
+  /// Amplitude of a smooth disturbance that is in no model.
   double unmodelled_mm = 0.0;
 };
 
@@ -47,8 +47,8 @@ struct EffectsLevel {
   std::vector<model::AppliedEffect> effects;
 };
 
-/// The machine that the finished map is used on: the one that was measured, with more effects (it
-/// has worn since), or another of the same build (its settings drawn anew).
+/// The machine that the map is used on: the one that was measured, with more effects (wear), or
+/// another one of the same build (its settings drawn anew).
 struct UseLevel {
   std::string name;
   std::vector<model::AppliedEffect> effects;
@@ -60,7 +60,7 @@ struct SweepSpec {
   std::string question;
   std::uint64_t seed = 1;
   int repetitions = 10;
-  /// Raster of the bed on which a map is held against the truth.
+  /// Raster of the bed on which a map is compared with the truth.
   int evaluation_columns = 40;
   int evaluation_rows = 25;
   int repeats = 0;
@@ -90,26 +90,26 @@ using Levels = std::array<std::size_t, kFactors>;
 [[nodiscard]] std::uint64_t cells(const SweepSpec& spec);
 [[nodiscard]] Levels levels_of(const SweepSpec& spec, std::uint64_t combination);
 [[nodiscard]] std::string_view name(SurfaceLevel level);
-/// Words for a level: "7x4", "0.2/0.3", "residual", a machine's name.
+/// Label of a level: "7x4", "0.2/0.3", "residual", a machine's name.
 [[nodiscard]] std::string level_name(const SweepSpec& spec, std::size_t factor, std::size_t level);
 
 enum class CellStatus : std::uint64_t {
-  done,         ///< every point of the raster answered
-  no_map,       ///< the fit gave none (fewer points than it needs, not a full grid, not converged)
+  done,         ///< the map has an answer at every point of the raster
+  no_map,       ///< the fit failed (fewer points than it needs, not a full grid, not converged)
   not_reached,  ///< a mark that the true machine cannot reach
-  no_answer,    ///< the map did not answer everywhere
+  no_answer,    ///< the map has no answer at some point
 };
 [[nodiscard]] std::string_view name(CellStatus status);
 
-/// Errors of a map over the raster. Chain: both chains alike; tool: distance from where it should
-/// be.
+/// Errors of a map over the raster. Chain: both chains together; tool: distance from the intended
+/// position.
 struct CellResult {
   CellStatus status = CellStatus::done;
   double chain_rms_mm = 0.0;
   double chain_max_mm = 0.0;
   double tool_rms_mm = 0.0;
   double tool_max_mm = 0.0;
-  /// What the map itself expected of the tool, rms.
+  /// The map's own estimate of the tool's rms error.
   double expected_tool_rms_mm = 0.0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where a person puts the marks, and in which order they are visited.
+/// The positions of the marks and the order in which they are visited.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace chaintrue::grid::synthetic {
 enum class DesignKind {
   regular,    ///< even spacing
   chebyshev,  ///< Chebyshev-Lobatto spacing, denser towards the edges
-  random,     ///< anywhere
+  random,     ///< uniformly distributed
   given,      ///< a list, such as a planner's
 };
 
@@ -28,8 +28,7 @@ struct Design {
   int rows = 4;
   /// How many marks a random design has.
   int points = 28;
-  /// From the bed's edge to the outermost marks; absent: the bed rounded down to whole 100 mm, as
-  /// people mark it.
+  /// From the bed's edge to the outermost marks; absent: the bed is rounded down to whole 100 mm.
   std::optional<double> margin_mm;
   /// Leaves the four outermost corners out (clamps, missing sheet).
   bool without_corners = false;
@@ -38,7 +37,7 @@ struct Design {
   std::vector<model::MarkPoint> given;
 };
 
-/// A mark and its place in the pattern; scattered marks belong to a few even bands.
+/// A mark and its place in the pattern; scattered marks are assigned to a few even bands.
 struct Mark {
   model::MarkPoint place;
   int column = 0;
@@ -53,10 +52,10 @@ struct Mark {
 enum class VisitingOrder { rows, columns, serpentine_rows, serpentine_columns, random };
 
 /// Puts the marks into the order in which they are visited. Rows go from the bottom up, columns
-/// from the left; serpentine turns round at the end of each.
+/// from the left; serpentine alternates the direction.
 void put_in_order(std::vector<Mark>& marks, VisitingOrder order, Random& random);
 
-/// Words of the command line and of files; empty where the word is unknown.
+/// Identifiers on the command line and in files; empty if unknown.
 [[nodiscard]] std::optional<DesignKind> design_kind(std::string_view word);
 [[nodiscard]] std::optional<Region> region(std::string_view word);
 [[nodiscard]] std::optional<VisitingOrder> visiting_order(std::string_view word);

@@ -63,7 +63,7 @@ EffectPicture picture_effect(const Machine& machine,
     picture.marks.push_back(
         {model::identity_placement(visits[i].position), stated[i], calibrated[i]});
   }
-  // In the middle, and where most shapes suffer: towards a lower corner.
+  // In the middle, and towards a lower corner, where most effects are largest.
   picture.squares.push_back(square_at(machine, picture.applied, {0.0, 0.0}));
   picture.squares.push_back(square_at(
       machine, picture.applied, {-0.42 * machine.bed.width_mm, -0.38 * machine.bed.height_mm}));

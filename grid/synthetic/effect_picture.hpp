@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What one effect does to the bed and to a square of 100 mm, and how large it must be to be named:
-/// the numbers that `chaintrue effects ID` draws.
+/// The change that one effect makes to the bed and to a square of 100 mm, and the size from which
+/// it is identified: the numbers of `chaintrue effects ID`.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,13 +17,13 @@ namespace chaintrue::grid::synthetic {
 /// A tool sent to a mark.
 struct ShiftedMark {
   model::MarkPoint mark;
-  /// Where the tool goes less where it was sent, on the machine as stated ...
+  /// Actual less commanded position of the tool, on the machine as stated ...
   Eigen::Vector2d as_stated_mm;
-  /// ... and once the settings are calibrated on these marks.
+  /// ... and after calibration of the settings on these marks.
   Eigen::Vector2d calibrated_mm;
 };
 
-/// A square cut where the machine is as stated; corners counter-clockwise from the lower left.
+/// A square cut where the stated machine cuts it; corners counter-clockwise from the lower left.
 struct ShiftedSquare {
   model::BedPoint centre;
   double size_mm = 100.0;
@@ -34,7 +34,7 @@ struct ShiftedSquare {
   std::array<double, 2> diagonal_mm{};
 };
 
-/// The strength over a regular grid of so many marks.
+/// The strength over a regular grid of that many marks.
 struct StrengthAt {
   int columns = 0;
   int rows = 0;

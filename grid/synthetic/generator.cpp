@@ -17,8 +17,8 @@ using model::MarkPoint;
 using model::Setting;
 using model::Visit;
 
-// What draws from which stream. A new purpose gets a new number; the old ones never change, or old
-// seeds would give other grids.
+// The random streams. A new purpose gets a new number; existing numbers never change, so that a
+// seed always gives the same grid.
 enum Stream : std::uint64_t {
   kMarks = 1,
   kOrder = 2,
@@ -31,8 +31,8 @@ enum Stream : std::uint64_t {
   kSheet = 9,
 };
 
-// Digits that a number with noise still has: far below any noise, and far above what differs
-// between mathematical libraries, so that the bytes are the same everywhere.
+// Resolution of a number with noise: far below any noise, and far above the differences between
+// mathematical libraries, so that the bytes are the same everywhere.
 constexpr double kNoisyStepMm = 1e-4;
 
 double rounded(double value, double step) {
@@ -63,8 +63,8 @@ MarkPoint beside(MarkPoint place, double radius_mm, Random& random) {
   }
 }
 
-// A visit of every mark in order, and the repeats spread evenly between: after a share of the
-// marks, one of them again.
+// Visits every mark in order, with repeats spread evenly between: after a share of the marks, one
+// of them again.
 std::vector<MarkPoint> session_of(const std::vector<Mark>& marks, int repeats, Random& random) {
   std::vector<MarkPoint> session;
   std::vector<std::size_t> unrepeated;
@@ -74,7 +74,7 @@ std::vector<MarkPoint> session_of(const std::vector<Mark>& marks, int repeats, R
     unrepeated.push_back(i);
     while (done < repeats && (i + 1) * static_cast<std::size_t>(repeats) >=
                                  marks.size() * static_cast<std::size_t>(done + 1)) {
-      // Each mark once more before any is visited a third time.
+      // Each mark is repeated once before any is visited a third time.
       if (unrepeated.empty()) {
         for (std::size_t k = 0; k <= i; ++k) unrepeated.push_back(k);
       }
@@ -105,7 +105,7 @@ std::vector<SettingOffset> drawn_offsets(const Machine& stated, const SyntheticS
   return offsets;
 }
 
-// The points whose links the machine's effects miscount.
+// The points at which the machine's effects miscount links.
 std::vector<std::size_t> miscounted(const Machine& machine, const std::vector<Visit>& visits) {
   std::vector<std::size_t> points;
   for (const model::AppliedEffect& effect : machine.effects) {
@@ -117,8 +117,8 @@ std::vector<std::size_t> miscounted(const Machine& machine, const std::vector<Vi
   return points;
 }
 
-// Noise, slips and rounding on top of what was truly written and read; `bad_points` receives the
-// slips.
+// Noise, gross errors and rounding added to the true marks and readings; `bad_points` receives the
+// gross errors.
 std::vector<MeasuredPoint> written_down(const std::vector<MarkPoint>& marks,
                                         const std::vector<ChainLengths>& lengths,
                                         const SyntheticSpec& spec,
@@ -165,7 +165,7 @@ std::optional<StatedNoise> stated_noise(const SyntheticSpec& spec) {
   return stated;
 }
 
-// Tells how many of so many visits have been read.
+// Reports the number of visits read so far.
 std::function<void(std::size_t)> counting(const Progress& progress, std::size_t visits) {
   if (!progress) return {};
   return [&progress, total = static_cast<double>(visits)](std::size_t read) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A machine with hidden effects, visited and read as a person would: true places, paper, readings,
-/// noise, slips.
+/// A simulated session on a machine with hidden effects: true positions, paper, readings, noise,
+/// gross errors.
 ///
-/// In this order: the marks of the design; the sled put down up to `jitter_mm` beside each; the
-/// readings of the whole session with every effect; what is written beside the marks (sheet
-/// placement, then the paper effects); noise of length and position; slips; rounding to the tape.
-/// Each of these draws from a stream of its own, so that changing one does not change the others.
-/// Same specification, same bytes.
+/// In this order: the marks of the design; the sled placed up to `jitter_mm` from each; the
+/// readings of the whole session with every effect; the coordinates written at the marks (sheet
+/// placement, then the paper effects); noise of length and position; gross errors; rounding to the
+/// tape. Each of these has its own random stream, so that a change of one does not change the
+/// others. Same specification, same bytes.
 ///
 /// \code
 ///   SyntheticSpec spec;
@@ -33,31 +33,31 @@
 
 namespace chaintrue::grid::synthetic {
 
-/// What truly disturbs the numbers, one sigma.
+/// The true noise, one sigma.
 struct SyntheticNoise {
   double length_mm = 0.0;
   double position_mm = 0.0;
   /// Student's t with 4 degrees of freedom instead of Gauss, of the same standard deviation.
   bool heavy_tails = false;
-  /// Readings are rounded to whole multiples of these. 0: all digits where there is no noise,
-  /// 0.0001 mm where there is.
+  /// Readings are rounded to whole multiples of these. 0: all digits without noise, 0.0001 mm with
+  /// noise.
   double length_rounding_mm = 0.0;
   double position_rounding_mm = 0.0;
 };
 
-/// Slips of the pen: the mark written this far off, in any direction.
+/// Gross errors: the mark is written this far off, in a random direction.
 struct BadPoints {
   int count = 0;
   double size_mm = 10.0;
 };
 
-/// By how much a setting truly differs from what the machine file states.
+/// True setting less the stated one.
 struct SettingOffset {
   model::Setting setting = model::Setting::motor_left_x_mm;
   double offset = 0.0;
 };
 
-/// Puts an offset on the machine, or on the sheet where it is of the sheet.
+/// Applies an offset to the machine, or to the sheet if it is a setting of the sheet.
 void offset_setting(model::Machine& machine,
                     model::SheetPlacement& sheet,
                     const SettingOffset& offset);
@@ -65,33 +65,34 @@ void offset_setting(model::Machine& machine,
 struct SyntheticSpec {
   Design design;
   VisitingOrder order = VisitingOrder::rows;
-  /// Second visits of marks that were measured before, spread over the session.
+  /// Repeated visits of marks, spread over the session.
   int repeats = 0;
   double jitter_mm = 0.0;
   SyntheticNoise noise;
-  /// What the person states; absent: the true noise, or nothing where there is none.
+  /// The stated noise; absent: the true noise, or none if there is no noise.
   std::optional<StatedNoise> stated;
   BadPoints bad;
-  /// In addition to the machine's own effects, and not told to the grid.
+  /// In addition to the machine's own effects; not stated in the grid.
   std::vector<model::AppliedEffect> hidden;
   std::vector<SettingOffset> offsets;
   /// Draws further offsets of motors and zeros from the machine's stated uncertainties.
   bool draw_settings = false;
-  /// The sheet was placed by hand, this well: its true place is drawn and the grid says so.
+  /// The sheet was placed by hand with this uncertainty: its true placement is drawn, and the grid
+  /// states the uncertainty.
   std::optional<SheetUncertainty> sheet;
   model::Model model = model::Model::elastic;
-  /// Amplitude of a smooth disturbance of both chains that no model has (unmodelled()).
+  /// Amplitude of a smooth disturbance of both chains that is in no model (unmodelled()).
   double unmodelled_mm = 0.0;
   std::uint64_t seed = 1;
 };
 
 /// That disturbance for an amplitude of 1 mm: sin(x / 500 + 0.3) cos(y / 400) on the left chain,
-/// cos(x / 450) sin(y / 420 + 0.5) on the right one, x and y in mm: most of a wave along the bed,
+/// cos(x / 450) sin(y / 420 + 0.5) on the right one, x and y in mm: most of a period along the bed,
 /// half of one up it.
 [[nodiscard]] model::ChainLengths unmodelled(model::BedPoint place);
 
-/// The machine as it truly is: hidden effects appended, settings offset and drawn; and where its
-/// sheet lies.
+/// The true machine: hidden effects appended, settings offset and drawn; and the sheet's true
+/// placement.
 struct SyntheticTruth {
   model::Machine machine;
   std::vector<SettingOffset> offsets;
@@ -99,18 +100,18 @@ struct SyntheticTruth {
 };
 [[nodiscard]] SyntheticTruth truth_of(const model::Machine& stated, const SyntheticSpec& spec);
 
-/// What was hidden.
+/// The truth of a simulation.
 struct SyntheticAnswer {
-  /// The machine as it truly is, every effect on.
+  /// The true machine, with every effect.
   model::Machine machine;
   std::vector<model::AppliedEffect> hidden;
   std::vector<SettingOffset> offsets;
   model::SheetPlacement sheet;
-  /// Per point of the grid: where the tool truly was, in the bed's frame.
+  /// True position of the tool at each point of the grid, in the bed's frame.
   std::vector<model::BedPoint> places;
-  /// Per point: what would have been read without noise and slips.
+  /// Readings at each point without noise and gross errors.
   std::vector<model::ChainLengths> lengths;
-  /// Indices into the points: slips of the pen and miscounted links.
+  /// Indices into the points: gross errors and miscounted links.
   std::vector<std::size_t> bad_points;
   std::uint64_t seed = 0;
 };
@@ -136,11 +137,11 @@ struct UnreachableMark {
 [[nodiscard]] model::Machine with_effects(const model::Machine& stated,
                                           const std::vector<model::AppliedEffect>& hidden);
 
-/// Readings at given true places, visited in the order of their numbers: no noise, all digits. The
-/// marks of the grid are what the paper effects write.
+/// Readings at given true positions, visited in the order of their numbers, without noise and with
+/// all digits. The marks of the grid include the paper effects.
 struct PlacesRead {
   MeasuredGrid grid;
-  /// Those that cannot be reached; they are left out of the grid and of the session.
+  /// Positions that cannot be reached; they are not in the grid and the session.
   std::vector<std::pair<std::size_t, model::PoseFailure>> unreachable;
 };
 [[nodiscard]] PlacesRead read_places(const model::Machine& stated,

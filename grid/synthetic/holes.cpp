@@ -14,7 +14,7 @@
 namespace chaintrue::grid::synthetic {
 namespace {
 
-// Streams: what one draws does not depend on how much another draws.
+// Random streams: draws of one do not depend on those of another.
 constexpr std::uint64_t kSettingStream = 11;
 constexpr std::uint64_t kHoleStream = 12;
 constexpr std::uint64_t kTapeStream = 13;

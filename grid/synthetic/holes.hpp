@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Holes cut by a machine that is not quite as stated, and measured with a tape: a set with a known
-/// truth. Same seed, same bytes.
+/// Simulated holes, cut by a machine that differs from the stated one and measured with a tape: a
+/// set with a known truth. Same seed, same bytes.
 ///
 /// \code
 ///   const auto made = simulate_holes(plan->set, {.draw_settings = true, .seed = 7});
@@ -26,45 +26,45 @@ struct HolesSpec {
   /// Draw each chain's elongation with this sigma.
   double scale_sigma = 0.0;
   std::vector<model::AppliedEffect> hidden{};
-  /// Where the sheet lies; edges alone tell.
+  /// The sheet's placement, observable only by distances to its edges.
   model::SheetPlacement sheet{};
   /// Round readings to whole multiples of this; 0: all digits.
   double rounding_mm = 0.0;
-  /// So many readings are wrong by bad_size_mm, one way or the other.
+  /// Number of readings with an error of bad_size_mm, of either sign.
   int bad_readings = 0;
   double bad_size_mm = 10.0;
   std::uint64_t seed = 1;
 };
 
 struct SyntheticHoles {
-  MeasuredHoles set;                     ///< with the machine as stated
-  model::Machine truth;                  ///< with what is hidden
-  std::vector<model::MarkPoint> places;  ///< where the holes truly are, on the sheet
-  /// Per hole: what the controller paid out for it.
+  MeasuredHoles set;                     ///< with the stated machine
+  model::Machine truth;                  ///< with the hidden changes
+  std::vector<model::MarkPoint> places;  ///< true positions of the holes on the sheet
+  /// For each hole: the lengths that the controller paid out.
   std::vector<model::ChainLengths> lengths{};
-  /// Indices into the distances: readings that are wrong.
+  /// Indices into the distances of the bad readings.
   std::vector<std::size_t> bad_readings{};
 };
 
 struct CutFailure {
   enum class Reason {
-    no_lengths,   ///< a command out of the controller's reach
-    unreachable,  ///< the true machine has no place for what was paid out
+    no_lengths,   ///< a command outside the controller's range
+    unreachable,  ///< the true machine has no pose with these lengths
   } reason;
   std::string sentence;
 };
 
-/// `design` has holes and the pairs to measure; the tape's sigma and the holes' are those of the
-/// noise, the hook is added; of the effects of the paper a tape has only its scale on both axes.
-/// Where the truth is to be a given machine (another pass on the same one), `truth` replaces what
-/// would be drawn. Fails where a hole cannot be cut. \throws std::invalid_argument for a
-/// design without a machine.
+/// `design` has holes and the pairs to measure; the sigmas of the tape and of the holes are those
+/// of the noise, the tape zero offset is added; of the paper effects only the tape's scale on both
+/// axes applies. If the true machine is given (another round on the same one), `truth` replaces the
+/// drawn one. Fails if a hole cannot be cut. \throws std::invalid_argument for a design without a
+/// machine.
 [[nodiscard]] tl::expected<SyntheticHoles, CutFailure> simulate_holes(
     const MeasuredHoles& design,
     const HolesSpec& spec,
     const std::optional<model::Machine>& truth = std::nullopt);
 
-/// The stated machine with what a spec hides in it.
+/// The stated machine with the hidden changes of a spec.
 [[nodiscard]] model::Machine hidden_truth(const model::Machine& stated, const HolesSpec& spec);
 
 }  // namespace chaintrue::grid::synthetic

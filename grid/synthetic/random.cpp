@@ -81,7 +81,7 @@ constexpr std::array<double, 8> kFarBottom = {1.0,
 
 Random::Random(std::uint64_t seed, std::uint64_t stream) {
   std::uint64_t mix = seed;
-  // The stream enters through a hash of its own, so that (1, 2) and (2, 1) are strangers.
+  // The stream is hashed separately, so that (1, 2) and (2, 1) are independent.
   std::uint64_t hashed = stream ^ split_mix(mix);
   for (std::uint64_t& word : state_) word = split_mix(hashed);
 }
@@ -104,7 +104,7 @@ double Random::uniform(double from, double to) { return from + (to - from) * uni
 
 std::size_t Random::below(std::size_t count) {
   if (count == 0) throw std::invalid_argument("Random::below: count 0");
-  // Rejects the last, incomplete run, so that no number is favoured.
+  // Rejects the last, incomplete run, so that all numbers are equally likely.
   const std::uint64_t n = count;
   const std::uint64_t limit = UINT64_MAX - UINT64_MAX % n;
   std::uint64_t drawn = bits();

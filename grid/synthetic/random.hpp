@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Random numbers that are the same bytes on every machine and with every compiler.
+/// Random numbers that are identical on every machine and with every compiler.
 ///
 /// xoshiro256++ (Blackman and Vigna, ACM Trans. Math. Softw. 47 (2021) 36), seeded by SplitMix64
 /// from a seed and a stream; normals by Wichura's inverse of the normal distribution (AS 241,
 /// PPND16, Appl. Statist. 37 (1988) 477, about 1e-16 relative). Only + - * / and square roots,
-/// which IEEE 754 rounds alike everywhere; the logarithm of the tails is computed from those.
+/// which IEEE 754 rounds identically everywhere; the logarithm of the tails is computed from those.
 ///
 /// \code
-///   Random random(seed, 3);  // stream 3: what it draws does not depend on the other streams
+///   Random random(seed, 3);  // stream 3: independent of the other streams
 ///   const double error_mm = 0.2 * random.normal();
 /// \endcode
 #pragma once
@@ -29,7 +29,7 @@ class Random {
   /// In (0, 1), a multiple of 2^-53 plus 2^-54: never 0, never 1.
   [[nodiscard]] double uniform();
   [[nodiscard]] double uniform(double from, double to);
-  /// 0 .. count-1, each alike. \throws std::invalid_argument for count 0.
+  /// 0 .. count-1, equally likely. \throws std::invalid_argument for count 0.
   [[nodiscard]] std::size_t below(std::size_t count);
   [[nodiscard]] double normal();
   /// Student's t with 4 degrees of freedom, scaled to a standard deviation of 1: heavy tails.

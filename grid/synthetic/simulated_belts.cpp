@@ -17,7 +17,7 @@ using model::kBelts;
 
 namespace {
 
-/// Streams of the seed: what one draws does not depend on the others.
+/// Streams of the seed: draws of one do not depend on the others.
 enum BeltStream : std::uint64_t { kNoiseStream = 1, kBadReadingStream = 2 };
 
 std::vector<model::BedPoint> commands_of(const model::BeltMachine& stated, const BeltsSpec& spec) {
@@ -35,7 +35,7 @@ std::vector<model::BedPoint> commands_of(const model::BeltMachine& stated, const
   return commands;
 }
 
-/// Where the upper belts put the tool that are paid out for a command.
+/// The tool's position when the upper belts have the lengths paid out for a command.
 tl::expected<model::FramePoint, model::BeltFailure> place_of(const model::BeltMachine& stated,
                                                              const model::BeltMachine& truth,
                                                              model::BedPoint command) {
@@ -83,7 +83,7 @@ tl::expected<MeasuredBelts, BeltsUnreachable> simulate_belts(const model::BeltMa
     point.order = static_cast<int>(i);
     const auto pulled =
         pulled_after(stated.orientation, commands[i == 0 ? 0 : i - 1], commands[i], i);
-    // Of an upright frame it goes without saying.
+    // For an upright frame this is the default.
     if (stated.orientation == model::Orientation::flat) point.pulled = pulled;
     for (const Belt belt : kBelts) {
       const auto length = model::belts::read_belt(

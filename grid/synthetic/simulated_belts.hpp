@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A router on four belts that finds its anchors, with something wrong with it: it goes where it is
-/// told by the anchors that it believes, its upper belts put the tool where the true ones do, and all
-/// four are read.
+/// A simulated session of a router on four belts that finds its anchors, with hidden effects: commands
+/// are converted to belt lengths with the stated anchors, the upper belts' true anchors give the
+/// tool's position, and all four lengths are read.
 ///
 /// \code
 ///   BeltsSpec spec;
@@ -24,14 +24,14 @@ namespace chaintrue::grid::synthetic {
 struct BeltsSpec {
   int columns = 9;
   int rows = 9;
-  /// Of the frame's width and height, about its centre.
+  /// Share of the frame's width and height, about its centre.
   double width_share = 0.5;
   double height_share = 0.4;
   double noise_mm = 0.5;  ///< one sigma of a belt's reading
   bool heavy_tails = false;
   double rounding_mm = 0.0;   ///< readings are whole multiples; 0: not rounded
-  int bad_readings = 0;       ///< readings of one belt that are off
-  double bad_size_mm = 44.0;  ///< by so much, either way
+  int bad_readings = 0;       ///< number of readings of one belt with a gross error
+  double bad_size_mm = 44.0;  ///< its size, of either sign
   std::vector<model::AppliedEffect> hidden;
   std::uint64_t seed = 1;
 };

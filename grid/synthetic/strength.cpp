@@ -18,7 +18,7 @@
 namespace chaintrue::grid::synthetic {
 namespace {
 
-/// What is stated exactly is known this well, in mm: below every other number here.
+/// Sigma of what is stated exactly, in mm: below every other number here.
 constexpr double kKnownSigma = 1e-7;
 
 using model::AppliedEffect;
@@ -41,7 +41,7 @@ std::vector<model::ChainLengths> lengths_of(const Machine& machine,
   return *lengths;
 }
 
-// Places at which a rival may set in: evenly over what the session shows.
+// Candidate places at which a rival may set in: evenly over the range of the session.
 std::vector<std::vector<double>> place_choices(const Effect& effect, std::size_t visits) {
   constexpr int kSteps = 12;
   std::vector<std::vector<double>> choices = {nominal_values(effect)};
@@ -209,7 +209,7 @@ EffectStrength StrengthTable::strength(const Effect& effect, EffectSide side) co
   const EffectParameter& size = effect.parameters.front();
   const double per_size = result.signal_to_noise / std::abs(size.nominal);
   result.seen_size = kSeenAtSignalToNoise / per_size;
-  // The most alike place of each rival.
+  // The most collinear place of each rival.
   std::vector<Rival> rivals;
   for (const Entry& other : entries_) {
     if (other.effect == &effect && other.side == side) continue;

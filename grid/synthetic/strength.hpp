@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What an effect leaves visible of itself: its signature over a session, what the calibration of
-/// the settings does not absorb of it, and how large it must be before points of that kind can name
+/// The observability of an effect: its signature over a session, the part of it that the
+/// calibration of the settings does not absorb, and the size from which such points can identify
 /// it.
 ///
 /// Notation
-///   r_i    residual of a visit that the effect causes, reading minus what the stated machine says
-///          at the mark as written: dL - J dw; in the two chains [mm]
+///   r_i    residual of a visit that the effect causes, reading less that of the stated machine
+///          at the mark as written: dL - J dw; for the two chains [mm]
 ///   C_i    J S_xy J' + diag(s_L^2): covariance of that residual, from position and length noise
 ///   g      all r_i, whitened by C_i
-///   J_s    the settings' sensitivities, whitened alike, their stated sigmas as further rows
+///   J_s    the settings' sensitivities, whitened by C_i, their stated sigmas as further rows
 ///   M      projection orthogonal to J_s
 ///   delta  |M g|: the signal-to-noise ratio
 ///   rho    |cos| of the angle between M g of two effects: their collinearity
 ///
-/// An effect is seen at delta 4.8 (1 in 100 false alarms over the catalogue, 9 in 10 found) and
-/// told from a rival in 95 of 100 cases at 1.645 sqrt(2 / (1 - rho)): the rival looks better with
-/// probability Phi(-delta sqrt((1 - rho) / 2)). Beyond kInseparable no number of such points
-/// decides. Signatures are secants at the usual size, so delta is proportional to the size as far
-/// as the effect is.
+/// An effect is detected at delta 4.8 (1 in 100 false alarms over the catalogue, 9 in 10 found) and
+/// distinguished from a rival in 95 of 100 cases at 1.645 sqrt(2 / (1 - rho)): the rival fits
+/// better with probability Phi(-delta sqrt((1 - rho) / 2)). Beyond kInseparable no number of such
+/// points is sufficient. Signatures are secants at the usual size, so delta is proportional to the
+/// size as far as the effect is.
 ///
 /// \code
 ///   const StrengthTable table(machine, regular_session(machine, 10, 6), StatedNoise{});
@@ -46,11 +46,11 @@ inline constexpr double kInseparable = 0.9995;
                                                         int columns,
                                                         int rows);
 
-/// What effects do to a session.
+/// The changes of a session's readings by effects.
 struct SessionSignature {
   std::vector<Eigen::Vector2d> residual_mm;   ///< r_i
   std::vector<Eigen::Matrix2d> length_by_xy;  ///< J_i of the stated machine
-  /// To first order: where the tool goes less where the stated machine would send it, -J^-1 r.
+  /// To first order: actual position of the tool less that of the stated machine, -J^-1 r.
   [[nodiscard]] std::vector<Eigen::Vector2d> tool_shift_mm() const;
 };
 
@@ -68,15 +68,16 @@ struct Rival {
 struct EffectStrength {
   /// At the usual size.
   double signal_to_noise = 0.0;
-  /// Share of the unprojected signature that the calibration leaves.
+  /// Share of the signature that remains after calibration.
   double share_left = 0.0;
-  /// Of the effect's first parameter, for kSeenAtSignalToNoise.
+  /// Size of the effect's first parameter at kSeenAtSignalToNoise.
   double seen_size = 0.0;
-  /// Nobody else's signature is nearer, those of the class left aside.
+  /// The rival with the most collinear signature, apart from the effect's own class.
   std::optional<Rival> nearest;
-  /// Also told from the nearest rival; absent where that is beyond what the parameter may be.
+  /// Size from which it is also distinguished from the nearest rival; absent if that is out of the
+  /// parameter's range.
   std::optional<double> named_size;
-  /// No points of this kind tell these apart from the effect.
+  /// Effects that no points of this kind distinguish from this one.
   std::vector<Rival> inseparable;
 };
 
@@ -89,8 +90,8 @@ class StrengthTable {
                 const StatedNoise& noise);
   [[nodiscard]] EffectStrength strength(const model::effects::Effect& effect,
                                         model::effects::EffectSide side) const;
-  /// What an effect does to the tool at each visit once the settings are calibrated on these
-  /// visits.
+  /// The change of the tool's position at each visit by an effect, after calibration of the
+  /// settings on these visits.
   [[nodiscard]] std::vector<Eigen::Vector2d> calibrated_shift_mm(
       const model::AppliedEffect& applied) const;
 

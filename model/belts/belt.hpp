@@ -9,7 +9,7 @@
 
 namespace chaintrue::model {
 
-/// Named by the corner of the frame that they come from.
+/// Named by the corner of the frame that the belt comes from.
 enum class Belt { tl, tr, bl, br };
 
 inline constexpr std::array kBelts = {Belt::tl, Belt::tr, Belt::bl, Belt::br};
@@ -30,13 +30,13 @@ struct PerBelt {
   friend bool operator==(const PerBelt&, const PerBelt&) = default;
 };
 
-/// The word of files: tl, tr, bl, br.
+/// Identifier in files: tl, tr, bl, br.
 [[nodiscard]] std::string_view name(Belt belt);
-/// The words of sentences: top left, ...
+/// For messages: top left, ...
 [[nodiscard]] std::string_view words(Belt belt);
 [[nodiscard]] std::optional<Belt> belt_of(std::string_view word);
 
-/// The upper two decide where the machine believes its tool to be.
+/// The firmware computes the tool's position from the upper two.
 [[nodiscard]] constexpr bool is_upper(Belt belt) { return belt == Belt::tl || belt == Belt::tr; }
 
 }  // namespace chaintrue::model

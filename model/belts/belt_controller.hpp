@@ -4,7 +4,7 @@
 /// anchors, arm, extension and heights, with the command's scales applied first.
 ///
 /// `left` is the top left belt. Heights are taken at the bed: machine and firmware share them, so
-/// that a raised router changes no place.
+/// that a raised router does not change a position.
 ///
 /// Source: MaslowCNC/Maslow_4, FluidNC/src/Kinematics/MaslowKinematics.cpp, computeTL, computeTR and
 /// computeXYfromBeltLengths.
@@ -23,7 +23,7 @@ namespace chaintrue::model {
 
 class BeltController final : public ControllerKinematics {
  public:
-  /// \throws std::logic_error for anchors that are not known.
+  /// \throws std::logic_error if the anchors are not known.
   explicit BeltController(const BeltMachine& machine);
   /// Closed forms, exact to rounding.
   [[nodiscard]] tl::expected<ChainLengths, PoseFailure> lengths(BedPoint command) const override;
@@ -34,7 +34,7 @@ class BeltController final : public ControllerKinematics {
   FramePoint centre_;
 };
 
-/// Named as a pose of two chains is: what keeps belts from a place keeps chains from it.
+/// The name of the same failure of a pose of two chains.
 [[nodiscard]] PoseFailure pose_failure(BeltFailure failure);
 
 }  // namespace chaintrue::model

@@ -9,7 +9,7 @@
 namespace chaintrue::model {
 namespace {
 
-/// A printed length of a span, with its derivative.
+/// The printed length of a span, with its derivative.
 struct Printed {
   double length_mm;
   double by_span;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Belt lengths for a place of the tool, and the place for two belt lengths, as the controller of a
-/// Maslow 4 has it.
+/// Belt lengths for a position of the tool, and the position for two belt lengths, as computed by
+/// the controller of a Maslow 4.
 ///
 /// Notation, for a belt with its anchor at A
 ///   m   level distance from A to the tool, |A - (x, y)|
@@ -12,11 +12,11 @@
 ///   belt_and_arm    L = sqrt(m^2 + c^2)                                                     (2)
 ///   span            L = m                                                                   (3)
 ///
-/// Each is exact to rounding and inverted in closed form. A length depends on the place less the
-/// anchor: its derivative by the anchor's x and y is that by the place with the other sign.
+/// Each is exact to rounding and inverted in closed form. A length depends on the position less the
+/// anchor: its derivative by the anchor's x and y is the negative of that by the position.
 ///
-/// The place of two lengths is where their two circles meet below the line of the upper anchors (or
-/// above that of the lower ones, if they are asked for).
+/// The position for two lengths is where their circles meet below the line of the upper anchors (or
+/// above that of the lower ones, if they are given).
 ///
 /// Domain: tools farther than e from the anchor; lengths of at least the height c.
 ///
@@ -38,7 +38,7 @@ namespace chaintrue::model {
 enum class BeltFailure {
   inside_the_arm,       ///< the tool is nearer to the anchor than arm and extension are long
   shorter_than_height,  ///< no belt of that length comes down from its anchor
-  circles_do_not_meet,  ///< the two lengths end nowhere together
+  circles_do_not_meet,  ///< circles of the two lengths do not intersect
 };
 [[nodiscard]] std::string_view explain(BeltFailure failure);
 
@@ -48,8 +48,8 @@ struct BeltReading {
   Eigen::RowVector2d by_place = Eigen::RowVector2d::Zero();
 };
 
-/// What the machine would print of a belt with the tool at a place. \throws std::logic_error for
-/// anchors that are not known.
+/// The length that the machine prints for a belt with the tool at a place. \throws std::logic_error
+/// if the anchors are not known.
 [[nodiscard]] tl::expected<BeltReading, BeltFailure> reading_at(const BeltMachine& machine,
                                                                 Belt belt,
                                                                 FramePoint place);
@@ -57,20 +57,21 @@ struct BeltReading {
 [[nodiscard]] tl::expected<PerBelt<double>, BeltFailure> lengths_at(const BeltMachine& machine,
                                                                     FramePoint place);
 
-/// m of a printed length; the anchors' places need not be known.
+/// m of a printed length; the anchors' positions need not be known.
 [[nodiscard]] tl::expected<double, BeltFailure> span_of(const BeltMachine& machine,
                                                         Belt belt,
                                                         double length_mm);
-/// d(span)/d(length), there.
+/// d(span)/d(length) at this length.
 [[nodiscard]] double span_slope(const BeltMachine& machine, Belt belt, double length_mm);
 
-/// Where two circles about these anchors meet: right of the way from `first` to `second`.
+/// The intersection of two circles about these anchors, to the right of the line from `first` to
+/// `second`.
 [[nodiscard]] tl::expected<FramePoint, BeltFailure> crossing(FramePoint first,
                                                              double first_mm,
                                                              FramePoint second,
                                                              double second_mm);
 
-/// Where the machine believes the tool to be: the upper two belts decide.
+/// The position that the machine computes: from the upper two belts.
 [[nodiscard]] tl::expected<FramePoint, BeltFailure> place_of_upper(const BeltMachine& machine,
                                                                    double tl_mm,
                                                                    double tr_mm);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A router that hangs on four belts (Maslow 4), in the words of its own settings. Data only; the
+/// A router that hangs on four belts (Maslow 4), with the settings of its firmware. Data only; the
 /// geometry is in belt_kinematics.hpp.
 ///
 /// Frame: the bottom left anchor is the origin, x points to the bottom right anchor, whose y is 0; y
-/// up the sheet, mm. Commands count from where the frame's diagonals cross (BedPoint).
+/// up the sheet, mm. The origin of commands is where the frame's diagonals cross (BedPoint).
 ///
 /// Sources: MaslowCNC/Maslow_4, firmware/FluidNC/src/Kinematics/MaslowKinematics.cpp (heights, arm,
-/// extension), src/Maslow/Calibration.cpp (what is printed, who holds and who is pulled) and
-/// data/maslow.yaml (defaults).
+/// extension), src/Maslow/Calibration.cpp (what is printed, which belts hold and which are pulled)
+/// and data/maslow.yaml (defaults).
 ///
 /// \code
 ///   BeltMachine machine;
@@ -34,7 +34,7 @@ struct FramePoint {
   double y_mm = 0.0;
 };
 
-/// Where a belt leaves the frame; z above the bed.
+/// The point where a belt leaves the frame; z above the bed.
 struct Anchor {
   double x_mm = 0.0;
   double y_mm = 0.0;
@@ -43,45 +43,45 @@ struct Anchor {
 
 enum class Orientation { upright, flat };
 
-/// What a length counts that the controller prints.
+/// The length that the controller prints.
 enum class BeltLengths {
   belt,          ///< the belt itself, from the anchor slanting to its end
-  belt_and_arm,  ///< that with extension and arm added to it: firmware before October 2024
-  span,          ///< level from the anchor to the tool: firmware since
+  belt_and_arm,  ///< belt plus extension and arm: firmware before October 2024
+  span,          ///< horizontal from the anchor to the tool: firmware since
 };
 [[nodiscard]] std::string_view name(Orientation orientation);
 [[nodiscard]] std::string_view name(BeltLengths lengths);
 
 struct BeltMachine {
   std::string name = "Maslow 4";
-  /// The heights are the firmware's own: the arms cross at different ones.
+  /// Heights are the firmware's defaults: the arms cross at different heights.
   PerBelt<Anchor> anchors{{0.0, 0.0, 100.0}, {0.0, 0.0, 56.0}, {0.0, 0.0, 34.0}, {0.0, 0.0, 78.0}};
-  /// x_mm and y_mm above are settings in force; otherwise nobody knows them yet, and they are 0.
+  /// True: x_mm and y_mm above are settings in force. False: not known yet, and 0.
   bool anchors_known = false;
   double arm_mm = 123.4;
   double end_extension_mm = 30.0;  ///< the belt's end, between its last tooth and the arm
   double surface_mm = 0.0;         ///< spoilboard and work together, on top of the anchors' z
   Orientation orientation = Orientation::upright;
   BeltLengths lengths = BeltLengths::span;
-  double belt_turn_mm = 43.975;  ///< belt for a turn of the encoder
-  /// The controller multiplies commands by these before anything else.
+  double belt_turn_mm = 43.975;  ///< belt per turn of the encoder
+  /// Commands are multiplied by these first.
   double scale_x = 1.0;
   double scale_y = 1.0;
 };
 
 /// From the belt's end to the tool: arm and extension.
 [[nodiscard]] double reach_mm(const BeltMachine& machine);
-/// How far a belt's end lies below or above its anchor.
+/// Height of the anchor over the belt's end.
 [[nodiscard]] double height_mm(const BeltMachine& machine, Belt belt);
 
-/// Where commands count from: the crossing of the frame's diagonals. \throws std::logic_error for
-/// anchors that are not known, or diagonals that are parallel.
+/// The origin of commands: the crossing of the frame's diagonals. \throws std::logic_error if the
+/// anchors are not known or the diagonals are parallel.
 [[nodiscard]] FramePoint centre_of(const BeltMachine& machine);
-/// Where the controller means a command to be, its scales applied.
+/// The position that the controller intends for a command, with its scales applied.
 [[nodiscard]] FramePoint to_frame(const BeltMachine& machine, BedPoint command);
 
-/// All reasons why a machine cannot be computed with; empty when it is sound. Ranges hold every real
-/// machine with room to spare.
+/// All reasons why a machine is invalid; empty when it is valid. The ranges contain every real
+/// machine.
 [[nodiscard]] std::vector<MachineProblem> problems_of(const BeltMachine& machine);
 
 }  // namespace chaintrue::model

@@ -10,7 +10,7 @@
 namespace chaintrue::model {
 namespace {
 
-/// A coordinate of an anchor that the choice of the frame leaves free.
+/// A coordinate of an anchor that is fixed by the choice of the frame.
 struct Coordinate {
   std::string_view name;
   Belt belt;

@@ -3,11 +3,11 @@
 /// Four belts as a Mechanism: belt_readings.hpp with the anchors' coordinates as parameters and the
 /// belts' effects. Positions are in the anchors' frame; lengths are tl, tr, bl, br.
 ///
-/// A print depends on the place less the anchor, so that
+/// A printed length depends on the position less the anchor, so that
 ///
 ///   d(length)/d(anchor) = -d(length)/d(place)                                               (1)
 ///
-/// Without effects a print is that of belt_kinematics.hpp to rounding, 1e-12 mm.
+/// Without effects a printed length equals that of belt_kinematics.hpp to rounding, 1e-12 mm.
 #pragma once
 
 #include <memory>
@@ -20,8 +20,9 @@ namespace chaintrue::model {
 
 class BeltMechanism final : public Mechanism {
  public:
-  /// `anchor_sigma_mm` is how well the stated anchors are known; absent, or with anchors that nobody
-  /// knows: nothing is known beforehand. \throws std::invalid_argument for a machine with problems.
+  /// `anchor_sigma_mm` is the standard deviation of the stated anchors; if it is absent, or the
+  /// anchors are not known, they have no prior. \throws std::invalid_argument for a machine with
+  /// problems.
   explicit BeltMechanism(const BeltMachine& machine,
                          std::optional<double> anchor_sigma_mm = std::nullopt);
 
@@ -31,7 +32,8 @@ class BeltMechanism final : public Mechanism {
     return parameters_;
   }
   [[nodiscard]] const Eigen::VectorXd& values() const override { return values_; }
-  /// What is farther inside the anchors' rectangle than arm and extension are long.
+  /// Points inside the anchors' rectangle that are farther from its edges than arm and extension
+  /// are long.
   [[nodiscard]] MechanismExtent extent() const override;
   [[nodiscard]] std::shared_ptr<const Mechanism> with_values(
       const Eigen::VectorXd& values) const override;
@@ -40,7 +42,7 @@ class BeltMechanism final : public Mechanism {
       const std::vector<AppliedEffect>& applied) const override;
   [[nodiscard]] std::shared_ptr<const Mechanism> with_effects(
       const std::vector<AppliedEffect>& applied) const override;
-  /// Fails with anchors_not_known, and as belt_kinematics.hpp names it.
+  /// Fails with anchors_not_known, or with a failure of belt_kinematics.hpp.
   [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
       const ToolPosition& position,
       const MechanismVisit& visit,
@@ -55,7 +57,7 @@ class BeltMechanism final : public Mechanism {
   /// cannot move: it shows as the others moving.
   [[nodiscard]] std::vector<MechanismChange> possible_changes() const override;
 
-  /// The machine with its values.
+  /// The machine with the values of the parameters.
   [[nodiscard]] const BeltMachine& machine() const { return machine_; }
   [[nodiscard]] const std::vector<belts::ResolvedBeltEffect>& resolved_effects() const {
     return resolved_;

@@ -107,7 +107,7 @@ tl::expected<BeltReading, BeltFailure> belt_itself(const BeltMachine& machine,
                                                    const BeltVisit& visit,
                                                    FramePoint place) {
   BeltMachine real = machine;
-  // The level span is the same for both prints of the belt as it is.
+  // The horizontal span is the same for both printed forms of the real belt.
   real.lengths =
       machine.lengths == BeltLengths::belt_and_arm ? BeltLengths::belt_and_arm : BeltLengths::belt;
   for (const ResolvedBeltEffect& own : effects) {

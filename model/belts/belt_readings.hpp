@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a router on four belts would print at a place with something wrong with it: effects of
-/// effects/belt_effects.def, one after the other.
+/// The lengths that a router on four belts prints at a position, with effects of
+/// effects/belt_effects.def, applied one after the other.
 ///
 ///   L   the belt from the anchor as it really is: (1) of belt_kinematics.hpp, for machines that print
 ///       belt_and_arm hypot(m, c) - e
 ///   K   L and what each effect adds: the count
-///   print(K)  K, K + e, or sqrt(K^2 - c^2) + e, with the height c that the machine believes
+///   print(K)  K, K + e, or sqrt(K^2 - c^2) + e, with the height c that is set in the machine
 ///
-/// Without effects it is what reading_at() says.
+/// Without effects it equals reading_at().
 ///
 /// \code
 ///   const std::vector<AppliedEffect> wrong = {{"belt_stretch", "", {{"elongation", 0.004}}}};
@@ -24,15 +24,15 @@
 
 namespace chaintrue::model::belts {
 
-/// An effect of the table at a side, with its values in its own order.
+/// An effect of the table at a side, with its values in the order of its parameters.
 struct ResolvedBeltEffect {
   const BeltEffect* effect = nullptr;
   BeltSide side = BeltSide::none;
   std::vector<double> values;
 };
 
-/// What is wrong with applied effects: unknown ones, sides, parameters, values out of their range.
-/// Places are "/0/side" and the like, by the effect's number.
+/// Problems of applied effects: unknown effects, sides and parameters, values out of range. Places
+/// are "/0/side" and the like, by the effect's number.
 [[nodiscard]] std::vector<MachineProblem> problems_of(const std::vector<AppliedEffect>& applied);
 /// Parameters that are not given have their nominal value. \throws std::logic_error for effects with
 /// problems.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The settings as unknowns: their names, what a machine states for each, how well, and a machine
-/// that has them changed.
+/// The settings as unknowns: their names, a machine's stated values and sigmas, and a machine with
+/// changed values.
 ///
 /// \code
 ///   for (Setting setting : kMachineSettings)
@@ -17,7 +17,7 @@
 
 namespace chaintrue::model {
 
-/// Settings of the machine itself, in the order in which they stand in results.
+/// Settings of the machine itself, in the order of results.
 inline constexpr std::array kMachineSettings = {
     Setting::motor_left_x_mm,
     Setting::motor_left_y_mm,
@@ -38,16 +38,16 @@ inline constexpr std::array kSheetSettings = {
   return static_cast<int>(setting) - static_cast<int>(Setting::sheet_x_mm);
 }
 
-/// The word for a setting in files and messages (`motor_left_x_mm`, ...).
+/// Identifier in files and messages (`motor_left_x_mm`, ...).
 [[nodiscard]] std::string_view name(Setting setting);
 [[nodiscard]] std::optional<Setting> setting_from_name(std::string_view word);
 
-/// What the machine says. \throws std::invalid_argument for a setting of the sheet: a machine has
-/// none.
+/// The stated value. \throws std::invalid_argument for a setting of the sheet: a machine has none.
 [[nodiscard]] double stated_value(const Machine& machine, Setting setting);
-/// One sigma of it, from the machine's stated uncertainty. \throws as stated_value.
+/// Sigma of the stated value. \throws as stated_value.
 [[nodiscard]] double stated_sigma(const Machine& machine, Setting setting);
-/// The machine with that setting put to `value` (in the setting's unit). \throws as stated_value.
+/// The machine with that setting changed to `value` (in the setting's unit). \throws as
+/// stated_value.
 [[nodiscard]] Machine with_setting(Machine machine, Setting setting, double value);
 
 }  // namespace chaintrue::model

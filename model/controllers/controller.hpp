@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a controller's firmware believes of its machine, and the chain lengths it pays out for a command.
+/// A controller's firmware: its kinematics and its settings.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 namespace chaintrue::model {
 
 enum class ControllerKind {
-  /// Believes the stated machine with the elastic catenary.
+  /// The stated machine with the elastic catenary.
   ideal,
   /// MaslowCNC/Firmware, triangular kinematics with the parabola's sag.
   maslow_classic,
@@ -20,8 +20,8 @@ enum class ControllerKind {
   fluidnc_wallplotter,
 };
 
-/// GroundControl's settings that enter the kinematics. In files they bear GroundControl's own names, given here in
-/// brackets; what a file does not say is empty and taken from the machine.
+/// GroundControl's settings that enter the kinematics, with GroundControl's names (as in files) in the
+/// comments. A setting that a file does not state is empty and taken from the machine.
 struct ControllerSettings {
   std::optional<double> bed_width_mm;             // bedwidth
   std::optional<double> bed_height_mm;            // bedheight

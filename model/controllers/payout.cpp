@@ -11,7 +11,7 @@
 namespace chaintrue::model {
 namespace {
 
-/// A controller whose belief is one of the model's kinematics.
+/// A controller whose kinematics is one of the model's.
 class BelievedKinematics final : public ControllerKinematics {
  public:
   BelievedKinematics(std::unique_ptr<const Kinematics> kinematics, ChainLengths zero)
@@ -34,7 +34,7 @@ class BelievedKinematics final : public ControllerKinematics {
   ChainLengths zero_;
 };
 
-/// Where the settings put the motors; what they leave out is the stated machine's.
+/// Motor positions of the settings; those not set are the stated machine's.
 PerSide<MotorPosition> believed_motors(const Machine& machine) {
   const ControllerSettings& s = machine.controller.settings;
   PerSide<MotorPosition> motors = machine.motors;
@@ -73,7 +73,7 @@ EquilibriumParameters believed_parameters(const Machine& machine) {
     p.feed = *s.chain_over_sprocket_top ? Feed::over_top : Feed::off_bottom;
   }
   if (s.sled_weight_n) {
-    // The firmware's weights are those of a vertical frame, the chain's along with the sled's.
+    // The firmware's weights are those of a vertical frame, for the chain as for the sled.
     p.sled_weight_n = *s.sled_weight_n;
     p.chain_weight_n_per_mm = machine.chain.mass_kg_per_m * 1e-3 * kStandardGravity;
     p.sag_correction = closed_form_sag_correction(p.chain_weight_n_per_mm, p.sled_weight_n);
@@ -95,7 +95,7 @@ std::unique_ptr<const Kinematics> believed_kinematics(const Machine& machine) {
     case ControllerKind::ideal:
       return make_kinematics(equilibrium_parameters(machine), Model::elastic);
     case ControllerKind::maslow_classic:
-      // Its quadrilateral knows neither sag nor tolerances.
+      // Its quadrilateral has neither sag nor tolerances.
       if (!std::holds_alternative<Ring>(p.attachment)) return make_kinematics(p, Model::firmware);
       return std::make_unique<FormulaKinematics>(p, Formula::firmware, tolerance);
     case ControllerKind::holey:

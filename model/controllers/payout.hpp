@@ -10,14 +10,14 @@
 
 namespace chaintrue::model {
 
-/// A controller's belief. Settings that a machine file leaves out are the stated machine's.
+/// A controller's kinematics. Settings that a machine file leaves out are the stated machine's.
 class ControllerKinematics {
  public:
   virtual ~ControllerKinematics() = default;
   /// Lengths as the controller counts them for the command (x, y), including the machine's chain_zero where the
   /// controller is `ideal`.
   [[nodiscard]] virtual tl::expected<ChainLengths, PoseFailure> lengths(BedPoint command) const = 0;
-  /// The command that makes the controller pay out these lengths (Newton on lengths(), 1e-9 mm).
+  /// The command for which the controller pays out these lengths (Newton on lengths(), 1e-9 mm).
   [[nodiscard]] virtual tl::expected<BedPoint, PoseFailure> command(ChainLengths lengths) const = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// angular_kink: beyond an angle the chain no longer leaves the sprocket as it should.
+/// angular_kink: beyond an angle the chain does not leave the sprocket along its tangent.
 ///   phi  chain's angle below the horizontal [rad]
 ///   k    slope [mm/rad]
 ///   m    knee [rad]

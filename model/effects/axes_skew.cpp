@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// axes_skew: the marks' axes are not square to each other.
-///   x, y  where the mark truly is [mm]
-///   g     angle by which the y axis leans [rad]
+///   x, y  true position of the mark [mm]
+///   g     angle between the y axis and the normal of the x axis [rad]
 ///
 ///   x_written = x + y g                                                                     (1)
 #include "model/effects/sides.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// beam_flex: the top beam gives where the motors pull on it.
+/// beam_flex: the top beam yields where the motors pull on it.
 ///   a_i  motor axis [mm]
 ///   T_i  tension at the sprocket [N]
 ///   t_i  unit vector along the chain there, towards the sled

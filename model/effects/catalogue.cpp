@@ -85,7 +85,7 @@ void check_parameters(const Effect& effect,
   }
 }
 
-// What the sums of the machine's own numbers and its effects must leave.
+// Ranges of the sums of the machine's own numbers and its effects.
 void check_sums(const Machine& machine, std::vector<MachineProblem>& problems) {
   EquilibriumParameters parameters = equilibrium_parameters(machine);
   for (std::size_t i = 0; i < machine.effects.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The catalogue as a table, and from the effects that a machine file names to those that act.
+/// The catalogue as a table, and the effects of a machine file looked up in it.
 ///
 /// \code
 ///   for (const Effect* effect : catalogue()) fmt::print("{}: {}\n", effect->id, effect->cause);
@@ -21,15 +21,15 @@ namespace chaintrue::model::effects {
 
 /// Every effect of effects.def, in that order.
 [[nodiscard]] std::span<const Effect* const> catalogue();
-/// Null where no effect bears the name.
+/// Null where no effect has this name.
 [[nodiscard]] const Effect* find_effect(std::string_view id);
-/// Its place in the table; precondition: an effect of the catalogue.
+/// Its index in the table; precondition: an effect of the catalogue.
 [[nodiscard]] std::size_t place_in_catalogue(const Effect& effect);
 
-/// All that is wrong with the machine's effects, each with its JSON pointer below the machine
+/// All problems of the machine's effects, each with its JSON pointer below the machine
 /// ("/effects/0/side"): unknown effects, sides and parameters, missing parameters, values out of
-/// range, and sums that leave no machine (a chain without mass, a ring without radius). Empty: the
-/// effects can act.
+/// range, and sums that are not physical (a chain without mass, a ring without radius). Empty: the
+/// effects are valid.
 [[nodiscard]] std::vector<MachineProblem> problems_of_effects(const Machine& machine);
 
 /// An effect with its side and its values, looked up once.
@@ -43,12 +43,13 @@ struct ActingEffect {
 /// \throws std::invalid_argument with the first of problems_of_effects where there is one.
 [[nodiscard]] std::vector<ActingEffect> acting_effects(const Machine& machine);
 
-/// The effect as a machine names it: `applied(effect, EffectSide::left, values)`.
+/// The effect as in a machine file: `applied(effect, EffectSide::left, values)`.
 [[nodiscard]] AppliedEffect applied(const Effect& effect, EffectSide side, Values values);
-/// Null and nominal values, in the order of the parameters; places are nominal in both.
+/// Null and nominal values, in the order of the parameters; parameters that are places are nominal
+/// in both.
 [[nodiscard]] std::vector<double> null_values(const Effect& effect);
 [[nodiscard]] std::vector<double> nominal_values(const Effect& effect);
-/// The effect that the mirror image of a machine would have.
+/// The effect of the machine's mirror image.
 [[nodiscard]] ActingEffect mirrored(const ActingEffect& acting);
 
 /// docs/effects.md, whole, from the table.

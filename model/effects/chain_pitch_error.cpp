@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chain_pitch_error: the links are longer than nominal, so fewer of them are counted.
-///   L  true length paid out, with all that the chain station adds [mm]
+///   L  true length paid out, with all effects at the chain [mm]
 ///   e  elongation
 ///
 ///   L_counted = L / (1 + e)                                                                 (1)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chain_stretch: the chain gives more under tension than stated.
+/// chain_stretch: the chain stretches more under tension than stated.
 ///   c  compliance, strain per newton of tension on unstretched length [1/N]
 ///   k  added compliance [1/N]
 ///

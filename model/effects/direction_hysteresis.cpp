@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// direction_hysteresis: a point is reached differently when the chain is paid out and when it is
+/// direction_hysteresis: the reading differs between a chain that was paid out and one that was
 /// taken in.
 ///   b  half of the width between the two [mm]
 ///   d  +1 paid out, -1 taken in

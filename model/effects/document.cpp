@@ -6,7 +6,7 @@
 namespace chaintrue::model::effects {
 namespace {
 
-// The head of a station's chapter.
+// The heading of a stage's chapter.
 struct Chapter {
   Station station;
   std::string_view words;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// drift: the readings creep from visit to visit.
+/// drift: the readings drift from visit to visit.
 ///   n  number of the visit
 ///   d  rate [mm/visit]
 ///

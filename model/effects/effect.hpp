@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What an effect of the catalogue is: words, parameters and one pure function, all in one
-/// constant.
+/// An effect of the catalogue: texts, parameters and one pure function in one constant.
 ///
-/// A reading passes four stations, and each effect stands at exactly one of them:
+/// A reading is computed in four stages, and each effect acts at exactly one of them:
 ///
-///   paper     the mark is not where it is thought to be     `write`
+///   paper     the mark is not where it is assumed to be     `write`
 ///   machine   geometry and forces of the equilibrium        `alter`
 ///   chain     what is paid out: added to a chain,           `add`, `add_by_direction`
 ///             in the catalogue's order, and at last
@@ -14,7 +13,7 @@
 ///
 /// Of the six functions an effect sets exactly one. A new effect is one file that defines its
 /// constant and one line in effects.def; a line without its file does not link, and the contract
-/// suite tests whatever the table lists.
+/// suite runs over the table.
 ///
 /// Symbols used by the equations of the catalogue, i = left or right:
 ///   phi_i  angle of the chain below the horizontal where it leaves the sprocket [rad]
@@ -34,50 +33,50 @@ namespace chaintrue::model::effects {
 
 enum class Station { paper, machine, chain, reading };
 
-/// What an effect may be said to act on: nothing in particular, a chain (or both, with one shared
-/// value), an axis of the paper, or a belt of four (or all).
+/// What an effect acts on: the machine as a whole, a chain (or both, with one shared value), an
+/// axis of the paper, or a belt of four (or all).
 enum class EffectSide { none, left, right, both, x, y, tl, tr, bl, br, all };
 
 enum class RemedyKind { change_the_machine, correct_the_data, repair, compensate_on_its_own };
 
-/// What a grid must hold before the effect can be seen in it at all.
+/// What a grid must hold for the effect to be observable.
 enum class DataNeed { positions, order };
 
 enum class ParameterRole {
   size,   ///< the effect vanishes as it goes to `null`
-  place,  ///< where or when the effect sets in; without meaning while the size is null
+  place,  ///< where or when the effect sets in; has no meaning while the size is null
 };
 
 struct EffectParameter {
-  /// Ends in its unit; the word of files and of the command line.
+  /// Ends in its unit; the identifier in files and on the command line.
   std::string_view name;
   std::string_view symbol;
   std::string_view meaning;
   ParameterRole role = ParameterRole::size;
-  /// Where nothing happens. For a place: any value, the nominal one.
+  /// The value without effect. For a place: any value, the nominal one.
   double null = 0.0;
   double nominal = 0.0;
-  /// What a file may say; a value beyond is a slip. Finite poses over the bed of a common machine.
+  /// Range allowed in files: poses over the bed of a common machine are finite.
   double lower = 0.0;
   double upper = 0.0;
-  /// How large it usually is, one sigma about null (about nominal for a place).
+  /// Usual size, one sigma about null (about nominal for a place).
   double prior_sigma = 0.0;
   bool integer = false;
-  /// -1 where the mirror image of the machine has the opposite value.
+  /// -1 where the mirror image of the machine has the negative value.
   double mirror_sign = 1.0;
 };
 
 /// The parameters' values, in the order in which the effect lists them.
 using Values = std::span<const double>;
 
-/// One chain of the equilibrium that has every machine effect on.
+/// One chain of the equilibrium, with every machine effect on.
 struct ChainAtRest {
   ChainState state;
   double length_mm = 0.0;  ///< L0
   double turn_mm = 0.0;    ///< teeth * pitch: what one turn of the sprocket pays out
 };
 
-/// What a chain gains, and how that changes with the three numbers that effects look at.
+/// The change of a chain's length, and its derivatives by the three numbers that effects depend on.
 struct ChainAddition {
   double length_mm = 0.0;
   double per_angle_mm_per_rad = 0.0;  ///< d/d phi
@@ -85,7 +84,7 @@ struct ChainAddition {
   double per_length = 0.0;            ///< d/d L0
 };
 
-/// What a person's note depends on beside the lengths.
+/// What the written reading depends on besides the lengths.
 struct VisitNote {
   int order = 0;          ///< n
   double pitch_mm = 0.0;  ///< nominal, of the sprocket
@@ -98,7 +97,7 @@ struct Effect {
   std::span<const EffectParameter> parameters;
 
   std::string_view cause;      ///< what is wrong with the machine or the data
-  std::string_view signature;  ///< what a person sees on the bed
+  std::string_view signature;  ///< what the user sees on the bed
   std::string_view equation;
   std::string_view source;
   std::string_view not_modelled;
@@ -107,21 +106,20 @@ struct Effect {
   RemedyKind remedy_kind = RemedyKind::repair;
   std::string_view remedy;  ///< what to do about it
 
-  /// Where the mark is written that truly is at the point.
+  /// The written position of a mark whose true position is given.
   MarkPoint (*write)(MarkPoint, EffectSide, Values) = nullptr;
   void (*alter)(EquilibriumParameters&, Values) = nullptr;
   ChainAddition (*add)(const ChainAtRest&, Values) = nullptr;
-  /// `direction` is +1 where the chain has been paid out to get here, -1 where it has been taken
+  /// `direction` is +1 where the chain has been paid out to its length, -1 where it has been taken
   /// in. In mm.
   double (*add_by_direction)(double direction, Values) = nullptr;
-  /// e: a counted length is the true one divided by 1 + e, after everything that is added to the
-  /// chain.
+  /// e: a counted length is the true one divided by 1 + e, after all additions to the chain.
   double (*elongation)(Values) = nullptr;
   /// In mm.
   double (*misread)(const VisitNote&, Values) = nullptr;
-  /// It acts at the visit of its place alone, not from there on.
+  /// It acts only at the visit that its place parameter names.
   bool at_one_visit = false;
-  /// Empty where the effect can act on such a machine, otherwise what it would need.
+  /// Empty where the effect can act on such a machine, otherwise what it needs.
   std::string_view (*needs_machine)(const EquilibriumParameters&) = nullptr;
 };
 
@@ -130,7 +128,7 @@ struct Effect {
 [[nodiscard]] std::string_view name(RemedyKind kind);
 [[nodiscard]] std::string_view name(DataNeed need);
 
-/// Its place depends on the visit and not on the point alone: drift, skips, hysteresis.
+/// It depends on the visit and not on the point alone: drift, skips, hysteresis.
 [[nodiscard]] inline bool depends_on_visit(const Effect& effect) {
   return effect.add_by_direction != nullptr || effect.misread != nullptr;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// ring_radius: the chain ends at another distance from the bit than stated.
-///   rho  ring radius, as stated and as it is [mm]
+///   rho  ring radius, stated and true [mm]
 ///   d    offset [mm]
 ///
 ///   rho = rho_stated + d                                                                    (1)

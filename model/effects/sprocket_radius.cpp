@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// sprocket_radius: the chain runs on another radius than stated.
-///   r  radius of the chain line on the sprocket, for the tangent and the wrap alike [mm]
+///   r  radius of the chain line on the sprocket, for both the tangent and the wrap [mm]
 ///   d  offset [mm]
 ///
 ///   r = r_stated + d                                                                        (1)

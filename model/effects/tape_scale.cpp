@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// tape_scale: the tape that set out the marks is long or short.
-///   x, y  where the mark truly is [mm]
+///   x, y  true position of the mark [mm]
 ///   s     scale, written length over true length less one
 ///
 ///   x_written = x (1 + s),  y_written = y (1 + s)                                           (1)

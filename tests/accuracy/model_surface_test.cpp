@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What few points are worth on a machine that no model describes to the end. Truth: the default
-// machine with its motors 3 mm beside where they are stated, elastic catenary, plus smooth terms of
-// 0.8 mm that stand for what nobody modelled.
+// The accuracy reached with few points on a machine that the model does not describe completely.
+// Truth: the default machine with its motors 3 mm from their stated positions, elastic catenary,
+// plus smooth unmodelled terms of 0.8 mm.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -76,9 +76,9 @@ struct BedError {
   double covered = 0.0;  ///< share of lengths within 1.96 of their sigma
 };
 
-/// Over the whole bed, both chains alike: the largest on a raster that holds the edges, the mean
-/// square and what is covered at the middles of 24 x 12 equal cells, so that every square
-/// centimetre counts alike.
+/// Over the whole bed and both chains: the maximum on a raster that includes the edges, the mean
+/// square and the coverage at the centres of 24 x 12 equal cells, so that all areas have the same
+/// weight.
 double largest_error_mm(const CompensationMap& map) {
   const model::Bed bed;
   double largest = 0.0;
@@ -117,11 +117,11 @@ BedError error_of(const CompensationMap& map) {
   return {std::sqrt(squares / count), static_cast<double>(covered) / count};
 }
 
-/// The limits are what is asked for.
+/// The limits are the required values.
 struct Figure {
   Layout layout;
   double exact_largest_mm;  ///< points on their marks, no noise
-  double beside_rms_mm;     ///< sled up to 20 mm beside the marks, no noise
+  double beside_rms_mm;     ///< sled up to 20 mm from the marks, no noise
   double noisy_rms_mm;      ///< 0.3 mm noise on the lengths
 };
 
@@ -215,8 +215,8 @@ TEST(ModelSurfaceGaps, OneMissingNodeCostsLittle) {
   }
   fmt::print("5x9 with one node missing (corners, an edge, the middle): {:.4f} mm there\n",
              largest);
-  // Asked for is 0.02, met but at the corner below a motor; the limit is what is reached there, and
-  // 2 %.
+  // 0.02 is required, and reached except at the corner below a motor; the limit is the value
+  // reached there, plus 2 %.
   EXPECT_LE(largest, 0.0262);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real scans of a real machine: fitted at a few marks, held against all the others. The scans stay
+// Real scans of a real machine: fitted at a few marks, compared with all the others. The scans stay
 // in ../shared/data.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ struct Scan {
   double most_y_rms_mm;
 };
 
-/// Only the names print: GoogleTest would write the bytes.
+/// Prints only the name: GoogleTest would print the bytes.
 void PrintTo(const Scan& scan, std::ostream* out) { *out << scan.name; }
 
 bool on(const std::vector<int>& lines, double coordinate_mm) {
@@ -49,7 +49,7 @@ TEST_P(RealScans, AFewMarksPredictAllOthers) {
   }
   files::OpticalOptions options;
   options.machine =
-      // The settings in force were not recorded, and so not what the tolerances were tuned for.
+      // The settings in force were not recorded, so the tolerances' purpose is unknown.
       files::read_groundcontrol(data / "holey" / "groundcontrol_2018-09-01b.ini",
                                 files::Tolerances::unexplained)
           .machine;
@@ -86,8 +86,8 @@ TEST_P(RealScans, AFewMarksPredictAllOthers) {
              held_out,
              rms.x(),
              rms.y());
-  // What the machine with a length scale for each chain reaches alone is 0.21 / 0.40 (D) and 0.43 /
-  // 0.62 (C).
+  // The machine with a length scale for each chain alone reaches 0.21 / 0.40 (D) and 0.43 / 0.62
+  // (C).
   EXPECT_LE(rms.x(), GetParam().most_x_rms_mm);
   EXPECT_LE(rms.y(), GetParam().most_y_rms_mm);
 }

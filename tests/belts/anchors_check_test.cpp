@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Anchors fitted once, and places measured since: unchanged frames are told valid, shifted zeros with
-// their belt and size, an anchor that moved is found again; one bad reading says nothing of the anchors.
+// Anchors fitted once, and positions measured later: unchanged frames are reported valid, shifted
+// zeros with their belt and size, an anchor that moved is found; one bad reading does not affect
+// the verdict on the anchors.
 #include "grid/belts/anchors_check.hpp"
 
 #include <gmock/gmock.h>
@@ -51,10 +52,11 @@ TEST(AnchorsCheck, AFrameThatIsAsItWasIsStillValid) {
   int valid = 0;
   for (const Check& check : checks(kNothing, kNothing)) {
     valid += check.is_valid_as_it_is();
-    // Whatever is said of one, the rest of the probability is said too.
+    // The probabilities of all outcomes are reported.
     EXPECT_NEAR(check.probability[0] + check.probability[1] + check.probability[2], 1.0, 1e-9);
   }
-  // "Decided" is 80 %: one in ten may miss that, and four of thirty miss it once in ten runs of such.
+  // "Decided" is 80 %: one in ten may be missed, and four misses of thirty occur once in ten such
+  // runs.
   EXPECT_GE(valid, kFrames - 5) << "frames 1 to " << kFrames;
 }
 
@@ -82,7 +84,7 @@ TEST(AnchorsCheck, AnAnchorThatMovedIsNotCalledValid) {
     EXPECT_FALSE(check.is_valid_as_it_is()) << check.sentence;
     again += check.verdict == CheckVerdict::measure_again;
   }
-  // A belt that counts from elsewhere looks much alike at six places.
+  // A shifted zero of a belt has a similar signature at six positions.
   EXPECT_GT(again, kFrames / 2) << "frames 1 to " << kFrames;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Belts, holes and a program to cut, as a person runs them; what the compensated program does is
-// asked of the simulated machine itself.
+// Belts, holes and a program to cut, through the command; the compensated program is run on the
+// simulated machine.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using testing::HasSubstr;
 using testing_support::content_of;
 using testing_support::Outcome;
 
-/// Places of X and Y words, those that stand once kept.
+/// Positions of X and Y words; a missing word keeps its value.
 std::vector<BedPoint> corners_of(const std::string& program) {
   std::vector<BedPoint> corners;
   std::istringstream lines(program);
@@ -47,7 +47,8 @@ class BeltAndHoleCommands : public testing_support::CommandFixture {
           "G21 G90 G17\nG0 Z5\nG0 X-800 Y-400\nG1 Z-2 F500\nG1 X800 Y-400 F1500\nG1 X800 Y400\n"
           "G1 X-800 Y400\nG1 X-800 Y-400\nG0 Z5\nM30\n");
   }
-  /// Where the true machine puts the tool for a command, its controller as `believed`.
+  /// The true machine's tool position for a command, with the anchors of `believed` in its
+  /// controller.
   [[nodiscard]] BedPoint tool(const model::BeltMachine& believed, BedPoint command) const {
     const model::FramePoint meant = model::to_frame(believed, command);
     const auto span = [&](model::Belt belt) {
@@ -56,8 +57,8 @@ class BeltAndHoleCommands : public testing_support::CommandFixture {
     };
     return set_.tool(span(model::Belt::tl), span(model::Belt::tr));
   }
-  /// The shape that is cut, laid on the rectangle that was wanted: of each of its places the nearest
-  /// point of the outline.
+  /// Rms distance of the cut shape, after a best-fit placement, from the intended rectangle: for
+  /// each of its points the nearest point of the outline.
   [[nodiscard]] double off_mm(const std::string& program,
                               const model::BeltMachine& believed) const {
     std::vector<BedPoint> cut;
@@ -115,7 +116,7 @@ TEST_F(BeltAndHoleCommands, ACompensatedProgramCutsTrueOnTheUnmodifiedController
   const double after = off_mm(content_of(folder_ / "part.true.nc"), believed);
   std::cout << "tool off the outline, mm: " << before << " as it is, " << after << " compensated\n";
   EXPECT_GT(before, 1.0);  // 0.4 % of the 800 and 400 mm from the middle to an edge
-  // A third of what the tool hangs beside its belts: nine holes foretell a half wave between them.
+  // A third of the tool's displacement from its belts: nine holes resolve a half wave between them.
   EXPECT_LT(after, 1.0);
   const Outcome verified = run("gcode verify part.nc part.true.nc --map anchors.json");
   EXPECT_EQ(verified.code, 0) << verified.err;
@@ -146,7 +147,7 @@ TEST_F(BeltAndHoleCommands, BeltsAloneCompensateForTheAnchorsAndSayWhatTheyDoNot
   const Outcome made = run("gcode compensate part.nc --map anchors.json -o part.true.nc");
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("The scale is not known: parts come out as true as a turn"));
-  // Its page shows the frame of the anchors, not half of the usual bed of a machine on chains.
+  // Its page shows the frame of the anchors, not half of the usual bed of a chain machine.
   const Outcome page =
       run("gcode compensate part.nc --map anchors.json -o again.nc --report page.html");
   ASSERT_EQ(page.code, 0) << page.err;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Belts and holes in one fit, on simulated machines: what either tells alone, and both together.
+// Belts and holes in one fit, on simulated machines: the accuracy of either alone, and of both
+// together.
 #include "grid/belts/belts_and_holes.hpp"
 
 #include <gmock/gmock.h>
@@ -18,7 +19,7 @@ namespace {
 using belts::anchors_of;
 using model::BedPoint;
 
-/// Places over the sheet that no hole stands at.
+/// Positions over the sheet without holes.
 std::vector<BedPoint> targets() {
   std::vector<BedPoint> points;
   for (const double y : {-400.0, -150.0, 200.0, 420.0}) {
@@ -27,7 +28,7 @@ std::vector<BedPoint> targets() {
   return points;
 }
 
-/// The tool's error over the sheet when the map says what the belts must be.
+/// The tool's error over the sheet with the belt lengths of the map.
 double error_mm(const SimulatedHoles& truth, const BeltMap& map) {
   std::vector<BedPoint> reached;
   for (const BedPoint target : targets()) {
@@ -45,7 +46,7 @@ MeasuredBelts without_points(MeasuredBelts belts) {
   return belts;
 }
 
-/// Rms of what the five coordinates are off by, in true millimetres.
+/// Rms error of the five coordinates, in true millimetres.
 double anchors_off_mm(const SimulatedHoles& truth, const BeltsFit& fit) {
   const double factor = fit.scale ? fit.scale->factor : 1.0;
   const belts::AnchorVector off =
@@ -53,7 +54,7 @@ double anchors_off_mm(const SimulatedHoles& truth, const BeltsFit& fit) {
   return std::sqrt(off.squaredNorm() / static_cast<double>(off.size()));
 }
 
-/// Of many machines: the tool over the sheet, and the anchors.
+/// Rms over many machines: of the tool over the sheet, and of the anchors.
 struct Errors {
   std::vector<double> tool_mm;
   std::vector<double> anchors_mm;
@@ -67,7 +68,7 @@ struct Compared {
   Errors belts;
   Errors holes;
   Errors both;
-  int bent = 0;  ///< machines in which both show a displacement
+  int bent = 0;  ///< machines for which both fits find a displacement
 };
 
 Compared compared(HolesSimulation simulation, int machines) {
@@ -93,11 +94,11 @@ Compared compared(HolesSimulation simulation, int machines) {
 }
 
 TEST(BeltsAndHoles, TogetherTheyBeatEither) {
-  // A handful of holes, and a tape held by one person.
+  // A few holes, and a tape held by one person.
   const Compared found = compared({.tape_mm = 1.0, .few_holes = true}, 40);
-  // Belts do not know the scale: 0.4 % of some 650 mm, the middle distance from the centre.
+  // Belts do not determine the scale: 0.4 % of some 650 mm, the mean distance from the centre.
   EXPECT_GT(rms(found.belts.tool_mm), 2.0);
-  // Of the spread of forty machines' rms, a ninth, these are several.
+  // Several times the standard error of the rms over forty machines, which is a ninth.
   EXPECT_LT(rms(found.both.tool_mm), 0.7 * rms(found.holes.tool_mm));
   EXPECT_LT(rms(found.both.tool_mm), 0.4 * rms(found.belts.tool_mm));
   EXPECT_LT(rms(found.both.anchors_mm), 0.5 * rms(found.holes.anchors_mm));
@@ -107,7 +108,7 @@ TEST(BeltsAndHoles, TogetherTheyBeatEither) {
 TEST(BeltsAndHoles, WhatHangsBesideItsBeltsIsInTheMap) {
   const Compared straight = compared({}, 20);
   const Compared bent = compared({.beside_mm = 4.0}, 20);
-  // Twenty to one is asked of a displacement: one machine in twenty shows one that is not there.
+  // A displacement needs odds of twenty to one: one machine in twenty shows a false one.
   EXPECT_LE(straight.bent, 3);
   EXPECT_GE(bent.bent, 17);
   EXPECT_LT(rms(bent.both.tool_mm), 0.5 * rms(bent.belts.tool_mm));
@@ -123,7 +124,7 @@ TEST(BeltsAndHoles, SigmasAreWhatTheTruthIsOffBy) {
     ASSERT_TRUE(fit) << "seed " << 500 + k;
     square += std::pow((fit->belts.scale->factor - set.scale) / fit->belts.scale->sigma, 2);
   }
-  // A mean of sixty squares is off from 1 by 0.18, one sigma; three of them.
+  // The mean of sixty squares has a sigma of 0.18; three of these.
   EXPECT_NEAR(square / kMachines, 1.0, 0.55);
 }
 
@@ -136,22 +137,22 @@ TEST(BeltsAndHoles, ADistanceReadWronglyIsSetAsideByItsEnds) {
     EXPECT_EQ(fit->holes.distances[i].rejected, i == 5) << fit->holes.distances[i].words;
   }
   const BeltTapedDistance& rejected = fit->holes.distances[5];
-  // Twelve, give or take the tape and what nine holes leave uncertain.
+  // Twelve, within the uncertainty of the tape and of nine holes.
   EXPECT_NEAR(rejected.left_out_mm, 12.0, 4.0 * rejected.left_out_sigma_mm);
-  // Sigma is that of a new reading: of the fit that never had the distance, when the same distance
-  // is read to what that fit predicts. There it counts, and moves nothing.
+  // Sigma is that of a new reading: from a fit without the distance, when the distance is read as
+  // that fit predicts it. It is then used and changes nothing.
   SimulatedHoles agreeing = set;
   agreeing.holes.set.distances[5].distance_mm -= rejected.left_out_mm;
   const auto counted = fit_belts_and_holes(agreeing.belts, {agreeing.holes});
   ASSERT_TRUE(counted);
   const BeltTapedDistance& same = counted->holes.distances[5];
   ASSERT_FALSE(same.rejected);
-  // The frame about which it is linearised is the same to what Newton leaves of it, some 1e-3 mm.
+  // The point of linearisation is the same up to Newton's tolerance, some 1e-3 mm.
   EXPECT_NEAR(same.left_out_mm, 0.0, 0.01);
-  // The noise's factor is chosen on a grid, with one distance more: the same step here.
+  // The noise factor is chosen on a grid, with one more distance: the same step here.
   ASSERT_EQ(counted->holes.noise_factor, fit->holes.noise_factor);
   EXPECT_NEAR(rejected.left_out_sigma_mm, same.left_out_sigma_mm, 0.01 * same.left_out_sigma_mm);
-  // No less than a tape read to a millimetre, no more than a tape and nine holes of it.
+  // At least a tape read to a millimetre, at most the tape plus nine holes measured with it.
   const double tape_mm = set.holes.set.tape.sigma_mm * fit->holes.noise_factor;
   EXPECT_GE(rejected.left_out_sigma_mm, tape_mm);
   EXPECT_LT(rejected.left_out_sigma_mm, 5.0 * tape_mm);
@@ -161,7 +162,7 @@ TEST(BeltsAndHoles, TheSheetsEdgesLayTheFrame) {
   SimulatedHoles set = simulate_with_holes({.seed = 78, .tape_mm = 0.2, .hole_mm = 0.1});
   MeasuredHoles& holes = set.holes.set;
   holes.tape.sigma_mm = 0.2;
-  // Where the holes stand by themselves, and a sheet that lies 3 mm to the left and 5 mm lower.
+  // The holes' own placement, and a sheet that lies 3 mm to the left and 5 mm lower.
   const auto alone = fit_belts_and_holes(set.belts, {set.holes});
   ASSERT_TRUE(alone);
   const BeltMap unlaid(alone->belts, &alone->holes);
@@ -179,7 +180,7 @@ TEST(BeltsAndHoles, TheSheetsEdgesLayTheFrame) {
   ASSERT_TRUE(laid && laid->holes.sheet);
   const BeltMap map(laid->belts, &laid->holes);
   const BedPoint moved = *map.tool(*unlaid.lengths({100.0, -50.0}));
-  // Half a millimetre of sheet's size, which edges read along.
+  // Half a millimetre of the sheet's size, which readings to its edges include.
   EXPECT_NEAR(moved.x_mm, 103.0, 1.0);
   EXPECT_NEAR(moved.y_mm, -45.0, 1.0);
 }
@@ -192,7 +193,7 @@ TEST(BeltMap, LengthsAndToolAreInverse) {
   for (const BedPoint target : targets()) {
     const auto tool = map.tool(*map.lengths(target));
     ASSERT_TRUE(tool);
-    EXPECT_NEAR(tool->x_mm, target.x_mm, 1e-8);  // of a fixed point that ends at 1e-10 mm
+    EXPECT_NEAR(tool->x_mm, target.x_mm, 1e-8);  // the fixed-point iteration ends at 1e-10 mm
     EXPECT_NEAR(tool->y_mm, target.y_mm, 1e-8);
     const auto sigma = map.sigma(target);
     EXPECT_GT(sigma.left_mm, 0.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Anchors fitted to simulated lengths, whose truth is known: near it by as much as is said, whatever
-// the controller prints, from any start; bad readings found; the scale known with a tape alone.
+// Anchors fitted to simulated lengths, with a known truth: within the reported sigmas, for every
+// kind of printed length, from any start; bad readings found; the scale determined by a tape only.
 #include "grid/belts/belts_fit.hpp"
 
 #include <gmock/gmock.h>
@@ -49,8 +49,8 @@ TEST_P(BeltsFitOfLengths, WithoutNoiseTheAnchorsAreTheTrueOnes) {
                                            .lengths = GetParam()});
       const auto fit = fit_belts(set.belts);
       ASSERT_TRUE(fit) << "seed " << seed << ": " << fit.error().sentence;
-      // A cost that has settled to 1e-12 leaves 1e-6 of a millimetre a reading, and anchors that are
-      // some thirty times less sure.
+      // A cost converged to 1e-12 leaves 1e-6 of a millimetre for each reading, and some thirty
+      // times more for the anchors.
       EXPECT_LT(off(*fit, set).cwiseAbs().maxCoeff(), 1e-4) << "seed " << seed;
       EXPECT_TRUE(fit->bad.empty()) << "seed " << seed;
     }
@@ -75,9 +75,9 @@ TEST_P(BeltsFitOfLengths, AnchorsAreOffByAsMuchAsIsSaid) {
                                place.at.y_mm - set.places[17].y_mm);
     place_square += away.dot(place.covariance_mm2.llt().solve(away));
   }
-  // Chi-square of 5 unknowns each, one sigma sqrt(10) of a set: within four of the mean's.
+  // Chi-square of 5 unknowns each, sigma sqrt(10) for a set: within four of the mean's.
   EXPECT_NEAR(square / kSets, 5.0, 4.0 * std::sqrt(10.0 / kSets)) << "seeds 1 to " << kSets;
-  // 157 checks a set: within four sigmas of 0.5 mm squared.
+  // 157 checks for each set: within four sigmas of 0.5 mm squared.
   EXPECT_NEAR(spread_square / kSets, 0.25, 4.0 * 0.25 * std::sqrt(2.0 / (157.0 * kSets)));
   // Two unknowns each, one sigma 2.
   EXPECT_NEAR(place_square / kSets, 2.0, 4.0 * 2.0 / std::sqrt(kSets));
@@ -89,7 +89,7 @@ TEST(BeltsFit, TheSpreadDividesByTheChecksAndTheRmsByTheReadings) {
   ASSERT_TRUE(fit);
   ASSERT_TRUE(fit->bad.empty());
   EXPECT_EQ(fit->checks, 2 * 81 - 5);
-  // One sum of squares under two denominators, to rounding.
+  // One sum of squares with two denominators, to rounding.
   EXPECT_NEAR(fit->rms_mm * std::sqrt(4.0 * 81), fit->spread_mm * std::sqrt(2.0 * 81 - 5), 1e-9);
 }
 
@@ -102,7 +102,7 @@ TEST(BeltsFit, WhatACoordinateRestsOnIsWholeAndMirrored) {
     EXPECT_NEAR(share.tl + share.tr + share.bl + share.br, 1.0, 1e-12) << c.name;  // rounding
     for (const Belt belt : model::kBelts) EXPECT_GE(share[belt], 0.0) << c.name;
   }
-  // Its own belt tells most of where an anchor is.
+  // An anchor's own belt has the largest share.
   EXPECT_GT(fit->coordinates[0].rests_on.tl, fit->coordinates[0].rests_on.tr);
   EXPECT_GT(fit->coordinates[2].rests_on.tr, fit->coordinates[2].rests_on.tl);
 }
@@ -113,7 +113,7 @@ TEST(BeltsFit, TheOrderOfThePointsChangesNothing) {
   std::reverse(set.belts.points.begin(), set.belts.points.end());
   const auto other = fit_belts(set.belts);
   ASSERT_TRUE(fit && other);
-  // Sums in another order: a share of 1e-12 of the cost, as above.
+  // Sums in another order: a relative difference of 1e-12 of the cost, as above.
   EXPECT_LT((anchors_of(fit->machine) - anchors_of(other->machine)).cwiseAbs().maxCoeff(), 1e-4);
 }
 
@@ -130,12 +130,13 @@ TEST(BeltsFit, AReadingEightyMillimetresOffIsNamedByPlaceAndBelt) {
     ASSERT_FALSE(fit->bad.empty()) << "seed " << seed;
     const BadBeltReading& worst = fit->bad.front();
     if (worst.point == point && worst.belt == belt && fit->bad.size() == 1) ++found;
-    // What all others make of it is sure to some noise, 1.5 mm at places where two belts align.
+    // The prediction by all other readings has a sigma of some noise, 1.5 mm where two belts are
+    // parallel.
     if (worst.point == point && worst.belt == belt) {
       EXPECT_NEAR(std::abs(worst.off_mm), 80.0, 8.0) << "seed " << seed;
     }
   }
-  // At the rate that the house asks of bad readings.
+  // The required detection rate of bad readings.
   EXPECT_GE(found, static_cast<int>(std::ceil(0.97 * kSets))) << "seeds 1 to " << kSets;
 }
 
@@ -181,11 +182,11 @@ TEST(BeltsFit, LowerBeltsAreForetoldAsWellAsTheNoiseAllows) {
   ASSERT_TRUE(fit && fit->half_left_out);
   EXPECT_EQ(fit->one_left_out.readings, 162U);
   EXPECT_EQ(fit->half_left_out->readings, 162U);
-  // A lower belt has its own 0.5 mm and the upper two's, brought there: between sqrt 2 and 2.5
-  // times one belt's noise over the middle of a frame.
+  // A lower belt has its own 0.5 mm and the propagated noise of the upper two: between sqrt 2 and
+  // 2.5 times one belt's noise over the middle of a frame.
   EXPECT_GT(fit->one_left_out.rms_mm, 0.6);
   EXPECT_LT(fit->one_left_out.rms_mm, 1.25);
-  // Half of the places fit the anchors less well, by a tenth or so.
+  // Anchors fitted to half of the positions are less accurate, by a tenth or so.
   EXPECT_GT(fit->half_left_out->rms_mm, 0.9 * fit->one_left_out.rms_mm);
   EXPECT_LT(fit->half_left_out->rms_mm, 1.3 * fit->one_left_out.rms_mm);
 }
@@ -206,7 +207,8 @@ TEST(BeltsFit, OnePlaceLeftOutIsAFitWithoutIt) {
     off_mm.push_back(lengths.bl - foretold->bl);
     off_mm.push_back(lengths.br - foretold->br);
   }
-  // Anchors move by 3 mm at most when one place goes: second order of that over 1 m, 0.01 mm.
+  // Anchors move by 3 mm at most when one position is left out: second order of that over 1 m, 0.01
+  // mm.
   EXPECT_NEAR(fit->one_left_out.rms_mm, rms(off_mm), 0.01);
 }
 
@@ -221,7 +223,7 @@ TEST(BeltsFit, BeltsAloneKnowNoScaleAndATapeTellsIt) {
   const auto fit = fit_belts(set.belts);
   const auto scaled = fit_belts(longer);
   ASSERT_TRUE(fit && scaled);
-  // The two costs settle apart by as much as above.
+  // The two costs converge with the same tolerance as above.
   EXPECT_LT((anchors_of(scaled->machine) - 1.005 * anchors_of(fit->machine)).cwiseAbs().maxCoeff(),
             1e-4);
   EXPECT_NEAR(scaled->spread_mm, 1.005 * fit->spread_mm, 1e-6);
@@ -257,11 +259,11 @@ TEST(BeltsFit, TheDistanceThatIsProposedTellsTheScaleAsWellAsItSaysAndNoAnchorsT
         taped.distances.push_back(distance);
         return fit_belts(taped)->scale->sigma;
       };
-      // As expected of the fit, so that neither scale nor spread moves: rounding of one solver.
+      // As predicted by the fit, so that neither scale nor sigma changes: rounding of one solver.
       EXPECT_NEAR(sigma_of(best->distance), best->sigma, 0.01 * best->sigma);
       for (const Belt from : model::kBelts) {
         for (const Belt to : model::kBelts) {
-          // A hundredth worse is taken for as good.
+          // A hundredth worse counts as equal.
           if (from < to) {
             EXPECT_GT(sigma_of({from, to, 0.0, 1.0}), 0.98 * best->sigma);
           }
@@ -288,7 +290,8 @@ TEST(BeltsFit, ScalesOfTapedPointsAnchorsAndHolesAreOffByAsMuchAsIsSaid) {
     taped(Belt::tl, Belt::tr, {a.tl.x_mm, a.tl.y_mm}, {a.tr.x_mm, a.tr.y_mm});
     taped(std::size_t{0}, std::size_t{80}, set.places[0], set.places[80]);
     taped(std::size_t{0}, std::size_t{8}, set.places[0], set.places[8]);
-    // A hole is where the upper belts leave the tool that the stated anchors were to bring there.
+    // A hole is at the position where the upper belts put the tool when commanded with the stated
+    // anchors.
     const auto hole = [&](model::BedPoint command) {
       const model::FramePoint meant = model::to_frame(set.belts.machine, command);
       const auto lengths = model::lengths_at(set.belts.machine, meant).value();
@@ -319,7 +322,7 @@ TEST(BeltsFit, ATapeThatContradictsTheBeltsDoesNotMakeThemSeemLessSure) {
   // One sum of squares from two starts.
   EXPECT_NEAR(fit->spread_mm, alone->spread_mm, 1e-6);
   EXPECT_TRUE(fit->bad.empty() && fit->bad_points.empty());
-  // 15 mm apart in the two spans, of which neither is hidden.
+  // 15 mm apart for the two spans, and both are reported.
   EXPECT_GT(fit->scale->residuals_mm[1] - fit->scale->residuals_mm[0], 10.0);
 }
 
@@ -366,7 +369,7 @@ TEST(BeltsFit, AThousandPlacesTakeASecond) {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
     ASSERT_TRUE(fit);
 #ifdef NDEBUG
-    // Three times what is promised: other programs run beside a test.
+    // Three times the stated time: other programs run at the same time.
     EXPECT_LT(took.count(), 3.0 * most_s) << columns * rows << " places";
 #endif
     RecordProperty("seconds_" + std::to_string(columns * rows), std::to_string(took.count()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The verbs that know belts, as a person runs them: from a pasted log to the lines to paste back.
+// The verbs that accept belts, through the command: from a pasted log to the lines to paste back.
 #include <gmock/gmock.h>
 
 #include "grid/files/anchors_file.hpp"
@@ -70,7 +70,7 @@ TEST_F(BeltCommands, ATapedDistanceChangesTheScalesToPaste) {
   const Outcome lines = run("export maslow4 anchors.json");
   EXPECT_THAT(lines.out,
               AllOf(HasSubstr("\n$/Maslow_Scale_X=0.99"), HasSubstr("\n$/Maslow_Scale_Y=0.99")));
-  // The scale in force is left alone.
+  // The scale in force is not changed.
   const auto found =
       grid::files::parse_anchors(content_of(folder_ / "anchors.json"), "anchors.json");
   set.belts.machine.scale_x = set.belts.machine.scale_y = 1.0 / found.fit.scale->factor;
@@ -105,7 +105,7 @@ TEST_F(BeltCommands, ADiagnosisHasItsAnchorsToPasteAndSaysWhatNoNumberTakesOut) 
 }
 
 TEST_F(BeltCommands, WhatIsLeftOpenIsToldWithWhatToMeasureAndTheLinesToAdd) {
-  // Seen, and not told from a belt's scale.
+  // Detected, but not distinguished from a belt's scale.
   ASSERT_EQ(run("simulate --belts " + belts_ +
                 " --grid 7x6 --effect anchor_height:tr:offset_mm=30 --length-noise-mm 0.4 --seed 1 "
                 "-o b.json")
@@ -141,7 +141,7 @@ TEST_F(BeltCommands, AnchorsAnswerQueriesHaveAPageAndAreChecked) {
   ASSERT_EQ(query.code, 0) << query.err;
   EXPECT_THAT(query.out,
               StartsWith("x_mm,y_mm,tl_mm,tr_mm,bl_mm,br_mm,tl_sigma_mm,tr_sigma_mm,status\n100,200,"));
-  // The upper two, written to a tenth of a micrometre, lead back.
+  // The upper two, written to a tenth of a micrometre, are inverted to the position.
   const std::string line = query.out.substr(query.out.find('\n') + 1);
   const std::size_t first = line.find(',', 4) + 1;
   const std::size_t second = line.find(',', first) + 1;

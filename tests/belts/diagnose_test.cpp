@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Simulated sessions of four belts with something wrong, diagnosed: the cause by name, belt and size,
-// bad readings by point and belt, silence where nothing is wrong, and what no belt can show.
+// Diagnoses of simulated sessions of four belts with a cause: its name, belt and size, bad readings
+// by point and belt, no name where there is no cause, and causes that belts cannot show.
 #include "grid/diagnosis/diagnose.hpp"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ struct Session {
 
 MeasuredBelts measured_in(const Session& session) {
   synthetic::BeltsSpec spec;
-  // Wide and high: the usual sizes of all causes are then seen.
+  // Wide and high: the usual sizes of all causes are then detectable.
   spec.width_share = 0.7;
   spec.height_share = 0.6;
   spec.noise_mm = session.noise_mm;
@@ -56,7 +56,7 @@ void PrintTo(const Hidden& hidden, std::ostream* out) { *out << hidden.effect <<
 
 class HiddenCause : public testing::TestWithParam<Hidden> {};
 
-// Three times the usual size where that is seen faintly, so that each is far beyond the noise.
+// Three times the usual size for weakly observable causes, so that each is far beyond the noise.
 INSTANTIATE_TEST_SUITE_P(Every,
                          HiddenCause,
                          testing::Values(Hidden{"belt_stretch", "", "elongation", 0.004},
@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Every,
 TEST_P(HiddenCause, IsNamedWithItsBeltAndItsSize) {
   const Hidden& hidden = GetParam();
   std::map<std::string, double> parameters = {{hidden.size, hidden.value}};
-  // Across the belt in the middle: along it a slip is a skip of teeth.
+  // Perpendicular to the belt in the middle: along it a move looks like a skip of teeth.
   if (std::string_view(hidden.effect) == "anchor_moved") parameters["direction_rad"] = 2.1;
   const bool sets_in = std::string_view(hidden.effect) == "anchor_moved" ||
                        std::string_view(hidden.effect) == "tooth_skip";
@@ -118,19 +118,19 @@ TEST(BeltsDiagnosis, OneReadingFarOffIsNamedByItsPointAndBelt) {
     EXPECT_EQ(found.outliers[0].index, 17U);
     EXPECT_EQ(found.outliers[0].belt, Belt::tr);
     EXPECT_FALSE(found.outliers[0].or_belt);
-    // One reading's place is known to about its noise.
+    // The position of a bad reading is known to about its noise.
     EXPECT_NEAR(found.outliers[0].off_mm, 80.0, 5.0 * session.noise_mm);
     EXPECT_EQ(found.causes.size(), stretched ? 1U : 0U) << found.sentence;
     EXPECT_THAT(found.sentence + found.what_to_do.back() + found.what_to_do.front() +
                     (found.what_to_do.size() > 1 ? found.what_to_do[1] : ""),
-                // Files count from 0, sentences from 1.
+                // Files count from 0, messages from 1.
                 HasSubstr("the top right belt at point 18"));
   }
 }
 
 TEST(BeltsDiagnosis, OnTheLineBetweenTwoAnchorsEitherOfTheOtherBeltsMayBeTheBadOne) {
   MeasuredBelts belts = measured_in({});
-  // The middle of nine times nine lies on the line from the top right to the bottom left anchor.
+  // The middle of the 9 x 9 points is on the line from the top right to the bottom left anchor.
   belts.points[40].lengths_mm.tl += 20.0;
   const Diagnosis found = diagnosed(belts);
   ASSERT_EQ(found.outliers.size(), 1U) << found.sentence;
@@ -143,7 +143,7 @@ TEST(BeltsDiagnosis, OnTheLineBetweenTwoAnchorsEitherOfTheOtherBeltsMayBeTheBadO
 
 TEST(BeltsDiagnosis, APlaceOfWhichSeveralReadingsAreOffIsBadAsAWhole) {
   MeasuredBelts belts = measured_in({});
-  // No other place makes one belt of a side longer and the other shorter.
+  // No other position makes one belt of a side longer and the other shorter.
   belts.points[40].lengths_mm.tr += 40.0;
   belts.points[40].lengths_mm.tl -= 40.0;
   const Diagnosis found = diagnosed(belts);
@@ -181,7 +181,7 @@ TEST(BeltsDiagnosis, TheFileSaysAllOfItAgain) {
   EXPECT_THAT(text, HasSubstr("\"observations\": \"belts\""));
   const Diagnosis again = files::parse_diagnosis(text, "belts.json");
   EXPECT_EQ(files::write_diagnosis(again), text);
-  // Chains drift too: whose it is the side says.
+  // Chains have drift too: the side decides which.
   EXPECT_EQ(again.causes.front().cause, found.causes.front().cause);
 }
 

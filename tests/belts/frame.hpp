@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A frame as its owner states it, and as it truly stands.
+/// A frame as stated, and the true one.
 #pragma once
 
 #include "model/belts/belt_machine.hpp"

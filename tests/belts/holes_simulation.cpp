@@ -30,7 +30,7 @@ BedPoint SimulatedHoles::tool(double left_mm, double right_mm) const {
   const double r = scale * right_mm;
   const double cosine = (l * l + d * d - r * r) / (2.0 * l * d);
   const Complex at = tl + std::polar(l, std::arg(beam) - std::acos(cosine));
-  // Half a wave over the frame, as a beam that gives would make it.
+  // Half a wave over the frame, as from a beam that yields.
   const double x = at.real() / 1500.0;
   const double y = at.imag() / 1300.0;
   return {at.real() + beside_mm * std::sin(2.0 * x) * std::cos(y),

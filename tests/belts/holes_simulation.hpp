@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A router on four belts that measures its lengths and cuts holes, with anchors that are not where
-/// they are stated, belts that are longer a turn than they are said to be, and a tool that hangs
-/// beside its upper belts: for tests, with formulas of its own.
+/// Simulated lengths and holes of a router on four belts with wrong stated anchors, belts that are
+/// longer per turn than stated, and a tool displaced from its upper belts: for tests, with
+/// independent formulas.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@ struct HolesSimulation {
   double belt_noise_mm = 0.5;
   /// True millimetres over those that the belts count.
   double scale = 1.004;
-  /// Of where the tool lies beside its upper belts, mm; 0: nowhere.
+  /// Largest displacement of the tool from its upper belts, mm; 0: none.
   double beside_mm = 0.0;
   double tape_mm = 0.5;
   double hole_mm = 0.3;
-  /// Five holes and their ten distances in place of nine and 24.
+  /// Five holes and their ten distances instead of nine and 24.
   bool few_holes = false;
-  /// One sigma of how far the stated anchors are off.
+  /// Sigma of the stated anchors' error.
   double stated_off_mm = 20.0;
 };
 
@@ -36,14 +36,14 @@ struct SimulatedHoles {
   model::BeltMachine truth;  ///< in the belts' own millimetres
   double scale = 1.0;
   double beside_mm = 0.0;
-  /// Where the tool stands, true millimetres in the true frame, with these level spans of the upper
-  /// belts, counted by the belts.
+  /// The tool's true position in the true frame, mm, for these horizontal spans of the upper belts,
+  /// in the belts' own millimetres.
   [[nodiscard]] model::BedPoint tool(double left_mm, double right_mm) const;
 };
 
 [[nodiscard]] SimulatedHoles simulate_with_holes(const HolesSimulation& simulation);
 
-/// Rms of what is left when the first points are laid on the others as a whole.
+/// Rms of the differences after the best-fit placement of the first points on the others.
 [[nodiscard]] double rms_when_laid(const std::vector<model::BedPoint>& from,
                                    const std::vector<model::BedPoint>& to);
 

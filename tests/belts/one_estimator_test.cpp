@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Anchors by the one estimator from belt lengths as an observation, against fit_belts: two ways to
-/// one minimum.
+/// Anchors estimated by the general estimator with belt lengths as an observation, compared with
+/// fit_belts: two methods for the same minimum.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,8 +28,8 @@ belts::Counting counting_of(const BeltsFit& fit) {
   return counting;
 }
 
-/// AnchorAdjustment stops where a step lowers the cost by less than 1e-9 of itself: of readings of real
-/// machines some 1e-5 mm before the minimum. Taken up again it goes on by a step or more.
+/// AnchorAdjustment stops when a step lowers the cost by less than 1e-9 of itself: for readings of real
+/// machines some 1e-5 mm before the minimum. Restarted it takes at least one more step.
 belts::AnchorFit at_the_minimum(const MeasuredBelts& measured,
                                 const BeltsFit& fit,
                                 const belts::Counting& counting) {
@@ -44,13 +44,13 @@ belts::AnchorFit at_the_minimum(const MeasuredBelts& measured,
   return *frame;
 }
 
-/// Two ways to one minimum: rounding of sums of some hundred readings of metres.
+/// The same minimum by two methods: rounding of sums of some hundred readings of metres.
 constexpr double kSameMinimumMm = 1e-6;
-/// Where AnchorAdjustment stops, see above.
+/// Distance from the minimum at which AnchorAdjustment stops, see above.
 constexpr double kStopsBeforeMm = 2e-5;
 
-/// Anchors, their sigmas and the noise, with the readings that fit_belts counts, from a centimetre
-/// beside.
+/// Compares anchors, their sigmas and the noise for the readings that fit_belts uses, starting a
+/// centimetre from the solution.
 void expect_the_same(const MeasuredBelts& measured) {
   const auto fit = fit_belts(measured);
   ASSERT_TRUE(fit) << fit.error().sentence;
@@ -67,7 +67,7 @@ void expect_the_same(const MeasuredBelts& measured) {
     SCOPED_TRACE(fit->coordinates[i].name);
     const double found = estimate->mechanism->values()[row];
     const double sigma = std::sqrt(estimate->covariance(row, row));
-    // Passes end at 1e-6 of a sigma: of six places that is more than 1e-6 mm.
+    // Iterations end at 1e-6 of a sigma: for six positions that is more than 1e-6 mm.
     const double tolerance_mm = kSameMinimumMm * std::max(1.0, sigma);
     EXPECT_NEAR(found, frame.state.anchors[row], tolerance_mm);
     EXPECT_NEAR(sigma, std::sqrt(view.covariance()(row, row)), tolerance_mm);
@@ -125,8 +125,9 @@ TEST(OneEstimator, FindsTheAnchorsOfRealMachines) {
   }
 }
 
-// fit_belts rejects a reading and keeps the other three of its place; the estimator's own loop rejects
-// the place, whose two rows are one unit, and weights down what lies beyond 95 of 100.
+// fit_belts rejects a reading and keeps the other three of its position; the estimator's own loop
+// rejects the position, whose two rows are one outlier group, and reduces the weight of residuals
+// beyond 95 %.
 TEST(OneEstimator, RejectsByItselfThePlacesOfWhichFitBeltsRejectsAReading) {
   for (const std::uint64_t seed : {11, 12}) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -150,7 +151,7 @@ TEST(OneEstimator, RejectsByItselfThePlacesOfWhichFitBeltsRejectsAReading) {
     }
     EXPECT_EQ(rejected, (std::vector<std::size_t>{3, 30, 31, 60}));
     for (std::size_t i = 0; i < fit->coordinates.size(); ++i) {
-      // Twelve readings fewer of 324, and weights of a few: 0.2 of a sigma in both sets.
+      // Twelve readings fewer of 324, and a few other weights: 0.2 of a sigma in both sets.
       EXPECT_NEAR(estimate->mechanism->values()[static_cast<Eigen::Index>(i)],
                   fit->coordinates[i].fitted_mm,
                   0.5 * fit->coordinates[i].sigma_mm);

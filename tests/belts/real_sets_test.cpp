@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Readings of real machines, as their owners published them: anchors alone, against figures that were
-// computed by another program. The readings stay in ../shared/data.
+// Published readings of real machines: anchors alone, compared with figures computed by another
+// program. The readings stay in ../shared/data.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ struct RealSet {
   double rms_mm;  ///< of all readings, anchors alone; computed elsewhere, to 0.01
 };
 
-/// Only the names print: GoogleTest would write the bytes.
+/// Prints only the name: GoogleTest would print the bytes.
 void PrintTo(const RealSet& set, std::ostream* out) { *out << set.name; }
 
 class RealBelts : public testing::TestWithParam<RealSet> {
@@ -53,7 +53,7 @@ TEST_P(RealBelts, AnchorsAloneLeaveWhatAnotherProgramFoundThatTheyLeave) {
   ASSERT_EQ(import_.belts.points.size(), GetParam().places);
   const auto fit = fit_belts(import_.belts);
   ASSERT_TRUE(fit) << fit.error().sentence;
-  // The other figure's last digit.
+  // The last digit of the other program's figure.
   EXPECT_NEAR(fit->rms_mm, GetParam().rms_mm, 0.006);
   EXPECT_TRUE(fit->bad.empty());
   EXPECT_FALSE(fit->scale);
@@ -78,7 +78,7 @@ TEST(RealBeltSets, HalfOfARebuiltFrameForetellsTheOtherAsAnotherProgramFound) {
   const auto import = files::parse_maslow4(files::read_whole_file(path), "frame_rebuilt.txt");
   const auto fit = fit_belts(import.belts);
   ASSERT_TRUE(fit && fit->half_left_out);
-  // 1.92 there, of one half by the other; here both ways.
+  // The other program's figure is 1.92, for one half by the other; here it is for both.
   EXPECT_NEAR(fit->half_left_out->rms_mm, 1.92, 0.05);
 }
 
@@ -100,8 +100,8 @@ TEST(RealBeltSets, FiveRunsOfOneFrameAgreeWithinThreeTimesWhatIsSaid) {
     for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
       const AnchorCoordinate& one = fit.coordinates[i];
       const AnchorCoordinate& first = fits.front().coordinates[i];
-      // The machine is zeroed anew for each run, to some tenths of a millimetre that sigmas of a run
-      // do not hold.
+      // The machine is zeroed again for each run, with an error of some tenths of a millimetre that
+      // the sigmas of one run do not include.
       EXPECT_LT(std::abs(one.fitted_mm - first.fitted_mm),
                 3.0 * std::hypot(one.sigma_mm, first.sigma_mm))
           << one.name;
@@ -118,7 +118,7 @@ TEST(RealBeltSets, SixPlacesOfAStartAreFittedAndSaidToBeUncertain) {
   const auto fit = fit_belts(import.belts);
   ASSERT_TRUE(fit) << fit.error().sentence;
   EXPECT_EQ(fit->checks, 7);
-  // Five owners' frames of such a start came out 1567 to 1830 mm high.
+  // Five owners' frames from such a start were 1567 to 1830 mm high.
   EXPECT_GT(fit->coordinates[1].sigma_mm, 20.0);
 }
 
@@ -131,12 +131,12 @@ TEST(RealBeltSets, ATensionTestIsOnALineAndTellsTheStretchOfEachPull) {
   EXPECT_EQ(import.warnings.size(), 1U);
   const auto fit = fit_belts(import.belts);
   ASSERT_FALSE(fit);
-  // Four places, 10 mm below one another.
+  // Four positions within 10 mm.
   EXPECT_EQ(fit.error().reason, BeltsFitFailure::Reason::not_determined);
   EXPECT_NE(fit.error().sentence.find("what the pulled ones stretch by"), std::string::npos);
   const auto pulls = repeated_pulls(import.belts);
   ASSERT_EQ(pulls.size(), 4U);
-  // 4.38 of 1855.75 and 5.80 of 1855.04 mm, and so on, as its owner wrote them; the last pair is his
+  // 4.38 of 1855.75 and 5.80 of 1855.04 mm, and so on, from the owner's notes; the last pair is his
   // control, without a change of pull.
   const double by_hand[] = {0.00274, 0.00178, 0.00288, 0.00018};
   for (std::size_t i = 0; i < pulls.size(); ++i) {
@@ -150,12 +150,12 @@ struct RealCause {
   const char* name;
   const char* file;
   int run;
-  double rms_mm;       ///< at most, with one cause beside the anchors
-  double foretold_mm;  ///< at most, either half by the other
+  double rms_mm;       ///< at most, with one cause in addition to the anchors
+  double foretold_mm;  ///< at most, each half predicted by the other
 };
 void PrintTo(const RealCause& set, std::ostream* out) { *out << set.name; }
 
-/// Empty where the readings are not beside this checkout.
+/// Empty if the data are not present in this checkout.
 std::optional<diagnosis::Diagnosis> diagnosed(const char* file, int run) {
   const std::filesystem::path path =
       std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / file;
@@ -168,7 +168,7 @@ std::optional<diagnosis::Diagnosis> diagnosed(const char* file, int run) {
 
 class RealBeltCauses : public testing::TestWithParam<RealCause> {};
 
-// rms: what the asked figures are; foretold where one is asked, otherwise no worse than anchors alone.
+// rms: the required figures; foretold: the required figure, otherwise no worse than anchors alone.
 INSTANTIATE_TEST_SUITE_P(Sets,
                          RealBeltCauses,
                          testing::Values(RealCause{"concrete", "concrete_anchors.txt", 1, 0.46, 1.37},
@@ -189,7 +189,7 @@ TEST_P(RealBeltCauses, PulledBeltsStretchAndNothingElseIsNamed) {
   EXPECT_LT(found->belts->rms_mm, GetParam().rms_mm + 0.005) << "to the digits of what is asked";
   ASSERT_TRUE(found->belts->foretold);
   EXPECT_LT(found->belts->foretold->rms_mm, GetParam().foretold_mm);
-  // Four owners' sets, computed by another program: 0.30 to 0.54 %; beside a pattern the sigma tells
+  // Four owners' sets, computed by another program: 0.30 to 0.54 %; with a pattern the sigma states
   // how well they are known.
   const auto& size = found->causes[0].parameters[0];
   EXPECT_NEAR(size.value, 0.0041, 0.0015 + 2.0 * size.sigma);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Simulated sessions of four belts: commands and lengths that belong together, each cause where it
-// acts, and anchors that are found again.
+// Simulated sessions of four belts: consistent commands and lengths, each cause where it acts, and
+// anchors recovered by the fit.
 #include <gmock/gmock.h>
 
 #include "grid/belts/belts_fit.hpp"
@@ -38,7 +38,7 @@ TEST(SimulatedBelts, EveryCauseShowsInWhatFiveAnchorsLeave) {
     synthetic::BeltsSpec spec;
     spec.noise_mm = 0.05;
     std::map<std::string, double> parameters;
-    // Three times the usual size, within the bounds: heights are seen faintly.
+    // Three times the usual size, within the bounds: heights are weakly observable.
     const auto& size = effect->parameters[0];
     parameters[std::string(size.name)] = std::min(3.0 * size.nominal, size.upper);
     spec.hidden = {{std::string(effect->id), std::string(name(effect->sides[0])), parameters}};
@@ -46,7 +46,7 @@ TEST(SimulatedBelts, EveryCauseShowsInWhatFiveAnchorsLeave) {
     ASSERT_TRUE(made) << effect->id;
     const auto fit = fit_belts(*made);
     ASSERT_TRUE(fit) << effect->id;
-    // 157 checks: the spread of noise alone is within 6 % of 0.05 mm; four sigmas of that.
+    // 157 checks: the sigma of noise alone is within 6 % of 0.05 mm; four sigmas of that.
     EXPECT_TRUE(fit->spread_mm > 1.24 * 0.05 || !fit->bad.empty()) << effect->id;
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Sets of belt lengths with known anchors and places, for tests: the product's own kinematics and
-/// normal noise.
+/// Simulated belt lengths with known anchors and positions, for tests: the product's own kinematics
+/// and normal noise.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace chaintrue::grid {
 
 struct SimulatedBelts {
-  MeasuredBelts belts;  ///< the machine as stated
+  MeasuredBelts belts;  ///< with the stated machine
   model::BeltMachine truth;
   std::vector<model::FramePoint> places;
 };
@@ -22,14 +22,14 @@ struct BeltSimulation {
   int columns = 9;
   int rows = 9;
   double noise_mm = 0.5;
-  /// One sigma of how far the stated anchors are off.
+  /// Sigma of the stated anchors' error.
   double stated_off_mm = 20.0;
   bool anchors_known = true;
   model::BeltLengths lengths = model::BeltLengths::span;
 };
 
-/// Places over the middle of a frame of 2.4 to 3.6 by 1.8 to 2.6 m, visited row by row there and
-/// back.
+/// Positions over the middle of a frame of 2.4 to 3.6 by 1.8 to 2.6 m, visited row by row in
+/// alternating directions.
 [[nodiscard]] SimulatedBelts simulate(const BeltSimulation& simulation);
 
 }  // namespace chaintrue::grid

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A machine whose tool goes exactly where it is told, by an owner's tuned groundcontrol.ini: from
-// the import to the numbers to type in, nothing may say that it errs.
+// A machine whose tool reaches every command exactly, from an owner's tuned groundcontrol.ini: from
+// the import to the numbers to type in, no error may be reported.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST_F(AsDelivered, AMachineThatIsRightIsSaidToBeRight) {
   EXPECT_EQ(diagnose.code, 0) << diagnose.err;
   const auto found = grid::files::read_diagnosis(folder_ / "diagnosis.json");
   ASSERT_TRUE(found.gain);
-  // Commanded and measured are the same digits; solving for the tool costs some roundings.
+  // Command and measurement have the same digits; the solution for the tool adds rounding.
   EXPECT_NEAR(found.gain->as_delivered.rms_mm, 0.0, 1e-9);
 }
 

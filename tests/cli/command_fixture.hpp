@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The command as a script runs it: in a folder of its own, its exit code and both streams.
+/// Runs the command as a script does: in a temporary folder, with its exit code and both streams.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ class CommandFixture : public testing::Test {
   [[nodiscard]] Outcome run(const std::string& arguments) const {
     return run_line(CHAINTRUE_COMMAND " " + arguments);
   }
-  /// Any line of the shell's, in the folder.
+  /// Runs any shell line in the folder.
   [[nodiscard]] Outcome run_line(const std::string& shell) const {
     const std::string line =
         "cd " + folder_.string() + " && { " + shell + "\n} >out.txt 2>err.txt";

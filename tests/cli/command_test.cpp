@@ -69,7 +69,8 @@ TEST_F(Command, QueryGivesThePointForLengths) {
                   "x_mm,y_mm,status\n(100.00000.|99.99999.),(200.00000.|199.99999.),inside\n"));
 }
 
-// Where a query answers, its lengths lead back; where it has no answer it is not inside.
+// Where a query has an answer its lengths are inverted to the point; elsewhere the point is not
+// inside.
 TEST_F(Command, OfADirectMapQueryAndInverseAgreeWhateverIsDoneOutside) {
   ASSERT_EQ(run("simulate --machine " CHAINTRUE_FIXTURES
                 "/machines/classic.json --grid 7x4 --margin-mm 200 -o lattice.json")

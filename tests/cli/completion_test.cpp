@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Completion and manual pages know every verb and option that --help knows.
+// Completion and manual pages contain every verb and option of --help.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command as people expect one: what was probably meant, help by two ways, quiet, JSON, colours
-// on terminals alone, lines that stay whole, and files of the wrong kind named as what they are.
+// Conventions of the command line: suggestions for typing errors, two ways to get help, --quiet,
+// JSON, colours only on terminals, lines that are not broken, and files of the wrong kind
+// identified by their kind.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -47,7 +48,7 @@ TEST_F(Conversation, KnowsWhichOptionWasMeant) {
   EXPECT_THAT(option.err,
               HasSubstr("chaintrue fit has no option --machin. Did you mean --machine?\n"));
   EXPECT_FALSE(exists("map.json"));
-  // What else is missing there follows from the slip, and is not said first.
+  // Other missing options follow from the typing error and are not reported first.
   EXPECT_EQ(run("fit --machin m.json").err,
             "chaintrue fit has no option --machin. Did you mean --machine?\n");
 }

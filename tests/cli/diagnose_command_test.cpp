@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// chaintrue diagnose, plan --after and the files they leave: exit codes, streams, all or nothing.
+// chaintrue diagnose, plan --after and their output files: exit codes, streams, all or nothing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ using testing_support::Outcome;
 
 class DiagnoseCommand : public testing_support::CommandFixture {
  protected:
-  /// 7 x 5 marks, row by row, with these effects hidden.
+  /// 7 x 5 marks, row by row, with these hidden effects.
   void simulate(const std::string& effects, const std::string& more = "") const {
     const Outcome made =
         run("simulate --machine " + machine_ +
@@ -59,7 +59,7 @@ TEST_F(DiagnoseCommand, NamesAStrongCauseAndWritesEveryFile) {
   EXPECT_EQ(found.verdict, Verdict::named);
   ASSERT_FALSE(found.causes.empty());
   EXPECT_EQ(found.causes[0].cause.effect->id, "direction_hysteresis");
-  // The same words and numbers on the terminal.
+  // The terminal shows the same words and numbers.
   EXPECT_THAT(told.out, StartsWith(found.sentence));
   for (const char* heading : {"What to do now",
                               "What this does not prove",
@@ -71,7 +71,8 @@ TEST_F(DiagnoseCommand, NamesAStrongCauseAndWritesEveryFile) {
     EXPECT_THAT(told.out, HasSubstr(heading));
   }
   EXPECT_THAT(content_of(folder_ / "d.html"), HasSubstr("<h2>Error of the tool at points held out, mm</h2>"));
-  // What depends on the visit goes into the data, never into the machine that a map is made of.
+  // Effects that depend on the visit are removed from the data and never added to the machine of a
+  // map.
   for (const auto& effect : grid::files::read_machine(folder_ / "m.json").effects)
     EXPECT_NE(effect.effect, "direction_hysteresis");
   const grid::MeasuredGrid before = grid::files::read_grid(folder_ / "grid.json").grid;
@@ -79,7 +80,7 @@ TEST_F(DiagnoseCommand, NamesAStrongCauseAndWritesEveryFile) {
   ASSERT_EQ(before.points.size(), after.points.size());
   const double width_mm = found.causes[0].parameters[0].value;
   for (std::size_t i = 0; i < before.points.size(); ++i) {
-    // Half the width, one way or the other, and the right chain untouched.
+    // Half the width, with either sign, and the right chain unchanged.
     const double taken_mm = before.points[i].lengths->left_mm - after.points[i].lengths->left_mm;
     EXPECT_NEAR(std::abs(taken_mm), width_mm, 1e-6) << i;  // both files hold all digits
     EXPECT_NEAR(before.points[i].lengths->right_mm, after.points[i].lengths->right_mm, 1e-6) << i;
@@ -101,7 +102,7 @@ TEST_F(DiagnoseCommand, GivesTheSameBytesForTheSameSeed) {
   const Outcome json = run("diagnose grid.json --seed 7 --json");
   EXPECT_EQ(json.out, content_of(folder_ / "a.json"));
   ASSERT_EQ(run("report a.json -o b.html").code, 0);
-  // The two pages differ in the name of the file that they were made from.
+  // The two pages differ in the name of their input file.
   std::string direct = content_of(folder_ / "a.html"), later = content_of(folder_ / "b.html");
   const auto replace = [](std::string& text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
@@ -118,7 +119,7 @@ TEST_F(DiagnoseCommand, GivesTheSameBytesForTheSameSeed) {
 TEST_F(DiagnoseCommand, OfPointsWithoutAnOrderOpensItOnRequestAndSaysSo) {
   simulate("--effect drift:right:rate_mm_per_visit=0.06");
   grid::MeasuredGrid grid = grid::files::read_grid(folder_ / "grid.json").grid;
-  // Second visits come last, as an assumed order has them; rows were simulated from the bottom.
+  // Repeated visits come last, as in the assumed order; rows were simulated from the bottom.
   for (auto& point : grid.points) point.order.reset();
   write("plain.json", grid::files::write_grid(grid));
   ASSERT_EQ(run("diagnose plain.json -o d.json").code, 0);
@@ -134,7 +135,7 @@ TEST_F(DiagnoseCommand, OfPointsWithoutAnOrderOpensItOnRequestAndSaysSo) {
                            assumed.not_testable.end(),
                            [](const auto& x) { return x.cause.effect->id == "drift"; }));
   for (const auto& point : assumed.points) EXPECT_TRUE(point.order.has_value());
-  // An order that nobody measured is not handed on as if it were known.
+  // An assumed order is not written as if it were measured.
   for (const auto& point : grid::files::read_grid(folder_ / "c.json").grid.points)
     EXPECT_FALSE(point.order.has_value());
 }
@@ -163,7 +164,7 @@ TEST_F(DiagnoseCommand, RefusesAnOrderOfMarksThatStandInNoLines) {
 
 TEST_F(DiagnoseCommand, BadInputExitsWithThreeAndWritesNothing) {
   simulate("");
-  // A folder that is not there, named last: the files before it are not written either.
+  // A missing folder, given last: the files before it are not written either.
   const Outcome nowhere = run("diagnose grid.json -o d.json --report nowhere/d.html");
   EXPECT_EQ(nowhere.code, 3);
   EXPECT_THAT(nowhere.err, HasSubstr("nowhere/d.html"));
@@ -210,7 +211,7 @@ TEST_F(DiagnoseCommand, OfDataThatDoNotDoSaysWhatWouldBeNeeded) {
   EXPECT_THAT(refused(few), HasSubstr("at least 8"));
   grid::MeasuredGrid without_noise = sound;
   without_noise.noise.reset();
-  // First visits alone: no two marks within 25 mm of each other.
+  // First visits only: no two marks within 25 mm of each other.
   std::vector<grid::MeasuredPoint> first_visits;
   for (const auto& point : sound.points) {
     if (std::none_of(first_visits.begin(), first_visits.end(), [&](const auto& other) {
@@ -228,7 +229,7 @@ TEST_F(DiagnoseCommand, OfDataThatDoNotDoSaysWhatWouldBeNeeded) {
               AllOf(HasSubstr("motor_spacing_mm is 2900"), HasSubstr("the machine states 2978.4")));
 }
 
-// plan --after, from a diagnosis whose follow-up is known.
+// plan --after, from a diagnosis with known next measurements.
 class PlanAfter : public DiagnoseCommand {
  protected:
   void SetUp() override {
@@ -274,7 +275,7 @@ TEST_F(PlanAfter, ListsWhatToMeasureAndTheLinesToAdd) {
 }
 
 TEST_F(PlanAfter, SpeaksCsvToACsv) {
-  // The CSV holds six decimals of the marks: the same points still.
+  // The CSV has six decimals of the marks: the points are still recognised.
   const Outcome told = run("plan grid.csv --after d.json");
   EXPECT_EQ(told.code, 0) << told.err;
   EXPECT_EQ(told.out, "x_mm,y_mm,left_mm,right_mm\n-1099.2,-499.5,,\n1150.0,540.0,,\n");

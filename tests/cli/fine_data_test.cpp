@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Readings much better than a tape's, a laser tracker's, and settings that are stated exactly get a
-// right answer.
+// Correct results for readings much better than a tape's, such as a laser tracker's, and for
+// exactly stated settings.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST_F(FineData, NameTheCauseWithItsSize) {
   }
 }
 
-/// Places all over the bed, the same for the same shift.
+/// Positions all over the bed, a function of the shift.
 std::string places(int shift) {
   std::string text = "x_mm,y_mm\n";
   for (int i = 0; i < 40; ++i)
@@ -63,7 +63,7 @@ std::string places(int shift) {
   return text;
 }
 
-// Readings with all digits, of a machine whose left motor is 4 mm beside where it is stated.
+// Readings with all digits, of a machine whose left motor is 4 mm from its stated position.
 TEST_F(FineData, AreFittedAndCheckedToTheirLastDigits) {
   write("places.csv", places(0));
   write("others.csv", places(37));
@@ -85,7 +85,8 @@ TEST_F(FineData, AreFittedAndCheckedToTheirLastDigits) {
     const auto fit = run("fit g.json --machine stated.json -o m.json --force" + noise);
     ASSERT_EQ(fit.code, 0) << fit.err;
     const auto map = grid::files::read_map(folder_ / "m.json");
-    // The motor pulls by 4 / 3 of its stated sigma against weights of at least 1e3 per mm.
+    // The prior pulls the motor by 4 / 3 of its stated sigma against weights of at least 1e3 per
+    // mm.
     EXPECT_LT(map.contents().accuracy.leave_one_out.chain.maximum_mm, 1e-5);
     EXPECT_THAT(run("check m.json new.json" + noise).out,
                 testing::HasSubstr("The map is still valid"));
@@ -99,7 +100,7 @@ TEST_F(FineData, FindNothingWhereNothingIs) {
   EXPECT_EQ(found.verdict, grid::diagnosis::Verdict::nothing_found) << found.sentence;
 }
 
-// 0.2 mm of scatter that are stated as nothing at all.
+// 0.2 mm of scatter with a stated noise of nearly zero.
 TEST_F(FineData, StatedFarBelowWhatTheDataScatterAreAnsweredInWords) {
   ASSERT_EQ(run("simulate --machine " + machine_ +
                 " --grid 7x4 --repeats 6 --jitter-mm 8 --length-noise-mm 0.2 "
@@ -109,7 +110,7 @@ TEST_F(FineData, StatedFarBelowWhatTheDataScatterAreAnsweredInWords) {
             0);
   const auto diagnosis = run("diagnose g.json -o d.json");
   EXPECT_EQ(diagnosis.code, 0) << diagnosis.err;
-  // Nothing acts: whatever is said of the scatter, no cause is named for it.
+  // There is no effect: no cause may be named for the scatter.
   EXPECT_TRUE(grid::files::read_diagnosis(folder_ / "d.json").causes.empty());
   const auto fit = run("fit g.json -o m.json");
   ASSERT_EQ(fit.code, 0);
@@ -117,7 +118,7 @@ TEST_F(FineData, StatedFarBelowWhatTheDataScatterAreAnsweredInWords) {
               testing::AnyOf(testing::HasSubstr("contradict the others"),
                              testing::HasSubstr("had not quite settled"),
                              testing::HasSubstr("times as much as stated")));
-  // A reading that the map has not seen brings its own 0.2 mm; the surface follows those it has.
+  // A reading that was not fitted adds its own 0.2 mm; the surface follows those that were.
   const auto accuracy = grid::files::read_map(folder_ / "m.json").contents().accuracy;
   EXPECT_GT(accuracy.leave_one_out.chain.rms_mm, 0.2);
   EXPECT_GT(accuracy.blocked.chain.rms_mm, 0.2);

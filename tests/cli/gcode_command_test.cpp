@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue gcode as a person runs it: what is written, what is not, and what is said.
+/// chaintrue gcode through the command: what is written, what is not, and the messages.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -54,8 +54,8 @@ TEST_F(GcodeCommand, VerifyNamesTheFirstFault) {
   EXPECT_THAT(json.out, HasSubstr("moves at a rapid where"));
 }
 
-/// A map with a wave that is narrower than what compensate looks at: the tool would stray, its own
-/// run sees it, and nothing is written.
+/// A map with a wave narrower than the sampling of compensate: the tool would deviate, the
+/// verification detects it, and nothing is written.
 TEST_F(GcodeCommand, OutputThatDoesNotHoldIsNotWritten) {
   std::string asked = "x_mm,y_mm\n";
   std::vector<std::string> places;
@@ -68,7 +68,7 @@ TEST_F(GcodeCommand, OutputThatDoesNotHoldIsNotWritten) {
     }
   }
   write("asked.csv", asked);
-  // The map's lengths where the tool goes become the readings where it is asked to go.
+  // The map's lengths at the tool's actual position become the readings at the commanded position.
   ASSERT_EQ(run("query map.json --points asked.csv -o lengths.csv").code, 0);
   std::ifstream lengths(folder_ / "lengths.csv");
   std::string grid = "x_mm,y_mm,left_mm,right_mm\n";
@@ -94,7 +94,7 @@ TEST_F(GcodeCommand, OutputThatDoesNotHoldIsNotWritten) {
   EXPECT_FALSE(exists("out.nc"));
   EXPECT_THAT(content_of(folder_ / "r.html"),
               HasSubstr("Not safe to run, and not written: on a simulated ideal"));
-  // Without the wave it holds.
+  // Without the wave it passes.
   EXPECT_EQ(run("gcode compensate part.nc --map map.json -o out.nc").code, 0);
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs every example of every verb's --help, as pasted. Fails where a verb has none, or one fails.
+# Runs every example of every verb's --help, as pasted. Fails if a verb has none, or one fails.
 source "$(dirname -- "${BASH_SOURCE[0]}")/workplace.sh" "$1" "$2"
 
 # The verbs below "Subcommands:" of a help text.

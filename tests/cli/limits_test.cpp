@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Work that would not end is refused by a sentence before it begins; what is affordable is done.
+// Work without a reasonable limit is rejected with a message before it begins; affordable work is
+// done.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,11 +43,11 @@ class Limits : public testing_support::CommandFixture {
   }
 };
 
-// The refusals read a file and no more; ten seconds leave a loaded machine room.
+// A rejection reads a file and no more; ten seconds allow for a loaded machine.
 constexpr std::chrono::seconds kBeforeWork(10);
-// Half a second's work, which once did not end in a minute.
+// Half a second's work; without limits it does not end in a minute.
 constexpr std::chrono::seconds kNoWork(30);
-// Some seconds' work on a loaded machine, which once took minutes and gigabytes.
+// Some seconds' work on a loaded machine; a naive implementation needs minutes and gigabytes.
 constexpr std::chrono::seconds kSeconds(60);
 
 TEST_F(Limits, ADiagnosisOfThousandsOfPointsIsRefusedAtOnce) {
@@ -131,7 +132,7 @@ TEST_F(Limits, BeltsOfTooManyPlacesAreRefusedAtOnce) {
   EXPECT_THAT(check.err, HasSubstr("20001 places are more than a check takes (20000)"));
 }
 
-// Each place may be a bad one: once the cube of their number for each of them.
+// Each position may be bad: a naive search takes the cube of their number for each of them.
 TEST_F(Limits, ACheckOfAnchorsTakesThousandsOfPlaces) {
   const std::string belts = fixture("belts/thirty_one_places.json");
   ASSERT_EQ(run("fit " + belts + " -o a.json").code, 0);
@@ -141,7 +142,7 @@ TEST_F(Limits, ACheckOfAnchorsTakesThousandsOfPlaces) {
   EXPECT_THAT(outcome.out, HasSubstr("point 2999"));
 }
 
-/// Holes on a lattice with so many distances between them, as commanded, repeats among them.
+/// Holes on a lattice with the given number of distances between them, as commanded, with repeats.
 std::string holes(int count, int distances) {
   std::string text = content_of(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json");
   text =

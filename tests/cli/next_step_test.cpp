@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every verb ends with the command that comes next, and that command works as it stands.
+// Every verb ends with the next command, and that command works as printed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 using testing_support::Outcome;
 
-/// The command of the last line that begins with Next:, without the program's name.
+/// The command of the last line that begins with "Next:", without the program's name.
 std::string next_of(const std::string& talk) {
   const std::string begin = "Next: chaintrue ";
   const std::size_t at = talk.rfind(begin);
@@ -108,7 +108,7 @@ TEST_F(NextStep, ATestSquareIsCutAndItsCompensationIsSquare) {
   EXPECT_THAT(testing_support::content_of(folder_ / "square.nc"),
               HasSubstr("G1 X-250.000 Y250.000 F600\nG1 X250.000 Y250.000 F600\nG1 X250.000 "
                         "Y-250.000 F600\nG1 X-250.000 Y-250.000 F600\n"));
-  // Where the tool really is by the map, from the lengths along the same program.
+  // The tool's position by the map, from the lengths along the same program.
   ASSERT_EQ(run(next_of(square.err)).code, 0);
   const Outcome verified = run("gcode verify square.nc square.true.nc --map map.json");
   EXPECT_EQ(verified.code, 0) << verified.out;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Options that are numbers go by the rules of numbers in files; what a person can type is answered
-// or refused by a sentence, with exit code 3.
+// Numeric options follow the rules of numbers in files; every value is either accepted or rejected
+// with a message and exit code 3.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ class Options : public testing_support::CommandFixture {
     EXPECT_THAT(outcome.err, HasSubstr(words));
     EXPECT_EQ(outcome.out, "");
   }
-  /// Whatever reads changed.json, and `check`.
+  /// Runs every verb that reads changed.json, and `check`.
   void expect_changed_is_refused(const std::string& check) const {
     write("b.nc", "G21 G90\nG0 X0 Y0\nM2\n");
     expect_refused("query changed.json 0 0", kHashFound);
@@ -68,7 +68,7 @@ TEST_F(Options, ThatAreWrongAreAllNamedAtOnce) {
   EXPECT_THAT(outcome.err, HasSubstr("--noise-length-mm"));
 }
 
-/// Numbers out of their range, what a verb says of its own words, and places of files.
+/// Numbers out of range, a verb's own choices, and places in files.
 TEST_F(Options, OfAllKindsAreToldAtOnce) {
   const auto expect_all = [this](const std::string& arguments,
                                  const std::vector<std::string>& words) {
@@ -91,7 +91,7 @@ TEST_F(Options, OfAllKindsAreToldAtOnce) {
               "--offset: found x=1",
               "--effect: found sag",
               "nowhere/g.json: found a folder that does not exist"});
-  // A number out of its range is no reason to miss another option.
+  // A number out of range does not hide problems of other options.
   expect_all("simulate --machine " + machine + " --holes 99 -o h.json", {"--holes: found 99"});
   expect_all("effects no_such_effect --machine " + machine + " --length-noise-mm 0 --set a",
              {"--length-noise-mm: found 0", "--set: found a", "effect: found no_such_effect"});
@@ -203,7 +203,7 @@ TEST_F(Options, TwoByteOrderMarksBeforeACommentAreNoReasonToFall) {
   EXPECT_THAT(run("fit one.csv -o m.json").err, HasSubstr("found a header line only"));
 }
 
-/// The same file with another digit, the first after `place`.
+/// The same file with one digit changed, the first after `place`.
 std::string with_another_digit(std::string text, const std::string& place) {
   const std::size_t digit = text.find_first_of("123456789", text.find(place));
   EXPECT_NE(digit, std::string::npos) << place;
@@ -216,7 +216,7 @@ TEST_F(Options, AMapThatWasChangedIsRefused) {
   const std::string text = content_of(folder_ / "m.json");
   write("changed.json", with_another_digit(text, "\"coefficients_left_mm\""));
   expect_changed_is_refused("check changed.json " + fixture("grids/five_new_points.json"));
-  // A comment and another layout change nothing of what it says.
+  // Comments and layout are not part of the content.
   std::string commented = text;
   commented.insert(commented.find("\"name\""), "\"comment\": \"the shop's\",\n");
   write("commented.json", commented);
@@ -232,7 +232,7 @@ TEST_F(Options, AnchorsThatWereChangedAreRefused) {
   expect_refused("simulate --belts changed.json --grid 3x3 -o s.json", kHashFound);
 }
 
-/// A map of before maps carried a hash of their content.
+/// A map of version 1.0, without a hash of its content.
 std::string without_hash(std::string map) {
   map.replace(map.find("\"1.1\""), 5, "\"1.0\"");
   const std::size_t hash = map.rfind(",\n  \"content_hash\"");
@@ -240,8 +240,8 @@ std::string without_hash(std::string map) {
   return map;
 }
 
-// Without a hash what was changed is taken on trust: its numbers may not belong together, which is
-// the map's fault and not the program's.
+// Without a hash changed numbers are not detected: inconsistent ones must be reported as a problem
+// of the map, not as an internal error.
 TEST_F(Options, OfAMapThatWasChangedWithoutATraceEndInASentence) {
   ASSERT_EQ(run("fit " + grid_ + " -o m.json").code, 0);
   ASSERT_EQ(run("simulate --machine " + fixture("machines/classic.json") +
@@ -252,7 +252,7 @@ TEST_F(Options, OfAMapThatWasChangedWithoutATraceEndInASentence) {
   write("b.nc", "G21 G90\nG0 X0 Y0\nG1 X300 Y100 F500\nM2\n");
   for (const char* map : {"m.json", "direct.json"}) {
     const std::string text = without_hash(content_of(folder_ / map));
-    // Each number that begins a list, or stands in an object of its own, in turn.
+    // Each number that begins a list, or has its own object, in turn.
     int changed = 0;
     for (std::size_t at = text.find("_mm\""); at != std::string::npos && changed < 40;
          at = text.find("_mm\"", at + 1)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What was measured or typed is never replaced without a word; what cannot be written is said; and
-// nothing half made stays behind. All by the command, as a person runs it.
+// Measured or typed data are never overwritten silently, write errors are reported, and no partial
+// output remains. All through the command.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ class Outputs : public testing_support::CommandFixture {
   }
   void make_map() const { ASSERT_EQ(run("fit g.json -o m.json").code, 0); }
 
-  /// Refused with exit code 3 and these words, and `file` stands as it did.
+  /// Rejected with exit code 3 and this message, and `file` is unchanged.
   void expect_refused(const std::string& arguments,
                       const std::string& file,
                       const std::string& words) const {
@@ -54,7 +54,7 @@ class Outputs : public testing_support::CommandFixture {
     EXPECT_THAT(outcome.err, HasSubstr(words));
     EXPECT_EQ(content_of(folder_ / file), before);
   }
-  /// What the folder holds beside the streams of the fixture.
+  /// Number of files in the folder, without the streams of the fixture.
   [[nodiscard]] std::size_t files() const {
     std::size_t count = 0;
     for (const auto& entry : fs::directory_iterator(folder_)) {
@@ -174,7 +174,7 @@ TEST_F(Outputs, StandApartBeforeAnyWork) {
     SCOPED_TRACE(arguments);
     const auto start = std::chrono::steady_clock::now();
     const Outcome outcome = run(arguments);
-    // A diagnosis of these points takes seconds; two seconds leave a slow machine room.
+    // A diagnosis of these points takes seconds; two seconds allow for a slow machine.
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
     EXPECT_EQ(outcome.code, 3);
     EXPECT_THAT(outcome.err, HasSubstr(twice));
@@ -206,7 +206,7 @@ TEST_F(Outputs, ThatCannotBeWrittenAreSaid) {
     EXPECT_EQ(outcome.code, 3);
     EXPECT_THAT(outcome.err, HasSubstr("standard output: found "));
   }
-  // A map that went to a file is there, whatever becomes of the words about it.
+  // A map that was written to a file remains, even if the messages about it cannot be written.
   EXPECT_EQ(shell("$C fit g.json -o n.json >&- 2>&-").code, 0);
   EXPECT_EQ(content_of(folder_ / "n.json"), content_of(folder_ / "m.json"));
   EXPECT_EQ(shell("$C fit g.json -o n.json 2>/dev/full").code, 0);
@@ -293,7 +293,7 @@ TEST_F(Outputs, LeaveNothingBehindWhenTheyAreStopped) {
   }
 }
 
-// What a person would call their notes, or their own results.
+// File names of a user's own notes or results.
 TEST_F(Outputs, InAFolderReplaceNothingOfAPerson) {
   const std::string sweep = "sweep " + fixture("sweeps/quick.json") + " -o .";
   const std::string machine = fixture("machines/groundcontrol.json");
@@ -332,7 +332,7 @@ TEST_F(Outputs, InAFolderAreReplacedByNewOnes) {
   EXPECT_EQ(run("sweep " + fixture("sweeps/quick.json") + " -o sweep --resume --force").code, 0);
 }
 
-// Behind an option that was left without its value.
+// After an option without its value.
 TEST_F(Outputs, AreNeverCalledAsAnOptionIs) {
   const std::size_t before = files();
   const Outcome outcome = run("effects chain_stretch --machine " +
@@ -351,7 +351,7 @@ TEST_F(Outputs, OfWhichOneCanHaveNoNameAreAllLeftUnwritten) {
   EXPECT_EQ(files(), before);
 }
 
-// A file system takes no name of so many letters.
+// File systems do not accept names of this length.
 TEST_F(Outputs, InAFolderThatCannotBeMadeAreRefused) {
   const std::string long_name(300, 'x');
   for (const std::string& command :

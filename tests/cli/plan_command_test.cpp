@@ -54,7 +54,7 @@ TEST_F(PlanCommand, ItsListIsMeasuredBySimulate) {
 }
 
 TEST_F(PlanCommand, ValuesOutOfRangeExitWithThreeAllAtOnceAndWriteNothing) {
-  // Outside what the option takes at all, and outside what this bed allows.
+  // Outside the option's range, and outside the range for this bed.
   for (const char* values :
        {" --points 0 --margin-mm -1 --length-noise-mm 0", " --points 5 --margin-mm 900"}) {
     const Outcome outcome = run("plan --machine " + machine_ + values + " -o p.csv");

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs every "$ build/chaintrue ..." of the README, or of the document that is named third, in their
-# order in one folder, and compares what it prints with what the document shows.
+# Runs every "$ build/chaintrue ..." of the README, or of the document given as third argument, in their
+# order in one folder, and compares the output with the document.
 document=${3:-README.md}
 source "$(dirname -- "${BASH_SOURCE[0]}")/workplace.sh" "$1" "$2"
 

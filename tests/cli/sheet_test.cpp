@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The list that plan writes: blank, read as it is, by every verb that takes measurements.
+// The list written by plan, blank: every verb that accepts measurements reads it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,8 +31,8 @@ std::vector<std::string> cells_of(const std::string& line) {
 
 class SheetOfPlan : public testing_support::CommandFixture {
  protected:
-  /// The list with what a tool that strays by some tenths would be measured at; every `blank`-th
-  /// line stays as it is (0: none).
+  /// The list filled in for a tool with errors of some tenths; every `blank`-th line is left blank
+  /// (0: none).
   [[nodiscard]] std::string filled(const std::string& list, int blank, char separator = ',') const {
     std::istringstream lines(content_of(folder_ / list));
     std::string text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// chaintrue start: from whatever a controller keeps to a folder that can be taken to the machine.
+// chaintrue start: from a controller's settings of any kind to a folder for the workshop.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,7 +69,7 @@ TEST_F(Start, MakesAFolderWhoseNextStepWorks) {
   EXPECT_THAT(start.err,
               HasSubstr("Next: chaintrue fit shop/marks.csv --machine shop/machine.json -o "
                         "shop/map.json\n"));
-  // Nothing was measured yet, and that is what the next step says.
+  // Nothing was measured yet; this is the message of the next step.
   const Outcome next = run("fit shop/marks.csv --machine shop/machine.json -o shop/map.json");
   EXPECT_EQ(next.code, 3);
   EXPECT_THAT(next.err, HasSubstr("all left blank"));

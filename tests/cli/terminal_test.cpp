@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A person at a terminal: told that work goes on, and for how long; free to stop it with Ctrl-C,
-// which leaves nothing behind.
+// Behaviour at a terminal: progress with the time so far is shown, and Ctrl-C stops the work
+// without leaving files behind.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,16 +30,16 @@ using testing::HasSubstr;
 constexpr const char* kCtrlC = "\x03";
 constexpr const char* kEraseLine = "\r\x1b[K";
 
-/// What came of a command on a terminal of its own.
+/// The result of a command on its own terminal.
 struct Seen {
   int status = 0;
   std::string text;
-  /// To the first byte.
+  /// Seconds until the first byte.
   double quiet_s = 0.0;
 };
 
-/// Lets a process run a fifth of the time while the clock goes on, as a slower machine would: what
-/// is shown after a second must not depend on how fast the machine is.
+/// Lets a process run a fifth of the time, as on a slower machine: what is shown after a second
+/// must not depend on the machine's speed.
 class Slowed {
  public:
   explicit Slowed(pid_t process)
@@ -67,7 +67,7 @@ enum class Speed { whole, a_fifth };
 
 class Terminal : public testing_support::CommandFixture {
  protected:
-  /// Runs the command in the folder; whenever something new was shown `reply` says what is typed.
+  /// Runs the command in the folder; after each new output `reply` returns the keys to type.
   [[nodiscard]] Seen shown(
       const std::string& arguments,
       const std::function<std::string(const std::string&)>& reply =
@@ -90,7 +90,7 @@ class Terminal : public testing_support::CommandFixture {
     std::optional<Slowed> slowed;
     if (speed == Speed::a_fifth) slowed.emplace(child);
     char buffer[4096];
-    // Linux ends a terminal whose last process has gone with an error of reading.
+    // On Linux reading from a terminal fails once its last process has ended.
     for (ssize_t count = 0; (count = ::read(terminal, buffer, sizeof buffer)) > 0;) {
       if (seen.text.empty())
         seen.quiet_s = std::chrono::duration<double>(Clock::now() - start).count();
@@ -146,7 +146,7 @@ TEST_F(Terminal, ShowsThatWorkGoesOnAndForHowLong) {
   EXPECT_GE(seen.quiet_s, 1.0) << "short work is not worth a word";
   EXPECT_THAT(seen.text, ContainsRegex("fit: 1 s, step [12] of 2, "));
   EXPECT_THAT(seen.text, ContainsRegex("settings and correction, pass [0-9]+ until it settles"));
-  // The line is gone before the words of the fit.
+  // The progress line is removed before the messages of the fit.
   const std::size_t words = seen.text.find("With the settings as stated");
   ASSERT_NE(words, std::string::npos);
   EXPECT_EQ(seen.text.substr(words - std::string(kEraseLine).size(), words).find(kEraseLine), 0U);
@@ -161,21 +161,21 @@ TEST_F(Terminal, ShowsHowFarASweepIsAndHowLongItWillTake) {
   EXPECT_THAT(seen.text, ContainsRegex("sweep: [0-9]+ s, [0-9]+ % done, about [0-9]+ s left"));
 }
 
-/// Once `words` have been seen there is no need to wait for the end.
+/// Stops once `words` have been printed.
 std::function<std::string(const std::string&)> stop_after(std::string words) {
   return [words = std::move(words)](const std::string& text) {
     return text.find(words) != std::string::npos ? kCtrlC : "";
   };
 }
 
-/// Runs the command on ever more work, until the words come: whether any amount of it lasts the
-/// second after which progress is shown is a matter of the machine.
+/// Runs the command on increasing amounts of work until `words` are printed: how much work takes
+/// more than the second after which progress is shown depends on the machine.
 template <typename Prepare>
 Seen Terminal::shown_of_enough(const Prepare& prepare,
                                const std::string& arguments,
                                const std::string& words) const {
   Seen seen;
-  // 400,000 take about a second where this was written; 64 times that is a machine of a later age.
+  // 400,000 take about a second on the development machine; 64 times that suits much faster ones.
   for (int amount = 400000; amount <= 64 * 400000; amount *= 4) {
     prepare(amount);
     seen = shown(arguments, stop_after(words));
@@ -189,7 +189,7 @@ TEST_F(Terminal, ShowsAtWhichStepADiagnosisIsAndHowLongTheGainWillTake) {
   EXPECT_THAT(shown("diagnose g.json -o d.json", stop_after("s left")).text,
               ContainsRegex("step 3 of 4, what a name gains, block by block, [0-9]+ % done, about "
                             "[0-9]+ s left"));
-  // Of few points a fast machine has compared the causes before anything is shown.
+  // With few points a fast machine has compared the causes before anything is shown.
   std::string text;
   const std::string words = "step 1 of 4, the causes against each other";
   for (int points = kManyPoints; points <= 4 * kManyPoints; points *= 2) {
@@ -276,7 +276,7 @@ TEST_F(Terminal, StopsOnControlCAndLeavesNothingBehind) {
   };
   for (const auto& [arguments, verb] :
        {std::pair("diagnose g.json -o d.json --report r.html", "diagnose: "),
-        // Ten million rows, written as they come.
+        // Ten million rows, written as they are computed.
         std::pair("gcode lengths b.nc --map m.json --every-mm 0.0002 -o l.csv", "gcode: ")}) {
     SCOPED_TRACE(arguments);
     const Seen seen = shown(arguments, once_seen(verb));

@@ -1,5 +1,5 @@
-# Installs chaintrue into a new folder and builds, from there alone, a project that uses it. Called by ctest with
-# BUILD_DIR (of chaintrue), SOURCE_DIR (of the consumer), WORK_DIR, CXX, CXX_FLAGS.
+# Installs chaintrue into a new folder and builds a project that uses it, from that folder alone. Called by
+# ctest with BUILD_DIR (of chaintrue), SOURCE_DIR (of the consumer), WORK_DIR, CXX, CXX_FLAGS.
 function(run what)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -20,7 +20,7 @@ if(NOT output MATCHES "left [0-9.]+ mm, right [0-9.]+ mm" OR NOT diagnosis MATCH
   message(FATAL_ERROR "the consumer answered:\n${output}\nand wrote:\n${diagnosis}")
 endif()
 
-# The documentation shows this program and no other.
+# The documentation shows exactly this program.
 file(READ ${SOURCE_DIR}/main.cpp program)
 file(READ ${SOURCE_DIR}/../../docs/library.md page)
 string(FIND "${page}" "${program}" shown)
@@ -28,8 +28,8 @@ if(shown EQUAL -1)
   message(FATAL_ERROR "docs/library.md does not show tests/consumer/main.cpp as it is")
 endif()
 
-# Every installed header must stand on its own feet: nothing may reach for a file that was not installed, nor for a
-# library that the package does not ask for.
+# Every installed header must be self-contained: it may include neither a file that was not installed nor a
+# library that the package does not require.
 file(GLOB_RECURSE headers RELATIVE ${WORK_DIR}/prefix/include/chaintrue ${WORK_DIR}/prefix/include/chaintrue/*.hpp)
 foreach(header ${headers})
   file(STRINGS ${WORK_DIR}/prefix/include/chaintrue/${header} includes REGEX "^#include \"")

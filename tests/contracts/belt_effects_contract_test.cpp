@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of everything that may be wrong with four belts: nothing at null, seen where it acts and
-// nowhere else, finite at its bounds, words whole; and what each equation says, by hand.
+// Laws of every effect of four belts: zero at null, observable where it acts and nowhere else,
+// finite at its bounds, complete texts; and each equation evaluated by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -114,7 +114,7 @@ TEST_P(BeltEffectLaws, ItIsSeenWhereItActsAndFiniteAtItsBounds) {
         }
       }
     }
-    // A micrometre: anything that is there at all.
+    // A micrometre: any effect at all.
     EXPECT_GT(most, 1e-3) << name(side);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of the four-belt kinematics, whatever the controller prints: the inverse of forward is the
-// place, Jacobians are differences, and the lengths are what the published firmware computes.
+// Laws of the four-belt kinematics, for every kind of printed length: inverse and forward are
+// consistent, Jacobians equal differences, and the lengths equal those of the published firmware.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,7 +53,7 @@ std::vector<BeltController> belt_controllers() {
 class BeltKinematicsLaws : public testing::TestWithParam<BeltController> {
  protected:
   [[nodiscard]] const BeltMachine& machine() const { return GetParam().machine; }
-  /// Places over the frame, 250 mm within its anchors so that none is inside an arm.
+  /// Positions over the frame, 250 mm within its anchors so that none is inside an arm.
   [[nodiscard]] std::vector<FramePoint> places() const {
     constexpr unsigned kSeed = 20260918;
     RecordProperty("seed", kSeed);
@@ -128,8 +128,8 @@ TEST_P(BeltKinematicsLaws, JacobiansAreDifferences) {
   }
 }
 
-// In the words of the firmware: a and b to the corner, c down to the belt's end, arm and extension
-// taken off level; before October 2024 off the slanted length.
+// With the firmware's names: a and b to the corner, c down to the belt's end, arm and extension
+// subtracted from the horizontal length; before October 2024 from the slanting length.
 TEST(BeltKinematics, LengthsAreThoseOfThePublishedFirmware) {
   BeltMachine machine = plain();
   machine.surface_mm = 18.0;

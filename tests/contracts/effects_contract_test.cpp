@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Laws that every effect of the catalogue obeys, on every side. An effect joins by its line in
+/// Laws of every effect of the catalogue, on every side. An effect is included by its line in
 /// effects.def.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ std::vector<Case> all_cases() {
 }
 
 // A session over the whole bed of the classic machine, corners included; a serpentine, so that
-// chains are paid out and taken in, and the first point once more at the end.
+// chains are paid out and taken in, with the first point repeated at the end.
 std::vector<Visit> session() {
   std::vector<Visit> visits;
   int order = 0;
@@ -61,8 +61,8 @@ Machine machine_with(const std::vector<AppliedEffect>& effects) {
   return machine;
 }
 
-// All that a session shows: what is written beside each mark and what is read there, one after the
-// other.
+// Everything observable in a session: the written coordinates of each mark and the reading there,
+// one after the other.
 std::vector<double> seen(const Machine& machine, const std::vector<Visit>& visits) {
   const auto lengths = readings(ReadingModel(machine), visits);
   EXPECT_TRUE(lengths.has_value()) << "visit " << (lengths ? 0 : lengths.error().index);
@@ -88,7 +88,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return largest;
 }
 
-// Sizes times `share` (whole ones stay), places as they are.
+// Sizes times `share` (whole numbers unchanged), places unchanged.
 std::vector<double> scaled(const Effect& effect, std::vector<double> values, double share) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     const EffectParameter& p = effect.parameters[i];
@@ -136,7 +136,7 @@ TEST_P(EffectContract, IsDescribedInFull) {
   }
 }
 
-// The diagnosis takes one column for all whole numbers of links.
+// The diagnosis uses one column for all whole numbers of links.
 TEST_P(EffectContract, AWholeNumberIsMisreadInProportion) {
   const Effect& e = effect();
   if (!e.parameters.front().integer) return;
@@ -242,8 +242,8 @@ TEST_P(EffectContract, ActsOnItsOwnSideOnly) {
   }
 }
 
-// The mirror image of the machine, visited at the mirror images of the points, reads left for
-// right.
+// The mirror image of the machine, visited at the mirror images of the points, has left and right
+// readings exchanged.
 TEST_P(EffectContract, HasAMirrorImage) {
   std::vector<Visit> visits = session();
   const ActingEffect here{&effect(), side(), nominal_values(effect())};
@@ -255,7 +255,7 @@ TEST_P(EffectContract, HasAMirrorImage) {
       seen(machine_with({applied(*image.effect, image.side, image.values)}), visits);
   ASSERT_EQ(a.size(), b.size());
   // The equilibrium is solved to 1e-10 mm on the bed; its two chains are eliminated in the same
-  // order on either side.
+  // order in both cases.
   constexpr double kSolvedMm = 1e-9;
   for (std::size_t i = 0; i < a.size(); i += 4) {
     EXPECT_NEAR(a[i], -b[i], kSolvedMm);
@@ -265,8 +265,8 @@ TEST_P(EffectContract, HasAMirrorImage) {
   }
 }
 
-// What two effects do together is the sum of what each does alone, but for a part of second order:
-// halving both sizes leaves a quarter of that part.
+// The change by two effects together is the sum of the changes by each, up to second order: with
+// half the sizes a quarter of that part remains.
 TEST_P(EffectContract, AddsToEveryOtherToFirstOrder) {
   const std::vector<double> plain = seen_with({});
   for (const Case& other : all_cases()) {
@@ -286,9 +286,9 @@ TEST_P(EffectContract, AddsToEveryOtherToFirstOrder) {
     const double half = at_share(0.125);
     // Rounding of numbers of 3000 mm through a solver that stops at 1e-10 mm.
     constexpr double kRoundingMm = 1e-9;
-    // A kink's knee may lie between the two states of a point, which leaves a part of first order
-    // in the other effect's change of angle; 0.35 stands between the quarter of a smooth pair and
-    // the half of an additive failure.
+    // A kink's knee may lie between the two states of a point, which leaves a first-order part of
+    // the other effect's change of angle; 0.35 is between the quarter of a smooth pair and the half
+    // of an additive failure.
     EXPECT_LE(half, 0.35 * full + kRoundingMm);
     const double alone = largest_difference(seen_with({with(nominal_values(effect()))}), plain);
     EXPECT_LE(full, 0.05 * std::max(alone, 1.0)) << "the mixed part is no small part of the whole";
@@ -304,8 +304,8 @@ TEST_P(EffectContract, DoesNotDependOnTheOrderInTheFile) {
   }
 }
 
-// d(reading)/d(x, y) against Richardson's extrapolation of central differences of the readings
-// themselves.
+// d(reading)/d(x, y) compared with Richardson's extrapolation of central differences of the
+// readings.
 TEST_P(EffectContract, KeepsThePositionJacobianExact) {
   const ReadingModel model(machine_with({with(nominal_values(effect()))}));
   for (const BedPoint p :

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Every effect, on every side, goes into a machine file and comes back the same.
+/// Every effect, on every side, is unchanged after writing and reading a machine file.
 #include <gtest/gtest.h>
 
 #include "grid/files/machine_file.hpp"
@@ -15,7 +15,7 @@ TEST(EffectFileContract, EveryEffectComesBackFromAMachineFile) {
       SCOPED_TRACE(std::string(effect->id) + " " + std::string(name(side)));
       std::vector<double> values = nominal_values(*effect);
       for (std::size_t i = 0; i < values.size(); ++i) {
-        // A value that no short decimal meets.
+        // A value without a short decimal form.
         if (!effect->parameters[i].integer) values[i] += effect->parameters[i].prior_sigma / 3.0;
       }
       Machine machine;

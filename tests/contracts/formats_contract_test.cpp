@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every file format promises of its versions, whatever it holds: the version that is written
-// is read without a word of it; an older one is read and what is assumed is said; a newer one is
-// refused with both versions named; what is no version is refused too.
+// The contract of every file format on versions: the written version is read without a warning; an
+// older one is read with a warning of what is assumed; a newer one is rejected with both versions
+// in the message; text that is not a version is rejected as well.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,17 +37,17 @@ std::filesystem::path fixture(const std::string& name) {
   return std::filesystem::path(CHAINTRUE_FIXTURES) / name;
 }
 
-/// What reading a text brings: problems, or warnings alone.
+/// The result of reading a text: problems, or warnings only.
 struct Outcome {
   std::vector<std::string> problems;
   std::vector<std::string> warnings;
 };
 
-/// How a format is read, and a file of it in the version that is written.
+/// The reader of a format, and a file of it in the written version.
 struct Sample {
   std::function<std::vector<Warning>(const std::string& text)> read;
   std::function<std::string()> text;
-  /// The same file as an older version had it; the version itself is put in by the test.
+  /// The same file in the form of an older version; the version itself is set by the test.
   std::function<std::string(std::string text, std::string_view version)> aged = nullptr;
 };
 
@@ -68,8 +68,8 @@ std::string aged_map(std::string text, std::string_view) {
   return print_json(json);
 }
 
-/// Diagnoses of version 1.0 said neither what remains nor what the error is made of; those of 1.1
-/// knew no belts and those of 1.2 nothing that belts should measure next, of which this one has none.
+/// Diagnoses of version 1.0 have neither the remainder nor the budget of the error; those of 1.1 have
+/// no belts, and those of 1.2 no next measurements of belts; this one has none of these.
 std::string aged_diagnosis(std::string text, std::string_view version) {
   if (version != "1.0") return text;
   Problems problems("diagnosis.json");
@@ -79,10 +79,10 @@ std::string aged_diagnosis(std::string text, std::string_view version) {
   return print_json(json);
 }
 
-/// Holes of version 1.0 knew no machine on four belts; this one is of chains.
+/// Holes of version 1.0 have no machine on four belts; this one is of chains.
 std::string unchanged(std::string text, std::string_view) { return text; }
 
-/// Anchors of version 1.0 were of belts alone, those of 1.1 had no hash.
+/// Anchors of version 1.0 are of belts alone, those of 1.1 have no hash.
 std::string aged_anchors(std::string text, std::string_view version) {
   Problems problems("anchors.json");
   Json json = parse_json(text, problems);
@@ -91,7 +91,7 @@ std::string aged_anchors(std::string text, std::string_view version) {
   return print_json(json);
 }
 
-/// A sweep names other files by their way from its own.
+/// A sweep names other files by their path relative to its own.
 std::vector<Warning> read_sweep_text(const std::string& text) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
   std::string name = test->name();
@@ -163,7 +163,7 @@ Outcome outcome_of(const Sample& sample, const std::string& text) {
   return outcome;
 }
 
-/// The file's own version replaced, not that of a machine inside it.
+/// Replaces the file's own version, not that of a machine inside it.
 std::string with_version(const std::string& text, const Json& version) {
   Problems problems("sample.json");
   Json json = parse_json(text, problems);
@@ -222,7 +222,7 @@ TEST_P(FormatVersions, AnOlderVersionIsReadAndWhatIsAssumedIsSaid) {
 
 TEST_P(FormatVersions, ANewerVersionIsRefusedWithTheSentenceThatNamesBoth) {
   const auto [major, minor] = parts_of(GetParam()->version);
-  // Ten after nine: versions are numbers and not texts.
+  // Ten follows nine: versions are numbers, not texts.
   for (const auto& newer :
        {std::pair(major, minor + 1), std::pair(major, minor + 9), std::pair(major + 1, 0)}) {
     const std::string version = std::to_string(newer.first) + "." + std::to_string(newer.second);
@@ -259,7 +259,7 @@ TEST(FormatVersionsOfAll, NoTwoFormatsShareAType) {
   EXPECT_EQ(std::adjacent_find(types.begin(), types.end()), types.end());
 }
 
-// A format that has grown twice, beside which no sample can fall behind.
+// A format with two older versions, whose samples cannot be forgotten.
 struct Growing {
   double value = 0.0;
 };
@@ -291,7 +291,7 @@ TEST(FormatVersionsOfAll, EachOlderVersionSaysItsOwnAssumption) {
   EXPECT_THAT(growing_outcome("1.9").warnings, ::testing::ElementsAre(HasSubstr("taken as left")));
   EXPECT_THAT(growing_outcome("1.11").problems,
               ::testing::ElementsAre(HasSubstr("version 1.11, newer than 1.10")));
-  // Older, and never written.
+  // Older, but never written.
   EXPECT_THAT(
       growing_outcome("1.2").problems,
       ::testing::ElementsAre(HasSubstr(

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws that every kinematics obeys, whatever it knows of a chain. A new model is one line in
-// kinds().
+// Laws of every kinematics. A new model is one line in kinds().
 #include <gmock/gmock.h>
 
 #include <Eigen/LU>
@@ -49,7 +48,7 @@ std::vector<Kind> kinds() {
       if (model == Model::one_shot) continue;  // needs a ring
       all.push_back({"brackets_" + name + way, classic(feed, Brackets{}), model});
     }
-    // A beam that rises to the right, yields under the chains, and a hose that pulls.
+    // A beam that rises to the right and yields under the chains, and a hose that pulls.
     for (const auto& [attachment, sled] :
          {std::pair<Attachment, std::string>{Ring{}, "ring"}, {Brackets{}, "brackets"}}) {
       EquilibriumParameters leaning = classic(feed, attachment);
@@ -81,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Every, KinematicsLaws, testing::ValuesIn(kinds()), [](c
   return kind.param.name;
 });
 
-/// Points of the classic bed, the same on every run.
+/// Points of the classic bed, identical in every run.
 class BedPoints {
  public:
   explicit BedPoints(std::uint64_t seed) : engine_(seed) {}
@@ -204,7 +203,7 @@ std::vector<Knob> knobs() {
 }
 
 TEST_P(KinematicsLaws, SensitivityIsTheDerivativeByEachParameter) {
-  // A range begins at zero: the difference is taken about a parameter that is inside.
+  // If a range begins at zero, the difference is taken about a parameter inside it.
   EquilibriumParameters base = parameters();
   const bool closed = GetParam().model == Model::straight || GetParam().model == Model::wrap ||
                       GetParam().model == Model::firmware || GetParam().model == Model::one_shot;
@@ -213,7 +212,7 @@ TEST_P(KinematicsLaws, SensitivityIsTheDerivativeByEachParameter) {
   const bool ring = std::holds_alternative<Ring>(base.attachment);
   for (const Knob& knob : knobs()) {
     if (knob.parameter == Parameter::ring_radius_mm && !ring) continue;
-    // A weightless closed formula has no beam that yields; make_kinematics leaves the formula
+    // A weightless closed formula has no yielding beam; make_kinematics solves the equilibrium
     // there.
     if (knob.parameter == Parameter::beam_flexibility_mm_per_n && closed &&
         base.beam_flexibility_mm_per_n == 0.0) {
@@ -315,7 +314,7 @@ TEST_P(KinematicsLaws, LengthsScaledTogetherScaleTheChains) {
   }
 }
 
-// Newton on inverse from anywhere on the bed ends at the one point that has these lengths.
+// Newton on inverse from anywhere on the bed ends at the unique point with these lengths.
 TEST_P(KinematicsLaws, AnyStartLeadsToTheSamePoint) {
   BedPoints points(kSeed + 6);
   for (int n = 0; n < 20; ++n) {
@@ -329,7 +328,7 @@ TEST_P(KinematicsLaws, AnyStartLeadsToTheSamePoint) {
       const Pose pose = kinematics_->inverse(p).value();
       const Eigen::Vector2d d =
           kinematics_->jacobian(pose).inverse() * (wanted - vector(pose.lengths));
-      // A short stride cannot leave the domain between the sprockets.
+      // A short step cannot leave the domain between the sprockets.
       const double share = d.norm() > 150.0 ? 150.0 / d.norm() : 1.0;
       p = {p.x_mm + share * d.x(), p.y_mm + share * d.y()};
     }
@@ -338,8 +337,8 @@ TEST_P(KinematicsLaws, AnyStartLeadsToTheSamePoint) {
   }
 }
 
-// Along a straight path no length jumps: the second difference is the path's step squared times the
-// curvature of the lengths, at most 1 / (distance to a sprocket).
+// Lengths are continuous along a straight path: the second difference is the path's step squared
+// times the curvature of the lengths, at most 1 / (distance to a sprocket).
 TEST_P(KinematicsLaws, LengthsAreContinuousAlongPaths) {
   const bool brackets = std::holds_alternative<Brackets>(parameters().attachment);
   const BedPoint corners[] = {{-1219.2, -609.6},

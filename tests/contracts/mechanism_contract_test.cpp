@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Laws that hold for every mechanism: two chains, four belts, and a toy that is nowhere else.
+/// Laws of every mechanism: two chains, four belts, and a toy that exists only here.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ namespace {
 
 using MechanismPtr = std::shared_ptr<const Mechanism>;
 
-/// A mechanism, its image in a mirror, where the mirror's line is, and which of the image's lengths
-/// is which of its own.
+/// A mechanism, its mirror image, the position of the mirror's line, and the correspondence between
+/// the lengths of the image and its own.
 struct Tested {
   std::string name;
   std::function<MechanismPtr()> make;
@@ -33,7 +33,7 @@ struct Tested {
 
 void PrintTo(const Tested& tested, std::ostream* out) { *out << tested.name; }
 
-/// Nothing is symmetric about it.
+/// A machine without symmetry.
 Machine leaning() {
   Machine machine;
   machine.motors.left = {-1480.0, 1075.0};
@@ -100,7 +100,7 @@ struct WithEffect {
   MechanismPtr mechanism;
 };
 
-/// Where effects that set in at a visit do so by their nominal values.
+/// The visit at which effects set in with their nominal values.
 constexpr int kNominalVisit = 10;
 
 class MechanismContract : public testing::TestWithParam<Tested> {
@@ -116,8 +116,8 @@ class MechanismContract : public testing::TestWithParam<Tested> {
     }
     return all;
   }
-  /// The first; the one at which effects of one visit act; a later one for which a length was taken
-  /// in, and one at which a length was pulled.
+  /// The first visit; the one at which effects of one visit act; a later one for which a length was
+  /// taken in, and one at which a length was pulled.
   [[nodiscard]] std::vector<MechanismVisit> visits(const Mechanism& mechanism) const {
     const std::size_t n = mechanism.lengths().size();
     std::vector<double> taken_in(n, 1.0);
@@ -194,9 +194,9 @@ TEST_P(MechanismContract, ItHasItsWordsAndItsShapes) {
 
 TEST_P(MechanismContract, DerivativesAreDifferences) {
   constexpr double kStepMm = 1e-2;
-  // A central difference errs by step^2 / 6 times the third derivative, below 1e-5 per mm^2 200 mm
-  // from an anchor, and by the lengths' own 1e-10 mm over the step; ReadingModel says 1e-9 of its
-  // own derivatives where an effect depends on a chain's angle.
+  // The error of a central difference is step^2 / 6 times the third derivative, below 1e-5 per mm^2
+  // 200 mm from an anchor, plus the lengths' own 1e-10 mm over the step; ReadingModel states 1e-9
+  // for its derivatives where an effect depends on a chain's angle.
   constexpr double kTolerance = 2e-8;
   const MechanismPtr mechanism = GetParam().make();
   for (const WithEffect& state : in_every_state(mechanism)) {
@@ -243,7 +243,8 @@ TEST_P(MechanismContract, LocateInvertsPredict) {
         ASSERT_TRUE(at);
         const auto found = state.mechanism->locate(at->lengths_mm, visit);
         ASSERT_TRUE(found) << found.error().sentence;
-        // As the header says, with room for what lengths of 1e-10 mm leave of a position.
+        // As stated in the header, with an allowance for the position error from lengths of 1e-10
+        // mm.
         EXPECT_NEAR(found->x_mm, q.x_mm, 3e-9);
         EXPECT_NEAR(found->y_mm, q.y_mm, 3e-9);
       }
@@ -279,7 +280,7 @@ TEST_P(MechanismContract, AnEffectOfItsUsualSizeIsThere) {
         most = std::max(most, added->cwiseAbs().maxCoeff());
       }
     }
-    EXPECT_GT(most, 1e-3);  // a micrometre: anything that is there at all
+    EXPECT_GT(most, 1e-3);  // a micrometre: any effect at all
     EXPECT_TRUE(std::isfinite(most));
   }
 }
@@ -301,7 +302,7 @@ TEST_P(MechanismContract, ParametersAtTheirValuesChangeNothing) {
       EXPECT_EQ(own->by_parameter, same->by_parameter);
     }
   }
-  // What was stated stays when values change.
+  // Stated values are kept when values change.
   const auto moved = mechanism->with_values(stated + Eigen::VectorXd::Constant(stated.size(), 2.0));
   for (std::size_t i = 0; i < mechanism->parameters().size(); ++i)
     EXPECT_EQ(moved->parameters()[i].stated, mechanism->parameters()[i].stated);
@@ -354,7 +355,7 @@ TEST(ChainMechanismTest, VisitsReadAsASessionDoes) {
                          effects::applied(*effect, side, effects::nominal_values(*effect))};
       if (!effects::problems_of_effects(machine).empty()) continue;
       const ChainMechanism mechanism(machine);
-      // The right chain is taken in on the way to the second place, the left one paid out.
+      // The right chain is taken in on the way to the second position, the left one paid out.
       const std::vector<Visit> visits = {{{-500.0, 0.0}, 11}, {{500.0, -40.0}, 12}};
       const auto session = readings(ReadingModel(machine), visits);
       ASSERT_TRUE(session);
@@ -380,7 +381,7 @@ TEST(BeltMechanismTest, AnchorsThatNobodyKnowsHaveNoLengthsUntilTheyAreFound) {
   const auto at = found->predict({1500.0, 1000.0}, {});
   ASSERT_TRUE(at);
   for (const Belt belt : kBelts) {
-    // A span becomes a belt's length and a span again: rounding of 3 m.
+    // A span is converted to a belt's length and back: rounding of 3 m.
     EXPECT_NEAR(at->lengths_mm[static_cast<Eigen::Index>(belt)],
                 reading_at(four_belts(BeltLengths::span), belt, {1500.0, 1000.0})->length_mm,
                 1e-11);

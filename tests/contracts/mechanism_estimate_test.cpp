@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The one estimator takes whatever hangs: a mechanism that no product code knows is calibrated from
-/// its lengths at positions that are known, four belts from theirs at positions that nobody measured.
+/// The estimator works for any mechanism: one that the product does not contain is calibrated from
+/// its lengths at known positions, four belts from theirs at unknown positions.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -20,7 +20,7 @@ using observation::LengthsAtPlace;
 
 constexpr double kNoiseMm = 0.4;
 
-/// 24 places over the middle of what the mechanism reaches.
+/// 24 positions over the middle of the mechanism's extent.
 std::vector<LengthsAtPlace> read_lengths(const model::Mechanism& truth,
                                          bool known,
                                          synthetic::Random& random) {
@@ -42,7 +42,8 @@ std::vector<LengthsAtPlace> read_lengths(const model::Mechanism& truth,
   return places;
 }
 
-/// The mean square of the parameters' errors in their own covariance, and that of the noise found.
+/// The mean square of the parameters' errors in their own covariance, and that of the estimated
+/// noise.
 struct Calibrations {
   double parameters = 0.0;
   double noise = 0.0;
@@ -80,7 +81,7 @@ Calibrations calibrate(const model::Mechanism& truth,
 
 TEST(MechanismEstimate, AToyIsCalibratedFromLengthsAtKnownPositions) {
   constexpr int kSets = 100;
-  // The left nail is where it was stated; of the right one nothing is known, and it is elsewhere.
+  // The left nail is at its stated position; the right one has no prior, and starts elsewhere.
   const model::ToyMechanism truth(-1000.0, 1200.0);
   const auto start = std::make_shared<const model::ToyMechanism>(-1000.0, 1230.0);
   const Calibrations found = calibrate(truth, start, true, kSets);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Laws that hold for every kind of observation: a line in kinds.def without a simulation here fails.
+/// Laws of every kind of observation: a line in kinds.def without a simulation here fails.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,11 +29,11 @@ const model::Machine& classic() {
   return machine;
 }
 
-/// Readings that a person might have taken of `classic`, which is just as stated. `slip` spoils one
-/// of them by many sigmas; `turn` puts the file in another order.
+/// Simulated readings of `classic`, which is exactly as stated. `slip` adds an error of many sigmas
+/// to one of them; `turn` changes the order in the file.
 struct Wanted {
   std::uint64_t seed = 1;
-  bool exact = false;  ///< without noise, where the kind's derivatives are those of exact readings
+  bool exact = false;  ///< without noise; the kind's derivatives are then those of exact readings
   bool slip = false;
   bool turn = false;
 };
@@ -137,7 +137,7 @@ const std::shared_ptr<const model::Mechanism>& four_belts() {
   return mechanism;
 }
 
-/// Places that nobody measured; of one a reading does not count; two that are known.
+/// Unknown positions, one of them with a reading that does not count; two known ones.
 std::shared_ptr<const Observation> belts_at_places(const Wanted& wanted) {
   constexpr BeltNoise kNoise{.length_mm = 0.5, .position_mm = 0.3};
   synthetic::Random random(wanted.seed, 79);
@@ -237,13 +237,13 @@ TEST_P(EveryObservation, DerivativesBySettingAreDifferences) {
       return *observation->predicted(view);
     };
     const Eigen::VectorXd by_difference = (predicted_at(step) - predicted_at(-step)) / (2.0 * step);
-    // A central difference errs by step^2 / 6 times the third derivative, some 1e-6 per mm^2, and
-    // by rounding, 1e-9 mm over the step.
+    // The error of a central difference is step^2 / 6 times the third derivative, some 1e-6 per
+    // mm^2, plus rounding, 1e-9 mm over the step.
     EXPECT_LT((line->by_setting.col(s) - by_difference).cwiseAbs().maxCoeff(), turn ? 2e-3 : 1e-6);
   }
 }
 
-/// Adds c to the chains in the neighbourhood of one place.
+/// Adds c to the chains in the neighbourhood of one position.
 class AtOnePlace final : public LengthCorrection {
  public:
   AtOnePlace(model::MarkPoint centre, model::ChainLengths c) : centre_(centre), c_(c) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws that every surface method of interp/surface_methods.def keeps. A new line there is tested
-// here without a new test.
+// Laws of every surface method of interp/surface_methods.def. A new line there is tested here
+// without a new test.
 #include <cmath>
 #include <cstring>
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Verdicts from stated probabilities: the cause that is named is the cause that is fitted.
+// Verdicts from given probabilities: the named cause is the fitted cause.
 #include "grid/diagnosis/decision.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ struct SetOfCauses {
   double probability = 0.0;
 };
 
-/// A comparison of these sets, each beside a pattern, of causes that are a class each.
+/// The decision for these sets, each together with a pattern, with every cause in its own class.
 Decision decided(const std::vector<SetOfCauses>& sets, std::size_t causes) {
   RegressorSystem system;
   std::vector<CauseClass> classes;
@@ -40,7 +40,7 @@ Decision decided(const std::vector<SetOfCauses>& sets, std::size_t causes) {
 }
 
 TEST(Decision, ANamedCauseIsTheOneThatIsFitted) {
-  // One cause is likeliest, and alone it is the first; with whatever else, the second is in most.
+  // The first cause is likeliest as a single cause; the second has the largest total over all sets.
   const Decision found = decided({{{0}, 0.35}, {{1}, 0.31}, {{1, 2}, 0.20}, {{1, 3, 4}, 0.10}}, 5);
   ASSERT_EQ(found.verdict, Verdict::named);
   EXPECT_EQ(found.listed, std::vector<std::size_t>{1});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bad input with its words, and laws of a diagnosis on generated sessions.
+// Bad input with its messages, and laws of a diagnosis on generated sessions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -104,7 +104,7 @@ TEST(DiagnoseBadInput, AxesTurnedRoundAreSuspected) {
 TEST(DiagnoseBadInput, AnotherMachineAltogether) {
   MeasuredGrid grid = session_of({}, 3);
   for (MeasuredPoint& p : grid.points) {
-    // The right chain of another machine: what calibrating leads to is none.
+    // The right chain of another machine: the calibration does not converge to a valid machine.
     p.lengths->right_mm = 5000.0 - p.lengths->right_mm;
   }
   expect_refused(grid,
@@ -112,7 +112,7 @@ TEST(DiagnoseBadInput, AnotherMachineAltogether) {
                  "no machine near the stated one fits these points");
 }
 
-/// Every effect, at a strength that leaves no doubt, named with its size inside four sigma.
+/// Every effect, at a strength that identifies it, is named with its size within four sigma.
 class EveryEffect : public testing::TestWithParam<const model::effects::Effect*> {};
 
 TEST_P(EveryEffect, IsFoundWithItsSize) {
@@ -120,8 +120,8 @@ TEST_P(EveryEffect, IsFoundWithItsSize) {
   const auto side = effect.sides.front();
   std::vector<double> values = model::effects::nominal_values(effect);
   if (!effect.parameters.front().integer) {
-    // About a signal-to-noise ratio of 25 on the 7 x 4 grid of the default machine, found from the
-    // usual size's strength.
+    // A signal-to-noise ratio of about 25 on the 7 x 4 grid of the default machine, computed from
+    // the strength at the usual size.
     synthetic::StrengthTable table(
         model::Machine{}, synthetic::regular_session({}, 7, 4), StatedNoise{0.2, 0.3, 12.0});
     const double factor = 25.0 / table.strength(effect, side).signal_to_noise;
@@ -177,7 +177,7 @@ TEST(Diagnose, ClassesComeFromTheSignatures) {
 }
 
 TEST(Diagnose, ALinkReadingPartsPitchFromTape) {
-  // 0.3 % on the paper; the links are read to be nominal.
+  // 0.3 % on the paper; the measured links are nominal.
   MeasuredGrid grid = session_of({{"tape_scale", "both", {{"scale", 0.003}}}}, 9);
   const auto before = diagnose(grid, verdict_alone());
   ASSERT_TRUE(before);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The closed forms of the comparison against brute force: numerical integrals over settings, sizes
-// and noise, densities that integrate to one, and the score's distribution under noise alone.
+// The closed forms of the comparison, checked by brute force: numerical integrals over settings,
+// sizes and noise, densities that integrate to one, and the score's distribution under noise alone.
 #include "grid/diagnosis/evidence.hpp"
 
 #include <gtest/gtest.h>
@@ -56,8 +56,8 @@ double log_normal_density(double x, double mean, double sigma) {
   return -0.5 * z * z - std::log(sigma) - 0.5 * std::log(2.0 * std::numbers::pi);
 }
 
-/// p(e) with setting, size and noise integrated on a raster. Priors scale with the noise, as the
-/// conjugate form has it.
+/// p(e) with setting, size and noise integrated on a raster. Priors scale with the noise, as in the
+/// conjugate form.
 double brute_force_at(const RegressorSystem& system,
                       const MarginalisedSystem& marginalised,
                       double lowest,
@@ -102,7 +102,7 @@ double brute_force_at(const RegressorSystem& system,
                  std::pow(2.0 * std::numbers::pi * square, -3.0);
       }
     }
-    // A one-sided size has its prior's whole mass on that side.
+    // A one-sided size has its whole prior mass on that side.
     if (with_cause && lowest == 0.0) inner *= 2.0;
     total += prior * inner * step_u;
   }
@@ -139,7 +139,7 @@ TEST(Evidence, OfACauseEqualsTheIntegral) {
     const NoiseDensity noise(kDof, 6);
     const std::array<Eigen::Index, 1> set = {0};
     const double closed = set_evidence(equations, system.regressors, set, noise).log_evidence;
-    // Where the size is cut at zero the closed form takes the noise at its mean for the cut alone.
+    // If the size is cut at zero the closed form uses the mean noise for the cut alone.
     const double tolerance = lowest == 0.0 ? 0.02 : 2e-3;
     EXPECT_NEAR(closed, brute_force(system, marginalised, lowest, true), tolerance)
         << "from " << lowest;
@@ -156,7 +156,7 @@ TEST(Evidence, DensityIntegratesToOne) {
 
 TEST(Evidence, NoiseSquareIsTheMeanOfThePosterior) {
   const NoiseDensity noise(kDof, 40);
-  // Far from the anchors of larger noise the conjugate mean holds alone.
+  // Far from the anchors only the conjugate mean of larger noise is significant.
   EXPECT_NEAR(noise.noise_square(20.0), (kDof + 20.0) / (40.0 + kDof - 2.0), 0.02);
   EXPECT_GT(noise.larger_share(400.0), 0.9);
   EXPECT_LT(noise.larger_share(40.0), 0.1);
@@ -197,7 +197,7 @@ TEST(Decision, NothingIsMoreThanCertain) {
                                                                    1.0);
   CandidateModel model;
   model.discrepancy = 0;
-  model.log_weight = 1e-14;  // as the rounding of a total over thousands of models leaves it
+  model.log_weight = 1e-14;  // the size of the rounding of a total over thousands of models
   comparison.models = {model};
   EXPECT_GT(comparison.probability(model), 1.0);
   EXPECT_EQ(decide(system, comparison, none, true).discrepancy, 1.0);

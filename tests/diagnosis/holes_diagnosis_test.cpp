@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Distances between holes in the engine of a diagnosis: laws, bad input with its words, and how
-// often it is right. With CHAINTRUE_LONG set in the environment the rates are of many more sets.
+// Diagnoses of distances between holes: laws, bad input with its messages, and rates of correct
+// answers. With CHAINTRUE_LONG set in the environment the rates are of many more sets.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ DiagnosisOptions quick() {
   return options;
 }
 
-/// Settings off by draws from what is stated, and what is hidden beside them.
+/// Settings drawn from the stated uncertainties, with hidden effects.
 MeasuredHoles holes(const std::vector<model::AppliedEffect>& hidden, std::uint64_t seed) {
   synthetic::HolesSpec spec;
   spec.draw_settings = true;
@@ -113,7 +113,7 @@ TEST(HolesDiagnosisBadInput, AHoleOutOfReach) {
   expect_refused(set, DiagnosisFailure::Reason::point_unreachable, "hole A at (0.0, 5000.0)");
 }
 
-// The system's columns reproduce the covariance that a set of distances has as one observation.
+// The system's columns reproduce the covariance of a set of distances as one observation.
 TEST(HolesDiagnosis, RowsAreTheObservation) {
   MeasuredHoles set = holes({}, 3);
   set.distances.push_back({.from = 0, .edge = SheetEdge::left, .distance_mm = 50.0});
@@ -133,7 +133,7 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
       to_mm * nuisance_columns(*system) * system->sigma.tail(system->nuisances).asDiagonal();
   Eigen::MatrixXd covariance = nuisance * nuisance.transpose();
   covariance.diagonal() += sigma.cwiseAbs2();
-  // Two ways to the same sums of some forty products each.
+  // The same sums of some forty products each, computed in two ways.
   EXPECT_LT((covariance - observation::marginal_covariance(*line, tape.nuisance_sigma()))
                 .cwiseAbs()
                 .maxCoeff(),
@@ -145,7 +145,7 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
       1e-9 * line->by_setting.cwiseAbs().maxCoeff());
 }
 
-// A setting's column predicts what moving the setting does: the whole path by differences.
+// A setting's column equals the change of the whole model with the setting, by differences.
 TEST(HolesDiagnosis, ColumnsAreDerivativesOfTheWholePath) {
   const MeasuredHoles set = holes({}, 3);
   const auto session = observations_of(set);
@@ -166,8 +166,8 @@ TEST(HolesDiagnosis, ColumnsAreDerivativesOfTheWholePath) {
   }
 }
 
-// What an addition to the chains does, by the linear map, is what the same addition does on the
-// whole path where it is an effect of the machine: a pitch error is an addition in proportion.
+// The linear map of an addition to the chains equals the whole model with the same addition as an
+// effect of the machine: a pitch error is an addition in proportion to the length.
 TEST(HolesDiagnosis, AdditionsToTheChainsMoveDistancesAsThePathDoes) {
   const auto session = observations_of(holes({}, 3));
   const State state = stated_state(*session);
@@ -184,7 +184,7 @@ TEST(HolesDiagnosis, AdditionsToTheChainsMoveDistancesAsThePathDoes) {
       linear(system->units[u].first_row) += seen.by_chain(0, 0) * added;
     }
   }
-  // 1e-5 of the chain is some 0.02 mm; what is not linear in it is a millionth of that.
+  // 1e-5 of the chain is some 0.02 mm; the nonlinear part is a millionth of that.
   EXPECT_LT((*path - linear).norm(), 1e-4 * path->norm());
 }
 
@@ -214,7 +214,7 @@ TEST(HolesDiagnosis, NeitherTheOrderOfTheFileNorTheDirectionOfTheTapeMatters) {
     const Diagnosis again = diagnosed(other, all);
     EXPECT_EQ(again.sentence, first.sentence);
     ASSERT_EQ(again.causes.size(), first.causes.size());
-    // Sums in another order: the last digits of some thousand additions.
+    // Sums in another order: the last digits of some thousand terms.
     EXPECT_NEAR(again.causes[0].parameters[0].value, first.causes[0].parameters[0].value, 1e-12);
     EXPECT_NEAR(again.gain->extended.rms_mm, first.gain->extended.rms_mm, 1e-9);
     for (std::size_t k = 0; k < distance.size(); ++k) {
@@ -239,7 +239,7 @@ TEST(HolesDiagnosis, TheFileHoldsAllOfIt) {
   EXPECT_THROW((void)files::parse_diagnosis(spoilt, "d.json"), files::InputError);
 }
 
-// Where edges were measured the sheet is found, with its place among the settings.
+// With measured edges the sheet's placement is estimated, as one of the settings.
 TEST(HolesDiagnosis, EdgesPlaceTheSheet) {
   MeasuredHoles design = nine_holes();
   const std::vector<std::pair<std::size_t, SheetEdge>> edges = {{0, SheetEdge::left},
@@ -255,7 +255,7 @@ TEST(HolesDiagnosis, EdgesPlaceTheSheet) {
   spec.seed = 8;
   const auto made = synthetic::simulate_holes(design, spec);
   MeasuredHoles set = made->set;
-  // The sheet lies 12 mm further right than the bed's middle: marks on it are 12 mm further left.
+  // The sheet lies 12 mm to the right of the bed's middle: marks on it are 12 mm further left.
   constexpr double kShiftMm = 12.0;
   for (HoleDistance& distance : set.distances) {
     if (distance.edge == SheetEdge::left) distance.distance_mm -= kShiftMm;
@@ -290,12 +290,12 @@ TEST(HolesDiagnosis, ADistanceThatIsOffIsNamedWithItsAmount) {
         continue;
       }
       right += found.verdict == Verdict::outliers;
-      // One sigma of the tape, of both holes and of what the others leave open: about 1 mm.
+      // Sigma of the tape, of both holes and of the prediction by the others: about 1 mm.
       EXPECT_NEAR(bad.off_mm, -12.0, 4.0);
       EXPECT_THAT(found.sentence, HasSubstr("mm too short"));
     }
   }
-  // 12 mm are ten and more of what the others leave open.
+  // 12 mm are ten and more sigmas of that prediction.
   EXPECT_GE(right, sets - 1);
   EXPECT_LE(others, 1);
 }
@@ -312,7 +312,7 @@ TEST(HolesDiagnosis, WhereNothingIsHiddenNothingIsNamed) {
 }
 
 TEST(HolesDiagnosis, ACauseAloneIsNamed) {
-  // Each of a size that a workshop would know: seven units of noise and more.
+  // Each with a size that a workshop would notice: a strength of seven and more.
   const std::vector<model::AppliedEffect> all = {
       {"chain_pitch_error", "left", {{"elongation", 0.0015}}},
       {"chain_pitch_error", "right", {{"elongation", 0.0015}}},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points and distances of one machine in one estimate: what neither tells alone, both together do.
+// Points and distances of one machine in one estimate: together they identify what neither
+// identifies alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +43,7 @@ Measured mixed(const std::vector<model::AppliedEffect>& hidden, std::uint64_t se
   return measured;
 }
 
-/// Log odds of the hidden cause's class against all that does not have it.
+/// Log odds of the hidden cause's class against everything without it.
 double log_odds(const Measured& measured, const CauseId& cause) {
   const auto a = analyse(observations_of(measured).value(), verdict_alone());
   double with = 0.0;
@@ -75,7 +76,7 @@ TEST(MixedDiagnosis, TellsMoreThanEitherAlone) {
     sum_mixed += mix;
     better_than_both += mix > std::max(points, distances) ? 1 : 0;
   }
-  // In the mean over the seeds evidence adds up; in one session noise may speak against the cause.
+  // Evidence adds up on average over the seeds; in one session noise may be against the cause.
   EXPECT_GT(sum_mixed, std::max(sum_points, sum_distances)) << "seeds 1 to " << kSeeds;
   EXPECT_GE(better_than_both, kSeeds / 2 + 1) << "of " << kSeeds;
 }
@@ -125,7 +126,7 @@ TEST(MixedDiagnosis, ABadReadingOfEitherKindIsFound) {
   EXPECT_EQ(found->outliers[1].index, 7u);
 }
 
-// The order of files of different kinds, and of what stands in them, says nothing.
+// The result is independent of the order of files of different kinds, and of the order in them.
 TEST(MixedDiagnosis, TheOrderOfTheFilesChangesNothing) {
   const model::AppliedEffect hidden{"beam_flex", "", {{"flexibility_mm_per_n", 0.02}}};
   const MeasuredGrid grid = session_of({hidden}, 9, 5, 3);

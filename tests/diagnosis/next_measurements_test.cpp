@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What to measure next: what is foretold is what the readings would bring.
+// Next measurements: the predicted result of a measurement equals the actual one.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -34,14 +34,14 @@ MeasuredHoles holes_with(const model::AppliedEffect& hidden, std::uint64_t seed)
   return synthetic::simulate_holes(chaintrue::testing_support::nine_holes(), spec)->set;
 }
 
-/// What no alternative moves, and no setting.
+/// Not affected by any alternative, nor by any setting.
 bool is_silent(const std::vector<Alternative>& alternatives, const Rows& rows) {
   return std::all_of(alternatives.begin(), alternatives.end(), [&](const Alternative& one) {
     return one.mean(rows).isZero(0.0) && one.spread(rows, Eigen::all).isZero(0.0);
   });
 }
 
-// A chain's weight, a beam that gives or a chain that gives: no link and no tape has a part in it.
+// A chain's weight, a yielding beam or a stretching chain: links and tapes do not depend on them.
 TEST(NextMeasurements, AReadingThatNoContestedCauseTouchesChangesNothing) {
   int sets = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -59,7 +59,7 @@ TEST(NextMeasurements, AReadingThatNoContestedCauseTouchesChangesNothing) {
       const ExpectedDiscrimination without = expected_discrimination(*alternatives, with_it);
       with_it.insert(with_it.end(), candidate.rows.begin(), candidate.rows.end());
       const ExpectedDiscrimination with = expected_discrimination(*alternatives, with_it);
-      // A row of zeros more: the same sums in other blocks.
+      // One more row of zeros: the same sums in other blocks.
       EXPECT_NEAR(with.confusion, without.confusion, 1e-12) << candidate.measurement.what;
       EXPECT_NEAR(with.named_alone, without.named_alone, 1e-12) << candidate.measurement.what;
     }
@@ -71,7 +71,7 @@ TEST(NextMeasurements, AReadingThatNoContestedCauseTouchesChangesNothing) {
   EXPECT_GT(sets, 0) << "no session asks the question";
 }
 
-/// Posterior probability of each group from readings at `rows`, by the whole densities.
+/// Posterior probability of each group from readings at `rows`, with the full densities.
 std::vector<double> posterior(const std::vector<Alternative>& alternatives,
                               const Rows& rows,
                               const Eigen::VectorXd& read) {
@@ -98,7 +98,7 @@ std::vector<double> posterior(const std::vector<Alternative>& alternatives,
   return groups;
 }
 
-/// How often the right group is then named alone, by drawing the readings.
+/// How often the correct group is then named alone, by simulated readings.
 double drawn_named_alone(const std::vector<Alternative>& alternatives,
                          const Rows& rows,
                          std::uint64_t seed) {
@@ -119,8 +119,8 @@ double drawn_named_alone(const std::vector<Alternative>& alternatives,
   return named;
 }
 
-// Both chains long or the tape long is one class to distances. A reading of the one says nothing of
-// the other, whichever of them fits a little better.
+// Both chains long, or the tape long, is one class for distances. A reading that depends on one
+// says nothing of the other, whichever of them fits slightly better.
 TEST(NextMeasurements, OfAClassEachCauseIsForetoldByItself) {
   int sets = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -136,7 +136,7 @@ TEST(NextMeasurements, OfAClassEachCauseIsForetoldByItself) {
       const std::string& what = candidate.measurement.what;
       if (what != "tape_error_mm_per_m" && what != "link_pitch_mm") continue;
       all.push_back(candidate.rows.front());
-      // Predicted with Gaussian log odds and rivals by themselves; 2000 draws are good to 0.01.
+      // Predicted with Gaussian log odds and independent rivals; 2000 draws are accurate to 0.01.
       EXPECT_NEAR(expected_discrimination(*alternatives, candidate.rows).named_alone,
                   drawn_named_alone(*alternatives, candidate.rows, seed),
                   0.1)
@@ -150,7 +150,7 @@ TEST(NextMeasurements, OfAClassEachCauseIsForetoldByItself) {
   EXPECT_GT(sets, 0) << "no session asks the question";
 }
 
-/// What was measured, and a candidate as an alternative expects it to be read.
+/// The measurements, and a candidate with the reading predicted by an alternative.
 class WithCandidate {
  public:
   WithCandidate(const Measured& measured, const Analysis& a, const NextCandidates& next)
@@ -226,8 +226,8 @@ class WithCandidate {
   Eigen::VectorXd predicted_;
 };
 
-/// What an analysis leaves of the confusion between groups of single causes that `alternatives` of
-/// another analysis names: the sum over pairs of the roots of their probabilities.
+/// The remaining confusion between the groups of single causes that `alternatives` of another
+/// analysis contains: the sum over pairs of the square roots of their probabilities.
 double confusion_left(const Measured& measured,
                       const Analysis& before,
                       const std::vector<Alternative>& alternatives) {
@@ -259,7 +259,7 @@ Measured mixed(const model::AppliedEffect& hidden, std::uint64_t seed) {
   return measured;
 }
 
-/// Of each kind the candidate that is foretold to tell most, and the one that tells least; the best
+/// For each kind the candidates with the largest and the smallest expected discrimination; the best
 /// of all first.
 std::vector<std::size_t> ends_of_kinds(const NextCandidates& next,
                                        const std::vector<Alternative>& alternatives) {
@@ -278,9 +278,9 @@ std::vector<std::size_t> ends_of_kinds(const NextCandidates& next,
   return result;
 }
 
-// Of points and distances together the first of the list lowers the confusion more than the best of
-// any other kind, when what each alternative would have it read is added to the files and
-// everything is estimated anew.
+// For points and distances together, the first of the list lowers the confusion more than the best
+// of any other kind, when the reading predicted by each alternative is added to the files and
+// everything is estimated again.
 TEST(NextMeasurements, OfAMixTheChosenOneLowersTheConfusionMost) {
   int sets = 0;
   for (std::uint64_t seed = 2; seed <= 3; ++seed) {
@@ -302,11 +302,11 @@ TEST(NextMeasurements, OfAMixTheChosenOneLowersTheConfusionMost) {
         left.back() +=
             truth.probability * confusion_left(with.read(next.all[c], truth), a, *alternatives);
       }
-      // Each reading as expected stands for the mean over all that it could be.
+      // The reading at its expected value represents the mean over all possible readings.
       const double foretold = expected_discrimination(*alternatives, next.all[c].rows).confusion;
       EXPECT_NEAR(left.back(), foretold, 0.2 * foretold) << next.all[c].measurement.what;
     }
-    // The same, where two are as good.
+    // Equal if two are equally good.
     EXPECT_LE(left.front(), 1.02 * *std::min_element(left.begin(), left.end())) << chosen.what;
     ++sets;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether what is left has the shape of noise: often enough for noise, and not for what is none.
+// The test of normality of the residuals: its rate for noise, and its power for other
+// distributions.
 #include "grid/diagnosis/normal_plot.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +40,7 @@ TEST(NormalPlot, HoldsItsListsInOrderAndTheMeanInsideTheBand) {
   EXPECT_NEAR(square / static_cast<double>(plot->values.size()), 1.0, 1e-12);
 }
 
-// The size of the noise is none of the shape's business.
+// The shape is independent of the size of the noise.
 TEST(NormalPlot, IsTheSameForNoiseOfAnySize) {
   const ObservationSet session = session_of(2);
   auto a = analyse(session, {});

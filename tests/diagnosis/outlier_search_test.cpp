@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The search for outliers, which changes one decomposition step by step, against one that writes the
-// whole covariance down and leaves the rows out of it.
+// The search for outliers, which updates one decomposition step by step, compared with a search
+// that forms the whole covariance and leaves the rows out of it.
 #include "grid/diagnosis/outlier_search.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kUnits = 24;
 
-/// Units of one row and of two in turn, three settings, one cause, some units far off.
+/// Outlier groups of one row and of two in turn, three settings, one cause, some groups far off.
 RegressorSystem random_system(synthetic::Random& random) {
   RegressorSystem system;
   Eigen::Index row = 0;
@@ -79,7 +79,7 @@ Weighed weighed(const RegressorSystem& system,
           static_cast<Eigen::Index>(kept.size())};
 }
 
-/// One unit after the other, each time the one that the data would rather do without; the best of
+/// One group after the other, each time the one whose removal improves the fit most; the best of
 /// the nested sets.
 std::vector<bool> one_by_one(const RegressorSystem& system, const std::vector<int>& set) {
   const std::vector<bool> none(kUnits, false);
@@ -140,7 +140,7 @@ TEST(OutlierSearch, IsThatOfTheWholeCovariance) {
   }
 }
 
-/// Pairs of rows with four directions each, as four belts at a place have them.
+/// Pairs of rows with four directions each, like four belts at a position.
 struct Places {
   RegressorSystem system;
   std::vector<OutlierGroup> groups;
@@ -173,7 +173,7 @@ Places random_places(synthetic::Random& random) {
   return places;
 }
 
-/// What the rows are without the directions of the groups that are flagged.
+/// A basis of the rows without the directions of the flagged groups.
 Eigen::MatrixXd basis_without(const Places& places, const std::vector<bool>& outliers) {
   const Eigen::Index rows = places.system.e.size();
   Eigen::MatrixXd basis(rows, 0);
@@ -187,7 +187,7 @@ Eigen::MatrixXd basis_without(const Places& places, const std::vector<bool>& out
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gone);
     for (Eigen::Index i = 0; i < 2; ++i) {
-      // 0 to rounding along what is left.
+      // Zero to rounding in the remaining directions.
       if (eigen.eigenvalues()(i) > 1e-9) continue;
       basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
       basis.rightCols<1>().setZero();
@@ -197,7 +197,7 @@ Eigen::MatrixXd basis_without(const Places& places, const std::vector<bool>& out
   return basis;
 }
 
-// A set's weight, and that no other reading would have been worse, by the whole covariance.
+// A set's weight, and that no other reading is worse, by the whole covariance.
 TEST(OutlierSearch, DirectionsAreThoseOfTheWholeCovariance) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
@@ -241,7 +241,7 @@ TEST(OutlierSearch, DirectionsAreThoseOfTheWholeCovariance) {
         std::vector<bool> without = outliers;
         without[group] = true;
         const double left = weighed_without(without).quadratic;
-        // Several readings of a place of which one is out are the same direction, to rounding.
+        // Several readings of a position with one outlier are the same direction, to rounding.
         if (left < least - 1e-9 * (1.0 + left)) {
           least = left;
           worst = group;

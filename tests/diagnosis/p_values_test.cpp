@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where nothing is hidden every chance that is told is uniform: as often below one in ten as one in
-// ten, and no more often.
+// Without a cause every reported p-value is uniform: below one in ten in one case of ten.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +22,8 @@ using testing_support::verdict_alone;
 
 constexpr int kNullSessions = 120;
 
-/// Kolmogorov's distance from the uniform distribution, times the root of how many there are.
+/// Kolmogorov's distance from the uniform distribution, times the square root of the number of
+/// values.
 double kolmogorov(std::vector<double> p) {
   std::sort(p.begin(), p.end());
   const auto n = static_cast<double>(p.size());
@@ -38,7 +38,7 @@ double kolmogorov(std::vector<double> p) {
 /// 1 in 1000 for uniform values (N. Smirnov, Ann. Math. Stat. 19 (1948), 279).
 constexpr double kCritical = 1.95;
 
-/// Nothing hidden, settings stated as well as they are.
+/// No cause, and settings with their stated uncertainties.
 TEST(Chances, AreUniformWhereNothingIsHidden) {
   std::vector<double> left_over_chance, normal_plot_chance, family_wise_chance;
   for (std::uint64_t seed = 1; seed <= kNullSessions; ++seed) {
@@ -55,8 +55,8 @@ TEST(Chances, AreUniformWhereNothingIsHidden) {
   EXPECT_LT(kolmogorov(family_wise_chance), kCritical) << "of the strongest effect";
 }
 
-/// Few places, where noise, anchors and causes are found from the fewest checks; anchors a hand's
-/// breadth beside where they are stated.
+/// Few positions, where noise, anchors and causes have the fewest checks; stated anchors with
+/// errors of about 100 mm.
 TEST(Chances, AreUniformWhereNothingIsHiddenInFourBelts) {
   model::BeltMachine stated;
   stated.anchors = {
@@ -81,7 +81,7 @@ TEST(Chances, AreUniformWhereNothingIsHiddenInFourBelts) {
   }
   SCOPED_TRACE(testing::Message() << "seeds 6001 to " << 6000 + kOfBelts);
   EXPECT_LT(kolmogorov(family_wise_chance), kCritical) << "of the strongest cause";
-  // What names hang on is the tail: one of 100 is expected, and more than 5 in 1 run of 1900.
+  // Names depend on the tail: one of 100 is expected, and more than 5 in 1 run of 1900.
   EXPECT_LE(std::count_if(family_wise_chance.begin(),
                           family_wise_chance.end(),
                           [](double p) { return p < 0.01; }),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Waves along a chain: laws of the periodogram, and its level against what noise does.
+// Waves along a chain: laws of the periodogram, and its level compared with noise.
 #include "grid/diagnosis/periodogram.hpp"
 
 #include <gmock/gmock.h>
@@ -41,8 +41,8 @@ std::vector<double> wave(const std::vector<double>& places, double period_mm, do
   return values;
 }
 
-// The definition: share of the square about the mean that least squares with a constant, a cosine
-// and a sine takes more than a constant alone.
+// The definition: the share of the square about the mean that is explained by a least-squares fit
+// of a constant, a cosine and a sine beyond a constant alone.
 double by_least_squares(const std::vector<double>& places,
                         const std::vector<double>& values,
                         double period_mm) {
@@ -66,7 +66,7 @@ TEST(Periodogram, IsTheShareThatLeastSquaresTakes) {
   const auto power = waves.power(values);
   ASSERT_EQ(power.size(), waves.periods_mm().size());
   for (std::size_t k = 0; k < power.size(); k += 7) {
-    // Two solutions of a well conditioned problem of three unknowns.
+    // Two solutions of a well-conditioned problem with three unknowns.
     EXPECT_NEAR(power[k], by_least_squares(places, values, waves.periods_mm()[k]), 1e-8)
         << waves.periods_mm()[k] << " mm";
   }
@@ -88,12 +88,12 @@ TEST(Periodogram, FindsAWaveAtItsPeriodWhateverItsPhaseSizeAndMean) {
   const Periodogram waves(places, kShortestMm);
   for (const double phase : {0.0, 1.0, 2.5, 4.0}) {
     auto values = wave(places, kTurnMm, phase);
-    EXPECT_NEAR(waves.power_at(kTurnMm, values), 1.0, 1e-9);  // nothing but the wave
+    EXPECT_NEAR(waves.power_at(kTurnMm, values), 1.0, 1e-9);  // the wave only
     for (double& v : values) v = 0.01 * v + 7.0;
     EXPECT_NEAR(waves.power_at(kTurnMm, values), 1.0, 1e-9);
     const auto power = waves.power(values);
     const auto best = std::max_element(power.begin(), power.end()) - power.begin();
-    // To the nearest period tried: an eighth of a wave over the span.
+    // To the nearest period that is tried: an eighth of a wave over the span.
     const double span = waves.periods_mm().front();
     EXPECT_NEAR(span / waves.periods_mm()[static_cast<std::size_t>(best)], span / kTurnMm, 0.13)
         << "phase " << phase;
@@ -119,7 +119,7 @@ TEST(Periodogram, ValuesThatAreAllAlikeHaveNoWave) {
   EXPECT_THAT(Periodogram(places, kShortestMm).power(values), testing::Each(0.0));
 }
 
-// The level is what it says: noise passes it in one of a hundred sessions.
+// Noise passes the level in one of a hundred sessions, as stated.
 TEST(Periodogram, NoisePassesTheLevelAsOftenAsItSays) {
   const auto places = uneven_places(16, 34);
   const Periodogram waves(places, kShortestMm);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a cause acts, with its sigma: against the scatter over sessions that differ by their noise
+// The sigma of a cause's place, compared with the scatter over sessions that differ by their noise
 // alone.
 #include <gtest/gtest.h>
 
@@ -68,8 +68,8 @@ TEST_P(PlaceSigma, IsWhatThePlaceScattersBy) {
             << " rad rms, sigma " << std::sqrt(stated / named) << ", rms of off/sigma "
             << std::sqrt(pulls / named) << "\n";
   ASSERT_GE(named, kDraws / 2);
-  // Forty draws know a scatter to 11 %; three of these are a third, and the phase is no
-  // straight line over its sigma.
+  // The scatter of forty draws is known to 11 %; three of these are a third, and the model is not
+  // linear in the phase over its sigma.
   EXPECT_GT(std::sqrt(stated / square), 0.67);
   EXPECT_LT(std::sqrt(stated / square), 1.5);
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A real machine, scanned twice a day apart: the names stand whatever line is left out, one scan
-// predicts the other, and an effect planted on the real residuals is found. The scans stay in
-// ../shared/data; of the larger one every second mark is enough here. With CHAINTRUE_LONG set in
-// the environment every line is left out in turn. What all points say is in docs/diagnosis.md.
+// A real machine, scanned twice a day apart: the named causes are the same whichever line is left
+// out, one scan predicts the other, and an effect added to the real residuals is found. The scans
+// stay in ../shared/data; of the larger one every second mark is enough here. With CHAINTRUE_LONG
+// set in the environment every line is left out in turn. The results from all points are in
+// docs/diagnosis.md.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -43,7 +44,7 @@ class RealScans : public testing::Test {
                                   std::optional<files::VisitOrder> assumed = {}) const {
     files::OpticalOptions options;
     options.order = assumed;
-    // The settings in force were not recorded, and so not what the tolerances were tuned to take up.
+    // The settings in force were not recorded, so the tolerances' purpose is unknown.
     options.machine = files::read_groundcontrol(data_ / "holey" / "groundcontrol_2018-09-01b.ini",
                                                 files::Tolerances::unexplained)
                           .machine;
@@ -76,8 +77,8 @@ class RealScans : public testing::Test {
 TEST_F(RealScans, BothScansNameTheBannersScale) {
   for (const char* file : {kUpper, kFull}) {
     if (file == kFull && std::getenv("CHAINTRUE_LONG") == nullptr) continue;
-    // Of the whole bed's marks play is seen, and only where an order is assumed; without it nothing
-    // is named.
+    // With the whole bed's marks play is detected, but only with an assumed order; without it
+    // nothing is named.
     const Diagnosis d = diagnosed(scan(file, files::VisitOrder::serpentine_columns));
     EXPECT_TRUE(names(d).contains("tape_scale:x")) << file << ": " << d.sentence;
     EXPECT_TRUE(std::none_of(d.extended_machine.effects.begin(),
@@ -98,7 +99,7 @@ TEST_F(RealScans, NamesStandWithoutAnyLine) {
     for (const MeasuredPoint& p : whole.points) lines.insert(of(p));
     int lines_seen = 0;
     for (const int left_out : lines) {
-      // A diagnosis takes seconds: every third line, all of them where CHAINTRUE_LONG is set.
+      // A diagnosis takes seconds: every third line, all of them with CHAINTRUE_LONG.
       if (lines_seen++ % 3 != 0 && std::getenv("CHAINTRUE_LONG") == nullptr) continue;
       MeasuredGrid grid = whole;
       std::erase_if(grid.points, [&](const MeasuredPoint& p) { return of(p) == left_out; });
@@ -124,13 +125,14 @@ TEST_F(RealScans, OneScanPredictsTheOther) {
       told->calibrated.rms_mm,
       told->extended.rms_mm,
       told->extended_and_surface.rms_mm);
-  // A day apart: a pattern of the machine or of the banner shows in both.
+  // A day apart: a pattern of the machine or of the banner is in both scans.
   EXPECT_LT(told->extended.rms_mm, 0.6 * told->calibrated.rms_mm);
   EXPECT_LT(told->extended_and_surface.rms_mm, told->extended.rms_mm);
 }
 
 TEST_F(RealScans, APlantedEffectIsFound) {
-  // No model of the noise: the scan's own residuals, and a left sprocket bored 0.4 mm off on top.
+  // Without a noise model: the scan's own residuals, plus a left sprocket with an eccentricity of
+  // 0.4 mm.
   constexpr double kAmplitudeMm = 0.4;
   constexpr double kSprocketTurnMm = 63.5;
   MeasuredGrid grid = scan(kUpper);
@@ -155,7 +157,7 @@ TEST_F(RealScans, APlantedEffectIsFound) {
   const auto found = std::find_if(after.causes.begin(), after.causes.end(), is_planted);
   ASSERT_NE(found, after.causes.end());
   const ParameterEstimate& size = found->parameters.front();
-  // What the real sprocket has of its own is in the same number: below 0.1 mm by the bound before.
+  // The real sprocket's own eccentricity is included: below 0.1 mm by the bound above.
   EXPECT_NEAR(size.value, kAmplitudeMm, 4.0 * size.sigma + 0.1);
 }
 

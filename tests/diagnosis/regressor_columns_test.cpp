@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Columns that share what they are multiples of against the matrix that holds each.
+// Columns stored as multiples of shared columns, compared with the full matrix.
 #include "grid/diagnosis/regressor_columns.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What remains besides the causes, and what the error is made of: the low-rank discrepancy against
-// dense algebra, shares that add up, and a cause that is named beside a pattern.
+// The remainder besides the causes, and the budget of the error: the low-rank discrepancy compared
+// with dense algebra, shares that add up, and a cause that is named together with a pattern.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ using testing_support::verdict_alone;
 
 const model::AppliedEffect kLongLeft{"chain_pitch_error", "left", {{"elongation", 0.0015}}};
 
-/// A dent of 250 mm (one sigma) that goes into the chains as 0.6 to 0.8.
+/// A dent of 250 mm (one sigma) that changes the chains in the ratio 0.6 to 0.8.
 MeasuredGrid with_dent(MeasuredGrid grid, double height_mm = 2.5) {
   for (MeasuredPoint& point : grid.points) {
     const double dx = (point.mark.x_mm - 400.0) / 250.0;
@@ -65,7 +65,8 @@ TEST(Discrepancy, LowRankIsTheDenseCovariance) {
   DiscrepancyBasis basis(a.system, marginalised, kernels);
   const NormalEquations plain = normal_equations(marginalised, {0, 3, 5});
   const auto strengths = static_cast<int>(std::size(kDiscrepancyStrengths));
-  // One of each group: of the place and along both axes, of chains and of the tool, of a coordinate.
+  // One of each group: of the position and along both axes, of chains and of the tool, of a
+  // coordinate.
   for (std::size_t kernel = 0; kernel < kernels.size(); kernel += 11) {
     const int discrepancy = static_cast<int>(kernel) * strengths + 1;
     const double strength = strength_of(discrepancy);
@@ -81,7 +82,8 @@ TEST(Discrepancy, LowRankIsTheDenseCovariance) {
     const double log_det =
         marginalised.log_det +
         2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
-    // A ten-thousandth of the field's variance is left out at any place: of strength squared.
+    // A ten-thousandth of the field's variance, which is strength squared, is truncated at any
+    // position.
     const double tolerance = 1e-4 * strength * strength;
     EXPECT_NEAR(own.log_det, log_det, tolerance);
     EXPECT_NEAR(own.ee, marginalised.e.dot(e), tolerance * marginalised.e.dot(e));
@@ -104,14 +106,14 @@ TEST(Remainder, ACauseIsNamedBesideAPattern) {
   EXPECT_EQ(found->causes.front().cause.effect->id, "chain_pitch_error");
   ASSERT_TRUE(found->unexplained);
   EXPECT_GT(found->unexplained->probability, 0.99);
-  // 0.6 to 0.8 is 8 degrees beside alike, and chains that change alike move the tool along y.
+  // 0.6 to 0.8 is 8 degrees from equal, and equal changes of the chains move the tool along y.
   EXPECT_THAT(found->unexplained->enters, testing::AnyOf(Enters::alike, Enters::y));
   EXPECT_GT(found->unexplained->length_mm, 120.0);       // a dent of one sigma 250 mm, to a factor
   EXPECT_LT(found->unexplained->length_mm, 500.0);       // of two
   EXPECT_THAT(found->sentence, HasSubstr("Besides, a pattern of"));
 }
 
-// What the first marks leave open: with the dent so low a pattern is neither told nor ruled out.
+// Undetermined by the first marks: with so low a dent a pattern is neither reported nor excluded.
 TEST(Remainder, WhereNothingIsNamedYetMarksAreProposed) {
   int open = 0;
   for (std::uint64_t seed = 31; seed < 43; ++seed) {
@@ -177,7 +179,7 @@ TEST(Budget, PartsAddUpToTheError) {
   }
 }
 
-// A chain that is 0.15 % long makes 0.15 mm of 100 mm along it, a little more or less at the tool.
+// A chain that is 0.15 % long makes 0.15 mm of 100 mm along it, slightly more or less at the tool.
 TEST(Budget, APartIsWrongByWhatTheCauseMakesOfIt) {
   const auto found = diagnose(session_of({kLongLeft}, 13), verdict_alone());
   ASSERT_TRUE(found);
@@ -207,7 +209,7 @@ TEST(Trend, SaysWhatGrewAndHowSurely) {
   const Trend nothing = trend(*before, *same, "old.json");
   ASSERT_EQ(nothing.changes.size(), 1U);
   EXPECT_LT(nothing.changes.front().probability, 0.999);  // noise alone: 3.1 sigmas
-  // Seen from the other side it became less, as surely.
+  // In the opposite direction it became smaller, with the same certainty.
   EXPECT_THAT(change_in_words(trend(*now, *before, "new.json").changes.front()),
               HasSubstr("became less"));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Sessions as a person would measure them on the default machine, with what is hidden in them; and
-/// the options of a diagnosis that asks for the verdict alone.
+/// Simulated sessions on the default machine with hidden effects, and the options of a diagnosis
+/// that computes the verdict only.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace chaintrue::grid::diagnosis::testing_support {
 
-/// Random order, six second visits, 0.2 mm a chain and 0.3 mm a mark, stated so.
+/// Random order, six repeated visits, 0.2 mm for a chain and 0.3 mm for a mark, as stated.
 inline MeasuredGrid session_of(const std::vector<model::AppliedEffect>& hidden,
                                std::uint64_t seed,
                                int columns = 7,

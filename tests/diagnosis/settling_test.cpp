@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether calibrating came to rest, and what is said where it did not.
+// Convergence of the calibration, and the message where it does not converge.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ TEST(Settling, WhatDidNotComeToRestIsSaid) {
 }
 
 TEST(Settling, ATurnOfTheSheetCountsAsItsEdgeMoves) {
-  // A turn of 1e-4 rad is 0.12 mm at the edge of the bed: at rest it is far below that.
+  // A rotation of 1e-4 rad is 0.12 mm at the edge of the bed: at convergence it is far below that.
   MeasuredGrid grid = session_of({}, 2, 5, 4);
   grid.sheet = SheetUncertainty{20.0, 10.0};
   const Analysis a = analysis_of_grid(grid);
@@ -50,7 +50,7 @@ TEST(Settling, ATurnOfTheSheetCountsAsItsEdgeMoves) {
   const Eigen::VectorXd change = estimate(again, marginalised, {}, -1).setting_change;
   const double edge_mm = 0.5 * a.session.stated.bed.width_mm;
   const Eigen::Index turn = ObservationSet::sheet_column(0) + 2;
-  // One more pass moves nothing by more than the last one was allowed to, 1e-4 mm.
+  // One more iteration changes nothing by more than the tolerance of the last one, 1e-4 mm.
   EXPECT_LT(edge_mm * std::abs(change(turn)), 1e-4);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether a name hangs on a few points: the short way against comparisons made anew, a name that
-// stands, and one that rests on a single point.
+// Whether a name depends on a few points: downdated comparisons checked against full ones, a stable
+// name, and one that depends on a single point.
 #include "grid/diagnosis/stability.hpp"
 
 #include <fmt/format.h>
@@ -78,7 +78,7 @@ TEST(LeavingOut, MarksThatLieAnywhereHaveNoColumns) {
   }
 }
 
-// Nothing left out: the comparison itself, but for what the followed models leave aside.
+// Nothing left out: the comparison itself, except for models that are not followed.
 TEST(Downdating, OfAllPointsIsTheComparison) {
   const auto session = observations_of(session_of({kLongLeftChain}, 3));
   const auto a = analyse(*session, verdict_alone());
@@ -92,10 +92,10 @@ TEST(Downdating, OfAllPointsIsTheComparison) {
   EXPECT_NEAR(all.comparison.best().log_weight, a->comparison.best().log_weight, 1e-6);
   EXPECT_NEAR(probability_that_all_act(*a, all.comparison),
               probability_that_all_act(*a, a->comparison),
-              0.01);  // what discrepancies of less than a hundredth hold
+              0.01);  // total of discrepancies below a hundredth
 }
 
-// The short way against the long one: a comparison of its own without each point and line.
+// Downdating compared with a separate comparison without each point and line.
 TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
   const model::AppliedEffect wave{
       "sprocket_eccentricity", "left", {{"amplitude_mm", 0.6}, {"phase_rad", 1.0}}};
@@ -116,8 +116,8 @@ TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
           compare_models(a->system, excluded, {.steps = verdict_alone().steps});
       const Decision decision = decide(a->system, comparison, excluded, true, a->decision.classes);
       EXPECT_EQ(stability->removals[k].stands, still_named(a->decision, decision)) << "group " << k;
-      // What the models of all points leave aside: sets of outliers and discrepancies that only
-      // show once these points are gone.
+      // Not included in the models of all points: sets of outliers and discrepancies that become
+      // relevant only without these points.
       EXPECT_NEAR(stability->removals[k].probability, probability_that_all_act(*a, comparison), 0.1)
           << "group " << k;
     }
@@ -149,7 +149,7 @@ TEST(Stability, OfNothingNamedThereIsNone) {
   EXPECT_FALSE(found->stability);
 }
 
-// Which points speak for a name depends on the marks, not on where they stand in the file.
+// Which points support a name depends on the marks, not on their order in the file.
 TEST(Stability, DoesNotDependOnTheOrderInTheFile) {
   MeasuredGrid grid = session_of({kLongLeftChain}, 5);
   const auto one = diagnose(grid, verdict_alone());
@@ -163,8 +163,8 @@ TEST(Stability, DoesNotDependOnTheOrderInTheFile) {
   }
 }
 
-// One reading off by two millimetres, in a corner where a bent chain would show as well: what one
-// point makes is no name.
+// One reading off by two millimetres, in a corner where a bent chain would have the same signature:
+// an effect of one point is not named.
 TEST(Stability, OnePointMakesNoName) {
   synthetic::SyntheticSpec spec;
   spec.repeats = 6;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What to do, in words, of findings that are put together by hand.
+// The advice for findings that are made by hand.
 #include <gmock/gmock.h>
 
 #include "grid/diagnosis/findings.hpp"
@@ -37,7 +37,7 @@ TEST(Words, APointIsMeasuredAgainUnlessThatPointIsAnOutlier) {
   };
   const auto again = Contains(HasSubstr("Measure point 6 again before anything else"));
   EXPECT_THAT(what_to_do(Observations::points), Not(again));
-  // The sixth distance is no point.
+  // The sixth distance, not a point.
   EXPECT_THAT(what_to_do(Observations::distances), again);
 }
 

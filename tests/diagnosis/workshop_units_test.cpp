@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sizes in words: of every effect of both machines, at a positive and at a negative size.
+// Sizes as text: of every effect of both machines, at a positive and at a negative size.
 #include "grid/diagnosis/workshop_units.hpp"
 
 #include <gmock/gmock.h>
@@ -29,7 +29,7 @@ TEST(WorkshopUnits, NoMinusSignIsBesideAWordThatHasADirection) {
                                     "lighter", "below",  "above",   "left",    "right"};
   for (const model::effects::Effect* effect : all_effects()) {
     for (const model::effects::EffectParameter& parameter : effect->parameters) {
-      // A tenth of what it may be: a number with digits that words show.
+      // A tenth of the upper bound: a number with visible digits.
       const double size = parameter.integer ? 2.0 : 0.1 * parameter.upper;
       const auto words = [&](double value) {
         return in_workshop_units({effect, effect->sides.front()},
@@ -42,7 +42,7 @@ TEST(WorkshopUnits, NoMinusSignIsBesideAWordThatHasADirection) {
       for (const char* const word : kDirected) {
         const bool directed = negative.find(word) != std::string::npos ||
                               positive.find(word) != std::string::npos;
-        // The one minus sign left is that of "+-".
+        // The only minus sign left is that of "+-".
         if (directed) {
           std::string bare = negative;
           if (const auto sign = bare.find("+-"); sign != std::string::npos) bare.erase(sign, 2);

@@ -10,7 +10,7 @@
 namespace chaintrue::model::effects {
 namespace {
 
-// Made anew by `chaintrue effects --markdown > docs/effects.md`.
+// Written by `chaintrue effects --markdown > docs/effects.md`.
 TEST(Document, IsTheCatalogueAsItStands) {
   std::ifstream in(std::string(CHAINTRUE_FIXTURES) + "/../docs/effects.md");
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());

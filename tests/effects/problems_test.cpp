@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What is wrong with a machine's effects is said whole, each with its place, value and what was
+/// All problems of a machine's effects are reported, each with its place, value and what was
 /// expected.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

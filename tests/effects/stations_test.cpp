@@ -137,7 +137,7 @@ TEST(SidePull, TakesItsForceFromTheBalanceOfTheSled) {
       reading->pose.chains.left.horizontal_n - reading->pose.chains.right.horizontal_n, 4.0, 1e-12);
 }
 
-// A flexing beam is the rigid machine with its motors moved along the chains' pulls.
+// A yielding beam equals the rigid machine with its motors moved along the chains' pulls.
 TEST(BeamFlex, IsTheRigidMachineWithItsMotorsPulledIn) {
   constexpr double k = 0.01;
   const ReadingModel flexing(machine_with({{"beam_flex", "", {{"flexibility_mm_per_n", k}}}}));
@@ -158,7 +158,7 @@ TEST(BeamFlex, IsTheRigidMachineWithItsMotorsPulledIn) {
   }
 }
 
-// (L0 + plane + eccentricity + kink + hysteresis) / (1 + e) + zero + drift + skip + miscount, every
+// (L0 + plane + eccentricity + kink + hysteresis) / (1 + e) + zero + drift + skip + miscount, each
 // term by hand.
 TEST(ChainAndReading, AddInTheCataloguesOrderAndDivideLast) {
   Machine machine =
@@ -228,8 +228,8 @@ TEST(Hysteresis, GoesByTheNumberOfTheVisitAndNotByTheListsOrder) {
   }
 }
 
-// A wave of the sprocket can turn the direction of a small move round: the rule looks after the
-// wave.
+// A wave of the sprocket can reverse the direction of a small move: the direction is taken from the
+// length after the wave.
 TEST(Hysteresis, LooksAtTheLengthAfterTheSprocketsWave) {
   const std::vector<AppliedEffect> both = {
       {"direction_hysteresis", "left", {{"half_width_mm", 0.5}}},
@@ -237,8 +237,8 @@ TEST(Hysteresis, LooksAtTheLengthAfterTheSprocketsWave) {
   const std::vector<AppliedEffect> wave = {both[1]};
   std::vector<BedPoint> places;
   for (int i = 0; i < 40; ++i) places.push_back({-300.0 + 5.0 * i, 0.0});
-  // A wave of 5 mm over 63.5 mm only bends the slope of 1 mm/mm to 1 - 0.49: it never turns back on
-  // its own, so a third effect that takes chain back along the way does it together with the wave.
+  // A wave of 5 mm over 63.5 mm changes the slope of 1 mm/mm only to 1 - 0.49 and never reverses
+  // it; a third effect that takes chain back along the way reverses it together with the wave.
   std::vector<AppliedEffect> with = both, without = wave;
   const AppliedEffect kink{
       "angular_kink", "left", {{"slope_mm_per_rad", 60.0}, {"knee_rad", -1.5}}};
@@ -295,7 +295,7 @@ TEST(ReadingModel, FindsThePointOfItsOwnReading) {
     ASSERT_TRUE(reading);
     const auto found = model.find(reading->lengths, {0.0, 0.0});
     ASSERT_TRUE(found) << p.x_mm << " " << p.y_mm;
-    // find() settles to 1e-9 mm per step.
+    // find() converges to 1e-9 mm per step.
     EXPECT_NEAR(found->pose.position.x_mm, p.x_mm, 1e-8);
     EXPECT_NEAR(found->pose.position.y_mm, p.y_mm, 1e-8);
   }

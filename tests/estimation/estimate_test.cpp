@@ -21,7 +21,7 @@ using testing_support::classic;
 using testing_support::nine_holes;
 using testing_support::usual_holes;
 
-/// One machine, whose owner measured points and cut nine holes.
+/// One machine with measured points and nine holes.
 struct Owner {
   MeasuredGrid points;
   MeasuredHoles holes;
@@ -29,7 +29,7 @@ struct Owner {
   model::SheetPlacement sheet;  ///< of the points
 };
 
-/// What no setting and no scale explains.
+/// Effects that no setting and no scale explains.
 enum class Beyond { nothing, beam_and_hose };
 
 Owner owner(std::uint64_t seed, int columns, int rows, Beyond beyond = Beyond::nothing) {
@@ -50,7 +50,7 @@ Owner owner(std::uint64_t seed, int columns, int rows, Beyond beyond = Beyond::n
   return {session->grid, cut->set, session->answer.machine, session->answer.sheet};
 }
 
-/// Of the two lengths over the bed: the share of truths within 1.96 of the map's sigmas.
+/// Share of the true lengths over the bed within 1.96 of the map's sigmas.
 double covered(const CompensationMap& map, const Owner& owner) {
   const model::ReadingModel truth(owner.truth);
   int all = 0;
@@ -78,7 +78,7 @@ struct Errors {
   double covered = 0.0;
 };
 
-/// True errors of the tool over the bed, the sheet laid as well as it can be.
+/// True errors of the tool over the bed, for the best placement of the sheet.
 Errors errors_of(const char* what, int columns, int rows, Beyond beyond) {
   constexpr int kSeeds = 24;
   Errors sum;
@@ -135,11 +135,11 @@ TEST(Estimate, TheOrderOfTheFilesMovesTheFrameAlone) {
   const auto& a = one->estimate.knowledge;
   const auto& b = other->estimate.knowledge;
   for (Eigen::Index i = 0; i < estimation::kMachineUnknowns; ++i) {
-    // Each settles to 1e-3 of what was stated; the surface stands in the first one's frame, which
-    // lies a millimetre beside.
+    // Each converges to 1e-3 of the stated sigmas; the surface is in the first one's frame, which
+    // is a millimetre off.
     EXPECT_NEAR(a.mean[i], b.mean[i], 0.05 * std::sqrt(a.covariance(i, i))) << i;
   }
-  // The frame of a sheet without edges: its holes lie, as a whole, where they were commanded.
+  // The frame of a sheet without edges: on average its holes are at their commanded positions.
   double x = 0.0;
   for (std::size_t i = 0; i < own.holes.holes.size(); ++i)
     x += other->distances.front().holes[i].predicted.x_mm - own.holes.holes[i].commanded.x_mm;
@@ -163,13 +163,13 @@ TEST(Estimate, WhatIsToldOfTheUnitsBelongsToTheWeightsOfTheFitAlsoUnsettled) {
     auto made = synthetic::simulate_holes(nine_holes(), usual_holes(seed));
     made->set.distances[3].distance_mm += 10.0;
     estimation::EstimationInput input = of_distances(made->set);
-    // The fifth pass is the first that may set a reading aside.
+    // The fifth iteration is the first that may reject a reading.
     input.most_passes = 5;
     const auto cut_short = estimation::estimate(input);
     ASSERT_TRUE(cut_short);
     EXPECT_FALSE(cut_short->settled);
     EXPECT_FALSE(cut_short->units[3].is_rejected()) << "the fit has it";
-    // A fit with the very weights that are told finds the same, to what was left to settle.
+    // A fit with the reported weights gives the same result, up to the remaining change.
     Eigen::VectorXd weights(static_cast<Eigen::Index>(cut_short->units.size()));
     for (Eigen::Index u = 0; u < weights.size(); ++u)
       weights[u] = cut_short->units[static_cast<std::size_t>(u)].weight;
@@ -202,7 +202,8 @@ TEST(Estimate, AUnitLeftOutIsSeenAsByAFitWithoutIt) {
     ASSERT_TRUE(without);
     const auto& told = whole->units[static_cast<std::size_t>(out)];
     const auto& seen = without->units[static_cast<std::size_t>(out)];
-    // The two differ by the curvature of the model over what one unit moves, a few 1e-3 mm.
+    // The two differ by the curvature of the model over the change by one outlier group, a few 1e-3
+    // mm.
     EXPECT_LT((told.left_out - seen.left_out).cwiseAbs().maxCoeff(), 0.01);
     EXPECT_NEAR(told.distance, seen.distance, 0.02);
   }

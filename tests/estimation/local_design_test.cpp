@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The design of many readings by what they touch is the dense one.
+// The local design of many readings equals the dense one.
 #include "grid/estimation/local_design.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace chaintrue::grid::estimation {
 namespace {
 
-/// Points anywhere on the bed under a surface of few splines.
+/// Random points on the bed, and a surface of few splines.
 EstimationInput input_of(int points) {
   synthetic::SyntheticSpec spec;
   spec.design.kind = synthetic::DesignKind::random;
@@ -38,7 +38,7 @@ TEST(LocalDesign, IsTheDenseOne) {
   ASSERT_TRUE(problem.linearise(problem.stated()));
   ASSERT_NE(problem.local(), nullptr);
   const auto units = static_cast<Eigen::Index>(problem.units().size());
-  // Some set aside, some at half their weight.
+  // Some rejected, some at half their weight.
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(units);
   for (Eigen::Index u = 0; u < units; u += 7) weights[u] = u % 2 == 0 ? 0.0 : 0.5;
   const interp::PenalisedProblem weighted = problem.weighted(weights);

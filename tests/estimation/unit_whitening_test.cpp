@@ -21,7 +21,7 @@ Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, synthetic
 
 double largest(const Eigen::MatrixXd& matrix) { return matrix.cwiseAbs().maxCoeff(); }
 
-// A dozen products of numbers of about one: rounding, a thousand times over.
+// A dozen products of numbers near one: a thousand times the rounding.
 constexpr double kRoundingOfSums = 1e-12;
 
 TEST(UnitWhitening, BringsReadingsToUnitsOfNoiseAndBack) {

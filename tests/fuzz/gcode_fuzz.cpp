@@ -142,7 +142,7 @@ std::string run(const std::string& program) {
   if (!outcome && outcome.error().sentence.empty()) return "a refusal without a reason";
   if (!outcome || compensator.findings().problem_count > 0) return {};
   for (const char* word : {"nan", "inf", "e+", "e-", "-0 "}) {
-    // Comments may say what they like.
+    // Comments may contain anything.
     for (std::size_t at = output.find(word); at != std::string::npos;
          at = output.find(word, at + 1)) {
       const std::size_t line = output.rfind('\n', at) + 1;
@@ -159,7 +159,7 @@ std::string run(const std::string& program) {
       if (!(std::fabs(value) < 1e9)) return "the output goes to no sensible place";
     }
   }
-  // What was accepted is cut as it was meant.
+  // Accepted programs are cut as intended.
   auto original = LineSource::from_text(program);
   auto written = LineSource::from_text(output);
   const auto proof = verify(original, written, corrector, dialect, {});

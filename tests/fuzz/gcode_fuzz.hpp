@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Mutated G-code through the whole pipeline: interpreter, compensator, output read back. Nothing
-/// may crash or hang, and no output may hold anything that is not a number.
+/// may crash or hang, and no output may contain NaN or infinity.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace chaintrue::gcode::fuzz {
 
-/// Bytes that the pipeline runs; returns what is wrong with the outcome, empty if nothing.
+/// Runs the bytes through the pipeline; returns what is wrong with the outcome, empty if nothing.
 [[nodiscard]] std::string run(const std::string& program);
 
 /// Mutates programs of a corpus: bytes, words, lines, and words of other programs.
@@ -33,7 +33,7 @@ class Mutator {
   std::mt19937_64 random_;
 };
 
-/// Small programs that touch every part of the language.
+/// Small programs that cover every part of the language.
 [[nodiscard]] std::vector<std::string> seeds();
 
 }  // namespace chaintrue::gcode::fuzz

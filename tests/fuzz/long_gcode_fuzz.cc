@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The long run: `gcode_fuzz SECONDS SEED [FILE...]`. A program that goes wrong is written to
-/// gcode_fuzz_failure.nc; one that crashes is there too, because every program is written before it
-/// runs when KEEP=1 is in the environment.
+/// The long run: `gcode_fuzz SECONDS SEED [FILE...]`. A program that fails is written to
+/// gcode_fuzz_failure.nc; with KEEP=1 in the environment every program is written before it runs, so
+/// that one that crashes is there too.
 #include <fmt/format.h>
 
 #include <charconv>

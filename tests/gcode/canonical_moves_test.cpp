@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The moves of real files against those of LinuxCNC's own interpreter (version 2.9), stored beside
-/// the files.
+/// The moves of real files compared with those of LinuxCNC's own interpreter (version 2.9), stored
+/// next to the files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ namespace {
 using testing_support::kCorpus;
 using testing_support::test_name;
 
-/// As promised; the stored values have 17 digits and passed through inches.
+/// The documented accuracy; the stored values have 17 digits and were converted through inches.
 constexpr double kSamePlaceMm = 1e-6;
 
 struct CanonicalMove {
@@ -76,11 +76,11 @@ CanonicalMove canonical(const Move& move) {
   return result;
 }
 
-/// Files that LinuxCNC accepts and we refuse, each with the reason that docs/gcode.md argues.
+/// Files that LinuxCNC accepts and we reject, each with the reason, which docs/gcode.md explains.
 const std::map<std::string, std::string> kRefused = {
     {"linuxcnc_nurbs-xy.ngc", "NURBS are not supported"},
     {"linuxcnc_bad_no_feed.ngc",
-     "no feed rate"},  // LinuxCNC's rs274 refuses it too, its Python module does not look
+     "no feed rate"},  // LinuxCNC's rs274 rejects it too, its Python module does not check
 };
 
 class CanonicalMoves : public testing::TestWithParam<std::string> {};
@@ -117,7 +117,7 @@ TEST_P(CanonicalMoves, EqualLinuxCncs) {
     for (std::size_t k = 0; k < std::min(got.numbers.size(), want.numbers.size()); ++k) {
       ASSERT_NEAR(got.numbers[k], want.numbers[k], kSamePlaceMm);
     }
-    // Feed rates reach 2e6 mm/min here: compared by their own size.
+    // Feed rates are up to 2e6 mm/min here: compared relatively.
     if (want.feed > 0.0) {
       ASSERT_NEAR(got.feed, want.feed, 1e-9 * want.feed);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Tabulated commands are the exact ones, to the bound, and refuse where those refuse.
+/// Tabulated commands equal the exact ones within the bound, and fail where those fail.
 #include "tools/gcode/command_field.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ double worst_difference(const Corrector& corrector, interp::Rectangle area, unsi
   std::uniform_real_distribution<double> x(area.x_min, area.x_max);
   std::uniform_real_distribution<double> y(area.y_min, area.y_max);
   double worst = 0.0;
-  // More places than the tables of this area cost, so that most are interpolated.
+  // More points than the tables of this area cost, so that most are interpolated.
   for (int i = 0; i < 60000; ++i) {
     const model::BedPoint target{x(random), y(random)};
     const auto found = field.command(target);
@@ -43,7 +43,7 @@ class CommandFields : public testing::TestWithParam<double> {
   PlainKinematics kinematics_;
 };
 
-/// Waves of the correction from far longer than a cell to shorter than the finest.
+/// Waves of the correction from far longer than a cell to shorter than the finest cell.
 TEST_P(CommandFields, KeepToTheirBound) {
   const double wave = GetParam();
   const FormulaMap map([wave](model::BedPoint p) {
@@ -53,8 +53,8 @@ TEST_P(CommandFields, KeepToTheirBound) {
   const Corrector corrector(map, kinematics_, firmware(model::ControllerKind::ideal));
   const unsigned seed = 20261122U;
   SCOPED_TRACE(testing::Message() << "seed " << seed);
-  // The bound is that of five places in each cell with a quarter more; between them a bicubic's error
-  // is at most 1.3 times that of its middle.
+  // The bound is that of five points in each cell plus a quarter; between them a bicubic's error is
+  // at most 1.3 times that in its middle.
   EXPECT_LE(worst_difference(corrector, {-480.0, 480.0, -240.0, 240.0}, seed), 1.3 * kBoundMm);
 }
 INSTANTIATE_TEST_SUITE_P(Waves, CommandFields, testing::Values(10.0, 40.0, 150.0, 600.0));

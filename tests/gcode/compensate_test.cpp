@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Compensated files, run on a simulated controller and machine, keep to the intended path;
+/// Compensated files, run on a simulated controller and machine, follow the intended path;
 /// uncompensated ones do not.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ VerifySummary verified(const std::string& original,
 }
 
 /// The real files that LinuxCNC and we accept, that fit the bed, and that the output language can
-/// say.
+/// express.
 std::vector<std::string> fitting_files() {
   std::vector<std::string> names;
   if (!std::filesystem::exists(kCorpus)) return names;
@@ -110,7 +110,7 @@ TEST_P(RealFile, IsCutWithinTheToleranceAndNotWithoutCompensation) {
   for (const NamedDisplacement& named : displacements()) {
     SCOPED_TRACE(named.name);
     const FormulaMap map(named.displacement);
-    // Only the ideal controller knows tool lengths.
+    // Only the ideal controller implements tool lengths.
     const bool lengths = original.find("G43") != std::string::npos;
     const Corrector corrector(
         map,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What is not compensated, how few commands it takes, play, and the real controllers.
+/// What is not compensated, the number of commands, play, and the real controllers.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -226,8 +226,8 @@ TEST_F(Limits, TakesHardlyMoreCommandsThanTheToleranceNeeds) {
   }
 }
 
-/// Chains that follow the motors only across a gap: corrected along the path's direction, the tool
-/// stays on it.
+/// Chains that follow the motors only across a gap: with the correction by the path's direction the
+/// tool stays on the path.
 TEST_F(Limits, PlayIsTakenUpWhereAChainTurnsAround) {
   const FormulaMap map(random_smooth_displacement(6));
   const Corrector corrector(map, kinematics_, firmware(model::ControllerKind::maslow_classic));
@@ -245,8 +245,8 @@ TEST_F(Limits, PlayIsTakenUpWhereAChainTurnsAround) {
   EXPECT_EQ(verified_within(program, corrected.text, corrector, verify_options).fault, "");
 }
 
-/// A machine that differs from what its controller believes, by centimetres of motor position and
-/// by what the firmware leaves out.
+/// A machine that differs from its controller's kinematics, by centimetres of motor position and by
+/// what the firmware leaves out.
 using RealMachine = testing_support::TrueMachine;
 
 class RealController : public testing::TestWithParam<model::ControllerKind> {};
@@ -283,8 +283,8 @@ INSTANTIATE_TEST_SUITE_P(Controllers,
                                          model::ControllerKind::fluidnc_wallplotter),
                          [](const auto& kind) { return std::string(firmware(kind.param).name); });
 
-/// verify sees what a faulty file does: a move left out, one too many, a wrong height, words out of
-/// order.
+/// verify detects the faults of a file: a missing move, a superfluous one, a wrong height, words
+/// out of order.
 TEST_F(Limits, VerifySeesEveryKindOfFault) {
   const std::string program = "G0 X0 Y0\nM3\nF600 G1 X100\nG1 Y100\nG1 X0\nM5\nG1 Y0 Z-1\n";
   const std::string good = compensate_within(program, corrector_).text;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What controllers as sold make of a program, by the formulas of their firmware.
+/// How unmodified controllers execute a program, by the formulas of their firmware.
 #include "tools/gcode/controller_check.hpp"
 
 #include <gmock/gmock.h>
@@ -96,7 +96,7 @@ TEST(ControllerCheck, TurnsOfAnArcAreKnownToTheIdealAlone) {
 }
 
 TEST(ControllerCheck, AShortArcIsAnnouncedWithItsErrorOnMaslows) {
-  // 0.06 rad at 1000 mm: 1000 (1 - cos 0.03) = 0.450 mm beside the line.
+  // 0.06 rad at 1000 mm: 1000 (1 - cos 0.03) = 0.450 mm from the line.
   const std::string program = "G0 X1000 Y0\nF600 G3 X998.2005 Y59.9640 I-1000 J0\nM2\n";
   EXPECT_THAT(notes(ControllerKind::maslow_classic, program),
               ElementsAre(HasSubstr("2 arc_cut_straight: maslow_classic cuts so short or so wide "
@@ -106,9 +106,9 @@ TEST(ControllerCheck, AShortArcIsAnnouncedWithItsErrorOnMaslows) {
 
 TEST(FirmwareArc, MaslowsCutStraightWhereTheirChordHeightSaysSo) {
   const Firmware& classic = firmware(ControllerKind::maslow_classic);
-  // r - sqrt(r^2 - c/4) < 0.01  <=>  sin(sweep / 2) < 0.04 - 0.0002 / r: 0.0800 rad for a wide arc,
+  // r - sqrt(r^2 - c/4) < 0.01 <=> sin(sweep / 2) < 0.04 - 0.0002 / r: 0.0800 rad for a wide arc,
   // 0.0796 at 1 mm; in float the height of a wide arc is known to one part in 160. Where c > 4 r^2
-  // the root has no value, and the arc stays.
+  // the root is not real, and the arc is kept.
   EXPECT_TRUE(cuts_straight(classic, 1000.0, 0.079));
   EXPECT_FALSE(cuts_straight(classic, 1000.0, 0.081));
   EXPECT_TRUE(cuts_straight(classic, 1.0, 0.0795));
@@ -121,9 +121,9 @@ TEST(FirmwareArc, MaslowsCutStraightWhereTheirChordHeightSaysSo) {
 }
 
 TEST(FirmwareArc, GrblsChordsKeepToTheCircleAndEndWhereTheyShould) {
-  // radius, most that a chord's end may be beside the circle: twelve turns by the small-angle formula,
-  // each too long by b^4/8 - b^4/24 or so, b = 2 sqrt(2 h / r) the angle of a chord; and 13 roundings
-  // of single precision.
+  // radius, largest distance of a chord's end from the circle: twelve turns by the small-angle
+  // formula, each too long by b^4/8 - b^4/24 or so, b = 2 sqrt(2 h / r) the angle of a chord; and 13
+  // roundings of single precision.
   for (const double radius : {0.1, 0.5, 1.0, 5.0, 50.0, 500.0}) {
     const double step = 2.0 * std::sqrt(2.0 * 0.002 / radius);
     const double bound =
@@ -160,7 +160,7 @@ TEST(FirmwareArc, EveryRuleGoesTheSameWayRoundInEveryPlane) {
       double way = 0.0;
       for (std::size_t i = 1; i < ends.size(); ++i) way += distance_mm(ends[i - 1], ends[i]);
       // Chords that bow by 0.002 mm at 10 mm are shorter than the arc by b^2/24 = 0.007 %; Maslow's
-      // whole turn lacks 0.0002 rad, which the last line makes up for.
+      // whole turn lacks 0.0002 rad, which the last line closes.
       EXPECT_NEAR(way, length_mm(events.moves.back()), 2e-4 * way) << program;
       EXPECT_EQ(ends.back(), events.moves.back().to);
     }

@@ -14,7 +14,7 @@ namespace chaintrue::testing_support {
 
 inline const std::filesystem::path kCorpus = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "gcode";
 
-/// A file's name as GoogleTest takes it.
+/// A file's name in a form that GoogleTest accepts.
 inline std::string test_name(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   std::replace_if(

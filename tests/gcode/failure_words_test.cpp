@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Why a machine cannot hold the tool reaches the message about the line that asked for it.
+// Why a machine cannot hold the tool is part of the message about the line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ class NoPose final : public grid::LengthMap {
   grid::MapFailure failure_;
 };
 
-/// A controller that pays out nothing.
+/// A controller without any lengths.
 class NoCommand final : public model::ControllerKinematics {
  public:
   explicit NoCommand(PoseFailure why) : why_(why) {}

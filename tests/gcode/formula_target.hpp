@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Machines made of formulas: "chain lengths" that are the coordinates of a displaced point, so
-/// that every answer can be known in closed form.
+/// Machines defined by formulas: "chain lengths" that are the coordinates of a displaced point, so
+/// that every result is known in closed form.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@
 
 namespace chaintrue::gcode {
 
-/// A controller that believes lengths to be coordinates.
+/// A controller whose lengths are coordinates.
 class PlainKinematics final : public model::ControllerKinematics {
  public:
   [[nodiscard]] tl::expected<model::ChainLengths, model::PoseFailure> lengths(
@@ -73,7 +73,7 @@ class FormulaMap final : public grid::LengthMap {
   Displacement displacement_;
 };
 
-/// A sum of waves no shorter than 700 mm: what is left of a machine's error after a model, a few
+/// A sum of waves no shorter than 700 mm: like the remaining error of a machine after a fit, a few
 /// millimetres large.
 inline FormulaMap::Displacement random_smooth_displacement(std::uint64_t seed) {
   struct Wave {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The language: what is understood beyond LinuxCNC's snippets, and what is refused, with its line,
+/// The language: what is accepted beyond LinuxCNC's snippets, and what is rejected, with its line,
 /// column and reason.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// gcode_verify_law [COUNT [FIRST_SEED]]: the law of verify_law_test.cpp over many programs. Prints
-/// each program that breaks it, with its seed; exit code 1 where there is one.
+/// each program that violates it, with its seed; exit code 1 if there is one.
 #include <fmt/format.h>
 
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// One path written in many ways is one path.
+/// The same path written in many ways.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -27,8 +27,7 @@ struct Step {
   double sweep = 0.0;                // rad, up to a whole turn
 };
 
-/// Lines and arcs at random; coordinates in steps of 1/64 mm so that sums and differences are
-/// exact.
+/// Random lines and arcs; coordinates in steps of 1/64 mm so that sums and differences are exact.
 std::vector<Step> random_path(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto grid = [&random](double least, double most) {
@@ -249,7 +248,7 @@ INSTANTIATE_TEST_SUITE_P(Styles, OnePath, testing::ValuesIn(styles()), [](const 
   return style.param.name;
 });
 
-/// A shift of the work offset and its undoing in the words, a rotation of 90 degrees and exchanged
+/// A shift of the work offset that the words compensate, a rotation of 90 degrees with exchanged
 /// words.
 TEST(OnePath, IsTheSameThroughOffsetsAndRotations) {
   const auto ends = [](const std::string& text) {

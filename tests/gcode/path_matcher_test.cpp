@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The matcher's decision against the discrete Frechet distance of densely sampled curves, which
-/// differs from the true one by less than the samples' spacing (Eiter and Mannila, "Computing
+/// The matcher's decision, compared with the discrete Frechet distance of densely sampled curves,
+/// which differs from the true one by less than the samples' spacing (Eiter and Mannila, "Computing
 /// discrete Frechet distance", TU Wien, CD-TR 94/64, 1994, theorem 4).
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ bool follows(const Curve& path, const Curve& track, double distance) {
   return matcher.finish() == PathMatcher::Outcome::follows;
 }
 
-/// A curve that winds, crosses itself and goes back on itself; and another one near to it.
+/// A curve that winds, crosses itself and reverses; and another one near it.
 TEST(PathMatcher, DecidesTheFrechetDistance) {
   constexpr std::uint64_t kSeed = 4;
   constexpr double kSpacing = 0.02;
@@ -89,14 +89,14 @@ TEST(PathMatcher, DecidesTheFrechetDistance) {
     const double distance = discrete_frechet(sampled(path, kSpacing), sampled(track, kSpacing));
     EXPECT_TRUE(follows(path, track, distance + kSpacing)) << "round " << round;
     EXPECT_FALSE(follows(path, track, distance - kSpacing)) << "round " << round;
-    // The rounding of a square root apart.
+    // Equal up to the rounding of a square root.
     decided_near += follows(path, track, distance * (1.0 + 1e-9)) ? 1 : 0;
   }
   // The continuous distance is never above the discrete one.
   EXPECT_EQ(decided_near, 60);
 }
 
-/// Every place lies on the path, but not in its order.
+/// Every point is on the path, but not in its order.
 TEST(PathMatcher, GoingBackIsAFault) {
   const Curve path{{0, 0, 0}, {100, 0, 0}};
   EXPECT_TRUE(follows(path, {{0, 0, 0}, {60, 0, 0}, {100, 0, 0}}, 0.05));

@@ -39,7 +39,7 @@ class Writer {
   double uniform(double least, double most) {
     return least + (most - least) * static_cast<double>(random_() >> 11) * 0x1p-53;
   }
-  /// Evenly over the decades.
+  /// Log-uniform.
   double sized(double least, double most) {
     return std::exp(uniform(std::log(least), std::log(most)));
   }
@@ -89,7 +89,7 @@ class Writer {
     text_ += fmt::format(" I{:.5f} J{:.5f}\n", i, j);
   }
 
-  /// In the plane of X and Z, or Y and Z; over and back to its own height or beyond.
+  /// In the plane of X and Z, or Y and Z; back to its own height or beyond.
   void upright_arc() {
     const bool xz = below(2) == 0;
     double& along = xz ? x_ : y_;
@@ -271,7 +271,7 @@ tl::expected<VerifySummary, VerifyProblem> verified(const LawCase& law, const st
   return verify(a, b, *law.corrector, {}, options);
 }
 
-/// A corner, or a place on a long straight way, and the direction that leads away from the path.
+/// A corner, or a point on a long straight segment, and the direction away from the path.
 struct Bump {
   std::size_t command = 0;
   double dx = 0.0;
@@ -350,7 +350,7 @@ std::string broken_law(std::uint64_t seed, int& accepted) {
   Findings findings;
   const auto run = compensated(law, findings);
   if (!run) return story("refused: " + run.error().message(), "");
-  if (findings.problem_count > 0) return {};  // limits of the map or the correction, said by line
+  if (findings.problem_count > 0) return {};  // limits of map or correction, by line
   ++accepted;
   const auto held = verified(law, *run);
   if (!held) return story("verify has no answer: " + held.error().problem.message(), *run);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Programs at random, as a CAM program, a person and a hostile third would write them; and
-/// machines that differ from what their controllers believe.
+/// Random programs, like those of CAM programs and of people, and hostile ones; and machines that
+/// differ from their controllers' kinematics.
 #pragma once
 
 #include <cstdint>
@@ -51,9 +51,9 @@ struct LawCase {
   std::unique_ptr<Corrector> corrector;
 };
 
-/// Empty where the law holds for the case of this seed: what compensate accepts, verify proves, and
-/// a path that was moved by 1.5 tolerances it refuses. Otherwise what went wrong, program included.
-/// \param accepted counts the programs that compensate took.
+/// Empty if the law holds for the case of this seed: verify accepts the output of compensate, and rejects
+/// it when the path is moved by 1.5 tolerances. Otherwise the fault, with the program.
+/// \param accepted counts the programs that compensate accepts.
 [[nodiscard]] std::string broken_law(std::uint64_t seed, int& accepted);
 
 }  // namespace chaintrue::gcode::testing_support

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// 217 snippets, each a hazard of some dialect: the same verdict as LinuxCNC 2.9, but for the
-/// differences listed here and argued in docs/gcode.md; and the same places where LinuxCNC says
-/// where it goes.
+/// 217 snippets, each a hazard of some dialect: the same verdict as LinuxCNC 2.9, except for the
+/// differences listed here and explained in docs/gcode.md; and the same positions where LinuxCNC
+/// reports them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ void append_utf8(std::string& text, unsigned code) {
   }
 }
 
-/// The snippets are written as Python writes strings.
+/// The snippets are written as Python string literals.
 std::string unescaped(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -78,10 +78,10 @@ std::vector<Snippet> snippets() {
   return all;
 }
 
-/// What stands before each snippet: the stored verdicts had a feed rate and a motion mode too.
+/// Precedes each snippet: the stored verdicts had a feed rate and a motion mode too.
 constexpr std::string_view kBefore = "F100\nG0 X0 Y0 Z0\n";
 
-/// Snippet and what our message holds; empty where we accept and LinuxCNC refuses.
+/// Snippet and a part of our message; empty where we accept and LinuxCNC rejects.
 const std::map<std::string, std::string> kDifferent = {
     {"G17.1", "axes U, V and W"},
     {"G41.1 D2\\nG1 X10 Y0\\nG1 X10 Y10\\nG40 G1 X0", "cutter compensation"},
@@ -89,7 +89,7 @@ const std::map<std::string, std::string> kDifferent = {
     {"G5.1 X2 I1 J2", "splines"},
     {"G7", "lathe diameter"},
     {"G96 S100 D2000", "surface speed"},
-    {"T9", ""},  // LinuxCNC knows its tool table; nobody else does
+    {"T9", ""},  // LinuxCNC has a tool table; controllers of these machines do not
 };
 
 TEST(Verdicts, AreLinuxCncsButForTheListedDifferences) {
@@ -143,8 +143,8 @@ TEST(Verdicts, GoWhereLinuxCncGoes) {
   int compared = 0;
   for (const Snippet& snippet : all) {
     const auto place = last_place(snippet.verdict);
-    // Those that shift the frame are compared in the machine frame by the files; here it is the
-    // program's. Long verdicts are cut off in the file.
+    // Snippets that shift the frame are compared in the machine frame by the files; here it is the
+    // program's frame. Long verdicts are truncated in the file.
     const bool shifts = snippet.verdict.find("OFFSET") != std::string::npos ||
                         snippet.verdict.find("ROTATION") != std::string::npos ||
                         snippet.verdict.find("INCHES") != std::string::npos ||

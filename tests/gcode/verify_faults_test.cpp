@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What verify must see: every way in which a file can cut something else than the program says.
-/// And what it must not see: faults where the tool is exactly where it shall be.
+/// Faults that verify must detect: every way in which a file can cut something other than the
+/// program. And false alarms that it must not raise: cases where the tool is exactly on its path.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ namespace {
 using testing::HasSubstr;
 using testing_support::TrueMachine;
 
-/// A machine that differs from what its controller believes by some millimetres.
+/// A machine that differs from its controller's kinematics by some millimetres.
 struct Bench {
   explicit Bench(model::ControllerKind kind = model::ControllerKind::maslow_classic)
       : map(truth()),
@@ -84,8 +84,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-/// The first line that begins so, taken out and put in front of the first one that begins
-/// otherwise.
+/// The first line with this beginning, moved in front of the first one with the other beginning.
 std::string moved_line(std::string text, const std::string& line, const std::string& before) {
   const std::size_t at = text.find("\n" + line) + 1;
   const std::size_t end = text.find('\n', at) + 1;
@@ -110,7 +109,7 @@ TEST(VerifyFaults, TheCompensatedFileHolds) {
 struct Tampering {
   const char* name;
   std::string (*change)(const std::string&);
-  const char* fault;  ///< a part of the sentence
+  const char* fault;  ///< a part of the message
 };
 void PrintTo(const Tampering& tampering, std::ostream* out) { *out << tampering.name; }
 
@@ -186,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(
                     const std::size_t at = good.find("\nM9\n");
                     const std::size_t line = good.rfind("\nG1 ", at - 1);
                     const std::size_t other = good.rfind("\nG1 ", line - 1);
-                    // On, half back, and on again: every place lies on the path.
+                    // Forwards, half back, and forwards again: every point is on the path.
                     std::string text = good;
                     return text.insert(
                         at, good.substr(other, line - other) + good.substr(line, at - line));
@@ -202,7 +201,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "away from line 20 of the original"}),
     [](const auto& tampering) { return std::string(tampering.param.name); });
 
-/// Where the tool is exactly on its path there is no fault, however small the path.
+/// If the tool is exactly on its path there is no fault, however small the path.
 TEST(VerifyFaults, SmallCirclesAndShortMovesAreNoFaults) {
   for (const char* program :
        {"F900\nG3 I0.334009898 J-0.372071751\nG1X87.490 Y 59.138 Z0.00000\n",
@@ -223,7 +222,7 @@ TEST(VerifyFaults, SmallCirclesAndShortMovesAreNoFaults) {
   }
 }
 
-/// A long row of moves that round to nothing, all within the tolerance, does not fill the memory
+/// A long sequence of moves that round to zero, all within the tolerance, does not fill the memory
 /// and is no fault.
 TEST(VerifyFaults, AnEndlessTrembleIsNoFault) {
   std::string program = "F900 G0 X10 Y10\n";
@@ -233,8 +232,8 @@ TEST(VerifyFaults, AnEndlessTrembleIsNoFault) {
   EXPECT_EQ(bench.verified(program, bench.compensated(program, 0.05), 0.05).fault, "");
 }
 
-/// A wave of the correction that is narrower than what compensate looks at: written wrong, and
-/// seen.
+/// A wave of the correction narrower than the sampling of compensate: the file is wrong, and the
+/// error is detected.
 TEST(VerifyFaults, WhatCompensateMissedIsSeen) {
   const FormulaMap map([](model::BedPoint p) {
     const double x = (p.x_mm - 112.0) / 10.0, y = p.y_mm / 10.0;
@@ -256,7 +255,7 @@ TEST(VerifyFaults, WhatCompensateMissedIsSeen) {
   EXPECT_GT(summary->largest_mm(), 0.3);
 }
 
-/// The real files, every controller, loose and tight.
+/// The real files, for every controller, with a large and a small tolerance.
 TEST(VerifyFaults, RealFilesHoldForEveryController) {
   if (!std::filesystem::exists(chaintrue::testing_support::kCorpus)) {
     GTEST_SKIP() << "no files at " << chaintrue::testing_support::kCorpus;

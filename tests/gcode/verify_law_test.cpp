@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// For every program that compensate accepts, at every tolerance from 0.005 to 1 mm and for every
-/// controller, verify holds; a path that was moved by 1.5 tolerances fails. Three hundred programs
-/// here; `gcode_verify_law COUNT SEED` runs as many as one likes.
+/// controller, verify passes; a path moved by 1.5 tolerances fails. Three hundred programs here;
+/// `gcode_verify_law COUNT SEED` runs any number.
 #include <gtest/gtest.h>
 
 #include "tests/gcode/random_program.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Words that pass through: which code they belong to, which are whole numbers, how they are
-/// written; and heights that an arc leaves and comes back to.
+/// Words that are passed through: which code they belong to, which are whole numbers, how they are
+/// written; and heights that an arc leaves and returns to.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ Output compensated(const std::string& program) {
   return output;
 }
 
-/// How far a program goes down and up, in all.
+/// Total travel of a program down and up.
 double climbed_mm(const std::string& program) {
   auto source = LineSource::from_text(program);
   const auto moves = read_moves(source);
@@ -73,7 +73,7 @@ double climbed_mm(const std::string& program) {
   return sum;
 }
 
-/// An arc of G18 or G19 that comes back to the height where it began has moved in Z on its way.
+/// An arc of G18 or G19 that returns to its initial height has moved in Z.
 TEST(Words, UprightArcsKeepTheirHeights) {
   for (const char* arc : {"G18\nG3 I5 K0\n",
                           "G18\nG3 X10 I5 K0\n",
@@ -97,7 +97,7 @@ TEST(Words, G64KeepsItsToleranceAfterArcs) {
   EXPECT_THAT(words_of("F9\nG0 X0 Y0\nG2 X1 I0.5\nG64 P0.1\nG64 P1 Q0.2\nG1 X3\n"),
               testing::ElementsAre("G64 P0.1", "G64 P1 Q0.2"));
   EXPECT_THAT(words_of("G20 G64 P0.1 Q0.2\n"), testing::ElementsAre("G64 P2.54 Q5.08"));
-  // The turns of an arc are no tolerance, and a tolerance is no number of turns.
+  // The turns of an arc are not a tolerance, and vice versa.
   EXPECT_EQ(refusal_of("F9 G1 X1\nG64 P2 G2 X10 I2.5\n"),
             "line 2, column 5: the P word could belong to two codes of this line; write each of "
             "them on a line of its own (bad_word_value)");
@@ -121,7 +121,7 @@ TEST(Words, CountsAreWholeNumbers) {
   }
   EXPECT_THAT(refusal_of("o1 repeat [2.7]\no1 endrepeat\n"),
               HasSubstr("a loop is repeated a whole number of times, not 2.7"));
-  // An expression may miss a whole number by its roundings.
+  // An expression may differ from a whole number by rounding.
   EXPECT_THAT(words_of("T[0.1*30]\nG43 H[1/3*6]\n"), testing::ElementsAre("T3", "G43 H2"));
 }
 
@@ -148,7 +148,7 @@ bool grbl_reads(std::string_view text, double& value) {
   return digits;
 }
 
-/// Letters and numbers of a line without comments; false where a reader of plain words stops.
+/// Letters and numbers of a line without comments; false where a reader of plain words fails.
 bool plain_words(std::string_view line, std::vector<std::pair<char, double>>& words) {
   for (std::size_t at = 0; at < line.size();) {
     if (line[at] == ' ') {
@@ -166,8 +166,8 @@ bool plain_words(std::string_view line, std::vector<std::pair<char, double>>& wo
   return true;
 }
 
-/// Whatever is written, a reader that knows only letters and plain decimals reads with the values
-/// of the program.
+/// Every output is read with the program's values by a reader that accepts only letters and plain
+/// decimals.
 TEST(Words, AreWrittenAsEveryControllerReadsThem) {
   constexpr std::uint64_t kSeed = 20;
   std::mt19937_64 random(kSeed);
@@ -209,7 +209,7 @@ TEST(Words, AreWrittenAsEveryControllerReadsThem) {
         ASSERT_TRUE(plain_words(line, words)) << line;
         for (const auto& [letter, read] : words) {
           if (letter != one.letter) continue;
-          // F is rounded to six digits, or to three decimals; all else comes back as it was, to
+          // F is rounded to six digits, or to three decimals; all other values are unchanged, up to
           // the rounding of this reader's own sum of digits.
           const double tolerance = one.letter == 'F' ? std::min(5.01e-4, 5e-6 * one.value)
                                                      : 1e-12 * std::fabs(one.value);
@@ -231,7 +231,7 @@ TEST(Words, ACircleSmallerThanTheStepHasItsRows) {
       source, {}, map, {}, 10.0, [&](const PathLengths& row) { rows.push_back(row); }, findings));
   // The rapid's end, eight for the turn, four for half a turn.
   ASSERT_EQ(rows.size(), 13U);
-  EXPECT_NEAR(rows[4].place.x_mm, 1.0, 1e-12);  // half way round
+  EXPECT_NEAR(rows[4].place.x_mm, 1.0, 1e-12);  // after half a turn
   EXPECT_NEAR(rows[4].place.y_mm, 0.0, 1e-12);
 }
 

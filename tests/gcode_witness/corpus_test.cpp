@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The corpus of small programs: what our interpreter makes of each against what LinuxCNC's was
-/// stored to say; and the stored against the living one, where it is present.
+/// The corpus of small programs: our interpreter's moves compared with the stored ones of LinuxCNC;
+/// and the stored ones with LinuxCNC itself, if it is installed.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace {
 
 const std::string kFolder = std::string(CHAINTRUE_FIXTURES) + "/gcode/corpus/";
 
-/// Endless programs end after a tenth of the usual budget's thousandth.
+/// Limit for endless programs, far below the usual budget.
 constexpr std::uint64_t kSteps = 100'000;
 
 std::vector<std::string> programs(const std::string& folder) {

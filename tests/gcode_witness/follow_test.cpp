@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Compensated files on a simulated machine, judged by a follower that knows nothing of tools/gcode;
-/// and that follower itself against LinuxCNC's stored moves and against distances known in closed
-/// form.
+/// Compensated files on a simulated machine, checked by a follower that shares no code with
+/// tools/gcode; and that follower checked against LinuxCNC's stored moves and distances known in
+/// closed form.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TEST(PathDistance, IsThatOfParallelLines) {
   EXPECT_FALSE(within(a, b, 2.0 - 1e-12));
 }
 
-/// Where one path goes back and the other does not, half the way back is the distance.
+/// If one path goes back and the other does not, the distance is half the way back.
 TEST(PathDistance, CountsWayBack) {
   const std::vector<Place> a = {{0, 0, 0}, {10, 0, 0}};
   const std::vector<Place> b = {{0, 0, 0}, {7, 0, 0}, {3, 0, 0}, {10, 0, 0}};
@@ -60,7 +60,8 @@ TEST(PathDistance, SeesATurnThatIsMissing) {
   }
   EXPECT_TRUE(within(twice, twice, 1e-9));
   EXPECT_FALSE(within(once, twice, 4.0));
-  // Waiting anywhere on the circle while the other goes round: nothing is farther than its diameter.
+  // One point waits anywhere on the circle while the other goes round: the distance is at most the
+  // diameter.
   EXPECT_TRUE(within(once, twice, 10.0));
 }
 
@@ -73,14 +74,15 @@ TEST(PathDistance, IsSymmetricAndOrdered) {
   EXPECT_GT(follower::path_distance_mm(a, back, 100.0), 10.0);
 }
 
-/// Appends a place unless it is the last one: rows of cycles go to where they stand.
+/// Appends a position unless it equals the last one: rows of cycles may move to the current
+/// position.
 void reach(std::vector<Place>& places, const Place& to) {
   // Nine decimals through inches.
   const auto near = [&](std::size_t axis) { return std::fabs(places.back()[axis] - to[axis]) <= 1e-6; };
   if (places.empty() || !(near(0) && near(1) && near(2))) places.push_back(to);
 }
 
-/// The ends of a truth's straight moves and arcs. Whole circles end where they begin.
+/// The ends of the stored straight moves and arcs. Whole circles end at their start.
 std::vector<Place> ends(const Answer& truth) {
   std::vector<Place> result;
   for (const Call& call : truth.calls) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Random programs: our interpreter against LinuxCNC's, which was asked once and stored, and is asked
-/// again about others where it is present.
+/// Random programs: our interpreter compared with LinuxCNC's, by stored answers, and by new ones if
+/// it is installed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 const std::string kCorpusFolder = std::string(CHAINTRUE_FIXTURES) + "/gcode/corpus/";
 
-/// A program and its answer that can be compared, of each hundred.
+/// Programs with comparable answers, of each hundred.
 constexpr std::size_t kLeastAccepted = 80;
 
 void expect_same(const std::vector<Record>& programs, const std::vector<Record>& truths) {

@@ -29,7 +29,7 @@ import sys
 import tempfile
 
 TIME_LIMIT_S = 2  # of the processor's time
-INCH_MM = 25.4  # the module speaks inches, whatever G20 and G21 say
+INCH_MM = 25.4  # the module uses inches, independent of G20 and G21
 PLANES = {1: 17, 2: 19, 3: 18}
 
 
@@ -46,7 +46,7 @@ def restart_with_interpreter():
     environment["LD_LIBRARY_PATH"] = library_path(root)
     environment["PYTHONPATH"] = f"{root}/usr/lib/python3/dist-packages"
     environment.pop("PYTHONHOME", None)
-    python = "/usr/bin/python3"  # the one that the module was built for
+    python = "/usr/bin/python3"  # the version that the module was built for
     if not os.path.exists(python):
         sys.exit(5)
     os.execve(python, [python, *sys.argv], environment)
@@ -96,7 +96,7 @@ class Canon:
         self.look(state)
         self.line = state.sequence_number
 
-    # What the interpreter asks for.
+    # The interpreter's queries.
     def check_abort(self):
         return False
 
@@ -115,7 +115,7 @@ class Canon:
     def get_block_delete(self):
         return 0
 
-    # What it says.
+    # The interpreter's calls.
     def set_g5x_offset(self, _, x, y, z, *__):
         self.origin = (x, y, z)
 
@@ -143,7 +143,7 @@ class Canon:
     def feeds(self, on_arc):
         self.on_arc = on_arc
         if self.feed == 0.0 and not self.doubt:
-            # After a change of units the module takes a feed rate of one for set.
+            # After a change of units the module assumes that a feed rate of one is set.
             self.doubt = "REFUSED Cannot feed with zero feed rate"
 
     def straight_traverse(self, x, y, z, *_):
@@ -174,7 +174,7 @@ class Canon:
 
     def change_tool(self, tool):
         if self.on_arc:
-            # The module asks itself where the machine stands, and has forgotten arcs.
+            # The module takes its own position for the machine's, without preceding arcs.
             self.doubt = self.doubt or "UNKNOWN a tool change behind an arc"
         self.say("TOOL", self.line, tool)
 
@@ -188,7 +188,7 @@ def interpret(program):
     """The answer's lines. In a process of its own: the interpreter keeps what it has been told."""
     folder = tempfile.mkdtemp()
     try:
-        os.environ["HOME"] = folder  # the tool table's shared memory lies there
+        os.environ["HOME"] = folder  # the tool table's shared memory is there
         tools = ctypes.CDLL("libtooldata.so.0", mode=ctypes.RTLD_GLOBAL)
         status = ctypes.create_string_buffer(1 << 20)
         tools._Z17tool_mmap_creatorPK13EMC_TOOL_STATi(status, 0)

@@ -3,11 +3,11 @@
 /// The long runs:
 ///
 ///     gcode_witness_long follow [COUNT [SEED [SHARE SHARES]]]    compensated programs on a simulated machine, ten thousand by default
-///     gcode_witness_long language [COUNT [SEED]]                 our interpreter against LinuxCNC's
-///     gcode_witness_long output [COUNT [SEED]]                   compensated output through both
-///     gcode_witness_long generate FOLDER                         the programs that the tests keep with their answers
+///     gcode_witness_long language [COUNT [SEED]]                 our interpreter compared with LinuxCNC's
+///     gcode_witness_long output [COUNT [SEED]]                   compensated output read by both
+///     gcode_witness_long generate FOLDER                         the programs that the tests store with their answers
 ///
-/// Exit code 1 where something differs; each difference is printed with its seed.
+/// Exit code 1 for any difference; each difference is printed with its seed.
 #include <fmt/format.h>
 
 #include <cstdlib>

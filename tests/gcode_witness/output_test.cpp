@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What compensate writes is one and the same program to our interpreter, to LinuxCNC's and to a
+/// The output of compensate is the same program for our interpreter, for LinuxCNC's and for a
 /// reader as strict as grbl's.
 #include <gtest/gtest.h>
 

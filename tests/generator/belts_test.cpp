@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The hidden belts against themselves and against the product: forces that balance, slack belts that
-// carry nothing, stiff belts that are as long as the product's kinematics has them, and anchors that
-// the product finds from hidden readings.
+// The hidden belts checked for consistency and against the product: forces in balance, slack belts
+// without tension, stiff belts with the lengths of the product's kinematics, and anchors that the
+// product finds from hidden readings.
 #include "generator/hidden/belts.hpp"
 
 #include <gtest/gtest.h>
@@ -87,11 +87,11 @@ TEST(HiddenBelts, ForcesBalanceAndSlackBeltsCarryNothing) {
     fx += rest.tension_n[i] * share * (a[0] - rest.x_mm) / span;
     fy += rest.tension_n[i] * share * (a[1] - rest.y_mm) / span;
   }
-  // What the solver calls settled, of 100 N and more.
+  // The solver's convergence tolerance, for 100 N and more.
   EXPECT_NEAR(fx, 0.0, 1e-4);
   EXPECT_NEAR(fy, 0.0, 1e-4);
   EXPECT_EQ(rest.tension_n[2], 150.0);
-  // A lower belt that holds with a hand's breadth too much is slack.
+  // A lower belt that holds with 100 mm too much is slack.
   FourLengths loose = rest.length_mm;
   loose[2] += 100.0;
   const SledAtRest slack = rest_on_belts(
@@ -112,7 +112,7 @@ TEST(HiddenBelts, AnchorsAreFoundFromStiffHiddenReadings) {
     const double br_x = session.frame.anchors[3][0];
     square += std::pow((fit->coordinates[4].fitted_mm - br_x) / fit->coordinates[4].sigma_mm, 2);
   }
-  // One unknown a set: within four sigmas of the mean.
+  // One unknown for each set: within four sigmas of the mean.
   EXPECT_NEAR(square / kSets, 1.0, 4.0 * std::sqrt(2.0 / kSets)) << "seeds 1 to " << kSets;
 }
 
@@ -120,7 +120,8 @@ TEST(HiddenBelts, ElasticBeltsLeaveWhatRealOnesLeave) {
   BeltSession session{frame(), places()};
   const auto fit = grid::fit_belts(measured(session));
   ASSERT_TRUE(fit) << "seed " << session.seed;
-  // 150 N over 40,000 N: pulled belts read 0.375 % short; real frames of such leave 0.9 to 1.6 mm.
+  // 150 N over 40,000 N: pulled belts read 0.375 % short; real frames with such belts have 0.9 to
+  // 1.6 mm.
   EXPECT_GT(fit->spread_mm, 3.0 * session.noise_mm);
   EXPECT_LT(fit->spread_mm, 2.5);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A sealed set is what its recipe says: strengths, bounds, noise, slips, orders; and its text is a
-/// grid file without a fault.
+/// A sealed set agrees with its recipe: strengths, bounds, noise, gross errors, orders; and its
+/// text is a valid grid file.
 #include "generator/hidden/draw.hpp"
 
 #include <gtest/gtest.h>
@@ -56,14 +56,14 @@ TEST(Draw, StrengthsAndSizesAreInRangeAndEffectsEven) {
   for (const CauseCard& c : cards()) {
     // The settings absorb nearly all of it: see SprocketRadiusStaysBelowSix.
     if (c.cause == Cause::sprocket_radius) continue;
-    // 30 expected each, sigma 5.3; an effect that cannot have the strength gives way to others.
+    // 30 expected each, sigma 5.3; effects that cannot have the strength are replaced by others.
     EXPECT_GT(seen[c.cause], 9) << c.id;
     EXPECT_LT(seen[c.cause], 52) << c.id;
   }
 }
 
-// 3 mm on a radius of 10 mm, and zeros and motors take all but a delta of 3: no draw of the mix can
-// hold it, and no data of this kind can name it.
+// 3 mm on a radius of 10 mm, of which zeros and motors absorb all but a delta of 3: no draw of the
+// mix can have it, and no data of this kind can identify it.
 TEST(Draw, SprocketRadiusStaysBelowSix) {
   for (const int points : {28, 60, 117}) {
     const SealedSet set = draw_set(recipe(Mix::nothing, points), 1);
@@ -90,7 +90,7 @@ TEST(Draw, TextsAreGridFilesWithoutAFault) {
   }
 }
 
-// What is written, less what was exact, is noise of the stated size and nothing else.
+// Written less exact numbers are noise of the stated size.
 TEST(Draw, NoiseIsAsLargeAsSaid) {
   for (const Mix mix : {Mix::nothing, Mix::heavy}) {
     double length = 0.0, position = 0.0;
@@ -141,7 +141,8 @@ TEST(Draw, ATenthOfThePointsIsBad) {
   EXPECT_EQ(set.answer.bad_points.size(), 7u);
 }
 
-// chi-square of the told fit: as many as there are numbers less unknowns, settings' data counted.
+// Chi-square of the oracle's fit: the number of readings less unknowns, with the settings' priors
+// as data.
 TEST(Oracle, LeavesNoiseBehind) {
   double sum = 0.0, expected = 0.0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
@@ -171,7 +172,7 @@ TEST(Oracle, LeavesNoiseBehind) {
   EXPECT_NEAR(sum / expected, 1.0, 0.15);
 }
 
-// Going on after the session: numbers continue, and exact readings come back without noise.
+// After the session: visit numbers continue, and readings without noise are exact.
 TEST(HiddenMachine, CanBeMeasuredAgain) {
   SealedSet set = draw_set(recipe(Mix::single), 5);
   const int last = set.machine.visits().back().number;

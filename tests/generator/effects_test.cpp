@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Two people compute the same number: every effect of the catalogue, alone and together, written
-/// down twice and compared over whole sessions.
+/// Two independent implementations of every effect of the catalogue, alone and together, compared
+/// over whole sessions.
 #include "generator/hidden/effects.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@
 namespace chaintrue::generator {
 namespace {
 
-/// The hidden machine with an even drum, as the product has it.
+/// The hidden machine with a round drum, as in the product.
 TrueMachine drum() {
   TrueMachine m;
   m.wheel = WheelShape::round;
@@ -122,7 +122,8 @@ TEST(Readings, EveryEffectAloneIsTheSameNumberTwice) {
   }
 }
 
-// Orders of addition, the sign of hysteresis and the division at the end only show together.
+// The order of additions, the sign of hysteresis and the division at the end matter only in
+// combination.
 TEST(Readings, EffectsTogetherAreTheSameNumberTwice) {
   const auto visits = session(4, 60);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -158,7 +159,7 @@ TEST(MarkFrame, IsTheSameMarkTwiceAndTurnsBack) {
   }
 }
 
-// delta by this side's own differences against the product's table of strengths.
+// delta by the hidden side's own differences compared with the product's table of strengths.
 TEST(Strength, IsTheProductsDelta) {
   const auto visits = session(5, 28);
   std::vector<model::Visit> theirs;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The chains of links against the 40-digit tables of fixtures/reference, and the toothed wheel
-/// against the drum.
+/// The chains of links compared with the 40-digit tables of fixtures/reference, and the toothed
+/// wheel with the drum.
 #include "generator/hidden/rest.hpp"
 
 #include <gtest/gtest.h>
@@ -100,8 +100,8 @@ INSTANTIATE_TEST_SUITE_P(Reference,
                                          "table_off_bottom.json",
                                          "table_over_top_rho0.json"));
 
-// Machines that nobody builds: sleds of 0.5 kg, chains of 1 kg/m. What is left is the square of a
-// piece over the chain's own radius of curvature.
+// Extreme machines: sleds of 0.5 kg, chains of 1 kg/m. The error is the square of a piece over the
+// chain's own radius of curvature.
 TEST(Stress, RandomMachinesConvergeToTheTable) {
   std::vector<double> error;
   const auto table = load("table_stress.json");
@@ -118,14 +118,14 @@ TEST(Stress, RandomMachinesConvergeToTheTable) {
   EXPECT_LT(error.back(), 1e-4);
 }
 
-// Seen from everywhere a polygon is on average as wide as the circle of its circumference
-// (Cauchy), so that links on teeth ripple about the drum and do not leave it.
+// Averaged over all directions a polygon is as wide as the circle of its circumference (Cauchy), so
+// that links on teeth ripple about the drum without an offset.
 TEST(Teeth, RippleAboutTheDrum) {
   TrueMachine toothed;
   TrueMachine drum;
   drum.wheel = WheelShape::round;
-  // A tooth that is b ahead of the tangent point holds the chain r b - R sin b further out than the
-  // drum would; that is largest where cos b = r / R.
+  // A tooth at the angle b ahead of the tangent point holds the chain r b - R sin b further out
+  // than the drum would; that is largest at cos b = r / R.
   const double r = toothed.pitch_mm * toothed.teeth / (2.0 * std::numbers::pi);
   const double corner = toothed.pitch_mm / (2.0 * std::sin(std::numbers::pi / toothed.teeth));
   const double ahead = std::acos(r / corner);

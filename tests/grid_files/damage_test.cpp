@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every good file, cut off at every byte and damaged at every byte: it is refused with a message,
-// or read as something that is whole. Nothing that is read holds a value that is no number: the
-// writer refuses such a value, and every outcome is written.
+// Every good file, cut off at every byte and damaged at every byte: it is rejected with a message,
+// or read as a valid object. No object that was read contains NaN or infinity: the writer rejects
+// such a value, and every outcome is written.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kDamageSeed = 20260102;
 
-/// Long files are damaged at every so many bytes, so that the test stays short.
+/// Long files are damaged at a limited number of bytes, so that the test is short.
 constexpr std::size_t kMostPlaces = 1500;
 
 class Damage : public ::testing::TestWithParam<FixtureFile> {
@@ -24,7 +24,7 @@ class Damage : public ::testing::TestWithParam<FixtureFile> {
     step_ = 1 + text_.size() / kMostPlaces;
   }
 
-  /// Reads and checks what every outcome must be.
+  /// Reads the text and checks the properties of every outcome.
   void expect_refused_or_whole(const std::string& text, std::size_t place) const {
     Outcome outcome;
     ASSERT_NO_THROW(outcome = read_text(GetParam().kind, text, GetParam().path.string()))

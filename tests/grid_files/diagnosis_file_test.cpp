@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A chaintrue_diagnosis file says what the diagnosis said, in the words and the order promised.
+// A chaintrue_diagnosis file has the content of the diagnosis, in the documented words and order.
 #include "grid/files/diagnosis_file.hpp"
 
 #include <gmock/gmock.h>
@@ -36,8 +36,8 @@ std::vector<std::string> problems_in(const ordered_json& json) {
   return {};
 }
 
-// Every member is written, and numbers are written in digits that read back as the same double: so
-// equal text means an equal diagnosis.
+// Every member is written, and numbers are written with digits that read back as the same double:
+// equal text is an equal diagnosis.
 TEST(DiagnosisFile, ReadsBackWhatItWrote) {
   for (const Diagnosis& said : {sample_diagnosis(), quiet_diagnosis()}) {
     const std::string text = write_diagnosis(said);
@@ -128,7 +128,7 @@ TEST(DiagnosisFile, HasItsKeysInTheOrderPromised) {
   EXPECT_EQ(json["extended_machine"]["file_type"], "chaintrue_machine");
 }
 
-// A file of an earlier diagnosis has neither.
+// A file of an earlier version has neither.
 TEST(DiagnosisFile, NeedsNeitherStabilityNorNormalPlot) {
   ordered_json json = written_sample();
   json.erase("stability");

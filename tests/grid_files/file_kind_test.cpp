@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a file is, it says by its file_type and by nothing else that stands in it.
+// The kind of a file is determined by its file_type alone.
 #include <gtest/gtest.h>
 
 #include <string>

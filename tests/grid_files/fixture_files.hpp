@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The files of fixtures/good and fixtures/bad. A file's name begins with the kind of its reader
-/// (grid_, machine_, ...), and it carries what is to be said of it: lines of "comment" in JSON,
-/// comment lines elsewhere, and where it can hold neither, a file of the same name with .expect
-/// behind it.
+/// (grid_, machine_, ...), and it contains the expected messages: lines of "comment" in JSON,
+/// comment lines elsewhere, and if neither is possible, a file of the same name plus .expect.
 ///   expect: part of the message of one problem; there are as many problems as such lines
 ///   warn:   part of one warning, likewise
 #pragma once
@@ -27,10 +26,10 @@ std::string test_name_of(const FixtureFile& fixture);
 
 /// Sorted by name.
 std::vector<FixtureFile> fixtures_in(const std::string& folder);
-/// What the file says after `mark` ("expect: ") in its comments.
+/// The texts after `mark` ("expect: ") in the file's comments.
 std::vector<std::string> remarks_in(const FixtureFile& fixture, const std::string& mark);
 
-/// What reading a file gave: the object written out again, its warnings, or its problems.
+/// The result of reading a file: the object written again, its warnings, or its problems.
 struct Outcome {
   std::string written;
   std::vector<std::string> warnings;
@@ -39,7 +38,7 @@ struct Outcome {
 
 /// Reads by the kind's reader. Throws std::out_of_range for a kind without a reader.
 Outcome read_fixture(const FixtureFile& fixture);
-/// The same, of text that is not in the file.
+/// The same for a text.
 Outcome read_text(const std::string& kind, const std::string& text, const std::string& name);
 
 }  // namespace chaintrue::grid::files

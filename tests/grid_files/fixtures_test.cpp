@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every file of fixtures/bad is refused with exactly the problems that it says of itself, and every
-// file of fixtures/good is read with exactly the warnings that it says of itself, and written the
-// same each time.
+// Every file of fixtures/bad is rejected with exactly the problems that it states, and every file
+// of fixtures/good is read with exactly the warnings that it states, and written identically each
+// time.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,9 +41,9 @@ TEST_P(GoodInput, IsReadAndWrittenTheSameEachTime) {
   EXPECT_THAT(first.warnings,
               UnorderedElementsAreArray(each_with(remarks_in(GetParam(), "warn: "))));
   EXPECT_EQ(read_fixture(GetParam()).written, first.written);
-  // What is written is a chaintrue file, whatever was read.
+  // The output is a chaintrue file for every input.
   std::string kind = "points";
-  // A diagnosis holds a machine, and holes or a grid may.
+  // A diagnosis contains a machine, and holes or a grid may.
   for (const char* known : {"diagnosis", "holes", "belts", "anchors", "grid", "machine"}) {
     if (kind == "points" &&
         first.written.find(std::string("chaintrue_") + known) != std::string::npos)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reference pages and schemas of the formats: those in docs/formats are what the readers' tables say
-// today, every key is explained, and a machine's ranges are those that the reader goes by.
+// Reference pages and schemas of the formats: those in docs/formats equal the readers' tables,
+// every key is explained, and a machine's ranges are those of the reader.
 #include "grid/files/format_pages.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ std::string committed(const std::string& name) {
                          name);
 }
 
-/// Keys without a word about them, by their way.
+/// Keys without a meaning, by their path.
 void unexplained(const json& schema, const std::string& way, std::vector<std::string>& found) {
   if (schema.is_array()) {
     for (const json& element : schema) unexplained(element, way, found);
@@ -70,7 +70,7 @@ TEST(FormatPages, GiveTheRangesThatAMachineIsHeldTo) {
   int tried = 0;
   for (const model::MachineRange& range : model::machine_ranges()) {
     const json::json_pointer place(range.place);
-    // One file has a ring or brackets, and the motors' places depend on one another and the bed.
+    // A file has a ring or brackets, and the motors' positions depend on one another and the bed.
     if (!machine.contains(place) || range.place.starts_with("/motors")) continue;
     for (const double outside : {range.least, range.most}) {
       json slipped = machine;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws over grids that a sound machine made: what is right is accepted, and each slip that the
-// reader knows is recognised, for any machine, any points and any noise a person would have.
+// Laws over grids of valid machines: correct grids are accepted, and each mistake that the reader
+// checks is recognised, for any machine, any points and any usual noise.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using ::testing::IsEmpty;
 
 constexpr double kInchMm = 25.4;
 
-/// Numbers that are the same everywhere.
+/// Random numbers that are identical everywhere.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : bits_(seed) {}
@@ -47,7 +47,7 @@ model::Machine some_machine(Dice& dice) {
   return machine;
 }
 
-/// A grid as a person reads it off this machine: marks missed by up to 8 mm, lengths to 0.5 mm.
+/// A simulated grid of this machine: marks missed by up to 8 mm, lengths to 0.5 mm.
 MeasuredGrid some_grid(const model::Machine& machine, Dice& dice) {
   MeasuredGrid grid;
   const auto kinematics =
@@ -71,7 +71,7 @@ MeasuredGrid some_grid(const model::Machine& machine, Dice& dice) {
   return grid;
 }
 
-/// The problems' messages, or the warnings' where there is no problem.
+/// The messages of the problems, or of the warnings if there is no problem.
 std::vector<std::string> said_of(const MeasuredGrid& grid, const GridOptions& options = {}) {
   std::vector<std::string> messages;
   try {
@@ -140,8 +140,8 @@ TEST_P(GridOfAnyMachine, WithYDownwardsIsRecognised) {
 }
 
 TEST_P(GridOfAnyMachine, WithAMiscountedLinkInARepeatIsNamed) {
-  // With the machine the way between the two is known; a link is 6.35 mm, the noise allows 2 mm and
-  // a percent of the way.
+  // With the machine the predicted difference between the two is known; a link is 6.35 mm, the
+  // noise allows 2 mm and a percent of the difference.
   grid_.machine = machine_;
   MeasuredPoint again = grid_.points[3];
   const auto kinematics =
@@ -164,7 +164,7 @@ TEST_P(GridOfAnyMachine, AHandfulIsEnoughForACheckAndStillKnowsItsSides) {
   grid_.points.resize(2);
   EXPECT_THAT(said_of(grid_, few), IsEmpty());
   EXPECT_THAT(said_of(grid_), ElementsAre(HasSubstr("found 2 points, expected at least 8 points")));
-  // The farthest point from the middle tells its sides apart.
+  // The point farthest from the middle distinguishes its sides.
   grid_.points.resize(1);
   if (std::abs(grid_.points[0].mark.x_mm) < 150.0) return;
   std::swap(grid_.points[0].lengths->left_mm, grid_.points[0].lengths->right_mm);
@@ -202,7 +202,7 @@ TEST(GridFile, TheMachineGivenReplacesTheGridsOwn) {
 TEST(GridFile, AMachineFileIsLookedForBesideTheGrid) {
   const std::string good = std::string(CHAINTRUE_FIXTURES) + "/good/";
   EXPECT_EQ(read_grid(good + "grid_with_machine_file.json").grid.machine->name, "every key");
-  // Not needed, so not looked for, where another is given.
+  // Not needed, so not read, if another is given.
   const std::string text = R"({"file_type": "chaintrue_grid", "format_version": "1.0", )"
                            R"("machine_file": "none.json", "points": []})";
   const GridOptions options{model::Machine{}, {}, 0};
@@ -234,7 +234,7 @@ TEST(GridFile, ARowThatWasCopiedCountsOnce) {
 TEST(GridFile, ASecondVisitThatReadsTheSameIsAVisit) {
   GridOptions options;
   options.fewest_points = 3;
-  // Read to half a millimetre two visits may well agree.
+  // Two visits read to half a millimetre may agree.
   EXPECT_EQ(parse_grid(rows_of("50,50,1511.5,1902", 2), "g.csv", options).grid.points.size(), 14U);
   std::string numbered = "order,x_mm,y_mm,left_mm,right_mm\n";
   for (int i = 0; i < 12; ++i)

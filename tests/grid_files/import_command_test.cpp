@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The verbs import and export as a person runs them.
+// The verbs import and export through the command.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ class ImportCommand : public ::testing::Test {
     std::string folder = (fs::temp_directory_path() / "chaintrue.XXXXXX").string();
     ASSERT_NE(::mkdtemp(folder.data()), nullptr);
     folder_ = folder;
-    // The examples of --help are for the repository's root, with the binary in build/.
+    // The examples of --help assume the repository's root, with the binary in build/.
     fs::create_symlink(CHAINTRUE_FIXTURES, folder_ / "fixtures");
     fs::create_directory(folder_ / "build");
     fs::create_symlink(CHAINTRUE_COMMAND, folder_ / "build" / "chaintrue");

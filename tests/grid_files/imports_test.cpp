@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The importers on what they were made for: one real machine's scans and settings. The figures were
-// read off the files and worked out by hand.
+// The importers on one real machine's scans and settings. The figures were read from the files and
+// computed by hand.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -82,7 +82,7 @@ TEST(OpticalScan, SquaresWithZeroInBothBlocksWereNotVisited) {
   for (const MeasuredPoint& point : read.grid.points) EXPECT_GE(point.mark.y_mm, 0.0);
   EXPECT_EQ(point_at(read.grid, 0.0, 0.0).commanded->x_mm, 12.30);
   EXPECT_EQ(point_at(read.grid, 0.0, 0.0).commanded->y_mm, 6.83);
-  // What is written is a grid like any other.
+  // The written file is a valid grid.
   const ReadGrid again = parse_grid(write_grid(read.grid), "again.json");
   EXPECT_EQ(again.grid.points.size(), 247U);
   EXPECT_EQ(write_grid(again.grid), write_grid(read.grid));
@@ -158,7 +158,7 @@ TEST(GroundcontrolSettings, OfARealMachineBecomeMachineAndController) {
   EXPECT_EQ(machine.bed.height_mm, 1219.2);
   // D/2 = 1801.4361; tilt 0.0727796 deg = 1.2702 mrad; H/2 + Yo = 609.6 + 473.8636 = 1083.4636.
   // cos: 1801.4361 (1 - 8.067e-7) = 1801.43465; sin: 1801.4361 * 0.00127024 = 2.28826. Both to the
-  // digits worked out.
+  // computed digits.
   EXPECT_NEAR(machine.motors.right.x_mm, 1801.43465, 1e-5);
   EXPECT_NEAR(machine.motors.left.x_mm, -1801.43465, 1e-5);
   EXPECT_NEAR(machine.motors.right.y_mm, 1085.75186, 1e-5);
@@ -166,7 +166,7 @@ TEST(GroundcontrolSettings, OfARealMachineBecomeMachineAndController) {
   EXPECT_EQ(std::get<model::Ring>(machine.attachment).radius_mm, 139.1003);
   EXPECT_EQ(machine.sprocket.teeth, 10);
   EXPECT_EQ(machine.sprocket.pitch_mm, 6.35);
-  // [Computed Settings] has a radius of 10.1904; it is not taken.
+  // [Computed Settings] has a radius of 10.1904; it is not used.
   EXPECT_FALSE(machine.sprocket.radius_mm.has_value());
   EXPECT_EQ(machine.feed, model::Feed::over_top);
   EXPECT_EQ(machine.controller.kind, model::ControllerKind::maslow_classic);
@@ -183,7 +183,7 @@ TEST(GroundcontrolSettings, OfARealMachineBecomeMachineAndController) {
   EXPECT_EQ(settings.chain_over_sprocket_top, true);
   EXPECT_EQ(settings.sled_weight_n, std::nullopt);
   EXPECT_EQ(settings.chain_elongation_per_n, std::nullopt);
-  // What the file does not say.
+  // Not in the file.
   EXPECT_EQ(machine.sled.mass_kg, 11.6);
   EXPECT_EQ(machine.chain.mass_kg_per_m, 0.14);
   EXPECT_EQ(machine.chain.compliance_per_n, 5.1685e-6);
@@ -191,7 +191,7 @@ TEST(GroundcontrolSettings, OfARealMachineBecomeMachineAndController) {
   ASSERT_EQ(read.warnings.size(), 6U);
   for (std::size_t i = 1; i < read.warnings.size(); ++i)
     EXPECT_THAT(read.warnings[i].sentence, HasSubstr("assumed"));
-  // The tolerances are the pitch that the owner found for each chain.
+  // The tolerances are the pitch that the owner measured for each chain.
   EXPECT_THAT(read.warnings.front().sentence,
               HasSubstr("0.123725 % on the left and 0.16832 % on the right, each good to 0.1 %"));
   ASSERT_EQ(machine.effects.size(), 2U);
@@ -273,7 +273,7 @@ TEST(GroundcontrolSettings, WhatHasNoSettingIsSaid) {
   EXPECT_EQ(remarks.size(), 6U);
 }
 
-/// What every number of an ini file is, by its key.
+/// The numbers of an ini file by key.
 std::map<std::string, std::string> entries_of(const std::string& ini) {
   std::map<std::string, std::string> entries;
   std::istringstream lines(ini);
@@ -284,8 +284,8 @@ std::map<std::string, std::string> entries_of(const std::string& ini) {
   return entries;
 }
 
-/// Import, export, import is the identity; nothing is said to change, and every number that the
-/// export has is the file's, to the last digit.
+/// Import, export, import is the identity; no change is reported, and every number of the export
+/// equals the file's to the last digit.
 void expect_the_way_there_and_back(const std::string& ini) {
   const model::Machine machine = parse_groundcontrol(ini, "any.ini").machine;
   const GroundcontrolText typed = write_groundcontrol(machine);
@@ -319,8 +319,8 @@ TEST(GroundcontrolSettings, OfEveryFileThatIsHereGoThereAndBack) {
   }
 }
 
-/// A groundcontrol.ini somebody could have: any kind of sled, keys that some programs do not write
-/// left out, numbers with as many digits as programs print.
+/// A random groundcontrol.ini: any kind of sled, without keys that some programs do not write,
+/// numbers with as many digits as programs print.
 std::string random_ini(std::mt19937_64& bits) {
   const auto uniform = [&bits](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(bits);
@@ -371,7 +371,7 @@ TEST(GroundcontrolSettings, TolerancesThatNobodyExplainsStayWithTheController) {
   model::Machine machine = parse_groundcontrol(ini, "any.ini", Tolerances::unexplained).machine;
   EXPECT_TRUE(machine.effects.empty());
   EXPECT_EQ(machine.controller.settings.left_chain_tolerance_percent, 0.12);
-  // Nothing says what the pitch is, so nothing changes; where something does, it takes their place.
+  // No effect states the pitch, so nothing changes; if one does, it replaces the tolerances.
   EXPECT_TRUE(write_groundcontrol(machine).remarks.empty());
   machine.effects.push_back({"chain_pitch_error", "right", {{"elongation", 0.0005}}});
   EXPECT_THAT(
@@ -386,7 +386,7 @@ TEST(GroundcontrolSettings, SayByWhatANumberChanges) {
   model::Machine machine = parse_groundcontrol(ini, "any.ini").machine;
   machine.motors.left.x_mm -= 1.5;
   machine.motors.right.x_mm += 1.5;
-  // What a diagnosis finds of the pitch comes on top of what was stated.
+  // A diagnosed pitch error is added to the stated one.
   machine.effects.push_back({"chain_pitch_error", "left", {{"elongation", 0.0005}}});
   const GroundcontrolText typed = write_groundcontrol(machine);
   EXPECT_THAT(typed.remarks,

@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"{\"a\": \"\xFF\"}", "expected JSON: in a text, ill-formed UTF-8 byte"},
         Broken{"{\"a\": +1}", "line 1, column 7: found +1, expected JSON"},
         Broken{"{\"a\": 01}", "line 1, column 7: found 01, expected JSON: '}' here"},
-        // The quotes put round NaN must not shift the places behind it.
+        // The quotes inserted around NaN must not shift the places after it.
         Broken{"{\"a\": NaN, \"b\": x}", "line 1, column 17: found x, expected JSON"}));
 
 TEST(JsonText, WhatIsNoNumberReachesItsFieldAsAText) {
@@ -171,7 +171,7 @@ TEST(Problems, OfAKindFiveAreListedAndTheRestCounted) {
     problems.throw_if_any();
     FAIL() << "no error";
   } catch (const InputError& error) {
-    // A sixth one takes no more room than its count.
+    // A sixth line is no longer than its count.
     ASSERT_EQ(error.problems().size(), 6U + 6U);
     EXPECT_EQ(error.problems()[5].message(),
               "file: found 96 more like these, expected a whole number");
@@ -205,7 +205,7 @@ TEST(NumberText, ReadsNumbersWithoutTheLocale) {
     EXPECT_FALSE(is_beyond_double(text)) << text;
 }
 
-// A format of its own, as the header's example has it.
+// A format as in the header's example.
 struct Hole {
   std::string name;
   double x_mm = 0.0;

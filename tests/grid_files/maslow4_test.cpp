@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a Maslow 4 prints, read: lists that grow, runs, commands, single readings, settings, roles.
+// The output of a Maslow 4 as read: lists that grow, runs, commands, single readings, settings,
+// roles.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -88,7 +89,7 @@ TEST(Maslow4Log, OnAFlatFrameTheBeltsBehindTheMoveArePulled) {
   options.orientation = model::Orientation::flat;
   const Maslow4Import read = parse_maslow4(fixture("good/maslow4_log.txt"), "log.txt", options);
   const auto pulled = [&](std::size_t i) { return *read.belts.points[i].pulled; };
-  // The first six are held by the upper belts wherever they are approached from.
+  // At the first six the upper belts hold, whatever the direction of approach.
   EXPECT_THAT(pulled(1), ElementsAre(Belt::bl, Belt::br));
   EXPECT_THAT(pulled(7), ElementsAre(Belt::tl, Belt::tr));   // down
   EXPECT_THAT(pulled(8), ElementsAre(Belt::tr, Belt::br));   // to the left
@@ -139,7 +140,7 @@ TEST(Maslow4Log, ListsOfOneGoOnAndAnotherListIsAnotherRun) {
     for (std::size_t i = first; i < last; ++i) list += readings[i] + ",";
     return list + "]]\n";
   };
-  // Six at once, as the browser of 2025 got them, then one by one, one of them sent twice.
+  // Six at once, as the browser of 2025 received them, then one by one, one of them sent twice.
   std::string single = listed(0, 6);
   for (std::size_t i = 6; i < 31; ++i) single += listed(i, i + 1);
   single += listed(30, 31);
@@ -149,7 +150,7 @@ TEST(Maslow4Log, ListsOfOneGoOnAndAnotherListIsAnotherRun) {
   const Maslow4Import two = parse_maslow4(listed(0, 15) + listed(15, 31), "log.txt");
   EXPECT_THAT(two.runs, SizeIs(2));
   EXPECT_THAT(two.belts.points, SizeIs(16));
-  // Waypoints told anew once the first six are known belong to the run that goes on.
+  // Waypoints printed again after the first six belong to the same run.
   const std::string anew = "Waypoints [0-1]: (0:0.0,0.0) (1:150.0,0.0)\n" + listed(0, 6) +
                            "Waypoints [0-1]: (0:1.0,2.0) (1:151.0,2.0)\n" + listed(0, 31);
   const Maslow4Import goes_on = parse_maslow4(anew, "log.txt");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// parse_double is std::from_chars, whichever library stands behind it.
+/// parse_double equals std::from_chars, for every standard library.
 #include "grid/files/parse_double.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A precondition broken by what is no number is told with that value: the gate of printed numbers
-// has no say in it.
+// A precondition broken by NaN or infinity is reported with that value: the check of printed
+// numbers does not apply.
 #include "grid/precondition.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The gate of printed numbers, and that every room that prints stands behind it.
+// The check of printed numbers, and that every library that prints uses it.
 #include "grid/printing.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST(Printing, IsOtherwiseAsEver) {
   EXPECT_EQ(fmt::format("{}", fmt::join(list, ",")), "1.5,2.5");
 }
 
-/// The words of a range are printed inside the grid's library.
+/// A range's text is printed inside the grid's library.
 TEST(Printing, IsWhatTheGridsOwnTextsGoThrough) {
   for (const double bad : kBad)
     EXPECT_THROW((void)(grid::files::Range{"mm", 0.0, bad}.expected()), std::logic_error);

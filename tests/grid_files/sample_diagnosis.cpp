@@ -24,7 +24,7 @@ CauseId cause(const char* id, EffectSide side = EffectSide::none) {
   return {model::effects::find_effect(id), side};
 }
 
-/// The chains' residuals are what a left chain too long would leave; the tool's follow from them.
+/// The chains' residuals are those of a left chain that is too long; the tool's follow from them.
 std::vector<PointPicture> sample_points(const model::Machine& machine) {
   const model::ReadingModel model(machine);
   testing_support::NormalNumbers normal(20240608);
@@ -144,7 +144,7 @@ void add_follow_up(Diagnosis& found) {
        0.995}};
 }
 
-/// Every point and a column left out; without the third point another cause would be named.
+/// Every point and a column left out; without the third point another cause is named.
 diagnosis::Stability sample_stability(const std::vector<PointPicture>& points) {
   diagnosis::Stability stability;
   stability.probability = 0.97;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A diagnosis as one of a 7 x 4 grid would be, from made-up numbers: every list has an entry,
-/// every optional part is there.
+/// A diagnosis like that of a 7 x 4 grid, from made-up numbers: every list has an entry, every
+/// optional part is present.
 #pragma once
 
 #include "grid/diagnosis/diagnosis.hpp"
 
 namespace chaintrue::grid::testing {
 
-/// A left chain 0.12 % long, told apart from its rival, two settings off, one bad point.
+/// A left chain 0.12 % long, distinguished from its rival, two settings off, one bad point.
 [[nodiscard]] diagnosis::Diagnosis sample_diagnosis();
 /// Nothing found, without gain, next measurements, order or bad points.
 [[nodiscard]] diagnosis::Diagnosis quiet_diagnosis();

@@ -20,7 +20,7 @@ warnings.simplefilter("ignore", DeprecationWarning)
 
 ROOT = pathlib.Path(sys.argv[1])
 FORMATS = ROOT / "docs" / "formats"
-# Slips of one key, one type, one word or one range each.
+# Files with mistakes of one key, one type, one choice or one range each.
 BAD = """diagnosis_slips grid_bad_values grid_machine_and_machine_file grid_machine_inside_is_bad
 grid_misspelt_columns grid_neither_nor_both grid_orders grid_points_missing grid_points_not_a_list
 grid_readings grid_sheet_and_noise grid_unknown_key holes_unknown_keys machine_absurd_mass

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The verbs that know holes, as a person runs them: output, exit codes, nothing written for bad
+// The verbs that accept holes, through the command: output, exit codes, nothing written for bad
 // input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -143,7 +143,7 @@ TEST_F(HolesCommands, ThePlannedProgramDrillsEveryHole) {
   EXPECT_EQ(check.code, 0) << check.err;
   EXPECT_THAT(check.out, HasSubstr("9 straight cuts"));
   EXPECT_THAT(content_of(folder_ / "h.svg"), StartsWith("<svg "));
-  // The list is a holes file already, without a reading in it.
+  // The list is a valid holes file, without readings.
   const Outcome fit = run("fit list.csv --machine " + classic_ + " -o map.json");
   EXPECT_EQ(fit.code, 3);
   EXPECT_THAT(fit.err, HasSubstr("found 20 distances, all left blank"));
@@ -161,8 +161,8 @@ TEST_F(HolesCommands, APlannedListFilledInGoesIntoFitAsItIs) {
                     HasSubstr("mm per metre")));
   EXPECT_THAT(content_of(folder_ / "h.svg"), HasSubstr("green, square to an edge of the sheet"));
   EXPECT_THAT(run("gcode check holes.nc").out, HasSubstr("9 straight cuts"));
-  // The owner: cuts the holes of the list on a sheet that lies 6 mm to the right, and writes what
-  // the tape says into the third column.
+  // The owner cuts the holes of the list on a sheet that lies 6 mm to the right, and writes the
+  // tape's readings into the third column.
   const std::string list = content_of(folder_ / "list.csv");
   grid::files::HolesOptions with_machine;
   with_machine.machine = grid::files::read_machine(classic_);
@@ -200,7 +200,7 @@ TEST_F(HolesCommands, APlannedListFilledInGoesIntoFitAsItIs) {
   EXPECT_THAT(fit.err, HasSubstr("24 distances between 9 holes"));
   EXPECT_EQ(run("check map.json readings.csv --machine " + classic_).code, 0);
   const grid::CompensationMap map = grid::files::read_map(folder_ / "map.json");
-  // Half a millimetre of tape and as much of the sheet's size; three times that would be a slip.
+  // Half a millimetre of tape and of the sheet's size; three times that would be a gross error.
   EXPECT_LT(testing_support::tool_rms_mm(map, made->truth, spec.sheet), 1.5);
 }
 
@@ -276,13 +276,13 @@ TEST_F(HolesCommands, DiagnoseNamesTheCauseAndWritesEveryFile) {
                     HasSubstr("No error at the border is given"),
                     Not(HasSubstr("Folded at one sprocket turn"))));
   EXPECT_THAT(content_of(folder_ / "m2.json"), HasSubstr("\"effect\": \"chain_pitch_error\""));
-  // The file is enough for the page, and for the programs that ask for it on standard output.
+  // The file is sufficient for the page, and for programs that request it on standard output.
   EXPECT_EQ(run("report d.json -o again.html").code, 0);
   EXPECT_THAT(content_of(folder_ / "again.html"), HasSubstr("What it does to the distances"));
   EXPECT_EQ(run("diagnose " + holes_ + " --json").out, file);
   ASSERT_EQ(run(asked).code, 0);
   EXPECT_EQ(content_of(folder_ / "d.json"), file);
-  // Named beyond doubt: there is nothing to measure next.
+  // Named with certainty: there is nothing to measure next.
   const Outcome next = run("plan " + holes_ + " --after d.json");
   EXPECT_EQ(next.code, 0) << next.err;
   EXPECT_THAT(next.err, HasSubstr("No measurement is proposed"));
@@ -309,7 +309,7 @@ TEST_F(HolesCommands, DiagnoseSaysWhatToMeasureNext) {
   EXPECT_THAT(other.err, HasSubstr("was made from other holes"));
 }
 
-// A machine on four belts is told by its anchors, not by the word anywhere in the file.
+// A machine on four belts is recognised by its anchors, not by the word anywhere in the file.
 TEST_F(HolesCommands, AHoleMayBeCalledAnchors) {
   std::string text = content_of(holes_);
   for (std::size_t at = text.find("\"A\""); at != std::string::npos; at = text.find("\"A\"", at))
@@ -329,7 +329,7 @@ TEST_F(HolesCommands, SimulatedHolesHaveAnAnswer) {
   EXPECT_EQ(answer["bad_distances"].size(), 2U);
   EXPECT_EQ(answer["points"].size(), 6U);
   EXPECT_EQ(answer["settings"][0]["setting"], "motor_left_x_mm");
-  // The offset is added to the stated value and taken off again: to the last bits of some 1500 mm.
+  // The offset is added to the stated value and subtracted again: to the last bits of some 1500 mm.
   EXPECT_NEAR(answer["settings"][0]["offset"].get<double>(), 4.0, 1e-9);
   EXPECT_EQ(grid::files::Json::parse(content_of(folder_ / "six.json"))["name"], "six");
 }
@@ -362,7 +362,7 @@ TEST_F(HolesCommands, DiagnoseRefusesWhatIsSaidOfPointsAlone) {
   const Outcome machineless = run("diagnose few.csv");
   EXPECT_EQ(machineless.code, 3);
   EXPECT_THAT(machineless.err, HasSubstr("give --machine"));
-  // A hook of 40 mm that nobody stated.
+  // A tape zero offset of 40 mm that was not stated.
   const Outcome hook = run("diagnose " + holes_ + " --hook-offset-mm -40");
   EXPECT_EQ(hook.code, 3);
   EXPECT_THAT(hook.err, HasSubstr("all distances are about 40 mm longer than commanded"));

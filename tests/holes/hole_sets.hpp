@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Sets of holes for the tests of this room.
+/// Sets of holes for the tests of this folder.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@ inline model::Machine classic() {
   return grid::files::read_machine(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json");
 }
 
-/// Nine holes and twenty distances as chaintrue plan sets them. Made once: the search takes a tenth
-/// of a second.
+/// Nine holes and twenty distances as planned by chaintrue plan. Computed once: the search takes a
+/// tenth of a second.
 inline const grid::MeasuredHoles& nine_holes() {
   static const grid::MeasuredHoles set =
       grid::plan_holes(classic(), {.holes = 9, .distances = 20})->set;
   return set;
 }
 
-/// Motors, zeros and scales off by draws from what is stated.
+/// Motors, zeros and scales drawn from the stated uncertainties.
 inline grid::synthetic::HolesSpec usual_holes(std::uint64_t seed) {
   grid::synthetic::HolesSpec spec;
   spec.draw_settings = true;
@@ -34,7 +34,7 @@ inline grid::synthetic::HolesSpec usual_holes(std::uint64_t seed) {
   return spec;
 }
 
-/// Root mean square over the bed of what a map errs on the sheet.
+/// Root mean square over the bed of a map's error on the sheet.
 inline double tool_rms_mm(const grid::CompensationMap& map,
                           const model::Machine& truth,
                           const model::SheetPlacement& sheet) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Holes files: both formats say the same, and every slip is refused with its words.
+// Holes files: both formats have the same content, and every mistake is rejected with its message.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ std::vector<std::string> problems_of(const std::string& text, const HolesOptions
   return messages;
 }
 
-/// The distances of kCsv's holes with this table below.
+/// The distances of kCsv's holes with this table appended.
 std::vector<std::string> problems_with(const std::string& distances) {
   return problems_of(
       "hole,x_mm,y_mm\nA,-900,400\nB,900,400\nC,900,-400\nD,-900,-400\nfrom,to,distance_mm\n" +
@@ -133,7 +133,7 @@ TEST(HolesFile, AForgottenHookOffsetIsRefused) {
                       HasSubstr("the short ones are off like the long ones: state 40 mm")));
   }
   HolesOptions options;
-  // Who says that there is none is believed, and asked once more.
+  // A stated offset of zero is accepted, with a warning.
   options.hook_offset_mm = 0.0;
   EXPECT_THAT(parse_holes(long_by_40, "holes.csv", options).warnings[0].message(),
               HasSubstr("state 40 mm"));
@@ -165,7 +165,7 @@ TEST(HolesFile, WhatIsMissingIsSaid) {
   EXPECT_THAT(problems_of("hole,x_mm,y_mm\nA,-900,400\nB,900,400\nC,900,-400\n"
                           "from,to,distance_mm\nA,B,1801\nB,C,800\nA,C,1970\n"),
               ElementsAre(HasSubstr("cut at least 4 holes, of which 5 distances are independent")));
-  // The same pair twice tells nothing new.
+  // The same pair twice is redundant.
   EXPECT_THAT(problems_with("A,B,1801\nA,B,1801\nB,A,1801\nB,C,800\nB,C,800\nB,C,800\nA,C,1970\n"),
               ElementsAre(HasSubstr("3 independent distances")));
   HolesOptions check;

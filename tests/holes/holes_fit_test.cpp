@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fit to distances: derivatives against differences, left-out predictions against real refits,
-// truth found again without noise, intervals that cover as they say, bad readings named.
+// The fit to distances: derivatives compared with differences, left-out predictions with refits,
+// the truth recovered without noise, coverage of the intervals, bad readings named.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,11 +37,11 @@ double spacing(const model::Machine& machine) {
 }
 
 TEST(HoleDistances, HolesAreWhereTheirChainsPutThem) {
-  // Cut by the very machine that is stated, the distances are the commanded ones.
+  // Cut by a machine exactly as stated, the distances are the commanded ones.
   const auto distances = observation::TapeDistances::of(with_edges());
   const auto predicted = distances->predicted({model::ReadingModel(classic()), {}});
   ASSERT_TRUE(predicted);
-  // The inverse settles to 1e-9 mm.
+  // The inverse converges to 1e-9 mm.
   EXPECT_LT((distances->measured() - *predicted).cwiseAbs().maxCoeff(), 1e-7);
 }
 
@@ -50,7 +50,7 @@ TEST(HolesFit, WithoutNoiseTheMapIsTheTruth) {
   design.hole_sigma_mm = 0.0;
   auto made = synthetic::simulate_holes(design, usual_holes(5));
   ASSERT_TRUE(made);
-  // Readings to all digits, and a fit that knows it.
+  // Readings to all digits, and a fit with that noise.
   const observation::DistanceGeometry exact = observation::distance_geometry(design, made->places);
   for (std::size_t k = 0; k < made->set.distances.size(); ++k)
     made->set.distances[k].distance_mm = exact.predicted_mm[static_cast<Eigen::Index>(k)];
@@ -68,7 +68,7 @@ TEST(HolesFit, TheSheetIsFoundFromItsEdges) {
   design.sheet.size_sigma_mm = 0.2;
   auto made = synthetic::simulate_holes(design, usual_holes(7));
   ASSERT_TRUE(made);
-  // Lay the sheet elsewhere: the places on it are those of the bed, moved back.
+  // With the sheet displaced, the positions on it are those of the bed, moved back.
   const model::SheetPlacement laid{7.0, -4.0, 0.006};
   std::vector<model::MarkPoint> marks;
   for (const model::MarkPoint& place : made->places)
@@ -99,7 +99,7 @@ TEST(HolesFit, AFreeSheetLiesSoThatTheHolesAreWhereTheyWereCommanded) {
     y += at.y_mm - wanted.y_mm;
     turn += wanted.x_mm * (at.y_mm - wanted.y_mm) - wanted.y_mm * (at.x_mm - wanted.x_mm);
   }
-  // Sums over nine holes; the last pass moved less than 1e-3 sigmas.
+  // Sums over nine holes; the last iteration moved less than 1e-3 sigmas.
   EXPECT_NEAR(x, 0.0, 0.02);
   EXPECT_NEAR(y, 0.0, 0.02);
   EXPECT_NEAR(turn / 1e6, 0.0, 0.02);
@@ -107,9 +107,9 @@ TEST(HolesFit, AFreeSheetLiesSoThatTheHolesAreWhereTheyWereCommanded) {
 
 TEST(HolesFit, ALeftOutPredictionIsThatOfAFitWithoutTheReading) {
   MeasuredHoles design = nine_holes();
-  design.hole_sigma_mm = 0.0;  // so that a hole's own error joins no readings
-  design.noise_dof = 1e9;      // so that the noise is not judged anew
-  design.tape.sigma_mm = 2.0;  // and no reading is far out
+  design.hole_sigma_mm = 0.0;  // so that a hole's own error does not correlate readings
+  design.noise_dof = 1e9;      // so that the noise is not estimated again
+  design.tape.sigma_mm = 2.0;  // and no reading is an outlier
   MeasuredHoles quiet = design;
   quiet.tape.sigma_mm = 0.5;
   auto made = synthetic::simulate_holes(quiet, usual_holes(13));
@@ -125,7 +125,7 @@ TEST(HolesFit, ALeftOutPredictionIsThatOfAFitWithoutTheReading) {
     const model::MarkPoint a = fit->distances.front().holes[distance.from].predicted;
     const model::MarkPoint b = fit->distances.front().holes[distance.to].predicted;
     const double predicted = std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm);
-    // The two differ by the curvature of the model over what one reading moves, a few 1e-3 mm.
+    // The two differ by the curvature of the model over the change by one reading, a few 1e-3 mm.
     EXPECT_NEAR(whole->distances.front().distances[k].left_out_mm, distance.distance_mm - predicted, 0.01);
   }
 }
@@ -142,7 +142,7 @@ Tally tally(const MeasuredHoles& design, int sets) {
   Tally result;
   for (int seed = 1; seed <= sets; ++seed) {
     synthetic::HolesSpec spec = usual_holes(static_cast<std::uint64_t>(seed));
-    spec.scale_sigma = 0.002;  // as the fit believes beforehand
+    spec.scale_sigma = 0.002;  // the fit's prior
     const auto made = synthetic::simulate_holes(design, spec);
     const auto fit = joint_fit(made->set);
     if (!fit) {
@@ -167,7 +167,7 @@ Tally tally(const MeasuredHoles& design, int sets) {
   return result;
 }
 
-// Nine holes, twenty distances, a tape of 0.5 mm: what is reachable.
+// Nine holes, twenty distances, a tape of 0.5 mm: reachable accuracy.
 //   hole's own error     spacing rms     scales rms
 //   0 (the tape alone)   0.90 mm         0.00011
 //   0.1 mm               0.93 mm         0.00012
@@ -240,8 +240,8 @@ TEST(HolesFit, TheMapIsTheFittedMachineAndKeepsInItsFile) {
   for (const FittedHole& hole : fit->distances.front().holes) {
     const auto answer = map.query(hole.predicted);
     ASSERT_TRUE(answer);
-    // Where the fitted machine puts a hole, the map pays out what was paid out; the last pass moved
-    // the settings by less than 1e-3 sigmas.
+    // At the fitted machine's position of a hole the map's lengths are those that were paid out;
+    // the last iteration moved the settings by less than 1e-3 sigmas.
     EXPECT_NEAR(answer->lengths.left_mm, hole.lengths.left_mm, 0.01);
     EXPECT_NEAR(answer->lengths.right_mm, hole.lengths.right_mm, 0.01);
   }
@@ -261,7 +261,7 @@ TEST(HolesFit, BrokenPreconditionsThrow) {
   EXPECT_THROW((void)observation::TapeDistances::in_given_order(set), std::invalid_argument);
 }
 
-// A taped motor spacing is a reading of the machine, in a set of holes as in a grid.
+// A taped motor spacing is a reading of the machine, for holes as for a grid.
 TEST(HolesFit, AReadingOfTheMotorSpacingMovesTheMotors) {
   MeasuredHoles set = synthetic::simulate_holes(nine_holes(), usual_holes(5))->set;
   const double without_mm = spacing(joint_fit(set)->estimate.machine);
@@ -269,8 +269,8 @@ TEST(HolesFit, AReadingOfTheMotorSpacingMovesTheMotors) {
     set.readings = {{"motor_spacing_mm", "", without_mm + other_mm, 0.01}};
     const auto fit = joint_fit(set);
     ASSERT_TRUE(fit) << fit.error().sentence;
-    // 0.01 mm of the reading against 1 mm of the distances: a thousandth of the way is left, and
-    // what ten millimetres off do to the noise found.
+    // 0.01 mm of the reading against 1 mm of the distances: a thousandth of the difference remains,
+    // plus the effect of ten millimetres on the estimated noise.
     EXPECT_NEAR(spacing(fit->estimate.machine), without_mm + other_mm, 0.1);
     const auto together = joint_fit({{"first", set}, {"second", nine_holes()}});
     ASSERT_TRUE(together) << together.error().sentence;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plans of holes: what they promise is what fits reach, they beat a lattice, and passes converge.
+// Plans of holes: fits reach the predicted accuracy, plans are better than a lattice, and rounds
+// converge.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,8 +45,8 @@ TEST(HolesPlan, PromisesWhatAFitReaches) {
   const auto fit = joint_fit(made->set);
   ASSERT_TRUE(fit);
   const double reached = tool_sigma_mm(classic(), fit->estimate.knowledge.covariance);
-  // The fit is linear about the true machine and weighs by the noise it finds, 15 degrees of
-  // freedom: a fifth either way.
+  // The fit is linear about the true machine and uses the noise that it estimates with 15 degrees
+  // of freedom: a fifth either way.
   EXPECT_NEAR(reached / plan->expected_rms_mm, fit->estimate.noise_factor, 0.2);
 }
 
@@ -64,7 +65,7 @@ TEST(HolesPlan, WithEdgesTheSheetsPlaceIsMeasured) {
       EXPECT_LE(distance.distance_mm, 1000.0) << "held square by eye";
     }
   }
-  // What a fit without edges cannot know at all is known to the tape's measure.
+  // Unknowns that a fit without edges cannot determine are known to the tape's accuracy.
   const auto known = [&plan](std::string_view what) {
     return std::find_if(plan->knowledge.begin(), plan->knowledge.end(), [&](const auto& one) {
       return one.what == what;
@@ -86,15 +87,15 @@ TEST(HolesPlan, WithoutEdgesTheSheetsPlaceIsNotSpokenOf) {
 }
 
 TEST(HolesPlan, EveryDistanceLeftOutOfTheSheetsPlaceIsPaidForInTheWhole) {
-  // The tool's whole error holds the part that is left when the sheet is laid as well as it can be.
+  // The tool's whole error includes the part that remains for the best placement of the sheet.
   const double whole = plan_holes(classic(), {.holes = 9, .edges = true})->expected_rms_mm;
   const double shape = plan_holes(classic(), {.holes = 9, .distances = 24})->expected_rms_mm;
   EXPECT_GT(whole, shape);
 }
 
 TEST(HolesPlan, WithEdgesFitsReachThePromisedErrorOnTheSheet) {
-  // Sheets laid askew and cut to size by draws, machines off by draws: what the map from the
-  // planned readings errs on the sheet itself, nothing taken up.
+  // Sheets with random placement and size, machines with random errors: the error on the sheet
+  // itself of the map from the planned readings, without a best-fit placement.
   const auto plan = plan_holes(classic(), {.holes = 9, .edges = true});
   ASSERT_TRUE(plan);
   constexpr int kSets = 200;
@@ -117,7 +118,8 @@ TEST(HolesPlan, WithEdgesFitsReachThePromisedErrorOnTheSheet) {
     squares +=
         std::pow(testing_support::tool_rms_mm(fit->map, made->truth, spec.sheet), 2);
   }
-  // Shift and turn are most of it: three free numbers a set leave 3 % of chance, three times that.
+  // Shift and rotation dominate: three free numbers for each set give a standard error of 3 %;
+  // three times that.
   EXPECT_NEAR(std::sqrt(squares / kSets) / plan->expected_rms_mm, 1.0, 0.09);
 }
 
@@ -164,14 +166,14 @@ TEST(HolesPlan, SaysWhichEffectsItSees) {
   // 0.1 % of two metres is 2 mm on a tape of half a millimetre.
   ASSERT_NE(find("chain_pitch_error", "both"), seen.end());
   EXPECT_GT(find("chain_pitch_error", "both")->sigmas, 3.0);
-  // A tape cannot see what depends on the visit, nor what is written on paper.
+  // A tape is insensitive to effects of the visit and of the paper.
   EXPECT_EQ(find("drift", "left"), seen.end());
   EXPECT_EQ(find("tape_scale", "both"), seen.end());
 }
 
 TEST(HolesPlan, WhereTheSheetLiesIsNoEffect) {
-  // The sheet may lie anywhere: three readings to its edges say where it does, and nothing is seen
-  // with them that was not seen before, however far an effect moves or turns all holes alike.
+  // The sheet's placement is free: three readings to its edges determine it, and make no other
+  // effect observable, however far an effect moves or rotates all holes together.
   MeasuredHoles between = testing_support::nine_holes();
   const auto sigmas_of = [](const MeasuredHoles& set) {
     std::map<std::pair<std::string, std::string>, double> sigmas;
@@ -185,7 +187,8 @@ TEST(HolesPlan, WhereTheSheetLiesIsNoEffect) {
   placed.distances.push_back({.from = 0, .edge = SheetEdge::top});
   const auto before = sigmas_of(between);
   for (const auto& [effect, sigmas] : sigmas_of(placed)) {
-    // Three readings place the sheet and no more; 50 mm and 30 mrad beforehand are all but free.
+    // Three readings determine the sheet's placement and no more; priors of 50 mm and 30 mrad are
+    // nearly free.
     EXPECT_NEAR(sigmas, before.at(effect), 0.01 * std::max(1.0, sigmas)) << effect.first;
   }
 }
@@ -216,7 +219,7 @@ TEST(HolesPasses, ConvergeInAtMostThree) {
     for (std::size_t i = 1; i < result->passes.size(); ++i)
       EXPECT_LT(result->passes[i].expected_mm, result->passes[i - 1].expected_mm);
     EXPECT_LT(*last.true_mm, 0.5 * result->before_mm + 0.3);
-    // The second pass is cut through the first one's map: holes come out where they were wanted.
+    // The second round is cut through the first one's map: holes are at their intended positions.
     if (result->passes.size() < 2) continue;
     EXPECT_LT(result->passes[1].as_cut_rms_mm, 1.5) << "mm of tape and holes, and what is left";
   }
@@ -246,7 +249,7 @@ TEST(HolesPasses, AReadingOfTheMachineCountsAndOnceHoweverManyPassesStateIt) {
   const MeasuredHoles silent = first;
   const double without_mm = spacing_after(silent);
   first.readings = {{"motor_spacing_mm", "", without_mm + 10.0, 0.5}};
-  // 0.5 mm against some 1 mm of the distances of two passes.
+  // 0.5 mm against some 1 mm of the distances of two rounds.
   EXPECT_GT(spacing_after(silent), without_mm + 5.0);
   EXPECT_EQ(spacing_after(first), spacing_after(silent)) << "the same reading once more";
 }

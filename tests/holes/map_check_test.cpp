@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checks of a map after something happened to the machine: right in 95 % of cases with five points
-// and 0.3 mm of noise, and silent about what cannot be told. Points planned for it.
+// Checks of a map after a change of the machine: right in 95 % of cases with five points and 0.3 mm
+// of noise, and undecided where the data cannot decide. Points planned for it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ struct MeasuredMachine {
   std::vector<MarkPoint> planned;  ///< by plan_check
 };
 
-/// A map of 28 points as an owner measures them, and the machine that it is of.
+/// A map of 28 points with usual noise, and its machine.
 MeasuredMachine measured(std::uint64_t seed) {
   const auto session = synthetic::generate(classic(), testing_support::usual_spec(seed));
   CompensationMap map = *fit(session->grid);
@@ -158,7 +158,8 @@ INSTANTIATE_TEST_SUITE_P(All, AfterSomething, testing::ValuesIn(kCases), [](cons
   return std::string(one.param.name);
 });
 
-// Anywhere far apart will do for most; one chain's growth alone is told less surely there.
+// Widely spaced points are sufficient for most changes; growth of one chain alone is detected less
+// reliably there.
 TEST(MapCheck, CornersAndTheMiddleTellOneChainsGrowthInNineOfTen) {
   constexpr int kDraws = 2400;
   for (const char* side : {"left", "right"}) {
@@ -177,7 +178,7 @@ TEST(MapCheck, CornersAndTheMiddleTellOneChainsGrowthInNineOfTen) {
   }
 }
 
-/// What both chains' growth stands out by, together: the plan's measure.
+/// The significance of both chains' growth, combined: the plan's criterion.
 double together(const model::PerSide<double>& sigmas) {
   return 2.0 / (1.0 / std::pow(sigmas.left, 2) + 1.0 / std::pow(sigmas.right, 2));
 }
@@ -196,14 +197,14 @@ TEST(CheckPlan, NoSinglePointMovedTellsMore) {
     std::vector<MarkPoint> moved = plan->marks;
     moved[static_cast<std::size_t>(k) % moved.size()] = {random.uniform(-1200.0, 1200.0),
                                                          random.uniform(-590.0, 590.0)};
-    // Places off the lattice may tell a little more: a third of its spacing beside.
+    // Positions off the lattice may be slightly better: moved by a third of its spacing.
     EXPECT_LT(together(*told_sigmas(one.map, moved, request)), 1.02 * best) << "try " << k;
   }
 }
 
 TEST(CheckPlan, WithPoorReadingsGrowthIsAllOfTheLengthsOverTheNoise) {
-  // Where readings are far worse than the map and than any shift of a zero, nothing is imitated:
-  // told = e |l| / sigma, l the lengths at the points.
+  // If readings are far less accurate than the map and than any shift of a zero, nothing else has
+  // this signature: told = e |l| / sigma, l the lengths at the points.
   const MeasuredMachine& one = machines()[2];
   constexpr double kPoorMm = 200.0;
   const auto told = told_sigmas(one.map, kFive, {.length_mm = kPoorMm});
@@ -292,7 +293,7 @@ TEST(MapCheck, HolesTellAToothAndAGrownPitch) {
   EXPECT_EQ(check_map(map, with_wear->set)->verdict, CheckVerdict::measure_again);
 }
 
-/// Probabilities of what may have happened to the machine, among these alone.
+/// Probabilities of the machine's possible changes, among these alone.
 std::vector<double> of_the_machine(const CompensationMap& map, const MeasuredFile& file) {
   const auto check = check_map(map, {file});
   EXPECT_TRUE(check) << check.error().sentence;
@@ -328,7 +329,7 @@ TEST(MapCheck, RepeatsOfAMarkSayWhatTheyWouldOneByOne) {
     together.points.insert(together.points.end(), again.points.begin(), again.points.end());
   }
   MeasuredGrid apart = together;
-  // Marks so near that nothing is seen of it are marks of their own.
+  // Marks so near each other that their readings do not differ count as separate marks.
   for (std::size_t i = 0; i < apart.points.size(); ++i)
     apart.points[i].mark.x_mm += 1e-8 * static_cast<double>(i);
   ASSERT_EQ(check_map(one.map, together)->residuals.size(), 10u);
@@ -364,7 +365,7 @@ TEST(MapCheck, RepeatsOfADistanceSayWhatTheyWouldOneByOne) {
                1e-9);  // rounding
 }
 
-/// Readings at marks of a sheet that lies aside.
+/// Readings at marks of a displaced sheet.
 MeasuredGrid on_a_sheet(const model::SheetPlacement& sheet,
                         const model::Machine& machine,
                         Random& random) {
@@ -379,7 +380,7 @@ MeasuredGrid on_a_sheet(const model::SheetPlacement& sheet,
   return grid;
 }
 
-/// How many of the machines' checks have a verdict.
+/// Number of the machines' checks with a verdict.
 int verdicts(CheckVerdict wanted, const std::function<MeasuredGrid(const MeasuredMachine&)>& made) {
   int count = 0;
   for (const MeasuredMachine& one : machines()) {
@@ -399,7 +400,7 @@ TEST(MapCheck, ASheetLaidAsideIsNoChangeOfTheMachine) {
   EXPECT_GE(verdicts(CheckVerdict::valid,
                      [&](const auto& one) { return on_a_sheet(aside, one.truth, random); }),
             kMostOf24);
-  // Who says that the sheet lies exactly is taken at his word.
+  // A sheet stated to lie exactly is assumed to do so.
   EXPECT_EQ(verdicts(CheckVerdict::measure_again,
                      [&](const auto& one) {
                        MeasuredGrid grid = on_a_sheet(aside, one.truth, random);

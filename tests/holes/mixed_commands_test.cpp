@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points and distances together, as a person has them diagnosed and measures on.
+// Points and distances together, through the command: diagnosis and next measurements.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using testing::StartsWith;
 using testing_support::content_of;
 using testing_support::Outcome;
 
-/// Points and distances of a machine whose beam gives a little: they leave a set of causes.
+/// Points and distances of a machine with a slightly yielding beam: they leave a set of causes.
 class MixedCommands : public testing_support::CommandFixture {
  protected:
   void SetUp() override {
@@ -72,7 +72,7 @@ TEST_F(MixedCommands, PlanSaysWhatToMeasureNextAndInWhichFile) {
                     HasSubstr("{\"from\": \"N1\", \"to\": \"E\", \"distance_mm\": null}")));
   EXPECT_THAT(next.err, HasSubstr("  1. Measure the weight of a metre of chain, to 0.002 kg."));
   EXPECT_THAT(content_of(folder_ / "next.svg"), HasSubstr("among 30 measured"));
-  // The first of the list tells more than what it does not name.
+  // The first of the list is more informative than one that is not in it.
   const double chosen = probability_with({"chain_mass_kg_per_m", "", 0.14, 0.002});
   const double other = probability_with({"ring_radius_mm", "", 139.1, 0.5});
   EXPECT_GT(chosen, other);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The factored covariance of new readings against the same matrix written out.
+// The factored covariance of new readings compared with the full matrix.
 #include "grid/map/reading_covariance.hpp"
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ Eigen::MatrixXd normal(Random& random, Eigen::Index rows, Eigen::Index cols) {
   return Eigen::MatrixXd::NullaryExpr(rows, cols, [&random] { return random.normal(); });
 }
 
-/// Units of two rows and of one, errors that four readings each share, and a map of `columns`
-/// unknowns.
+/// Outlier groups of two rows and of one, errors shared by four readings each, and a map of
+/// `columns` unknowns.
 ReadingCovariance drawn(std::uint64_t seed, int units, Eigen::Index columns, double noise_mm) {
   Random random(seed, 19);
   ReadingCovariance k;
@@ -77,8 +77,8 @@ TEST(ReadingCovariance, IsFactoredAsTheWholeMatrixIs) {
   }
 }
 
-// A residual that the map's own doubt can make counts by that doubt alone, however fine the noise:
-// with y = F z, y' K^-1 y tends to z' z where F has full rank.
+// A residual within the map's own uncertainty counts by that uncertainty alone, however small the
+// noise: with y = F z, y' K^-1 y tends to z' z where F has full rank.
 TEST(ReadingCovariance, ReadingsFarBetterThanTheMapLoseNoDigits) {
   for (const std::uint64_t seed : kSeeds) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -88,7 +88,7 @@ TEST(ReadingCovariance, ReadingsFarBetterThanTheMapLoseNoDigits) {
     const FactoredCovariance factored(k);
     Random random(seed, 21);
     const Eigen::VectorXd z = normal(random, 7, 1);
-    // (kFineMm / 0.1)^2 is what the limit leaves out; 1e-8 holds it, with rounding over 90 rows.
+    // (kFineMm / 0.1)^2 is neglected in the limit; 1e-8 covers it, with rounding over 90 rows.
     EXPECT_NEAR(factored.seen(k.of_map * z).squaredNorm(), z.squaredNorm(), 1e-8);
     for (const Eigen::MatrixXd& own : factored.precision_of_units())
       EXPECT_GT(own.diagonal().minCoeff(), 0.0);

@@ -43,7 +43,7 @@ std::vector<Line> read_lines() {
   return lines;
 }
 
-/// Where H0 to H8 were commanded.
+/// Commanded positions of H0 to H8.
 constexpr model::BedPoint kHoles[] = {{0.0, 0.0},
                                       {-965.2, 355.6},
                                       {-965.2, -355.6},
@@ -54,9 +54,10 @@ constexpr model::BedPoint kHoles[] = {{0.0, 0.0},
                                       {304.8, -304.8},
                                       {304.8, 304.8}};
 
-/// The machine as its owner knew it: sets a to d on one frame (spacing measured with the chains as
-/// 3602.6 mm, good to 5 mm), e on the next; a ring kit of 138.14 mm, whose settings wandered from
-/// 132.75 to 139.1 mm, so that zeros are known to some 4 mm; the compliance of his own firmware.
+/// The machine as described by its owner: sets a to d on one frame (spacing measured with the
+/// chains as 3602.6 mm, good to 5 mm), e on the next; a ring kit of 138.14 mm, whose settings
+/// wandered from 132.75 to 139.1 mm, so that zeros are known to some 4 mm; the compliance of his
+/// own firmware.
 model::Machine machine_of(const Line& line) {
   const auto value = [&line](const char* name) { return std::stod(line.at(name)); };
   const bool second_frame = line.at("set") == "e";
@@ -79,16 +80,16 @@ model::Machine machine_of(const Line& line) {
   return machine;
 }
 
-/// One sigma of readings to this step: its rounding, and 0.14 mm of the eye beside it.
+/// Sigma of readings to this step: its rounding, plus 0.14 mm for reading by eye.
 double tape_sigma_mm(double step_mm) { return std::sqrt((step_mm * step_mm + 0.25) / 12.0); }
 
-/// How well it is known how the tape was held: 101 mm were taken off in sets a and b, 40 mm in the
-/// others; half a millimetre is a hook's play, or a hole's edge taken for its middle.
+/// Sigma of the tape zero offset: 101 mm were subtracted in sets a and b, 40 mm in the others; half
+/// a millimetre is a hook's play, or a hole's edge taken for its middle.
 constexpr double kRealHookSigmaMm = 0.5;
-/// A hole's own error, with which these readings predict each other best (below).
+/// A hole's own error, the value with the best mutual prediction of these readings (below).
 constexpr double kHoleSigmaMm = 0.7;
 
-/// M5 and M9 are no holes, but feet of a plumb line on a string: left out.
+/// M5 and M9 are not holes but feet of a plumb line: left out.
 MeasuredHoles set_of(const Line& line) {
   MeasuredHoles set;
   set.name = line.at("set");
@@ -138,8 +139,8 @@ void add(Pool& pool, const JointFit& fit) {
   }
 }
 
-/// How well a fit predicts readings that it has not seen: the logarithm of their density, one in
-/// fifty of which is a slip of some 5 mm.
+/// How well a fit predicts held-out readings: the logarithm of their density, with one in fifty an
+/// outlier of some 5 mm.
 double log_predictive_density(const JointFit& fit) {
   constexpr double kSlips = 0.02;
   constexpr double kSlipMm = 5.0;
@@ -250,8 +251,8 @@ TEST_F(RealSets, HoleSigmaIsWhatTheReadingsPredictEachOtherWithBest) {
 }
 
 TEST_F(RealSets, TheTapeOfTheLastSetIsNamedNotAReading) {
-  // Set e reads 0.7 mm short throughout; once that may be, its readings agree, and no other set
-  // asks for it.
+  // Set e reads 0.7 mm short throughout; with a free tape zero offset its readings agree, and no
+  // other set needs one.
   const auto last = joint_fit(second_frame(kHoleSigmaMm));
   ASSERT_TRUE(last);
   EXPECT_LT(last->distances.front().hook->mm + 1.96 * last->distances.front().hook->sigma_mm, 0.0);
@@ -271,8 +272,8 @@ TEST_F(RealSets, WhatADiagnosisSaysOfEach) {
   for (const Measured& sets : all) {
     const auto found = diagnosis::diagnose(sets);
     ASSERT_TRUE(found) << found.error().sentence;
-    // One cause is not to be had from 8 or 16 distances of a real frame; four sets together show
-    // what the fit shows as a bend of the bed.
+    // One cause cannot be identified from 8 or 16 distances of a real frame; four sets together
+    // give a pattern, which the fit gives as a bend of the bed.
     EXPECT_TRUE(found->causes.empty()) << found->sentence;
     EXPECT_TRUE(found->outliers.empty());
     if (sets.files().size() > 1) {
@@ -293,8 +294,8 @@ TEST_F(RealSets, WhatADiagnosisSaysOfEach) {
 }
 
 TEST_F(RealSets, WhatTheFrameDoesBeyondItsSettingsIsSeenAndNotNamed) {
-  // Sets a to d together speak for a smooth bend, twenty to one and more; beside it neither the
-  // chains' scales nor the places of the motors are known better than beforehand.
+  // Sets a to d together support a smooth pattern by odds of twenty to one and more; with it
+  // neither the chains' scales nor the motors' positions are known better than by their priors.
   const auto fit = joint_fit(first_frame(kHoleSigmaMm));
   ASSERT_TRUE(fit);
   EXPECT_TRUE(fit->estimate.has_surface);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Several sets of one machine in one fit, and a hook whose offset is not known.
+// Several sets of one machine in one fit, and an unknown tape zero offset.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,8 @@ TEST(UnknownHook, EachFileHasOneOfItsOwn) {
   for (HoleDistance& distance : second.distances) distance.distance_mm += 3.0;
   const auto fit = joint_fit({{"first", first}, {"second", second}});
   ASSERT_TRUE(fit) << fit.error().sentence;
-  // The same readings but for the hook: a part of 3 mm^2 x sigma^2 / 5 mm^2 goes to neither.
+  // The same readings except for the tape zero offset: a part of 3 mm^2 x sigma^2 / 5 mm^2 goes to
+  // neither.
   EXPECT_NEAR(fit->distances[1].hook->mm - fit->distances[0].hook->mm, 3.0, 0.05);
 }
 
@@ -47,7 +48,7 @@ TEST(UnknownHook, WhatIsAddedToEveryReadingIsTheHooks) {
   const auto after = joint_fit(made->set);
   ASSERT_TRUE(before && after);
   ASSERT_TRUE(before->distances.front().hook);
-  // A hook known to a metre is as good as unknown: a millionth of the shift stays.
+  // An offset known to a metre is practically unknown: a millionth of the shift remains.
   EXPECT_NEAR(after->distances.front().hook->mm - before->distances.front().hook->mm, 3.0, 1e-3);
   for (std::size_t k = 0; k < before->distances.front().distances.size(); ++k) {
     EXPECT_NEAR(after->distances.front().distances[k].left_out_mm, before->distances.front().distances[k].left_out_mm, 1e-3)

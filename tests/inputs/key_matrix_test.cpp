@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every number that a file of measurements or of a machine holds acts on every verb that takes the
-// file: changed, it changes numbers of the answer, or the verb refuses it by a sentence. Where a key
-// means nothing to a verb the table below says why; a key that is in no table and changes nothing
+// Every number in a file of measurements or of a machine affects every verb that accepts the file:
+// a change of it changes numbers of the answer, or is rejected with a message. The table below
+// gives the reasons for keys without effect on a verb; a key that is not in it and changes nothing
 // fails.
 #include <gtest/gtest.h>
 
@@ -21,13 +21,14 @@ using inputs::Ran;
 using inputs::Workshop;
 using Json = nlohmann::ordered_json;
 
-/// A verb on a file, FILE in the line. `echoes` of the input are no answer.
+/// A verb on a file, FILE in the line. `echoes` are keys that repeat the input and are not part of
+/// the answer.
 struct Reader {
   const char* verb;
   const char* line;
 };
 
-/// Where a key means nothing to a verb, and why; keys by what their pointer begins with.
+/// Keys without effect on a verb, and why; keys by the beginning of their pointer.
 struct Idle {
   const char* kind;
   const char* verb;
@@ -79,7 +80,7 @@ bool is_idle(const std::string& kind, const std::string& verb, const std::string
   });
 }
 
-/// Pointers of all numbers; of a list of many alike the first is enough.
+/// Pointers of all numbers; of a list of similar entries the first one only.
 void gather(const Json& json, const std::string& pointer, std::vector<std::string>& pointers) {
   if (json.is_number()) pointers.push_back(pointer);
   if (json.is_object()) {
@@ -94,7 +95,7 @@ void gather(const Json& json, const std::string& pointer, std::vector<std::strin
 
 bool holds(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
-/// A value that tells: as far from the old one as such a number may be off and still be possible.
+/// A distinguishable value: as far from the old one as is still valid for such a number.
 Json telling_value(const std::string& pointer, const Json& value) {
   const double old = value.get<double>();
   if (pointer.ends_with("/order")) return 5000;
@@ -210,8 +211,8 @@ TEST_F(KeyMatrix, OfAMachine) {
         "simulate --machine FILE --grid 4x3 --length-noise-mm 0.1 --draw-settings --seed 2"}});
 }
 
-/// What chaintrue wrote itself is held by a hash of its content: any number of it that was changed is
-/// refused by every verb.
+/// Files written by chaintrue have a hash of their content: every verb rejects any changed number in
+/// them.
 TEST_F(KeyMatrix, OfWhatChaintrueWrote) {
   const std::map<std::string, std::vector<std::string>> verbs = {
       {"map.json",

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every option that a verb has acts on every kind of input that the verb takes, so that the numbers
-// of the answer change, or is refused by the sentence of the table (tools/cli/option_rules.def). The
-// options are those of --help: a new one without a line in the table, or without a telling value
-// here, fails.
+// Every option of a verb affects every kind of input that the verb accepts, so that the numbers of
+// the answer change, or is rejected with the message of the table (tools/cli/option_rules.def). The
+// options are those of --help: a new one without a line in the table, or without a distinguishable
+// value here, fails.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,8 +29,8 @@ using inputs::Workshop;
 using testing::HasSubstr;
 namespace facts = cli::facts;
 
-/// A verb on one kind of input. `then` reads the numbers out of what was written, where the file
-/// itself repeats the input.
+/// A verb on one kind of input. `then` reads the numbers from the output, if the output itself
+/// repeats the input.
 struct Use {
   const char* name;
   const char* verb;
@@ -131,22 +131,23 @@ const std::vector<Use>& uses() {
   return all;
 }
 
-/// How it shows that an option acts.
+/// How the effect of an option is detected.
 enum class Shows {
   in_numbers,  ///< of the answer
   in_form,     ///< other bytes, the numbers may be the same
   as_file,     ///< a file more
-  in_words,    ///< what is said on standard error, or the exit code
+  in_words,    ///< messages on standard error, or the exit code
 };
 
-/// The option at a value that tells, with what it needs. `where` is a use's name, or empty for all.
+/// An option with a distinguishable value and its prerequisites. `where` is a use's name, or empty
+/// for all.
 struct Telling {
   const char* verb;
   const char* option;
   const char* words;
   Shows shows = Shows::in_numbers;
   const char* where = "";
-  /// In place of simple.nc, and of what was made of it.
+  /// Instead of simple.nc and of the files made from it.
   const char* program = "";
 };
 
@@ -266,7 +267,7 @@ std::vector<Telling> tellings() {
       {"passes", "--seed", "--seed 9"},
       {"passes", "--json", "--json", in_form},
       {"passes", "--output", "--output map.json", as_file},
-      // What is made.
+      // Simulation and planning.
       {"simulate", "--machine", "--machine @other.json"},
       {"simulate", "--belts", "--belts @belts.json"},
       {"simulate", "--grid", "--grid 5x3"},
@@ -361,7 +362,7 @@ std::vector<Telling> tellings() {
   return all;
 }
 
-/// Cells where the files of the workshop leave an option nothing to do, and why.
+/// Cells where the option has no effect with the files of the workshop, and why.
 struct NotShown {
   const char* verb;
   const char* option;
@@ -402,7 +403,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return at == std::string::npos ? text : text.replace(at, what.size(), by);
 }
 
-/// The use with the program of the telling value.
+/// The use with the program of the tested value.
 std::string line_with(const Use& use, const Telling& telling) {
   std::string line = use.line;
   if (*telling.program == '\0') return line;
@@ -411,7 +412,7 @@ std::string line_with(const Use& use, const Telling& telling) {
   return line;
 }
 
-/// The line without an option that stands in it with its value, so that it can be given anew.
+/// The line without an option and its value, so that it can be given again.
 std::string without(const std::string& line, const std::string& option) {
   const bool is_output = option == "--output";
   std::string result = std::regex_replace(line, std::regex(" " + option + "( [^- ][^ ]*)?"), "");
@@ -431,7 +432,7 @@ std::vector<std::string> options_of(const Workshop& workshop, const std::string&
   return options;
 }
 
-/// What is wrong with a cell; empty where nothing is.
+/// The fault of a cell; empty if there is none.
 std::string fault_of(const Workshop& workshop, const Use& use, const Ran& base, const std::string& option) {
   const Telling* telling = telling_of(use.verb, option, use.name);
   if (telling == nullptr) return "has no telling value in this test";
@@ -453,7 +454,7 @@ std::string fault_of(const Workshop& workshop, const Use& use, const Ran& base, 
                                : std::string("; ") + use.then;
   const Ran ran = workshop.run(line + then);
   if (ran.code == 2 || ran.code == 3) {
-    // A sentence that says why it cannot, by what the file holds.
+    // A message that gives the reason, from the file's content.
     if (ran.err.empty()) return "is refused without a sentence";
   }
   static const std::vector<std::string> kEchoes = {
@@ -469,7 +470,7 @@ std::string fault_of(const Workshop& workshop, const Use& use, const Ran& base, 
         before.files.clear();
         after.files.clear();
       }
-      // What is wrong with a program is said on standard error.
+      // Problems of a program are reported on standard error.
       const bool says_more =
           std::string_view(use.verb).starts_with("gcode") && before.err != after.err;
       return numbers_of(before, echoes) == numbers_of(after, echoes) && !says_more &&

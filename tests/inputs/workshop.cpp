@@ -36,7 +36,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-/// Holes that the belts' own machine cut, 40 mm out of true along x at the right side.
+/// Holes cut by the belts' own machine, displaced by up to 40 mm along x at the right side.
 std::string belt_holes(const std::string& belts) {
   const Json machine = Json::parse(belts).at("machine");
   Json file{{"file_type", "chaintrue_holes"}, {"format_version", "1.1"}, {"machine", machine}};
@@ -56,7 +56,7 @@ std::string belt_holes(const std::string& belts) {
   return file.dump(1);
 }
 
-/// The points of a grid without what says when they were visited, as CSV.
+/// The points of a grid without their visit numbers, as CSV.
 std::string as_csv(const std::string& grid, std::size_t most) {
   std::string text = "x_mm,y_mm,left_mm,right_mm\n";
   std::size_t taken = 0;
@@ -122,7 +122,7 @@ Workshop::Workshop() : folder_(temporary_folder()) {
   other["motors"]["left"]["y_mm"] = other["motors"]["left"]["y_mm"].get<double>() + 12.0;
   other["attachment"]["radius_mm"] = 141.0;
   write("other.json", other.dump(1));
-  // A sheet that the programs leave.
+  // A sheet smaller than the programs.
   Json small = Json::parse(text_of("classic.json"));
   small["bed"] = {{"width_mm", 1000.0}, {"height_mm", 600.0}};
   write("small.json", small.dump(1));
@@ -133,12 +133,12 @@ Workshop::Workshop() : folder_(temporary_folder()) {
   write("marks.csv", "x_mm,y_mm\n-900,-400\n0,-380\n900,-390\n-880,410\n20,400\n910,380\n");
   write("simple.nc", "G21 G90 G17\nF600\nG0 X-900 Y400\nG1 X900 Y400\n/G1 X900 Y-400\nG1 X0 Y0\nM2\n");
   write("offset.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG41 D1\nG1 X300 Y0\nG40\nG1 X0 Y0\nM2\n");
-  // Whoever wants to know of line 6 has to come out of the loop first.
+  // Line 6 is reached only after the loop.
   write("loop.nc",
         "G21 G90 G17 F600\n#1=0\no1 while [#1 lt 4]\n#1=[#1+1]\no1 endwhile\nG1 X100 Y0\n"
         "G1 X0 Y0\nM2\n");
   write("home.nc", "G21 G90 G17\nF600\nG1 X200 Y100\nG28\nG1 X0 Y0\nM2\n");
-  // Marks on part of the bed, on a sheet that was laid by hand.
+  // Marks on part of the bed, on a sheet placed by hand.
   make("simulate --machine @classic.json --grid 7x5 --margin-mm 250 --length-noise-mm 0.2 "
        "--position-noise-mm 0.3 --sheet-shift-mm 8 --sheet-rotation-mrad 4 --effect "
        "chain_pitch_error:left:elongation=0.003 --seed 5 -o @placed.json");

@@ -25,7 +25,7 @@ TEST(BsplineBasis, PenaltyIsTheIntegralOfTheSquaredSecondDerivatives) {
   const BsplineBasis basis({-2, 3, 1, 2}, 4, 3);
   const Eigen::VectorXd c = random_coefficients(basis, kBasisSeed);
   // The mid-point rule over second derivatives from differences of the analytic gradient: an
-  // integration that shares neither the quadrature nor the second derivatives with the penalty.
+  // integration with neither the quadrature nor the second derivatives of the penalty.
   constexpr int kCells = 240;
   constexpr double kStep = 1e-5;
   double integral = 0.0;

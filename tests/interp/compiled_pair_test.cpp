@@ -87,7 +87,7 @@ TEST(CompiledPair, StatesABoundThatHolds) {
       worst = std::max({worst, std::abs(exact[0] - ours[0]), std::abs(exact[1] - ours[1])});
     }
     EXPECT_LE(worst, table.error().bound) << nx;
-    EXPECT_GE(worst, 0.3 * table.error().bound) << nx;  // a bound of any use is near what happens
+    EXPECT_GE(worst, 0.3 * table.error().bound) << nx;  // a useful bound is near the actual error
     if (nx == 100) {
       EXPECT_LE(table.error().bound, 0.005);
     }
@@ -109,7 +109,7 @@ TEST(CompiledPair, InverseReturnsEveryPointOfAPathInFourEvaluations) {
   table.inverse(targets, path.front(), results);
   for (std::size_t k = 0; k < path.size(); ++k) {
     ASSERT_EQ(results[k].status, InverseStatus::converged) << k;
-    ASSERT_NEAR(results[k].x, path[k].x, 1e-9) << k;  // the tolerance asked for
+    ASSERT_NEAR(results[k].x, path[k].x, 1e-9) << k;  // the required tolerance
     ASSERT_NEAR(results[k].y, path[k].y, 1e-9) << k;
     const bool jump = k % 1200 == 0;
     EXPECT_LE(results[k].evaluations, jump ? 6 : 4) << k;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quintic splines, missing nodes, and what a surface answers outside its measured region.
+// Quintic splines, missing nodes, and the value of a surface outside its measured region.
 #include <cmath>
 #include <numbers>
 
@@ -33,7 +33,7 @@ TEST(QuinticSpline, AtDegreeThreeIsTheNotAKnotBicubic) {
     for (int k = 0; k < 50; ++k) {
       const double px = random.uniform(kBed.x_min, kBed.x_max);
       const double py = random.uniform(kBed.y_min, kBed.y_max);
-      EXPECT_NEAR(collocated.at(px, py).value, hermite.at(px, py).value, 1e-9);  // asked for
+      EXPECT_NEAR(collocated.at(px, py).value, hermite.at(px, py).value, 1e-9);  // required
       EXPECT_NEAR(collocated.at(px, py).dx, hermite.at(px, py).dx, 1e-9);
       EXPECT_NEAR(collocated.at(px, py).dy, hermite.at(px, py).dy, 1e-9);
     }
@@ -54,7 +54,7 @@ TEST(QuinticSpline, BeatsTheBicubicOnSmoothDataAsTheStudyFound) {
   EXPECT_NEAR(worst, 0.0558, 0.0005);  // the study's figure, three digits
 }
 
-// No cubic at all, but a sum of one function of x and one of y.
+// Not a cubic, but a sum of one function of x and one of y.
 TEST(MissingNodes, OfASumOverTheAxesAreFilledExactly) {
   const auto x = even(0, 6, 7);
   const auto y = even(0, 4, 5);
@@ -93,7 +93,7 @@ TEST(MissingNodes, OfACubicAreFilledExactly) {
 TEST(MissingNodes, OfASmoothResidualCostAtMostTwoHundredths) {
   const auto x = even(kBed.x_min, kBed.x_max, 9);
   const auto y = even(kBed.y_min, kBed.y_max, 5);
-  // What calibration leaves of the unmodelled 0.8 mm: its higher half.
+  // The part of the unmodelled 0.8 mm that remains after calibration: its higher half.
   const auto residual = [](double a, double b) {
     return 0.1 * std::sin(a / 500 + 0.3) * std::cos(b / 400);
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bicubic splines on uneven lines against stored values of FITPACK's regrid (not-a-knot) and of
-// SciPy's CubicSpline in tensor products (natural, as GSL's bicubic is).
+// Bicubic splines on uneven axes compared with stored values of FITPACK's regrid (not-a-knot) and
+// of SciPy's CubicSpline in tensor products (natural, like GSL's bicubic).
 #include <fstream>
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The engine's numbers against brute force: the likelihood by its definition in the space of the
-// responses, derivatives by differences, the optimum by a grid, held-out residuals by refitting.
+// The fit checked by brute force: the likelihood by its definition in the space of the responses,
+// derivatives by differences, the optimum by a grid, held-out residuals by refitting.
 #include <cmath>
 #include <random>
 
@@ -22,8 +22,8 @@ struct Joint {
   PenalisedProblem problem{1};
 };
 
-// Two fields on the same points coupled by three shared columns with a prior, as a machine's
-// settings couple the two chains.
+// Two fields on the same points coupled by three shared columns with a prior, like the two chains
+// of a machine by its settings.
 Joint joint_problem(int points, bool overlapping_prior) {
   std::mt19937_64 random(kLikelihoodSeed);
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
@@ -102,7 +102,7 @@ TEST_P(RemlLikelihood, IsThatOfTheMixedModelUpToAConstant) {
   for (const double a : {1e-3, 0.5, 300.0}) {
     for (const double b : {1e-2, 2.0, 1e3}) {
       for (const double s2 : {0.3, 4.0}) {
-        // Both sides are of order 1e3 and lose about six digits to the condition of S.
+        // Both sides are of order 1e3 and lose about six digits by the condition of S.
         EXPECT_NEAR(ours(a, b, s2) - response_space_v(joint, a, b, s2, nullity), constant, 1e-6)
             << a << " " << b << " " << s2;
       }
@@ -140,7 +140,7 @@ TEST(Reml, BorderedAndDenseAgree) {
   const Joint joint = joint_problem(40, false);
   ASSERT_TRUE(reml::is_bordered(joint.problem));
   Joint reordered = joint;
-  // A coupling of 1e-300 changes nothing but forces the dense way.
+  // A coupling of 1e-300 is negligible but forces the dense form.
   reordered.problem.gram(0, joint.problem.penalties[1].first_column) = 1e-300;
   ASSERT_FALSE(reml::is_bordered(reordered.problem));
   const auto bordered = fit_penalised(joint.problem).value();
@@ -220,7 +220,7 @@ TEST(Reml, APlaneIsLeftToTheNullSpace) {
     const double x = -1 + 0.5 * (i % 5);
     const double y = -1 + 0.5 * static_cast<double>(i / 5);
     design.row(i) = basis.row(x, y).transpose() / 0.1;
-    // A checkered 0.05 is rougher than any field of the basis: noise, and less than was stated.
+    // A checkered 0.05 is rougher than any field of the basis: it is noise, and less than stated.
     response(i) = (2 + 3 * x - y + (i % 2 == 0 ? 0.05 : -0.05)) / 0.1;
   }
   problem.add_rows(design, response);
@@ -231,9 +231,9 @@ TEST(Reml, APlaneIsLeftToTheNullSpace) {
   ASSERT_TRUE(fit.has_value());
   EXPECT_EQ(fit->ends[0], SmoothingEnd::stiff);
   EXPECT_NEAR(fit->edf, 3.0, 0.01);  // lambda stops ten decades above balance
-  // Even so the field is not claimed to vanish: averaging over lambda keeps some of its variance.
+  // Even so the estimated field is not zero: averaging over lambda keeps some of its variance.
   EXPECT_GT(fit->corrected_covariance.trace(), 1.05 * fit->covariance.trace());
-  // The prior that avoids the boundary keeps a little of the field itself.
+  // The prior that avoids the boundary keeps some of the field itself.
   const auto kept = fit_penalised(problem);
   ASSERT_TRUE(kept.has_value());
   EXPECT_EQ(kept->ends[0], SmoothingEnd::inside);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A ridge whose rows are kept: the numbers that X'X gives, and those of the responses' own
+// A ridge with kept rows, compared with the results from X'X and from the responses' own
 // covariance.
 #include <cmath>
 #include <random>
@@ -17,7 +17,7 @@ constexpr Eigen::Index kRows = 20;
 constexpr Eigen::Index kRidge = 24;
 constexpr Eigen::Index kShared = 3;
 
-// y = F u + Z s + sigma e with graded F, as smooth functions at scattered points are.
+// y = F u + Z s + sigma e with graded F, as for smooth functions at scattered points.
 PenalisedProblem problem_of(double sigma, bool keeps_rows) {
   std::mt19937_64 random(kRowsSeed);
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
@@ -76,7 +76,7 @@ TEST(RemlRows, AreTheMixedModel) {
   const Eigen::VectorXd solved = m.fullPivLu().solve(r);
   const Eigen::VectorXd u = f.transpose() * solved / fit->lambda(0);
   const Eigen::VectorXd s = problem.prior_mean.tail(kShared) + prior * z.transpose() * solved;
-  // M's condition, 1e8 and more, leaves half of the digits to the comparison.
+  // M's condition number, 1e8 and more, halves the digits of the comparison.
   EXPECT_LT((fit->coefficients.head(kRidge) - u).cwiseAbs().maxCoeff(), 1e-5);
   EXPECT_LT((fit->coefficients.tail(kShared) - s).cwiseAbs().maxCoeff(), 1e-5);
 }

@@ -16,7 +16,7 @@ using truths::kBed;
 
 constexpr std::uint64_t kScatteredSeed = 5;
 
-// Smooth terms of 0.8 mm that no machine model has.
+// Smooth terms of 0.8 mm that are in no machine model.
 double unmodelled_left(double x, double y) {
   return 0.8 * std::sin(x / 500 + 0.3) * std::cos(y / 400);
 }
@@ -67,8 +67,7 @@ struct NoisyCase {
 class NoisyPoints : public testing::TestWithParam<NoisyCase> {};
 
 // The coverage of pointwise intervals is a mean over the bed and over many machines' draws: over
-// one bed they are strongly correlated. 92 to 98 % over 40 draws and both terms is what is
-// promised.
+// one bed they are strongly correlated. 92 to 98 % over 40 draws and both terms is required.
 TEST_P(NoisyPoints, AreSmoothedWellAndTheirIntervalsCoverTheTruth) {
   SCOPED_TRACE(kScatteredSeed);
   const NoisyCase& c = GetParam();
@@ -151,7 +150,7 @@ TEST(ScatteredFit, DoesNotSwingWhereBisplrepDoes) {
   }
   // A thin plate through these points (SciPy RBFInterpolator) is 10.69 off at (100, 200).
   EXPECT_NEAR(surface->at(100, 200).value, truths::proposal(100, 200), 10.69);
-  // What the fit says of itself is no less than what is true of it.
+  // The fit's own error estimate is no smaller than the true error.
   EXPECT_GE(surface->left_out().rms, std::sqrt(square / count));
   EXPECT_GE(surface->left_out().largest, worst);
   EXPECT_TRUE(surface->flags().empty());
@@ -235,7 +234,7 @@ TEST(ScatteredFit, RefusesGarbageByName) {
   EXPECT_EQ(refusal(line).second,
             "all points lie on one line: they say nothing about the surface beside it");
 
-  // Noise of 1 stated as 1e-6: the surface must swing through every point.
+  // Noise of 1 stated as 1e-6: the surface must oscillate through every point.
   SCOPED_TRACE(kScatteredSeed);
   truths::Random random(kScatteredSeed + 4);
   std::vector<ScatteredPoint> wild;

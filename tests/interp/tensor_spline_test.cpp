@@ -22,9 +22,8 @@ using truths::sample;
 
 constexpr std::uint64_t kTensorSeed = 41;
 
-// One-dimensional reference that shares nothing with the spline under test: all 4 (n - 1) power
-// coefficients at once, from interpolation, continuity and the two end conditions, by full
-// pivoting.
+// An independent one-dimensional reference: all 4 (n - 1) power coefficients at once, from
+// interpolation, continuity and the two end conditions, by full pivoting.
 double reference_1d(const std::vector<double>& x,
                     const Eigen::VectorXd& f,
                     const AxisEnds& ends,

@@ -19,7 +19,7 @@ namespace chaintrue::interp::truths {
 inline constexpr Rectangle kBed = {-1219.2, 1219.2, -609.6, 609.6};
 
 /// Wrap only: a chain over the top of a sprocket of radius 10.1 at (side 1500, 1060), counted from
-/// 12 o'clock; alpha + asin(r / d) is the angle it lies on. side is -1 (left) or 1 (right).
+/// 12 o'clock; alpha + asin(r / d) is the angle of contact. side is -1 (left) or 1 (right).
 inline double wrapped_chain(double x, double y, double side) {
   constexpr double kRadius = 10.1;
   const double dx = 1500.0 - side * x;
@@ -54,7 +54,7 @@ Eigen::MatrixXd sample(const std::vector<double>& x, const std::vector<double>& 
   return values;
 }
 
-/// The same numbers on every platform.
+/// The same random numbers on every platform.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The same answers where the functions of the C library round to the other side: searches that stop at a threshold, ties
-/// that rounding breaks and differences that are rounding alone would show here, and show between machines.
+/// Results must be the same if the functions of the C library round in the other direction: searches that
+/// stop at a threshold, ties broken by rounding and differences that are pure rounding would differ here, and
+/// differ between machines.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,14 +17,16 @@
 namespace chaintrue {
 namespace {
 
-/// Rounding of 1e-16 may grow by the condition of what is computed, of a calibration 1e5, and no further.
+/// Rounding of 1e-16 may grow by the condition number of the computation, 1e5 for a calibration, and no
+/// further.
 constexpr double kRelative = 1e-9;
-/// What is nothing but for rounding has no size: a millionth of a micrometre, of a hundredth of a percent.
+/// Absolute difference for numbers that are zero up to rounding: a millionth of a micrometre, of a
+/// hundredth of a percent.
 constexpr double kAbsolute = 1e-9;
-/// The digits of a map's coefficients, the last of which may round to either side.
+/// Digits of a map's coefficients, the last of which may round in either direction.
 constexpr std::size_t kWrittenDigits = 7;
 
-/// Numbers and what stands between them by turns; breaks of lines and hashes over digits are left out.
+/// Numbers and the texts between them in turn, without line breaks and hashes of digits.
 std::vector<std::string> pieces_of(const std::string& text) {
   static const std::regex blanks("\\s+");
   static const std::regex hash("\"[0-9a-f]{16}\"");
@@ -53,7 +56,7 @@ void expect_alike(const std::string& found, const std::string& wanted) {
     ASSERT_TRUE(is_number) << a[i] << " in place of " << b[i];
     const double is = std::stod(a[i]);
     const double was = std::stod(b[i]);
-    // One step of the last of the digits that are written.
+    // One step of the last written digit.
     const bool is_rounded = std::max(digits_of(a[i]), digits_of(b[i])) == kWrittenDigits;
     const double step = is_rounded ? std::pow(10.0, 1.0 - kWrittenDigits) : kRelative;
     EXPECT_LE(std::abs(is - was), std::max(step * std::abs(was), kAbsolute))
@@ -65,7 +68,7 @@ void expect_alike(const std::string& found, const std::string& wanted) {
 struct Task {
   const char* name;
   const char* words;
-  bool is_in_all_digits = false;  ///< the result shows the last bit
+  bool is_in_all_digits = false;  ///< the output shows the last bit
 };
 void PrintTo(const Task& task, std::ostream* out) { *out << task.words; }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The C library's functions of double with another rounding, to be put before it by LD_PRELOAD: from the same function of
-/// long double, rounded to either of the two neighbours by a hash of the argument and of CHAINTRUE_ROUNDING (a whole
-/// number). What is exact stays exact. So much libraries differ from each other, and one from itself on processors with
-/// and without fused multiplication: glibc 2.36 states errors below one unit in the last place for all of these
+/// The C library's functions of double with another rounding, for LD_PRELOAD: computed by the same function of long
+/// double and rounded to either of the two neighbours by a hash of the argument and of CHAINTRUE_ROUNDING (a whole
+/// number). Exact results are unchanged. Libraries differ from each other by this much, and one library between
+/// processors with and without fused multiplication: glibc 2.36 states errors below one unit in the last place for all of these
 /// (glibc manual, "Known Maximum Errors in Math Functions").
 #include <bit>
 #include <cmath>

@@ -10,14 +10,14 @@ import re
 import sys
 import tempfile
 
-# What each layer may include besides itself. Leaves first.
+# What each layer may include besides itself, lowest layers first.
 LAYERS = {
     "interp": set(),
     "model": set(),
     "grid": {"interp", "model"},
     "tools": {"interp", "model", "grid"},
 }
-# Libraries of tools/ that know nothing of the command line.
+# Libraries of tools/ that are independent of the command line.
 WITHOUT_COMMAND_LINE = ("tools/gcode", "tools/report")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 

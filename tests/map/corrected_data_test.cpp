@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A machine file may name effects of the paper and of the visit: the data are freed of them, once,
-// and no map over the bed holds any of them.
+// A machine file may contain effects of the paper and of the visit: they are removed from the data,
+// once, and no map over the bed includes them.
 #include "grid/map/corrected_data.hpp"
 
 #include <gmock/gmock.h>
@@ -35,7 +35,7 @@ model::Machine machine_with(const std::vector<std::vector<model::AppliedEffect>>
   return machine;
 }
 
-/// Read without noise on a machine with these effects; the grid's machine is that machine.
+/// A session without noise on a machine with these effects; the grid's machine is that machine.
 synthetic::SyntheticSession session(const model::Machine& machine) {
   synthetic::SyntheticSpec spec;
   spec.design.columns = 7;
@@ -47,7 +47,7 @@ synthetic::SyntheticSession session(const model::Machine& machine) {
   return synthetic::generate(machine, spec).value();
 }
 
-// The truth is what the generator knows: where the tool was, and the repeatable reading there.
+// The truth is the generator's: the tool's position, and the repeatable reading there.
 TEST(CorrectedData, AreTheTruePlacesAndTheRepeatableReadings) {
   const auto measured = session(machine_with({kOfThePaper, kOfTheMachine, kOfTheVisit}));
   const auto corrected = corrected_data(measured.grid);
@@ -60,15 +60,14 @@ TEST(CorrectedData, AreTheTruePlacesAndTheRepeatableReadings) {
     EXPECT_NEAR(point.mark.x_mm, place.x_mm, 1e-9) << i;  // an affine map and its inverse
     EXPECT_NEAR(point.mark.y_mm, place.y_mm, 1e-9) << i;
     const model::ChainLengths expected = repeatable.at(place).value().lengths;
-    // Readings are written to 1e-9 mm relative to 4 m of chain, and the equilibrium settles to
-    // that.
+    // Readings are written to 1e-9 mm relative to 4 m of chain, the tolerance of the equilibrium.
     EXPECT_NEAR(point.lengths->left_mm, expected.left_mm, 1e-6) << i;
     EXPECT_NEAR(point.lengths->right_mm, expected.right_mm, 1e-6) << i;
     largest_taken_out_mm =
         std::max(largest_taken_out_mm,
                  std::abs(measured.grid.points[i].lengths->left_mm - expected.left_mm));
   }
-  EXPECT_GT(largest_taken_out_mm, 6.0);  // the skipped link: there was something to take out
+  EXPECT_GT(largest_taken_out_mm, 6.0);  // the skipped link: the correction is not zero
   EXPECT_EQ(corrected->notes.size(), 2U);
 }
 
@@ -104,7 +103,7 @@ TEST(CorrectedData, WithoutAnOrderSayWhatCouldNotBeTakenOut) {
   EXPECT_EQ(corrected->grid.points[3].lengths->left_mm, measured.grid.points[3].lengths->left_mm);
 }
 
-// The map of a machine that is known to drift, skip and stick is the map of one that does not.
+// The map of a machine with stated drift, skip and hysteresis equals that of one without.
 TEST(FitOnAnExtendedMachine, PutsNoEffectOfTheVisitOrThePaperIntoTheMap) {
   const auto disturbed = session(machine_with({kOfThePaper, kOfTheMachine, kOfTheVisit}));
   const auto clean = session(machine_with({kOfTheMachine}));
@@ -120,7 +119,7 @@ TEST(FitOnAnExtendedMachine, PutsNoEffectOfTheVisitOrThePaperIntoTheMap) {
     const auto clean_answer = clean_map->query(place);
     ASSERT_TRUE(answer);
     ASSERT_TRUE(clean_answer);
-    // Both maps are made from the same numbers but for rounding.
+    // Both maps are fitted to the same numbers up to rounding.
     EXPECT_NEAR(answer->lengths.left_mm, clean_answer->lengths.left_mm, 1e-5);
     EXPECT_NEAR(answer->lengths.right_mm, clean_answer->lengths.right_mm, 1e-5);
   }
@@ -130,7 +129,7 @@ TEST(FitOnAnExtendedMachine, PutsNoEffectOfTheVisitOrThePaperIntoTheMap) {
     EXPECT_TRUE(effect.effect == "chain_stretch" || effect.effect == "chain_pitch_error");
 }
 
-// What the machine file says of the machine itself is used: nothing is left for the surface.
+// The machine file's effects of the machine itself are used: nothing remains for the surface.
 TEST(FitOnAnExtendedMachine, UsesItsEffects) {
   const auto measured = session(machine_with({kOfTheMachine}));
   MeasuredGrid plain = measured.grid;

@@ -64,7 +64,7 @@ TEST(DirectFit, EstimatesTheErrorBetweenItsLines) {
   const double sigma =
       std::get<grid::DirectSurface>(map->contents().surface).interpolation_sigma_mm;
   // The true error over the bed is 0.263 mm at most and 0.080 mm rms; an estimate within a factor
-  // of three is fair.
+  // of three is acceptable.
   EXPECT_GT(sigma, 0.027);
   EXPECT_LT(sigma, 0.24);
 }
@@ -80,7 +80,7 @@ TEST(DirectFit, TakesEveryKindOfEnd) {
     const auto map = grid::fit(seed_grid(5), options);
     ASSERT_TRUE(map);
     const auto read = grid::files::parse_map(grid::files::write_map(*map), "map.json");
-    // Natural ends, the worst of the four, are 7.15 mm off at most on this grid.
+    // With natural ends, the worst of the four, the error on this grid is 7.15 mm at most.
     EXPECT_NEAR(read.query({100.0, 200.0})->lengths.right_mm, seed_length_mm(100.0, 200.0), 7.2);
   }
 }

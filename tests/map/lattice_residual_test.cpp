@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Readings without noise on full rows and columns: the map passes through them, and says so.
+// Readings without noise on full rows and columns: the map interpolates them, and reports it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using model::MarkPoint;
 using testing::Contains;
 using testing::HasSubstr;
 
-/// The default machine and something smooth that no setting explains.
+/// The default machine plus a smooth term that no setting explains.
 model::ChainLengths truth_at(MarkPoint p) {
   static const model::ReadingModel kModel{model::Machine{}};
   const model::ChainLengths machine = kModel.at(model::identity_placement(p)).value().lengths;

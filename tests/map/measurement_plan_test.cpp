@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a plan promises: as many marks as asked for, on the bed, apart from each other, in a short
-// walk; an expected error that falls with more points and is told by the fit itself.
+// Properties of a plan: the required number of marks, on the bed, apart from each other, on a short
+// route; an expected error that decreases with more points and equals the fit's.
 #include "grid/planning/measurement_plan.hpp"
 
 #include <gmock/gmock.h>

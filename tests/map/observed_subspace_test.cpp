@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part of a spline surface that points observe, against the penalty's own algebra.
+// The part of a spline surface that points determine, compared with the penalty's own algebra.
 #include "grid/estimation/observed_subspace.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What maps answer beyond their points, in each of the five ways.
+// The values of maps beyond their points, for each of the five policies.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ using model::MarkPoint;
 const std::vector<Outside> kWays = {
     Outside::continued, Outside::refuse, Outside::fade, Outside::linear, Outside::clamp};
 
-/// Points on the middle of the bed only: 300 mm and more are left beside them.
+/// Points in the middle of the bed only, with margins of 300 mm and more.
 grid::MeasuredGrid middle_grid(bool noisy) {
   auto spec = testing_support::usual_spec(21);
   if (!noisy) spec.noise = {};
@@ -60,9 +60,9 @@ TEST_P(OutsideTheMap, EveryWayIsContinuousItsSlopesTrueAndItsSigmaNoSmaller) {
       const auto next = map.query({x + kStepMm, 120.0});
       if (!here || !next) continue;
       ++answered;
-      // The slope at either end predicts the step to the trapezoidal rule's error, some 1e-6 mm;
-      // a jump, or a slope that belongs elsewhere, shows. Only clamp has a kink, at the hull: half
-      // a step of the slope, the bump's 1 / 400 and a tenth.
+      // The slopes at both ends predict the step to the error of the trapezoidal rule, some 1e-6
+      // mm; a jump, or a wrong slope, is detected. Only clamp has a kink, at the hull: half a step
+      // of the slope, the bump's 1 / 400 and a tenth.
       const double predicted =
           0.5 * kStepMm * (here->mark_jacobian(0, 0) + next->mark_jacobian(0, 0));
       const double kink = way == Outside::clamp ? 0.5 * kStepMm * 1.1 / 400.0 : 0.0;

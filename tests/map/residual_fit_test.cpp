@@ -38,9 +38,9 @@ TEST(ResidualFit, LeavesAFractionOfWhatTheStatedMachineErrs) {
 }
 
 TEST(ResidualFit, ExpectsTheErrorThatItHas) {
-  // The mean square of the true error over the sigma that the map states for it is 1 where sigmas
-  // are honest. One bed's errors are strongly correlated (about 9 independent ones), so 12 beds pin
-  // the mean down to 1 +- 0.14.
+  // The mean square of the true error over the sigma that the map states for it is 1 if the sigmas
+  // are right. One bed's errors are strongly correlated (about 9 independent ones), so 12 beds
+  // determine the mean to 1 +- 0.14.
   double ratio = 0.0;
   constexpr int kBeds = 12;
   for (std::uint64_t seed = 100; seed < 100 + kBeds; ++seed) {
@@ -49,7 +49,7 @@ TEST(ResidualFit, ExpectsTheErrorThatItHas) {
     const double expected = map.contents().accuracy.expected_tool.rms_mm;
     ratio += std::pow(true_tool_rms_mm(map, made.answer) / expected, 2) / kBeds;
   }
-  // Three of those standard errors, and a fifth for the raster's edge beyond the outermost points.
+  // Three of those standard errors, and a fifth for the raster outside the outermost points.
   EXPECT_GT(ratio, 0.55);
   EXPECT_LT(ratio, 1.65);
 }
@@ -80,7 +80,7 @@ TEST(ResidualFit, PlacesASheetThatWasLaidByHand) {
   const auto made = session(spec);
   const CompensationMap map = fitted(made.grid);
   EXPECT_LT(true_tool_rms_mm(map, made.answer),
-            0.4);  // as without a sheet: its placement moves the frame alone
+            0.4);  // as without a sheet: its placement only moves the frame
   const model::MarkPoint mark{300.0, -200.0};
   const model::BedPoint bed = map.to_bed(mark);
   const auto by_mark = map.query(mark);
@@ -117,7 +117,7 @@ TEST(ResidualFit, DoesNotDependOnTheOrderOfThePoints) {
   const CompensationMap a = fitted(made.grid);
   const CompensationMap b = fitted(reversed);
   for (const model::MarkPoint point : {model::MarkPoint{0, 0}, {-1100, -550}, {900, 580}}) {
-    // Sums in another order: rounding, magnified by the condition of the fit.
+    // Sums in another order: rounding, amplified by the condition number of the fit.
     EXPECT_NEAR(a.query(point)->lengths.left_mm, b.query(point)->lengths.left_mm, 1e-6);
   }
 }
@@ -129,7 +129,7 @@ TEST(ResidualFit, WithoutNoiseItMeetsThePointsAndTheTruth) {
   const auto made = session(spec);
   EXPECT_FALSE(made.grid.noise);
   EXPECT_LT(true_tool_rms_mm(fitted(made.grid), made.answer),
-            0.01);  // the model class holds the truth exactly
+            0.01);  // the model class contains the truth exactly
 }
 
 TEST(ResidualFit, TakesTheNoiseFromRepeatsWhereNobodyStatedIt) {
@@ -190,7 +190,7 @@ TEST(ResidualFit, ReadingsOfTheMachineSharpenTheSettings) {
   const double before = sigma_of_spacing(fitted(made.grid));
   made.grid.readings = {{"motor_spacing_mm", "", truth.right.x_mm - truth.left.x_mm, 0.1}};
   const CompensationMap map = fitted(made.grid);
-  EXPECT_LT(sigma_of_spacing(map), 0.1);  // the tape alone is that good
+  EXPECT_LT(sigma_of_spacing(map), 0.1);  // the tape alone has that accuracy
   EXPECT_LT(sigma_of_spacing(map), before);
   const auto& motors = map.machine()->motors;
   EXPECT_NEAR(motors.right.x_mm - motors.left.x_mm,
@@ -221,7 +221,7 @@ TEST(ResidualFit, TakesWhatIsStatedWithoutUncertaintyAsKnown) {
         result.setting == model::Setting::chain_zero_right_mm) {
       continue;
     }
-    EXPECT_NEAR(result.calibrated, result.stated, 1e-6);  // ten of the sigmas that count as none
+    EXPECT_NEAR(result.calibrated, result.stated, 1e-6);  // ten of the sigmas that count as zero
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers to type in, from maps of machines that some settings make exactly right.
+// Numbers to type in, from maps of machines for which exact settings exist.
 #include "grid/map/settings_to_type.hpp"
 
 #include <gmock/gmock.h>
@@ -14,7 +14,7 @@ namespace {
 using model::ControllerSettings;
 using model::Machine;
 
-/// As GroundControl's settings would make it; owners' calibrations leave a sag like this one.
+/// A machine from GroundControl's settings; owners' calibrations give a sag factor like this one.
 Machine imported_machine() {
   Machine machine;
   machine.controller.kind = model::ControllerKind::maslow_classic;
@@ -32,7 +32,7 @@ Machine imported_machine() {
   return machine;
 }
 
-/// 28 commands, and where the tool went: a machine that would be exactly right with `right`.
+/// 28 commands and the tool's positions, for a machine that is exact with the settings `right`.
 MeasuredGrid grid_of(const Machine& machine, const ControllerSettings& right) {
   Machine would_be_right = machine;
   would_be_right.controller.settings = right;
@@ -66,8 +66,8 @@ TEST(SettingsToType, OfAMachineThatIsRightStayAsTheyAre) {
   EXPECT_FALSE(typed->worth_typing);
   EXPECT_EQ(typed->settings.motor_spacing_mm, 2978.4);
   EXPECT_EQ(typed->settings.chain_sag_correction, 25.0);
-  // What the map makes of the firmware's formulas where its points are not: less than twice the
-  // error that it expects of itself.
+  // The map's error for the firmware's formulas away from its points: less than twice its own
+  // expected error.
   EXPECT_LT(typed->as_it_is.rms_mm, 2.0 * map->contents().accuracy.expected_tool.rms_mm);
 }
 
@@ -85,9 +85,9 @@ TEST(SettingsToType, BringTheToolBack) {
   EXPECT_TRUE(typed->worth_typing);
   EXPECT_EQ(typed->points, 28U);
   EXPECT_GT(typed->as_it_is.rms_mm, 2.0) << "the machine was not wrong to begin with";
-  // There are numbers that make it right; the map knows it to a tenth of a millimetre.
+  // Exact settings exist; the map determines them to a tenth of a millimetre.
   EXPECT_LT(typed->typed.rms_mm, 0.15);
-  // What the settings make of places that the map has not seen: the tool itself.
+  // The effect of the settings at positions that were not fitted: the tool itself.
   Machine mended = machine;
   mended.controller.settings = typed->settings;
   Machine truth = machine;

@@ -14,8 +14,8 @@
 
 namespace chaintrue::testing_support {
 
-/// A 7 x 4 grid as an owner measures it: sled up to 8 mm beside the marks, 0.2 mm and 0.3 mm noise,
-/// six repeats, motors and zeros off by draws from their stated uncertainty.
+/// A 7 x 4 grid as usual: sled up to 8 mm from the marks, 0.2 mm and 0.3 mm noise, six repeats,
+/// motors and zeros drawn from their stated uncertainties.
 inline grid::synthetic::SyntheticSpec usual_spec(std::uint64_t seed) {
   grid::synthetic::SyntheticSpec spec;
   spec.jitter_mm = 8.0;
@@ -27,8 +27,7 @@ inline grid::synthetic::SyntheticSpec usual_spec(std::uint64_t seed) {
   return spec;
 }
 
-/// Root mean square of the tool's error of a map against the truth, over a raster of the bed inside
-/// the points.
+/// Root mean square of a map's tool error, over a raster of the bed within the points.
 template <class Map>
 double true_tool_rms_mm(const Map& map, const grid::synthetic::SyntheticAnswer& answer) {
   const model::ReadingModel truth(answer.machine);

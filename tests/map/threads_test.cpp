@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One map asked by many threads, and many fits at once: the same bits as one after the other.
+// One map evaluated by many threads, and many fits at once: the same bits as sequentially.
 #include <gtest/gtest.h>
 
 #include <stdexcept>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The pose against chains of links: point masses joined by springs, one end on a circle, the other
-// on a rigid link to the sled. Nothing here knows a catenary; only node positions are unknown, and
-// every node must be at rest.
+// The pose compared with chains of links: point masses joined by springs, one end on a circle, the
+// other on a rigid link to the sled. The catenary is not used; only node positions are unknown, and
+// every node must be in equilibrium.
 #include <gmock/gmock.h>
 
 // Eigen's sparse solver narrows integers in its own code.
@@ -44,8 +44,8 @@ class LinkedChains {
   LinkedChains(const EquilibriumParameters& m, ChainLengths lengths, int links)
       : m_(m), lengths_(lengths), links_(links) {}
 
-  /// Where the bit comes to rest. The guess is where Newton starts; any that converges ends at the
-  /// same rest.
+  /// The bit's position at equilibrium. Newton starts from the guess; every start that converges
+  /// ends at the same equilibrium.
   [[nodiscard]] BedPoint rest(const Pose& guess) {
     lay_out(guess);
     for (int n = 0; n < 200; ++n) {
@@ -113,14 +113,14 @@ class LinkedChains {
     }
   }
 
-  /// The last link: what the sprocket has not taken up.
+  /// The last link: the part not on the sprocket.
   [[nodiscard]] Pull last_link(Side side, const Vector2d& node) const {
     const auto pull = [&](const Vector2d& from) {
       const Tangent t = tangent(side, from);
       return spring(from, t.point, last_mm(side, from), m_.chain_compliance_per_n);
     };
-    // Its derivative by a difference: the tangent point and the rest length move along. Newton only
-    // needs it nearly.
+    // Its derivative by a difference: the tangent point and the rest length change too. Newton
+    // needs it only approximately.
     Pull result = pull(node);
     for (int k = 0; k < 2; ++k) {
       Vector2d h = Vector2d::Zero();
@@ -165,7 +165,7 @@ class LinkedChains {
   }
   template <class Visit>
   void each_link(Visit visit) const {
-    // The ring's link is a spring too, short by the stretch that the pose's pull gives it.
+    // The ring's link is a spring too, shorter by its stretch under the pose's pull.
     constexpr double kStiff = 1e-9;
     const double rho = std::get<Ring>(m_.attachment).radius_mm;
     for (const Side side : kSides) {
@@ -212,12 +212,11 @@ TEST(DiscreteChain, ComesToRestAtThePoseAsItsLinksGetShorter) {
         const BedPoint rest = LinkedChains(m, pose.lengths, 150 << k).rest(pose);
         e[k] = {rest.x_mm - p.x_mm, rest.y_mm - p.y_mm};
       }
-      // The sled on a real chain's 470 links rests within 7e-5 mm of the pose; 600 links are
-      // closer.
+      // With a real chain's 470 links the sled is within 7e-5 mm of the pose; 600 links are closer.
       EXPECT_LE(e[2].norm(), 7e-5);
-      // Their law: h^2 from the bend at each pin, h from the stretch of the arc between the last
-      // link's direction and the tangent's. With both taken out h^3 is left, and rounding: 1e-13 mm
-      // in springs of 3e-8 mm per newton.
+      // Order of the error: h^2 from the bend at each pin, h from the stretch of the arc between
+      // the last link's direction and the tangent's. With both eliminated h^3 remains, and
+      // rounding: 1e-13 mm in springs of 3e-8 mm per newton.
       EXPECT_LE(((8.0 * e[2] - 6.0 * e[1] + e[0]) / 3.0).norm(), 2e-10);
       EXPECT_LT(e[1].norm(), 0.5 * e[0].norm());
       EXPECT_LT(e[2].norm(), 0.5 * e[1].norm());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of the heavy elastic chain and of the pose that hangs on two of them, each checked by a
-// formula that the solver does not use.
+// Laws of the heavy elastic chain and of the pose with two of them, each checked by a formula that
+// the solver does not use.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -37,15 +37,16 @@ EquilibriumParameters classic(Feed feed = Feed::over_top) {
   return equilibrium_parameters(machine);
 }
 
-// Emscripten's C library passes long doubles on to the functions of doubles: no truth is to be had there.
+// Emscripten's C library evaluates long doubles with the functions of doubles: no reference values are
+// available there.
 #ifdef __EMSCRIPTEN__
 constexpr bool kHasLongFunctions = false;
 #else
 constexpr bool kHasLongFunctions = true;
 #endif
 
-/// Irvine's own form, in extended precision, which loses there what the stable form keeps in
-/// double.
+/// Irvine's own form in extended precision; in double it would lose the digits that the stable form
+/// keeps.
 struct Extent {
   long double u, y;
 };
@@ -183,8 +184,8 @@ TEST(Pose, BalancesInIrvinesForm) {
   }
 }
 
-// Letting out a millimetre of chain does the work that the tension there says: the whole energy
-// (sled, chains, strain) as a function of the two lengths has the derivative
+// The work of letting out a millimetre of chain equals the tension there: the total energy (sled,
+// chains, strain) as a function of the two lengths has the derivative
 //   dU/dL = (w yP - Tb - c Tb^2/2)_L - sum_i (w yP - c Tb^2/2)_i sg r dphi_i/dL,  yP the tangent
 //   point's height.
 TEST(Pose, EnergyIdentity) {
@@ -257,8 +258,8 @@ TEST(Pose, WeightlessLimitIsTheStraightTangent) {
         SCOPED_TRACE(testing::Message()
                      << "seed " << kLawSeed + 5 << " (" << p.x_mm << ", " << p.y_mm << ")");
         const ChainLengths a = kinematics->inverse(p)->lengths, b = wrap->inverse(p)->lengths;
-        // Sag goes with the square of the weight, 4.9 mm at most for the whole chain; 5e-12 is
-        // rounding.
+        // Sag is proportional to the square of the weight, 4.9 mm at most for the whole chain;
+        // 5e-12 is rounding.
         const double most = 4.9 * share * share * 1.1 + 5e-12;
         EXPECT_NEAR(a.left_mm, b.left_mm, most);
         EXPECT_NEAR(a.right_mm, b.right_mm, most);
@@ -343,7 +344,7 @@ TEST(Pose, HeavierChainsAreLongerAndSofterOnesShorter) {
 }
 
 // Every point 30 mm or more from the verticals and the beam has a pose, for sleds down to 2 % of
-// the mass, and forward leads back to it.
+// the mass, and forward is its inverse.
 TEST(Pose, NoFailureInsideTheDomain) {
   int poses = 0, most_iterations = 0;
   for (const Feed feed : {Feed::over_top, Feed::off_bottom}) {
@@ -372,8 +373,8 @@ TEST(Pose, NoFailureInsideTheDomain) {
             most_iterations = std::max(most_iterations, pose->iterations);
             const PoseResult back = kinematics->forward(pose->lengths);
             ASSERT_TRUE(back) << explain(back.error());
-            // Rounding of a length magnified: near the verticals of a sled that weighs less than
-            // its chains by 1e4.
+            // Amplified rounding of a length: by 1e4 near the verticals for a sled that weighs less
+            // than its chains.
             const double tolerance = mass_share == 1.0 ? 1e-9 : 1e-8;
             ASSERT_LE(std::hypot(back->position.x_mm - p.x_mm, back->position.y_mm - p.y_mm),
                       tolerance);

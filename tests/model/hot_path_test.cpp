@@ -49,8 +49,8 @@ TEST(HotPath, AllocatesNothing) {
       const Pose pose = *kinematics->inverse({-700.0, 300.0});
       sum += kinematics->forward(pose.lengths)->position.x_mm + kinematics->jacobian(pose).sum() +
              kinematics->sensitivity(pose, Parameter::chain_weight_n_per_mm).sum();
-      // Named failures, a cold start at the rim that has to be walked to, and chains that cannot
-      // meet.
+      // Named failures, a cold start at the edge of the domain that needs continuation, and chains
+      // that do not meet.
       sum += kinematics->inverse({0.0, 2000.0}).has_value() +
              kinematics->inverse({-1470.0, -3000.0}).has_value() +
              kinematics->forward({10.0, 20.0}).has_value();
@@ -60,7 +60,7 @@ TEST(HotPath, AllocatesNothing) {
   }
 }
 
-// The counter counts: else the test above could not fail.
+// Shows that the counter works: otherwise the test above could not fail.
 TEST(HotPath, CounterSeesAnAllocation) {
   const long before = allocations.load();
   const std::vector<double> numbers(1000, 1.0);

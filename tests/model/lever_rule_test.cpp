@@ -43,8 +43,8 @@ TEST(LeverRule, SettlesAtTheReferencePose) {
       passes_sum += static_cast<double>(result->passes.size());
     }
   }
-  // The figures of model/README.md, rounded there: before it iterates the two chains' ends miss
-  // each other by a foot.
+  // The figures of model/README.md, rounded there: before the first iteration the two chains' ends
+  // are up to 277 mm apart.
   EXPECT_NEAR(worst_weightless, 5.3, 0.1);
   EXPECT_NEAR(worst_gap, 277.0, 1.0);
   EXPECT_NEAR(gap_sum / 234.0, 64.0, 1.0);

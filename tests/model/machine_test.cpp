@@ -53,7 +53,7 @@ struct Slip {
   const char* says;
 };
 
-// Each slip is refused with its place, its value and what was expected.
+// Each mistake is rejected with its place, its value and what was expected.
 TEST(Machine, SlipsAreNamedWithPlaceValueAndRange) {
   const Slip slips[] = {
       {"bed in inches",
@@ -155,8 +155,7 @@ TEST(Machine, AllProblemsAreReportedAtOnce) {
   EXPECT_THAT(problems_of(machine), testing::SizeIs(3));
 }
 
-// Parameters that reach the equilibrium itself, past the file's checks, are refused there by name
-// and value.
+// Parameters that bypass the file's checks are rejected by the equilibrium, by name and value.
 TEST(Machine, KinematicsRefuseParametersByNameAndValue) {
   const auto message = [](const std::function<void(EquilibriumParameters&)>& spoil) -> std::string {
     EquilibriumParameters m = equilibrium_parameters(Machine{});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every model against the 40-digit tables (outside truth: computed in 60-digit arithmetic from the
-// plain asinh forms).
+// Every model compared with the 40-digit tables (independent truth: computed in 60-digit arithmetic
+// from the plain asinh forms).
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -12,10 +12,9 @@
 namespace chaintrue::model {
 namespace {
 
-constexpr double kBedTolerance =
-    1e-10;  // mm: the figure asked for over the bed; rounding leaves about 1e-11
+constexpr double kBedTolerance = 1e-10;  // mm: required over the bed; rounding leaves about 1e-11
 constexpr double kEdgeTolerance =
-    1e-9;  // mm: down to 23 mm below the beam and 19 mm beside a vertical
+    1e-9;  // mm: down to 23 mm below the beam and 19 mm from a vertical
 constexpr double kJacobianTolerance = 1e-12;  // relative to the larger entry of its row
 
 struct Case {
@@ -54,7 +53,7 @@ void expect_round_trip(const Kinematics& kinematics,
   EXPECT_NEAR(pose->lengths.right_mm, expected.right_mm, tolerance);
   const PoseResult back = kinematics.forward(expected);
   ASSERT_TRUE(back) << explain(back.error());
-  // At the edge a millimetre of chain moves the sled up to ten.
+  // At the edge of the bed a millimetre of chain moves the sled by up to ten.
   const double amplification = tolerance > kBedTolerance ? 10.0 : 1.0;
   EXPECT_NEAR(back->position.x_mm, p.x_mm, amplification * tolerance);
   EXPECT_NEAR(back->position.y_mm, p.y_mm, amplification * tolerance);
@@ -140,8 +139,8 @@ TEST(Reference, ThreeDimensionalSag) {
       EXPECT_NEAR(pose->chains.left.out_of_sheet_n, number(r["NL"]), 1e-12);
       EXPECT_NEAR(pose->chains.right.out_of_sheet_n, number(r["NR"]), 1e-12);
     }
-    // What the plane's model leaves out, at the lower corners; less off the bottom, where chains
-    // hang flatter.
+    // The part that the plane model leaves out, at the lower corners; less off the bottom, where
+    // chains hang flatter.
     EXPECT_NEAR(most, std::string(name) == "table_3d_over_top.json" ? 0.48 : 0.42, 0.005);
   }
 }

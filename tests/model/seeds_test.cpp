@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Worked examples and formulas as the community published them.
+// Worked examples and formulas published by the community.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ ArccosForm arccos_form(double across_mm, double down_mm, double radius_mm) {
 }
 
 // Motor at (-1000, 1000), target (-25, 70): 1347.41, 7.85, 1355.22 as printed there, to 0.01 mm.
-// The post names no radius; the sprocket's 10.1063 mm would print 7.77. Its digits are those of R
+// The post states no radius; the sprocket's 10.1063 mm would print 7.77. Its digits are those of R
 // = 10.2, the firmware's constant at the time (MaslowCNC/Firmware, cnc_ctrl_v1/Kinematics.h of
 // 2017).
 TEST(Seeds, WrapExampleIsReproducedWithTheFirmwaresRadiusOfItsTime) {
@@ -54,8 +54,8 @@ TEST(Seeds, ArccosArcsinAndArctangentAreOneWrap) {
   }
 }
 
-/// The firmware's lines one after the other, as the community's wiki lists them (2018-08), feeds
-/// and tolerances included.
+/// The firmware's steps in order, as listed in the community's wiki (2018-08), feeds and tolerances
+/// included.
 ChainLengths firmware_by_hand(const Machine& machine, BedPoint p, double radius_mm) {
   const ControllerSettings& s = machine.controller.settings;
   const double k = s.chain_sag_correction.value_or(0.0);
@@ -105,7 +105,7 @@ TEST(Seeds, FirmwaresChainOfFormulasStepByStep) {
     Machine machine = with_settings(feed);
     for (const double radius_mm : {63.5 / (2.0 * kPi), 6.35 / (2.0 * std::sin(kPi / 10.0))}) {
       if (radius_mm > 10.2) {
-        // The settings have no place for the pins' circle; the stated machine has.
+        // The settings cannot represent the pins' circle; the stated machine can.
         machine.controller.settings.chain_pitch_mm.reset();
         machine.controller.settings.gear_teeth.reset();
         machine.sprocket.radius_mm = radius_mm;
@@ -120,16 +120,16 @@ TEST(Seeds, FirmwaresChainOfFormulasStepByStep) {
         EXPECT_NEAR(lengths->right_mm, expected.right_mm, 2e-12);
         const auto command = controller->command(*lengths);
         ASSERT_TRUE(command);
-        EXPECT_NEAR(command->x_mm, p.x_mm, 1e-9);  // promised in payout.hpp
+        EXPECT_NEAR(command->x_mm, p.x_mm, 1e-9);  // as stated in payout.hpp
         EXPECT_NEAR(command->y_mm, p.y_mm, 1e-9);
       }
     }
   }
 }
 
-// k = 1e12 (lambda/m)^2 / 24 makes the parabola the catenary's first term. What the formula leaves
-// out, the chains' own weight in the tension and the ring, is 0.31 mm where a chain hangs deepest
-// and under a micrometre high up.
+// k = 1e12 (lambda/m)^2 / 24 makes the parabola the catenary's first term. The error of the
+// formula, from the chains' own weight in the tension and the ring, is 0.31 mm where a chain hangs
+// deepest and under a micrometre high up.
 TEST(Seeds, SagFactorsClosedFormIsTheCatenarys) {
   const EquilibriumParameters m = equilibrium_parameters(Machine{});
   EXPECT_NEAR(m.sag_correction, 6.069, 0.0005);
@@ -177,13 +177,12 @@ TEST(Controllers, WhatTheSettingsLeaveOutIsTheStatedMachines) {
   EXPECT_EQ(lengths(ControllerKind::maslow_classic).left_mm, model(Model::firmware).left_mm);
   EXPECT_EQ(lengths(ControllerKind::holey).right_mm, model(Model::one_shot).right_mm);
   EXPECT_EQ(lengths(ControllerKind::fluidnc_wallplotter).left_mm, model(Model::straight).left_mm);
-  // The ideal controller counts from the machine's own zeros.
+  // The ideal controller includes the machine's own zeros.
   EXPECT_EQ(lengths(ControllerKind::ideal).left_mm, model(Model::elastic).left_mm + 3.0);
   EXPECT_EQ(lengths(ControllerKind::ideal).right_mm, model(Model::elastic).right_mm - 2.0);
 }
 
-// The later firmware's own lines: tensions of straight chains, a catenary, the mean stretch taken
-// out.
+// The later firmware's steps: tensions of straight chains, a catenary, the mean stretch subtracted.
 TEST(Controllers, HoleyStepByStep) {
   Machine machine = with_settings(Feed::over_top);
   machine.controller.kind = ControllerKind::holey;

@@ -19,14 +19,14 @@ TEST(SlicedPulley, CriticalAngleIsThePublishedOneWithTheBeltsOwnHeight) {
   EXPECT_NEAR(firepick_delta_pulley().critical_angle_rad() / kDegree,
               -52.3,
               0.05);  // published to 0.1 degrees
-  // Without the belt's height the published dimensions miss it by 0.7 degrees.
+  // Without the belt's height the published dimensions give an angle 0.7 degrees off.
   const SlicedPulley bare({47.5, 16.0 / std::numbers::pi, 92.114, -24.17 * kDegree});
   EXPECT_NEAR(bare.critical_angle_rad() / kDegree, -51.58, 0.01);
 }
 
 TEST(SlicedPulley, BeltMovesAsTheCornersVelocityAlongIt) {
-  // Another road to (1): the belt winds by the corner's velocity projected on the belt's own
-  // direction, integrated.
+  // An independent derivation of (1): the belt winds by the corner's velocity projected on the
+  // belt's own direction, integrated.
   const SlicedPulley pulley = firepick_delta_pulley();
   const double big = pulley.travel_per_rad_mm(), small = 16.0 / std::numbers::pi, a = 92.114;
   const double l0 = std::sqrt(a * a - (big - small) * (big - small));
@@ -65,14 +65,14 @@ TEST(SlicedPulley, ErrorBeginsSmoothlyAndOnlyGrows) {
     EXPECT_LT(error, before);
     before = error;
   }
-  // At the corner the belt still touches the round: no slope, no curvature. R x^3 / 6 and the
-  // gear's share at first.
+  // At the corner the belt still touches the round part: neither slope nor curvature. R x^3 / 6 and
+  // the gear's share to leading order.
   EXPECT_NEAR(pulley.travel_error_mm(critical - 0.01), 0.0, 2e-5);
 }
 
 // The published line (-0.383 mm a degree from -54.6 degrees, -5 mm at most, ratio -0.38296) cannot
 // come from the published dimensions: beyond a corner on the rim the belt loses 0.13 mm at the
-// homing angle of -67.2 degrees. Among themselves slope, knee and maximum agree; the ratio repeats
+// homing angle of -67.2 degrees. Slope, knee and maximum agree with each other; the ratio repeats
 // the slope's number although it multiplies it by the belt's travel per degree.
 TEST(SlicedPulley, PublishedLineDoesNotFollowFromThePublishedDimensions) {
   const SlicedPulley pulley = firepick_delta_pulley();

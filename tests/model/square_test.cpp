@@ -9,8 +9,8 @@
 namespace chaintrue::model {
 namespace {
 
-// The squares that a person traced: at the lower left corner of the bed, and a metre higher, below
-// the point.
+// The squares that were traced: at the lower left corner of the bed, and a metre higher, below the
+// point.
 constexpr SquareTask kLow{.size_mm = 100.0, .corner = {-1040.0, -465.0}};
 constexpr SquareTask kHigh{.size_mm = 100.0, .corner = {-1040.0, 535.0}, .below = true};
 
@@ -57,8 +57,8 @@ TEST(Square, AMovedMachineMovesTheSquareAndNothingElse) {
   EXPECT_NEAR(square->side(SquareSide::top).bow_mm, 0.0, 4e-9);
 }
 
-// Straight chains to points, everything true larger by e and the chain's links too: the whole
-// picture is larger by e.
+// Straight chains to points, with every true dimension and the chain's links larger by the factor 1
+// + e: the square is larger by the same factor.
 TEST(Square, LongerLinksOnALargerMachineCutALargerSquare) {
   constexpr double kElongation = 0.002;
   Machine believed;
@@ -98,8 +98,8 @@ TEST(Square, ARotatedMachineRotatesTheSquare) {
   EXPECT_NEAR(square->side(SquareSide::left).length_mm, 100.0, 4e-9);
 }
 
-// The formula before the sprocket was known to it: the square in the upper corner comes out skewed
-// and bowed, which is what the wrap was added for.
+// The formula without a sprocket: the square in the upper corner is skewed and bowed, which the
+// wrap corrects.
 TEST(Square, AControllerWithoutWrapBendsTheUpperSquare) {
   Machine truth;
   Machine believed;
@@ -114,7 +114,7 @@ TEST(Square, AControllerWithoutWrapBendsTheUpperSquare) {
       most = std::max(most, std::abs(square.side(side).length_mm - 100.0));
     return most;
   };
-  EXPECT_GT(worst(*straight), 0.3);  // what a ruler shows
+  EXPECT_GT(worst(*straight), 0.3);  // visible with a ruler
   EXPECT_LT(worst(*wrapped), 0.5 * worst(*straight));
 }
 

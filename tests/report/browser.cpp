@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A new folder, gone with its owner.
+/// A temporary folder, removed with its owner.
 class TemporaryFolder {
  public:
   TemporaryFolder() : path_((fs::temp_directory_path() / "chaintrue-report-XXXXXX").string()) {
@@ -76,7 +76,7 @@ int count_items(std::string_view group) {
   return items;
 }
 
-/// The leaf groups of a chart that hold the items of one mark each: `symbol role-mark points" ...`.
+/// The leaf groups of a chart, each with the items of one mark: `symbol role-mark points" ...`.
 std::vector<std::string_view> mark_groups(std::string_view figure) {
   std::vector<std::string_view> groups;
   for (const std::string_view group : between(figure, "<g class=\"mark-", "</g>")) {
@@ -143,7 +143,7 @@ Visit visit(const std::string& html, std::string_view probe, Window window) {
   const TemporaryFolder folder;
   std::string page = html;
   if (!probe.empty()) {
-    // Charts are drawn asynchronously; the page says when they are done.
+    // Charts are drawn asynchronously; the page signals when they are done.
     const std::string script = fmt::format(
         "<script>(async function wait() {{ if (!document.documentElement.dataset.charts) return "
         "setTimeout(wait, 20);\n{}\n}})();"

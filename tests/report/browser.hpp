@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Opens a page in a real browser and tells what went wrong there.
+/// Opens a page in a real browser and reports problems.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct Visit {
   int exit_code = 0;
   /// The document after its scripts have run.
   std::string dom;
-  /// Everything that the page wrote to the console; a good page writes nothing.
+  /// Everything that the page wrote to the console; empty for a good page.
   std::vector<std::string> console;
 };
 
@@ -36,8 +36,8 @@ inline constexpr std::string_view kCutLabels = R"(
     document.documentElement.dataset.cutLabels = ends.length + ": " + ends.slice(0, 5).map((label) => label.textContent).join("; ");
 )";
 
-/// Why the visited page is not good: console lines, charts that failed, charts with fewer marks
-/// than the rows of their largest table, marks at no place. Empty for a good page.
+/// Problems of the visited page: console lines, charts that failed, charts with fewer marks than
+/// the rows of their largest table, marks without a position. Empty for a good page.
 [[nodiscard]] std::vector<std::string> problems_of(const Visit& visit);
 
 /// How many items the marks of that name have in the chart with that specification (all charts

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Reports in a real browser: nothing on the console, no empty chart, values on hovering, phone
-/// width; and the proof that the check itself fails on broken pages.
+/// width; and a check that broken pages fail.
 #include "tests/report/browser.hpp"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ std::string with(std::string text, std::string_view from, std::string_view to) {
 TEST_F(InBrowser, EveryChartIsDrawnWithEveryRowAndNothingIsLogged) {
   const Visit visited = visit(html_);
   EXPECT_THAT(problems_of(visited), IsEmpty());
-  // Before, after, and after under the magnifying glass.
+  // Before, after, and after at a larger magnification.
   EXPECT_EQ(count_marks(visited, "bed_arrows", "point_marks"), 3 * kSamplePoints);
   EXPECT_EQ(count_marks(visited, "bed_arrows", "shafts"), 3 * kSamplePoints);
   EXPECT_EQ(count_marks(visited, "error_map", "cell_marks"), kSampleCells);
@@ -124,7 +124,7 @@ TEST_F(InBrowser, WordsAreExplainedOnceAndAtTheEnd) {
   EXPECT_GT(found, 0U);
 }
 
-// The check must be able to fail: each of these pages is broken in one way.
+// The check must detect faults: each of these pages has one.
 
 TEST_F(InBrowser, ABrokenSpecificationIsFound) {
   const auto problems = problems_of(visit(with(html_, "\"type\":\"rule\"", "\"type\":\"ruler\"")));

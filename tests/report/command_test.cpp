@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue report as a person runs it: from the demo's grid to a page in the browser; bad input
+/// chaintrue report through the command: from the demo's grid to a page in the browser; bad input
 /// writes nothing.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ class ReportCommand : public ::testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] std::string path(const char* name) const { return (folder_ / name).string(); }
-  /// Runs the command, its messages going to the file "log", and returns the exit code.
+  /// Runs the command with its messages going to the file "log"; returns the exit code.
   [[nodiscard]] int run(const std::string& arguments) const {
     const std::string command =
         fmt::format("'{}' {} 2>'{}'", CHAINTRUE_COMMAND, arguments, path("log"));
@@ -64,7 +64,7 @@ TEST_F(ReportCommand, OfTheDemoGridIsSoundInTheBrowser) {
   if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
   const Visit visited = visit(text_of("report.html"));
   EXPECT_THAT(problems_of(visited), IsEmpty());
-  // 28 marks and six second visits.
+  // 28 marks and six repeated visits.
   EXPECT_EQ(count_marks(visited, "held_out_points", "point_marks"), 34);
 }
 
@@ -94,7 +94,7 @@ constexpr Paper kPapers[] = {{"A4", 210.0, 297.0}, {"Letter", 215.9, 279.4}};
 constexpr double kMarginMm = 14.0;  // @page of page.css
 constexpr double kPxPerMm = 96.0 / 25.4;
 
-/// What @media print lays down, for a window as wide as the paper between its margins.
+/// The page with the rules of @media print, for a window as wide as the paper between its margins.
 std::string as_printed(std::string html) {
   constexpr std::string_view kPrint = "@media print";
   std::size_t rules = 0;
@@ -123,7 +123,7 @@ TEST_F(ReportCommand, OnPaperNoChartIsSplitAndNothingIsCutAtTheSide) {
   for (const Paper& paper : kPapers) {
     const Window window{static_cast<int>((paper.width_mm - 2.0 * kMarginMm) * kPxPerMm),
                         static_cast<int>((paper.height_mm - 2.0 * kMarginMm) * kPxPerMm)};
-    // What must not be split fits a page; the certificate is one page as a whole.
+    // Blocks that must not be split fit on a page; the certificate as a whole fits on one page.
     const std::string probe = fmt::format(
         R"(
         for (const folded of document.querySelectorAll("details")) folded.open = true;

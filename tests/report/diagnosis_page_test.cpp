@@ -59,7 +59,7 @@ class DiagnosisPage : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-// What a person reads before scrolling, and that the mandatory line is there.
+// The visible part before scrolling, with the mandatory line.
 TEST_F(DiagnosisPage, BeginsWithTheAnswer) {
   const Diagnosis found = sample_diagnosis();
   const std::string html = page_of(found);
@@ -95,7 +95,7 @@ TEST_F(DiagnosisPage, DrawsEveryChartAndLogsNothing) {
   if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
   const Visit visited = visit(page_of(sample_diagnosis()));
   EXPECT_THAT(problems_of(visited), IsEmpty());
-  // Before, after, and after under the magnifying glass.
+  // Before, after, and after at a larger magnification.
   EXPECT_EQ(count_marks(visited, "bed_arrows", "point_marks"), 3 * kSamplePoints);
   EXPECT_EQ(count_marks(visited, "bed_arrows", "noise_ellipses"), 3 * kSamplePoints);
   // Two chains, four panels each.
@@ -111,8 +111,8 @@ TEST_F(DiagnosisPage, DrawsEveryChartAndLogsNothing) {
   EXPECT_EQ(count_marks(visited, "next_points", "measured_marks"), kSamplePoints);
 }
 
-// A name that rests on a point shows where, without anybody opening anything; what is as it should
-// be is folded away, and its charts have their width once it is opened.
+// A name that depends on one point shows where without opening anything; sections without problems
+// are folded, and their charts have the right width once opened.
 TEST_F(DiagnosisPage, FoldsAwayWhatIsAsItShouldBe) {
   const std::string html = page_of(sample_diagnosis());
   EXPECT_THAT(html, HasSubstr("<h2>Does the name hang on a few points?</h2>\n<div"));
@@ -175,7 +175,7 @@ TEST_F(DiagnosisPage, OfHolesDrawsDistances) {
   const Visit visited = visit(html);
   EXPECT_THAT(problems_of(visited), IsEmpty());
   constexpr int kDistances = 20;
-  // Before and after; measured, cause, rival and what is left; measured and three more.
+  // Before and after; measured, cause, rival and remainder; measured and three more.
   EXPECT_EQ(count_marks(visited, "hole_distances", "distance_lines"), 6 * kDistances + 23);
   EXPECT_EQ(count_marks(visited, "residual_scatter", "point_marks"), 4 * kDistances);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a document promises of both renderings: the same content, tables that line up, details
-/// where they belong, and texts that stay texts.
+/// Properties of both renderings of a document: the same content, aligned tables, details where
+/// they belong, and escaped texts.
 #include "tools/report/document.hpp"
 
 #include <gmock/gmock.h>
@@ -117,7 +117,7 @@ TEST(Document, DetailSaysWhoIsShownWhat) {
   EXPECT_THAT(render_html(sample()), HasSubstr("<summary><h2>On the page</h2></summary>"));
 }
 
-/// The columns of numbers end where their headings end, whatever is in the cells.
+/// The columns of numbers end where their headings end, for every content.
 TEST(Document, TablesLineUp) {
   Table wide = numbers();
   wide.is_headed = false;

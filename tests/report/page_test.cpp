@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a page promises without a browser: same input same bytes, no network, escaped text, sound
+/// Properties of a page, without a browser: same input same bytes, no network, escaped text, finite
 /// numbers only.
 #include "tests/report/sample_report.hpp"
 
@@ -52,7 +52,7 @@ TEST(Page, SameInputGivesTheSameBytes) {
 
 TEST(Page, AsksForNothingFromTheNetwork) {
   std::string html = render_html(sample_document());
-  // The embedded programs are looked at in the browser test, which has no network.
+  // The embedded programs are checked in the browser test, which has no network.
   html.resize(html.find("<script"));
   for (const char* const loader :
        {"<link rel=\"stylesheet", "<script src", "<img", "@import", "url("}) {
@@ -71,7 +71,7 @@ TEST(Page, TextCannotBecomeMarkup) {
   EXPECT_THAT(html, HasSubstr("\\u003c/script>"));
 }
 
-/// File names are bytes; a page is UTF-8 whatever they are.
+/// File names are bytes; a page is UTF-8 in every case.
 TEST(Page, BytesThatAreNoTextAreReplaced) {
   const std::string bad[] = {
       "\xFF", "\xC3", "\xC0\x80", "\xED\xA0\x80", "\xF5\x80\x80\x80", "\xE2\x82"};
@@ -106,8 +106,7 @@ TEST(Page, EverySpecificationIsJsonForVegaFive) {
   }
 }
 
-/// Names that stand in a specification after `key`: {"field": "x_mm"}; or as datum.NAME inside an
-/// expression.
+/// Names in a specification after `key`: {"field": "x_mm"}; or as datum.NAME inside an expression.
 void collect_fields(const nlohmann::json& spec, std::set<std::string>& fields) {
   static const std::regex in_expression("datum\\.([A-Za-z_]+)");
   for (const auto& [key, value] : spec.items()) {
@@ -122,7 +121,7 @@ void collect_fields(const nlohmann::json& spec, std::set<std::string>& fields) {
   }
 }
 
-/// Fields that a chart reads but nobody gives: neither its data tables nor its own formulas.
+/// Fields that a chart reads but that are in neither its data tables nor its own formulas.
 std::set<std::string> missing_fields(const nlohmann::json& spec, const Chart& chart) {
   std::set<std::string> fields;
   collect_fields(spec, fields);
@@ -148,7 +147,7 @@ std::vector<Chart> charts_of(const Document& page) {
   return charts;
 }
 
-// Vega draws a missing field at 0 without a word, so no browser could tell.
+// Vega draws a missing field at 0 silently, so no browser test could detect it.
 TEST(Page, EveryFieldThatAChartReadsIsGiven) {
   const std::vector<Chart> charts = charts_of(sample_document());
   ASSERT_EQ(charts.size(), 7u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A document as a map of a 7 x 4 grid would fill it, from plain made-up data.
+/// A document like that of a map of a 7 x 4 grid, from made-up data.
 #pragma once
 
 #include "tools/report/map_pictures.hpp"
@@ -9,7 +9,7 @@ namespace chaintrue::report::testing {
 
 /// 28 points, one of them bad; a smooth error of some millimetres before, noise after.
 [[nodiscard]] MapPictures sample_pictures();
-/// The pictures with verdict, advice, settings and words.
+/// The pictures with verdict, advice, settings and texts.
 [[nodiscard]] Document sample_document(const MapPictures& map = sample_pictures());
 
 inline constexpr int kSamplePoints = 28;

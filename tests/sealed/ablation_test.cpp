@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Each step of the procedure earns its place: left out, it costs right names or makes wrong ones.
-/// What is right with the step and what without is frozen by the seeds of what is not.
+/// Each step of the procedure is necessary: without it right names are lost or wrong ones given.
+/// The results with and without the step are frozen as lists of the seeds that are not right.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ TrialOptions ablation_options(Mix mix) {
   return o;
 }
 
-// Signatures that are not projected share most of their length with the settings' own.
+// Signatures that are not projected have most of their norm in common with the settings'.
 TEST(Ablation, WithoutProjectionCausesAreMistaken) {
   TrialOptions o = ablation_options(Mix::single);
   EXPECT_THAT(seeds_without(trials(o, 9100, 20), leads_right), ElementsAre(9108, 9113));
@@ -31,9 +31,9 @@ TEST(Ablation, WithoutProjectionCausesAreMistaken) {
   EXPECT_THAT(seeds_without(trials(o, 9100, 20), leads_right), ElementsAre(9103, 9108, 9109, 9113));
 }
 
-// A beam 150 mm above the bed: at its top centre the chains are level, and where the mark is off
-// upwards neither chain notices; off sideways, both do, one against the other. Two lengths there
-// are one error seen twice and one number that is nearly exact.
+// A beam 150 mm above the bed: at its top centre the chains are horizontal. An error of the mark
+// upwards changes neither chain; an error sideways changes both, with opposite signs. The two
+// lengths there are one error observed twice, and one number that is nearly exact.
 TEST(Ablation, WithoutWhiteningLessIsFound) {
   TrialOptions o = ablation_options(Mix::single);
   o.recipe.machine.emplace();
@@ -49,7 +49,7 @@ TEST(Ablation, WithoutWhiteningLessIsFound) {
               ElementsAre(9601, 9602, 9605, 9606, 9608, 9610, 9611, 9612));
 }
 
-// The noise is three times what was said. Whoever takes it from the fit alone sees nothing odd.
+// The noise is three times the stated one. An estimate from the fit alone does not detect it.
 TEST(Ablation, WithoutTheNoisesAnchorWrongNoiseIsNotSeen) {
   const auto said = [](const Trial& t) {
     return t.verdict == grid::diagnosis::Verdict::noise_larger_than_stated;
@@ -61,7 +61,7 @@ TEST(Ablation, WithoutTheNoisesAnchorWrongNoiseIsNotSeen) {
   EXPECT_EQ(seeds_without(trials(o, 9700, 8), said).size(), 8u);
 }
 
-// A slip of the pen weighs more than any cause where no point may be set aside.
+// A gross error outweighs any cause if no point may be rejected.
 TEST(Ablation, WithoutARobustStartSlipsMakeCauses) {
   const auto silent = [](const Trial& t) { return !names_something(t); };
   TrialOptions o = ablation_options(Mix::bad_points);
@@ -70,8 +70,8 @@ TEST(Ablation, WithoutARobustStartSlipsMakeCauses) {
   EXPECT_EQ(seeds_without(trials(o, 9400, 10), silent).size(), 10u);
 }
 
-// Places that may be chosen freely fit noise better than they should: the best of many counts in
-// full only where the price of the choice is paid.
+// Freely chosen places fit noise better than they should: the best of many is penalised only if the
+// places are averaged.
 TEST(Ablation, WithoutAveragingPlacesAreTooSure) {
   TrialOptions o = ablation_options(Mix::nothing);
   const auto placed = [](const std::vector<Trial>& all) {

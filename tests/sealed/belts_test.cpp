@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hidden sessions of four belts: what is proposed where causes are left open, and what is said of
-// them. Which are named is of the excerpt in rates_test.cpp.
+// Hidden sessions of four belts: the proposed measurements where several causes remain, and the
+// report on them. Rates of names are tested by the excerpt in rates_test.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 using testing::ElementsAre;
 
-// Outcomes are frozen by their seeds: a share of a few dozen sets hides a change.
+// Outcomes are frozen by their seeds: a rate of a few dozen sets hides a change.
 TEST(SealedBelts, WhatIsProposedPartsCausesThatAreLeftOpen) {
   std::vector<std::uint64_t> proposed, parted;
   for (std::uint64_t seed = 1101; seed < 1125; ++seed) {
@@ -28,7 +28,7 @@ TEST(SealedBelts, WhatIsProposedPartsCausesThatAreLeftOpen) {
 }
 
 TEST(SealedBelts, APatternThatIsTheAnswerHasASize) {
-  // A name was taken back here, and the pattern in its place had neither size nor length.
+  // Here a name was withdrawn, and the pattern in its place must have a size and a length.
   const BeltsTrial trial =
       run_belts_trial({.effect = "", .least_strength = 6.0, .most_strength = 8.0}, 2004);
   EXPECT_NE(trial.sentence.find("changes smoothly from place to place"), std::string::npos)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The statistics of the sealed rates, against published and closed values.
+/// The statistics of the sealed rates, compared with published and closed-form values.
 #include "sealed/judge/binomial.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(Binomial, TailsOfFewTrialsAreTheirSums) {
 }
 
 // A tool with 10 % false alarms has at most three in 20 sets in 87 of 100 runs: why no test of a few
-// dozen sets can hold a rate.
+// dozen sets can guarantee a rate.
 TEST(Binomial, AFewDozenSetsDoNotHoldARate) {
   EXPECT_NEAR(1.0 - probability_of_at_least(4, 20, 0.1), 0.8670, kPrinted);
 }
@@ -36,8 +36,8 @@ TEST(Binomial, TailsFarOutKeepTheirDigits) {
   EXPECT_NEAR(far / 1e-200, 1.0, 1e-9);  // the exponential of 460 times 1e-13 or so
 }
 
-// Clopper and Pearson: of no hit and of all the bounds have a closed form; 8 of 10 and 5 of 50 as
-// tables and R's binom.test print them.
+// Clopper and Pearson: for no hit and for all hits the bounds have a closed form; 8 of 10 and 5 of
+// 50 as printed by tables and by R's binom.test.
 TEST(Binomial, BoundsOfARate) {
   EXPECT_EQ(rate_bounds_95(0, 200).lower, 0.0);
   EXPECT_NEAR(rate_bounds_95(0, 200).upper, 1.0 - std::pow(0.025, 1.0 / 200.0), kDigits);
@@ -52,7 +52,7 @@ TEST(Binomial, BoundsOfARate) {
   EXPECT_THROW((void)rate_bounds_95(3, 2), std::invalid_argument);
 }
 
-// What the bounds are for: their true rate lies outside in at most 5 % of all counts, whatever it is.
+// Coverage of the bounds: the true rate is outside in at most 5 % of all counts, for every rate.
 TEST(Binomial, BoundsHoldTheTrueRate) {
   constexpr int kOf = 60;
   for (const double p : {0.01, 0.05, 0.3, 0.5, 0.9, 0.99}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The list of sealed sets, the lines of their outcomes, and when one version is refused against
-/// another.
+/// The list of sealed sets, the lines of their outcomes, and the criterion for rejecting one
+/// version against another.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -74,7 +74,8 @@ TEST(SealedPlan, EachShardHoldsEachKindInItsShare) {
   for (std::size_t k = 1; k <= kShards; ++k) {
     std::map<std::string, int> part;
     for (const PlannedSet& set : shard_of(list, k, kShards)) ++part[set.kind];
-    // A kind's sets lie evenly, so that a cut moves one of them at either end.
+    // The sets of a kind are evenly spaced, so that a cut changes their number by one at either
+    // end.
     for (const auto& [kind, sets] : whole) EXPECT_NEAR(part[kind], sets / 16.0, 2.0) << kind;
   }
 }
@@ -84,7 +85,7 @@ TEST(SealedPlan, NoSetIsTwiceInIt) {
   for (const PlannedSet& set : plan()) EXPECT_TRUE(sets.emplace(set.kind, set.seed).second);
 }
 
-// A fact or a kind that is misspelt would make a row that no set is right in, or none is in.
+// A misspelt fact or kind would make a row in which every set is wrong, or a row without sets.
 TEST(Rates, EachRowIsOfAKindOfTheList) {
   const std::vector<std::string> all = kinds();
   std::set<std::string> counted;
@@ -95,7 +96,7 @@ TEST(Rates, EachRowIsOfAKindOfTheList) {
   EXPECT_EQ(counted.size(), all.size());
 }
 
-/// So many sets with nothing hidden, a name given in the first of them.
+/// Sets without a cause, the first of them with a name given.
 std::vector<Outcome> with_names(int sets, int named, int from = 0) {
   std::vector<Outcome> outcomes;
   for (int k = 0; k < sets; ++k) {
@@ -137,8 +138,8 @@ TEST(Compared, WhatWasGainedIsSetAgainstWhatWasLost) {
   EXPECT_FALSE(moved.worse());
 }
 
-// Three of 100 are three points, and yet what chance makes of three changes in one of eight runs;
-// five of 1000 are what chance hardly makes, and yet half a point.
+// Three of 100 are three points, yet three changes in one direction occur by chance in one of eight
+// runs; five of 1000 are hardly by chance, yet only half a point.
 TEST(Compared, WorseIsMoreThanAPointAndMoreThanChance) {
   EXPECT_FALSE(compare(with_names(100, 0), with_names(100, 3)).worse());
   EXPECT_FALSE(compare(with_names(1000, 0), with_names(1000, 5)).worse());
@@ -146,7 +147,7 @@ TEST(Compared, WorseIsMoreThanAPointAndMoreThanChance) {
   EXPECT_FALSE(compare(with_names(300, 5), with_names(300, 0)).worse());
 }
 
-// The tool of the old test's allowance, 10 % false alarms: refused on the sets of the frozen list.
+// A tool with 10 % false alarms is rejected on the sets of the frozen list.
 TEST(Compared, TenPercentOfFalseAlarmsAreRefused) {
   const Comparison worse = compare(with_names(300, 2), with_names(300, 30));
   EXPECT_TRUE(worse.worse());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What must not change a diagnosis, and what must change it in a known way.
+/// Changes of the input that must not change a diagnosis, or must change it in a known way.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,8 +72,8 @@ std::string mirrored(std::string id) {
   return id;
 }
 
-// Seen in a mirror, left is right and the rest is the same. Searches that run over places from one
-// end may end a step apart; the verdict and the names may not.
+// In the mirror image left and right are exchanged and the rest is equal. Searches over places from
+// one end may end a step apart; the verdict and the names must be equal.
 TEST(Metamorphic, TheMirrorImageHasTheMirroredCause) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -97,7 +97,7 @@ TEST(Metamorphic, TheMirrorImageHasTheMirroredCause) {
   }
 }
 
-// Twice the noise and twice everything that is not as stated: the same in units of noise.
+// Twice the noise and twice all deviations from the stated machine: the same in units of noise.
 TEST(Metamorphic, TwiceTheNoiseAndTwiceTheErrorIsTheSame) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -115,7 +115,7 @@ TEST(Metamorphic, TwiceTheNoiseAndTwiceTheErrorIsTheSame) {
     grid.noise->position_mm *= 2.0;
     grid.machine->uncertainty.motor_position_mm *= 2.0;
     grid.machine->uncertainty.chain_zero_mm *= 2.0;
-    // Whole links are not whole any more when they are doubled, or are two.
+    // Doubled or paired whole links are excluded.
     if (generator::card(set.answer.hidden.front().cause).whole()) continue;
     const Diagnosis after = diagnosed(grid);
     EXPECT_EQ(before.verdict, after.verdict);
@@ -124,7 +124,7 @@ TEST(Metamorphic, TwiceTheNoiseAndTwiceTheErrorIsTheSame) {
   }
 }
 
-// What the machine file has already is not found again.
+// Effects in the machine file are not found again.
 TEST(Metamorphic, AnEffectThatTheModelHasIsNothingNew) {
   const std::vector<Hidden> known[] = {{{Cause::chain_pitch_error, Where::left, 0.0012, 0.0}},
                                        {{Cause::beam_flex, Where::nowhere, 0.015, 0.0}},
@@ -145,7 +145,7 @@ TEST(Metamorphic, AnEffectThatTheModelHasIsNothingNew) {
   }
 }
 
-// With what was named in the model, nothing is left to name.
+// With the named causes in the model, nothing remains to be named.
 TEST(Metamorphic, OnceNamedAndInTheModelItIsGone) {
   for (std::uint64_t seed = 11; seed <= 15; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

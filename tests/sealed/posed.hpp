@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the tests of the diagnosis share: sets posed on purpose, and which of many are not right.
+/// Shared by the tests of the diagnosis: sets with given effects, and the seeds of sets that are
+/// not right.
 #pragma once
 
 #include <initializer_list>
@@ -19,19 +20,19 @@ namespace chaintrue::sealed {
                                          std::uint64_t seed,
                                          int points = 28);
 [[nodiscard]] grid::MeasuredGrid read(const generator::SealedSet& set);
-/// Without gain and next measurements. Fails the test where the diagnosis does.
+/// Without gain and next measurements. Fails the test if the diagnosis fails.
 [[nodiscard]] grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid);
 
-/// The ids (effect:side) of the causes, leading first, without their classes.
+/// The ids (effect:side) of the causes, the first one first, without their classes.
 [[nodiscard]] std::vector<std::string> ids(const grid::diagnosis::Diagnosis& found);
-/// Led by the cause or a member of its class.
+/// The first cause is the given one or a member of its class.
 [[nodiscard]] bool led_by(const grid::diagnosis::Diagnosis& found, const std::string& id);
 [[nodiscard]] bool names_any(const grid::diagnosis::Diagnosis& found);
 
 /// Trials of seeds first .. first + count - 1.
 [[nodiscard]] std::vector<Trial> trials(TrialOptions options, std::uint64_t first, int count);
-/// The seeds of those that are not so, which a test freezes: an allowance of misses would hide a
-/// change.
+/// The seeds of trials without the property, which a test freezes: an allowance of misses would
+/// hide a change.
 [[nodiscard]] std::vector<std::uint64_t> seeds_without(const std::vector<Trial>& trials,
                                                        bool (*right)(const Trial&));
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// An excerpt of the frozen sealed sets, each of which must have the outcome that is written down:
-/// a rate cannot be held on a few dozen sets, a change of any of them can. The rates are
-/// build/sealed_rates' (docs/diagnosis.md).
+/// An excerpt of the frozen sealed sets, each of which must have its stored outcome: a rate cannot
+/// be tested on a few dozen sets, a change of any of them can. The rates are those of
+/// build/sealed_rates (docs/diagnosis.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,8 +31,8 @@ std::vector<Outcome> outcomes_in(const std::string& name) { return parse_outcome
 
 class Excerpt : public testing::TestWithParam<std::string> {};
 
-// Where a change is meant: build/sealed_rates new.txt --against fixtures/sealed/excerpt.txt writes
-// the file anew, once the whole list is not worse.
+// If a change is intended: build/sealed_rates new.txt --against fixtures/sealed/excerpt.txt
+// rewrites the file, once the whole list is not worse.
 TEST_P(Excerpt, HasTheFrozenOutcome) {
   int sets = 0;
   for (const Outcome& frozen : outcomes_in("excerpt.txt")) {
@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Rates,
                          testing::ValuesIn(kinds()),
                          [](const auto& kind) { return kind.param; });
 
-// The excerpt may be written anew, the frozen outcomes are not: they are what it is held against.
+// The excerpt may be rewritten, the frozen outcomes may not: the excerpt is compared with them.
 TEST(Rates, TheExcerptIsOfTheFrozenSetsAndNotWorse) {
   const std::vector<Outcome> excerpt = outcomes_in("excerpt.txt");
   const Comparison comparison = compare(outcomes_in("outcomes.txt"), excerpt);
@@ -62,7 +62,7 @@ TEST(Rates, TheFrozenTableIsOfTheFrozenOutcomes) {
   EXPECT_EQ(rates_table(frozen), text_in("rates.md"));
 }
 
-// What the table gives as good as surely stands among the causes, whatever the verdict.
+// A nearly certain entry of the table is among the causes, for every verdict.
 TEST(Rates, TheTableNeverContradictsTheSentence) {
   for (const Mix mix : {Mix::beside, Mix::two_beside, Mix::unlisted, Mix::near}) {
     TrialOptions options;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Sets made to mislead.
+/// Misleading sets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ bool not_testable(const Diagnosis& found, const std::string& effect) {
   });
 }
 
-// 1 mm on the wheel's radius: motors and zeros take all of it but a delta of 1.
+// 1 mm on the wheel's radius: motors and zeros absorb all of it except a delta of 1.
 TEST(Traps, WhatTheSettingsAbsorbIsBoundedAndNotNamed) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -51,8 +51,8 @@ TEST(Traps, WhatTheSettingsAbsorbIsBoundedAndNotNamed) {
   }
 }
 
-// The left motor was taped 15 mm beside where it is, five of its sigmas: a setting that is off, and
-// no cause.
+// The left motor is 15 mm from its taped position, five of its sigmas: an error of a setting, not a
+// cause.
 TEST(Traps, ASettingFarOffIsASetting) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -67,13 +67,13 @@ TEST(Traps, ASettingFarOffIsASetting) {
   }
 }
 
-// The second effect takes back what the first one shows; alone, either would be named at once.
+// The second effect cancels the first; alone, either would be named.
 TEST(Traps, EffectsThatCancelAreNotSeen) {
   const auto blank = posed({}, Order::random, 3);
   const auto yardstick =
       generator::Yardstick::make(blank.machine.truth(), blank.machine.visits(), {}, {});
   const Hidden first[] = {{Cause::tape_scale, Where::both, 0.001, 0.0}};
-  // Of both chains and of the tape along both axes: no data of this kind tells them apart.
+  // Of both chains and of the tape along both axes: indistinguishable with data of this kind.
   const Hidden second[] = {{Cause::chain_pitch_error, Where::both, 0.001, 0.0}};
   const auto a = yardstick->signature(first), b = yardstick->signature(second);
   Hidden answer = second[0];
@@ -85,7 +85,7 @@ TEST(Traps, EffectsThatCancelAreNotSeen) {
   EXPECT_EQ(found.verdict, Verdict::nothing_found) << found.sentence;
 }
 
-// One reading a link too long: a miscount or a bad point, that one in either case, and no machine.
+// One reading a link too long: a miscount or a bad point, not an effect of the machine.
 TEST(Traps, OnePointIsNotAMachine) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -102,8 +102,8 @@ TEST(Traps, OnePointIsNotAMachine) {
   }
 }
 
-// Columns visited from left to right: time runs with x. Drift of the right chain then looks like
-// that chain's pitch; in random order it looks like nothing else.
+// Columns visited from left to right: time increases with x. Drift of the right chain then
+// resembles that chain's pitch; in random order it is unique.
 TEST(Traps, DriftIsOwnedUpToWhenTheOrderIsARaster) {
   const std::vector<Hidden> drift{{Cause::drift, Where::right, 0.06, 0.0}};
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
@@ -167,8 +167,8 @@ TEST(Traps, ExchangedPointsAreTheTwoBadOnes) {
   }
 }
 
-// The paper is mended by correcting the data. A machine that was given the tape's error would cut
-// it into every part.
+// Effects of the paper are corrected in the data. A machine with the tape's error would cut it into
+// every part.
 TEST(Traps, TheTapesErrorStaysOutOfTheMachine) {
   for (const Where where : {Where::x, Where::y}) {
     const double scale = where == Where::x ? 0.0016 : 0.004;
@@ -186,7 +186,7 @@ TEST(Traps, TheTapesErrorStaysOutOfTheMachine) {
   }
 }
 
-// What is there but too small to be seen is below its bound.
+// An effect too small to be detected is below its bound.
 TEST(Traps, BoundsHold) {
   int held = 0, bounded = 0;
   for (const auto& card : generator::cards()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// chaintrue square from the outside: its table, its drawing, its refusals.
+// chaintrue square through the command: its table, its drawing, its rejections.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 

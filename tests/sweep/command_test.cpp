@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The command itself: killed and resumed, split, and run by several processes, a sweep gives the
-/// same bytes.
+/// The command itself: killed and resumed, divided into shards, and run by several processes, a
+/// sweep gives the same bytes.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -74,9 +74,9 @@ class SweepCommand : public ::testing::Test {
 };
 
 TEST_F(SweepCommand, ItsPageAnswersTheQuestion) {
-  // 4 x 3 and 7 x 4 marks, two ways of spacing them.
+  // 4 x 3 and 7 x 4 marks, two kinds of spacing.
   EXPECT_NE(whole_.find("<li>From 12 to 28 points the error goes from "), std::string::npos);
-  // Both ways come out alike to a hundredth.
+  // Both kinds agree to a hundredth.
   EXPECT_NE(whole_.find(": no difference, 0.26 mm rms at the tool with each."), std::string::npos);
 }
 
@@ -113,7 +113,7 @@ TEST_F(SweepCommand, FourProcessesGiveTheSameBytes) {
   if (kMpirun.empty()) GTEST_SKIP() << "MPI was not found (Debian: libopenmpi-dev, openmpi-bin)";
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-  // What MPI's own libraries keep until the end is not this program's.
+  // Memory that MPI's own libraries keep until the end is not a leak of this program.
   setenv("ASAN_OPTIONS", "detect_leaks=0", 1);
   const fs::path folder = fresh_folder("mpi");
   ASSERT_EQ(finish(start({kMpirun,

@@ -26,7 +26,7 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-// A folder of the test's own, empty at its start.
+// The test's own folder, empty at its start.
 fs::path fresh_folder(const std::string& name) {
   const fs::path folder = fs::path(::testing::TempDir()) / ("chaintrue_sweep_" + name);
   fs::remove_all(folder);
@@ -138,7 +138,7 @@ TEST(Sweep, ShardsMergeToTheBytesOfOneRun) {
   EXPECT_EQ(results_of(read, folder), whole);
 }
 
-// A run that dies at any byte of its part goes on to the same results.
+// A run that ends at any byte of its part can be resumed with the same results.
 TEST(Sweep, GoesOnFromAPartTornAnywhere) {
   const files::ReadSweep read = files::read_sweep(kSpecs + "quick.json");
   const std::string whole = whole_run(read, "untorn", 2);
@@ -181,7 +181,7 @@ TEST(Sweep, RefusesThePartsOfAnotherSpecification) {
                files::InputError);
 }
 
-// Without noise and with the true machine stated, a map is right to what the fit's surface leaves.
+// Without noise and with the true machine stated, the error of a map is that of the fit's surface.
 TEST(RunCell, AKnownMachineWithoutNoiseIsMappedTrue) {
   SweepSpec spec = files::read_sweep(kSpecs + "quick.json").spec;
   spec.draw_settings = false;
@@ -190,7 +190,7 @@ TEST(RunCell, AKnownMachineWithoutNoiseIsMappedTrue) {
   spec.repeats = 0;
   const CellResult result = run_cell(spec, 2);
   EXPECT_EQ(result.status, CellStatus::done);
-  // The stated machine is the true one: nothing is left but the solvers' last digits.
+  // The stated machine is the true one: only the solvers' last digits remain.
   EXPECT_LT(result.tool_max_mm, 1e-3);
 }
 
@@ -203,7 +203,7 @@ TEST(RunCell, UsedOnAnotherMachineTheMapIsWorse) {
     same += run_cell(spec, repetition).tool_rms_mm;
     other += run_cell(spec, static_cast<std::uint64_t>(spec.repetitions) + repetition).tool_rms_mm;
   }
-  // Motors taped to 3 mm: the other machine's map errs by millimetres, its own by tenths.
+  // Motors taped to 3 mm: another machine's map has errors of millimetres, its own of tenths.
   EXPECT_GT(other, 3.0 * same);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// `chaintrue simulate` and `chaintrue effects` as a person types them: exit codes, messages, and
-/// that bad input writes nothing.
+/// `chaintrue simulate` and `chaintrue effects` through the command: exit codes, messages, and that
+/// bad input writes nothing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -30,7 +30,7 @@ struct Outcome {
   std::string said;
 };
 
-// Runs a line with the command in place of "chaintrue"; both streams together.
+// Runs a line with the command in place of "chaintrue"; both streams combined.
 Outcome say(const std::string& line) {
   Outcome outcome;
   std::FILE* pipe = popen((kCommand + " " + line + " 2>&1").c_str(), "r");

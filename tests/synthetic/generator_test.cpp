@@ -177,7 +177,7 @@ TEST(Generator, SameSeedSameBytes) {
   EXPECT_NE(files::write_grid(a.grid), files::write_grid(session_of(other).grid));
 }
 
-// Each kind of chance has a stream of its own.
+// Each kind of random number has its own stream.
 TEST(Generator, ChangingOneChanceLeavesTheOthers) {
   SyntheticSpec quiet = busy_spec();
   quiet.noise.length_mm = 0.0;
@@ -220,7 +220,7 @@ TEST(Generator, PutsTheSledDownBesideTheMark) {
   for (std::size_t i = 0; i < pattern.size(); ++i) {
     EXPECT_LE(distance(session.answer.places[i], pattern[i].place), 8.0);
     farthest = std::max(farthest, distance(session.answer.places[i], pattern[i].place));
-    // Without noise the mark is where the tool truly was.
+    // Without noise the mark is at the tool's true position.
     EXPECT_EQ(distance(session.grid.points[i].mark, session.answer.places[i]), 0.0);
   }
   EXPECT_GT(farthest, 6.0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A simulated grid without noise against the 40-digit tables of fixtures/reference, every model of
-/// the chain.
+/// A simulated grid without noise compared with the 40-digit tables of fixtures/reference, for
+/// every model of the chain.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -44,7 +44,7 @@ nlohmann::json load(const char* file) {
 
 double number(const nlohmann::json& text) { return std::stod(text.get<std::string>()); }
 
-// The tables' machine; their head states these numbers.
+// The tables' machine, from the numbers in their head.
 model::Machine machine_of(const Table& table) {
   model::Machine machine;
   machine.feed = table.feed;

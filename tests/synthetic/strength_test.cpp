@@ -28,9 +28,9 @@ TEST(Signature, OfAPaperEffectIsWhereTheMapWouldSendTheTool) {
   const auto shift =
       signature(machine, {{"tape_scale", "both", {{"scale", 0.001}}}}, visits).tool_shift_mm();
   for (std::size_t i = 0; i < visits.size(); ++i) {
-    // Marks are written a thousandth further out. A map made of them, sent to a written number,
-    // goes to the mark, which is nearer to the middle; first order in 1.2 mm is good to 1e-12
-    // because paper and lengths do not mix.
+    // Marks are written a thousandth further out. The tool sent to a written position by a map of
+    // them goes to the mark, which is nearer to the middle; first order in 1.2 mm is accurate to
+    // 1e-12 because paper and lengths are independent.
     EXPECT_NEAR(shift[i].x(), 0.001 * visits[i].position.x_mm, 1e-9);
     EXPECT_NEAR(shift[i].y(), 0.001 * visits[i].position.y_mm, 1e-9);
   }
@@ -54,7 +54,7 @@ TEST(Signature, OfAMachineEffectIsWhereTheToolGoes) {
   }
 }
 
-// More points, less noise, larger effects: delta follows as it must.
+// More points, less noise, larger effects: delta changes accordingly.
 TEST(Strength, FollowsNoiseAndPoints) {
   const Machine machine;
   const auto& kink = *find_effect("angular_kink");
@@ -66,7 +66,7 @@ TEST(Strength, FollowsNoiseAndPoints) {
   EXPECT_GT(s.share_left, 0.0);
   EXPECT_LE(s.share_left, 1.0);
   const StrengthTable twice(machine, session, noise_of(0.4, 0.6));
-  // The settings' stated sigmas do not double, so that more than half of it is left.
+  // The settings' stated sigmas do not double, so that more than half of it remains.
   EXPECT_GT(twice.strength(kink, EffectSide::left).signal_to_noise, 0.5 * s.signal_to_noise);
   EXPECT_LT(twice.strength(kink, EffectSide::left).signal_to_noise, s.signal_to_noise);
   std::vector<model::Visit> repeated = session;
@@ -89,8 +89,8 @@ TEST(Strength, MirroredEffectsAreEquallyStrong) {
               1e-6);
 }
 
-// effects.md: chain_pitch_error of both chains is tape_scale of both axes, once no tape has said
-// where the motors are.
+// effects.md: chain_pitch_error of both chains equals tape_scale of both axes if the motors'
+// positions have not been taped.
 TEST(Strength, FindsTheClassOfPitchAndTape) {
   Machine machine;
   machine.uncertainty = {1000.0, 1000.0, 1.0};

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr int kMisused = 2;  ///< the command's own exit codes
 constexpr int kRefused = 3;
 
-/// Where no file is, or none can be.
+/// Paths without a file, or where none can be made.
 const std::vector<std::string> kNoFiles = {"", "..", "nowhere/x", "-", std::string(300, 'x')};
 
 std::vector<std::string> with(std::vector<std::string> arguments,
@@ -37,7 +37,7 @@ std::string output_of(const std::vector<std::string>& arguments) {
   return arguments[0] == "report" ? "out.html" : "out";
 }
 
-/// Whether two texts say the same in JSON, other than in comments; false where one is none.
+/// Whether two texts are equal as JSON, except for comments; false if one is not JSON.
 bool same_content(const std::string& a, const std::string& b) {
   using Json = nlohmann::json;
   const auto parsed = [](const std::string& text) {
@@ -179,10 +179,10 @@ Campaign::Case Campaign::tampered_file() {
   const std::string& original = permanent_.at(sealed.file);
   std::string text = mutate_.with_number(
       original, mutate_.below(2) == 0 ? Mutator::NumberKind::odd : Mutator::NumberKind::near);
-  // Another number may be the same number (0 for -0), and a comment may say anything.
+  // Another text may be the same number (0 for -0), and a comment may be anything.
   const bool must_be_refused = !same_content(text, original);
   const bool as_old = mutate_.below(2) == 0;
-  if (as_old) {  // as version 1.0, which carries no hash: every check after it must hold
+  if (as_old) {  // as version 1.0, which has no hash: every later check must hold
     const std::string key = "\"format_version\": \"";
     const std::size_t version = text.find(key);
     if (version != std::string::npos) text.replace(version + key.size(), 3, "1.0");
@@ -218,7 +218,7 @@ std::string Campaign::any_output(const Case& what) {
   switch (mutate_.below(4)) {
     case 0:
       return mutate_.one_of(kNoFiles);
-    case 1: {  // what the command reads
+    case 1: {  // a file that the command reads
       std::vector<std::string> read;
       for (const std::string& word : what.arguments) {
         if (permanent_.count(word) != 0) read.push_back(word);
@@ -318,7 +318,7 @@ void Campaign::kill_while_writing() {
   const std::string now = content_of(at("out"));
   if (ended.signal_number != 0 && now != old && now.size() < 100'000)
     fail(what, "half a file", ended);
-  // Nothing can be cleared away by a process that was killed outright.
+  // A process that was killed cannot remove its files.
   if (signal_number != SIGKILL && strays().size() != 2) fail(what, "left behind", ended);
   clean();
 }

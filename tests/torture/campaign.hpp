@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The attacks on the command, drawn one after the other by a seed, and what is counted.
+/// The attacks on the command, drawn one after the other from a seed, and their counts.
 #pragma once
 
 #include <cstdint>
@@ -19,20 +19,20 @@ struct Tally {
   std::uint64_t runs = 0;
   std::uint64_t answered = 0;  ///< exit codes 0 and 1
   std::uint64_t refused = 0;   ///< 2, 3 and 4
-  std::uint64_t stopped = 0;   ///< by a signal of ours
+  std::uint64_t stopped = 0;   ///< by a signal from this program
   std::uint64_t failures = 0;
   double slowest_s = 0.0;
 };
 
 class Campaign {
  public:
-  /// \param failures where the inputs of a run that went wrong are kept
+  /// \param failures where the inputs of a failed run are kept
   Campaign(Command command,
            std::filesystem::path fixtures,
            std::filesystem::path failures,
            std::uint64_t seed);
 
-  /// One attack of a kind that the seed chooses.
+  /// One attack of a kind chosen by the seed.
   void attack();
   [[nodiscard]] const std::map<std::string, Tally>& tallies() const { return tallies_; }
 
@@ -40,8 +40,8 @@ class Campaign {
   struct Case {
     std::string kind;
     std::vector<std::string> arguments;
-    std::vector<std::string> inputs;   ///< must be as they were afterwards
-    std::vector<std::string> outputs;  ///< may be there afterwards
+    std::vector<std::string> inputs;   ///< must be unchanged afterwards
+    std::vector<std::string> outputs;  ///< may exist afterwards
     bool must_be_refused = false;
   };
 
@@ -49,7 +49,7 @@ class Campaign {
   [[nodiscard]] Case damaged_input();
   [[nodiscard]] Case tampered_file();
   [[nodiscard]] Case odd_options();
-  /// What a person or a script may give such an option.
+  /// A value that a user or a script may give to such an option.
   [[nodiscard]] std::string any_text(const Option& option);
   [[nodiscard]] std::string any_output(const Case& what);
   void add(const Option& option, Case& what);
@@ -65,7 +65,7 @@ class Campaign {
   void judge(const Case& what);
   void fail(const Case& what, const std::string& why, const Ended& ended);
   void count(const std::string& kind, const Ended& ended);
-  /// Everything in the folder that is none of the permanent files.
+  /// All files in the folder except the permanent ones.
   [[nodiscard]] std::vector<std::string> strays() const;
   void clean() const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The verbs and options of the command as its --help tells them, so that none escapes the campaign.
+/// The verbs and options of the command from its --help, so that the campaign covers all of them.
 #pragma once
 
 #include <string>
@@ -15,12 +15,12 @@ struct Option {
   std::string short_name;            ///< "-o", or empty
   std::string type;                  ///< TEXT, INT, FLOAT; empty: a flag
   std::vector<std::string> choices;  ///< where only these are taken
-  int values = 1;                    ///< how many one takes
+  int values = 1;                    ///< how many values it takes
 };
 
 /// "fit", "gcode check", ...
 [[nodiscard]] std::vector<std::string> verbs_of(const Command& command);
-/// What one of them takes, without --help itself.
+/// The options of one of them, without --help itself.
 [[nodiscard]] std::vector<Option> options_of(const Command& command, const std::string& verb);
 
 }  // namespace chaintrue::torture

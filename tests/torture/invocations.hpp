@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the campaign attacks: the files of its folder, every reader of one, every verb where all is
-/// well, and what an option may be given. In arguments `IN` stands for the file under attack, `OUT`
-/// for where the verb writes, `NUMBER` for a number.
+/// Targets of the campaign: the files of its folder, every reader of one, every verb in a valid
+/// call, and values of options. In arguments `IN` stands for the file under attack, `OUT` for the
+/// output, `NUMBER` for a number.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ namespace chaintrue::torture {
 /// Commands that make further files of the folder, in their order.
 [[nodiscard]] const std::vector<std::vector<std::string>>& makers();
 
-/// A verb that reads `IN`. The weight is how often it is drawn: the slow ones seldom.
+/// A verb that reads `IN`. The weight is how often it is drawn: slow ones rarely.
 struct Reading {
   std::string seed_file;
   int weight;
@@ -26,14 +26,14 @@ struct Reading {
 };
 [[nodiscard]] const std::vector<Reading>& readings();
 
-/// Files that carry the hash of their content, and what reads them.
+/// Files with a hash of their content, and their readers.
 struct Sealed {
   std::string file;
   std::vector<std::vector<std::string>> uses;
 };
 [[nodiscard]] const std::vector<Sealed>& sealed_files();
 
-/// Calls that succeed, to which odd options are added; every verb has one.
+/// Calls that succeed, to which unusual options are added; every verb has one.
 [[nodiscard]] const std::vector<std::vector<std::string>>& invocations();
 
 /// "gcode check" of a command line.
@@ -41,9 +41,9 @@ struct Sealed {
 /// Verbs of two words begin with one of these.
 [[nodiscard]] bool has_subverbs(std::string_view verb);
 
-/// What a text option takes, a few good values; empty where nothing is listed: then any file will do.
+/// Some valid values of a text option; empty if nothing is listed: then any file is valid.
 [[nodiscard]] const std::vector<std::string>& good_texts(const std::string& option);
-/// The option names a file or folder that is written.
+/// The option names an output file or folder.
 [[nodiscard]] bool is_output(std::string_view option);
 
 }  // namespace chaintrue::torture

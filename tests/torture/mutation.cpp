@@ -86,7 +86,7 @@ std::string Mutator::with_another_entry(const std::string& text) {
   if (!flat.is_structured() || flat.empty()) return with_number(text, NumberKind::near);
   Json document = flat;
   Json* parent = &document;
-  // Down to where a step would end at a value, or earlier.
+  // Down to a random level of the document.
   for (;;) {
     Json& next = *std::next(parent->begin(), static_cast<std::ptrdiff_t>(below(parent->size())));
     if (!next.is_structured() || next.empty() || below(4) == 0) break;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Damage to a file's text, by a seed: what disks, editors, spreadsheets and hurried people do, and
-/// what somebody would do who means harm.
+/// Random damage to a file's text: errors of disks, editors, spreadsheets and people, and malicious
+/// changes.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,14 @@ class Mutator {
   [[nodiscard]] const auto& one_of(const List& list) {
     return list[below(std::size(list))];
   }
-  /// One to four slips; or numbers that are a little, or much, others; or entries of a JSON
-  /// document that are gone, doubled, exchanged or of another kind.
+  /// One to four random errors; or numbers changed slightly or strongly; or entries of a JSON
+  /// document that are removed, doubled, exchanged or of another kind.
   [[nodiscard]] std::string damaged(std::string text);
-  /// odd: one of odd_number; near: in the neighbourhood, of the same form
+  /// odd: one of odd_number; near: a similar number of the same form
   enum class NumberKind { odd, near };
-  /// One number of the text is another one.
+  /// One number of the text is changed.
   [[nodiscard]] std::string with_number(std::string text, NumberKind kind);
-  /// What a person or a script may give an option that wants a number.
+  /// A value that a user or a script may give to a numeric option.
   [[nodiscard]] std::string odd_number();
 
  private:

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// What a sanitizer ends with; none of the command's own codes.
+/// Exit code of a sanitizer; different from the command's own codes.
 constexpr const char* kSanitizerExit = "exitcode=99";
 constexpr int kLastOwnCode = 4;
 
@@ -84,7 +84,7 @@ std::string content_of(const fs::path& path) {
 }
 
 std::string no_number_in(const std::string& text) {
-  // A page holds the program that draws it, which has such words; its numbers are those of files.
+  // A page contains its scripts, which include such words; its numbers are those of files.
   if (text.starts_with("<!DOCTYPE")) return {};
   const auto is_letter = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||

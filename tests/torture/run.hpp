@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The command as a process of its own: how it ended, what it said, and what must hold of that
-/// whatever it was given.
+/// The command as a separate process: how it ended, its output, and what must be true of both for
+/// every input.
 #pragma once
 
 #include <chrono>
@@ -29,7 +29,7 @@ struct Stop {
 
 class Command {
  public:
-  /// `program` is run in `folder`; its streams go to files beside that.
+  /// `program` runs in `folder`; its streams go to files next to the folder.
   Command(std::filesystem::path program, std::filesystem::path folder, double limit_s);
   [[nodiscard]] Ended run(const std::vector<std::string>& arguments,
                           std::optional<Stop> stop = {}) const;
@@ -41,10 +41,10 @@ class Command {
   double limit_s_;
 };
 
-/// Empty, or what is wrong with such an end: a signal, no end, an internal error, an exit code that
-/// is none, silence, or a number that is none.
+/// Empty, or the fault of such an end: a signal, a timeout, an internal error, an undocumented exit
+/// code, no output, or a number that is not finite.
 [[nodiscard]] std::string wrong_with(const Ended& ended);
-/// The first nan or inf that stands in a text as a word; empty where there is none.
+/// The first nan or inf that is a word in a text; empty if there is none.
 [[nodiscard]] std::string no_number_in(const std::string& text);
 [[nodiscard]] std::string content_of(const std::filesystem::path& path);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// `torture [SECONDS [SEED [COMMAND [LIMIT_S]]]]`: attacks the command for so long (600 s), from
-/// that seed on (1), and tells what it tried and what held. Exit code 1 where anything did not; the
-/// inputs then lie in torture_failures/. docs/reliability.md says what counts as holding.
+/// `torture [SECONDS [SEED [COMMAND [LIMIT_S]]]]`: attacks the command for that time (600 s),
+/// starting with that seed (1), and reports what it tried and the faults. Exit code 1 for any
+/// fault; the inputs are then in torture_failures/. The criteria are in docs/reliability.md.
 #include <fmt/format.h>
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Four belts: anchors, their check and causes against the number of places.
+// Four belts: anchors, their check and causes against the number of positions.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ grid::MeasuredBelts belts(int columns, int rows) {
   return grid::synthetic::simulate_belts(machine, machine, spec).value();
 }
 
-/// So many as a lattice has that is nearly square.
+/// As many points as a nearly square lattice has.
 grid::MeasuredBelts belts(std::int64_t count) {
   const int rows = static_cast<int>(std::sqrt(static_cast<double>(count)));
   return belts(static_cast<int>(count) / rows, rows);

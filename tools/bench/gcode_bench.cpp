@@ -64,7 +64,7 @@ std::string relief_line(std::uint64_t number) {
                      -3.0 + 2.0 * std::sin(0.03 * x) * std::cos(0.02 * y));
 }
 
-/// Makes its text as it is read; can only begin anew.
+/// Makes its text as it is read; can only be rewound to the beginning.
 class ReliefBuffer final : public std::streambuf {
  public:
   explicit ReliefBuffer(std::uint64_t bytes) : bytes_(bytes) {}

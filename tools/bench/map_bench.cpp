@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole fit and the map's answers. 28 points is an owner's grid; 91 a patient owner's.
+// The whole fit and the map's queries. 28 points are a usual grid, 91 a large one.
 #include <benchmark/benchmark.h>
 
 #include "grid/map/fit.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Poses over the classic bed, cold, in a random order; pose/wrap_only is the weightless straight
-// tangent in the same run, the yardstick of the ratios in model/README.md.
+// tangent in the same run, the unit of the ratios in model/README.md.
 #include <benchmark/benchmark.h>
 
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cost against size: the tables of docs/reliability.md are measured by this. Points anywhere on the
-// bed with usual noise; distances between holes anywhere, each once.
+// Cost against size: measures the tables of docs/reliability.md. Random points on the bed with
+// usual noise; distances between random holes, each once.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ grid::MeasuredGrid points(std::int64_t count) {
   return grid::synthetic::generate(kMachine, spec).value().grid;
 }
 
-/// What a tape and a drill of usual noise make of holes on a true machine.
+/// Taped distances between holes cut by a true machine, with usual noise of tape and holes.
 grid::MeasuredHoles distances(std::int64_t count, std::int64_t holes) {
   constexpr double kHoleMm = 0.3;
   constexpr double kTapeMm = 0.5;

@@ -207,7 +207,8 @@ std::vector<NoisyPoint> noisy_points(std::size_t count) {
   return points;
 }
 
-// Two fields and eight shared settings, as a machine's two chains: what the joint fit asks of REML.
+// Two fields and eight shared settings, as for a machine's two chains: the REML problem of the
+// joint fit.
 void joint_reml(benchmark::State& state, std::size_t count, bool corrected) {
   constexpr Eigen::Index kShared = 8;
   const BsplineBasis basis(kBed, 8, 4);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What it costs to write a file whole or not at all (a new file beside it, synced, renamed over it),
-// beside a plain stream that may leave half a file.
+// The cost of writing a file completely or not at all (a new file, synced, renamed), compared with a
+// plain stream that may leave half a file.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace chaintrue;
 
-/// A folder of its own, gone afterwards.
+/// A temporary folder, removed afterwards.
 class Folder {
  public:
   Folder() : path_(std::filesystem::temp_directory_path() / "chaintrue_write_bench") {

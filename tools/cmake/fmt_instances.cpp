@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What Debian's libfmt.so holds, for a build that cannot link it: fmt's functions, and the templates that its headers
-/// declare to be instantiated elsewhere. As fmt 9's own src/format.cc.
+/// The content of Debian's libfmt.so for a build that cannot link it: fmt's functions, and the
+/// templates that its headers declare extern. As fmt 9's own src/format.cc.
 #include <fmt/format-inl.h>
 
 FMT_BEGIN_NAMESPACE

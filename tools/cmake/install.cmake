@@ -1,5 +1,5 @@
-# What `cmake --install` puts where: the command, the libraries with their headers, and the files that let another
-# project say find_package(chaintrue).
+# Files installed by `cmake --install`: the command, the libraries with their headers, and the files
+# for find_package(chaintrue) in other projects.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/chaintrue)
@@ -11,7 +11,7 @@ endforeach()
 
 install(TARGETS chaintrue RUNTIME COMPONENT command)
 install(TARGETS ${libraries} EXPORT chaintrueTargets ARCHIVE COMPONENT library LIBRARY COMPONENT library)
-# Headers keep their folders: #include "model/machine.hpp" here and there alike.
+# Headers keep their folders, so that #include "model/machine.hpp" works in both trees.
 install(DIRECTORY interp model grid
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/chaintrue COMPONENT library
   FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN "json_*.hpp" EXCLUDE PATTERN "*_record.hpp" EXCLUDE PATTERN "record_values.hpp" EXCLUDE
@@ -22,7 +22,7 @@ install(EXPORT chaintrueTargets NAMESPACE chaintrue:: DESTINATION ${package_dir}
 configure_package_config_file(tools/cmake/chaintrueConfig.cmake.in
   ${PROJECT_BINARY_DIR}/chaintrueConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/chaintrueConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-# The libraries are static, so whoever links them links ALGLIB too, by the same imported target as here.
+# The libraries are static, so their users link ALGLIB too, by the same imported target.
 install(FILES
   ${PROJECT_BINARY_DIR}/chaintrueConfig.cmake
   ${PROJECT_BINARY_DIR}/chaintrueConfigVersion.cmake

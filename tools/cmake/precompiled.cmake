@@ -1,8 +1,9 @@
-# Headers that nearly every source reads, parsed once for all: half of the time of a cold build. Off, every file stands on
-# its own includes; the dev presets build so.
+# Headers included by nearly every source, parsed once: half of the time of a cold build. Off, every
+# file needs its own includes; the dev presets build so.
 option(CHAINTRUE_PRECOMPILED_HEADERS "Parse the common headers once" ON)
-# What neighbours make of the same templates, compiled once: a quarter of what is left. Names in unnamed namespaces have
-# to differ within a room for it. Off, a change of one file compiles that file; the dev presets build so.
+# Sources compiled together, so that shared templates are compiled once: a quarter of the remaining
+# time. Names in unnamed namespaces must differ within a folder. Off, a change of one file compiles
+# that file only; the dev presets build so.
 option(CHAINTRUE_UNITY_BUILD "Compile several sources of a library at a time" ON)
 
 set(chaintrue_common_headers
@@ -10,7 +11,8 @@ set(chaintrue_common_headers
   <string_view> <tuple> <variant> <vector>
   <Eigen/Cholesky> <Eigen/Core> <Eigen/LU> <Eigen/QR> <fmt/format.h> <tl/expected.hpp>)
 
-# chaintrue_precompile(NAME library header...): a library that holds nothing but its precompiled headers.
+# chaintrue_precompile(NAME library header...): a library that contains only its precompiled
+# headers.
 function(chaintrue_precompile name libraries)
   file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "namespace {}\n")
   add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
@@ -18,7 +20,8 @@ function(chaintrue_precompile name libraries)
   target_precompile_headers(${name} PRIVATE ${ARGN})
 endfunction()
 
-# chaintrue_use_precompiled(target library): the target's sources see what the library has parsed.
+# chaintrue_use_precompiled(target library): the target's sources use the precompiled headers of the
+# library.
 function(chaintrue_use_precompiled target library)
   if(CHAINTRUE_PRECOMPILED_HEADERS)
     target_precompile_headers(${target} REUSE_FROM ${library})
@@ -28,7 +31,7 @@ endfunction()
 # chaintrue_compile_together(target most)
 function(chaintrue_compile_together target most)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${CHAINTRUE_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE ${most})
-  # A class of one source that holds others of its unnamed namespace is as safe as before.
+  # A class with members of its source's unnamed namespace is as safe as in a separate compilation.
   if(CHAINTRUE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
   endif()

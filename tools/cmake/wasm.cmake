@@ -1,5 +1,5 @@
-# The command for a browser: Debian's emscripten 3.1.6, and the libraries' headers through a folder of their own, so
-# that none of the C library's headers in /usr/include comes in with them.
+# The command for a browser: Debian's emscripten 3.1.6, and the libraries' headers from a separate
+# folder, so that none of the C library's headers in /usr/include are found.
 set(page_headers ${PROJECT_BINARY_DIR}/include)
 file(MAKE_DIRECTORY ${page_headers})
 foreach(library CLI fast_float fmt nlohmann tl)
@@ -9,8 +9,9 @@ foreach(library CLI fast_float fmt nlohmann tl)
   file(CREATE_LINK /usr/include/${library} ${page_headers}/${library} SYMBOLIC)
 endforeach()
 
-# Eigen's SSE2 packets run on WebAssembly's, two doubles wide as on any x86-64: sums are added up in the same order.
-# Eigen takes clang for a gcc with inline assembly for loads, and asks for an MMX header that has no use here.
+# Eigen's SSE2 packets run on WebAssembly's, two doubles wide as on any x86-64: sums are accumulated
+# in the same order. Eigen takes clang for a gcc with inline assembly for loads, and includes an MMX
+# header that is not needed here.
 if(NOT EXISTS ${page_headers}/eigen3/Eigen/Core)
   file(COPY /usr/include/eigen3/Eigen DESTINATION ${page_headers}/eigen3)
   file(APPEND ${page_headers}/eigen3/Eigen/src/Core/util/Macros.h "\n#undef EIGEN_COMP_GNUC\n#define EIGEN_COMP_GNUC 0\n")
@@ -29,18 +30,19 @@ chaintrue_headers_only(CLI11::CLI11)
 chaintrue_headers_only(tl::expected)
 chaintrue_headers_only(fast_float::fast_float)
 
-# Its compiler, LLVM 14, loses sums that it packs two at a time on its own (the derivative of a reading beside an eccentric
-# sprocket; contracts_tests of tools/page --suite show it): what is packed is what Eigen packs.
+# LLVM 14 miscompiles sums that it vectorises by twos (the derivative of a reading with an eccentric
+# sprocket; shown by contracts_tests of tools/page --suite): only Eigen's own packets are used.
 add_compile_options(-fwasm-exceptions -msimd128 -msse2 -fno-slp-vectorize)
 add_link_options(-fwasm-exceptions)
 
-# fmt's functions once, and not in every translation unit: a third of the compiler's time.
+# fmt's functions once instead of in every translation unit: a third of the compile time.
 add_library(chaintrue_fmt STATIC ${CMAKE_CURRENT_LIST_DIR}/fmt_instances.cpp)
 target_compile_features(chaintrue_fmt PUBLIC cxx_std_20)
 target_include_directories(chaintrue_fmt SYSTEM PUBLIC ${page_headers})
 add_library(fmt::fmt ALIAS chaintrue_fmt)
 
-# chaintrue_link_for_pages(target): a script that makes instances of the command, each with files in memory.
+# chaintrue_link_for_pages(target): a script that makes instances of the command, each with files in
+# memory.
 function(chaintrue_link_for_pages target)
   target_link_options(${target} PRIVATE
     -sMODULARIZE -sEXPORT_NAME=createChaintrue -sENVIRONMENT=web,worker,node -sINVOKE_RUN=0 -sEXIT_RUNTIME
@@ -48,8 +50,8 @@ function(chaintrue_link_for_pages target)
     -sNODEJS_CATCH_EXIT=0 -sNODEJS_CATCH_REJECTION=0 -sEXPORTED_RUNTIME_METHODS=FS,callMain)
 endfunction()
 
-# chaintrue_compile_small(target...): a page is mailed. What computes would take five times as long so; what reads, says
-# and draws does not show it.
+# chaintrue_compile_small(target...): the page is sent by mail. Optimised for size, computations
+# would take five times as long; reading, printing and drawing are not noticeably slower.
 function(chaintrue_compile_small)
   if(CHAINTRUE_PRECOMPILED_HEADERS)
     chaintrue_precompile(chaintrue_common_small "Eigen3::Eigen;fmt::fmt;tl::expected" ${chaintrue_common_headers})

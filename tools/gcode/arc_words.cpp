@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Centre form, radius form, and what rounding of the words allows.
+/// Centre form, radius form, and the tolerance for rounded words.
 #include "tools/gcode/arc_words.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ constexpr double kRadiusTolerance_inch = 0.00005;
 constexpr double kSpiralToleranceMm = 0.02 * std::numbers::sqrt2;
 constexpr double kSpiralTolerance_inch = 0.002 * std::numbers::sqrt2;
 constexpr double kSpiralRelativeTolerance = 0.001;
-/// A half circle by radius: half the chord is the radius but for rounding.
+/// A half circle by radius: half the chord equals the radius up to rounding.
 constexpr double kTiny = 1e-12;
 constexpr double kWholeTurnRad = 5e-7;
 
@@ -57,7 +57,7 @@ Result<PlanePoint> by_radius(const ArcRequest& request, const Block& block) {
   magnitude = half_chord / magnitude > 1.0 - kTiny ? half_chord : magnitude;
   const double to_centre =
       std::sqrt(std::max(0.0, (magnitude - half_chord) * (magnitude + half_chord)));
-  // The short arc turns the centre to the right of a clockwise chord; a negative radius takes the
+  // The short arc has its centre to the right of a clockwise chord; a negative radius selects the
   // long arc.
   const bool right = request.clockwise == (radius > 0.0);
   const double side = right ? -1.0 : 1.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The circle that the words of a G2 or G3 block speak of.
+/// The circle described by the words of a G2 or G3 block.
 ///
 /// Tolerances are LinuxCNC 2.9's: centre form, radii may differ by 0.02828 mm (0.002828 inch) or by
 /// 0.1 %, whichever is more, but never by a hundred times the former; radius form, the radius may
@@ -31,8 +31,8 @@ struct ArcRequest {
 /// The centre, in the program's frame.
 [[nodiscard]] Result<PlanePoint> arc_centre(const ArcRequest& request, const Block& block);
 
-/// The angle from start to end about the centre, signed, with `turns` started turns. Ends nearer to
-/// the start than 5e-7 rad make a whole turn (grbl's ARC_ANGULAR_TRAVEL_EPSILON).
+/// The angle from start to end about the centre, signed, with `turns` started turns. An end within
+/// 5e-7 rad of the start makes a whole turn (grbl's ARC_ANGULAR_TRAVEL_EPSILON).
 [[nodiscard]] double arc_sweep(PlanePoint start, PlanePoint end, PlanePoint centre, int turns);
 
 }  // namespace chaintrue::gcode

@@ -12,8 +12,8 @@ namespace chaintrue::gcode {
 namespace {
 
 constexpr std::string_view kAxes = "xyzabc@^";
-/// N stands only at the beginning of a line, O is no word of a block; E, U, V and W are refused
-/// with a reason.
+/// N is allowed only at the beginning of a line, O is not a word of a block; E, U, V and W are
+/// rejected with a reason.
 constexpr std::string_view kPlainLetters = "abcdefhijklpqrstxyz@^uvw";
 
 char upper(char letter) {
@@ -24,7 +24,7 @@ Result<void> read_g(ValueReader& reader, Block& block, bool tools_have_no_diamet
   const Place place = reader.place();
   const auto value = reader.real();
   if (!value) return tl::unexpected(value.error());
-  // 91.1 is ten times 91.1 only to rounding; more decimals are no code.
+  // 10 times 91.1 is 911 only up to rounding; more decimals do not form a code.
   const double tenths = 10.0 * *value;
   const double rounded = std::round(tenths);
   if (*value < 0.0 || std::fabs(tenths - rounded) > 0.001 || rounded > 9999.0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// One line of a program as words, evaluated and checked for what can be told without the modal
+/// One line of a program as words, evaluated and checked as far as possible without the modal
 /// state.
 #pragma once
 
@@ -31,7 +31,7 @@ struct Block {
   std::size_t line = 0;
 
   [[nodiscard]] bool has(char letter) const { return (present_ >> slot(letter) & 1U) != 0; }
-  /// Only where has(letter).
+  /// Only if has(letter).
   [[nodiscard]] double value(char letter) const { return values_[slot(letter)]; }
   [[nodiscard]] std::optional<double> find(char letter) const {
     return has(letter) ? std::optional(value(letter)) : std::nullopt;
@@ -60,8 +60,8 @@ struct Block {
   std::array<std::size_t, 28> columns_{};
 };
 
-/// Reads the words behind `reader` to the end of the line.
-/// \param tools_have_no_diameter G41 and G42 then change nothing and are not refused.
+/// Reads the words after `reader` to the end of the line.
+/// \param tools_have_no_diameter G41 and G42 then have no effect and are not rejected.
 [[nodiscard]] Result<void> read_words(ValueReader reader,
                                       Block& block,
                                       bool tools_have_no_diameter = false);

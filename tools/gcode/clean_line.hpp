@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A line without its comments, blanks and capitals, every character remembering its column.
+/// A line without its comments, blanks and capitals; every character keeps its column.
 ///
-/// RS274/NGC ignores blanks everywhere outside comments, inside numbers too: `X1 0` is X10.
+/// RS274/NGC ignores blanks everywhere outside comments, even inside numbers: `X1 0` is X10.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 namespace chaintrue::gcode {
 
 struct CommentText {
-  std::string text;  ///< what stands between the parentheses or behind the semicolon
+  std::string text;  ///< the text between the parentheses or after the semicolon
   std::size_t column = 0;
   bool semicolon = false;
 };
@@ -23,7 +23,7 @@ struct CommentText {
 /// Reused from line to line, so that reading a file does not allocate for each.
 struct CleanLine {
   std::string text;
-  std::vector<std::uint32_t> columns;  ///< of text's characters, and one more for its end
+  std::vector<std::uint32_t> columns;  ///< of each character of text, and one for its end
   std::vector<CommentText> comments;
   std::size_t number = 0;
 
@@ -32,7 +32,7 @@ struct CleanLine {
   }
 };
 
-/// Takes a line apart; a RepRap checksum (`*71`) is checked and removed.
+/// Splits a line into text and comments; a RepRap checksum (`*71`) is checked and removed.
 [[nodiscard]] Result<void> clean(std::string_view raw, std::size_t number, CleanLine& line);
 
 }  // namespace chaintrue::gcode

@@ -35,7 +35,7 @@ struct GCode {
   int tenths;  ///< 1 is 10, 91.1 is 911
   GGroup group;
   bool takes_axes;
-  const char* refusal;  ///< why it is not supported; null where it is
+  const char* refusal;  ///< why it is not supported; null if it is
 };
 
 struct MCode {
@@ -50,7 +50,7 @@ struct MCode {
 }
 [[nodiscard]] constexpr bool is_arc(int motion) { return motion == 20 || motion == 30; }
 
-/// Null where the code is not known.
+/// Null if the code is unknown.
 [[nodiscard]] const GCode* find_g(int tenths);
 [[nodiscard]] const MCode* find_m(int number);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Tiles that are tabulated once they have been asked often.
+/// Tiles are tabulated once they have been evaluated often enough.
 #include "tools/gcode/command_field.hpp"
 
 #include <algorithm>
@@ -9,12 +9,13 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// With 8 cells on a side a cell is 30 mm: the correction of a smooth map is followed to 1e-6 mm.
+/// With 8 cells on a side a cell is 30 mm: the correction of a smooth map is interpolated to 1e-6
+/// mm.
 constexpr double kTileMm = 240.0;
-/// 7.5 mm: a wave that repeats with every turn of a sprocket (63.5 mm) is followed.
+/// 7.5 mm cells resolve a wave with the period of a sprocket's turn (63.5 mm).
 constexpr int kMostCells = 32;
 
-/// Nodes, and the five looks into every cell.
+/// Evaluations for the nodes, and for the five checks in every cell.
 int cost(int cells) { return (cells + 1) * (cells + 1) + 5 * cells * cells; }
 
 int tiles(double length_mm) {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The command for a target, Corrector::command without play, from tables that are made where a
-/// program cuts much.
+/// The command for a target, Corrector::command without play, from tables that are made in regions
+/// where a program cuts often.
 ///
 /// The map's bounds are divided into tiles. A tile is tabulated (interp::CompiledPair, of the
-/// correction) when as many targets in it have been computed as the table costs, so that no program
-/// takes twice as long as without. Each cell of a table is held against the exact answer at five
-/// places; where 1.25 times the largest difference is above the bound, finer cells are tried, and
-/// in the end every target is computed. Beyond the bounds, and in a tile where some place has no
-/// answer, too.
+/// correction) once as many targets in it have been computed as the table costs, so that no program
+/// takes more than twice as long as without tables. Each cell of a table is compared with the exact
+/// value at five points; if 1.25 times the largest difference is above the bound, finer cells are
+/// tried, and at last every target is computed. Targets are also computed outside the bounds, and
+/// in a tile where some point has no answer.
 ///
-/// Error: below the bound at the places looked at. Memory: 16 kB a tile, 0.8 MB for a full sheet;
-/// 16 times that where the cells are the finest. Not thread safe.
+/// Error: below the bound at the checked points. Memory: 16 kB for each tile, 0.8 MB for a full
+/// sheet; 16 times that with the finest cells. Not thread safe.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@ namespace chaintrue::gcode {
 
 class CommandField {
  public:
-  /// Keeps the reference.
+  /// Keeps a reference.
   CommandField(const Corrector& corrector, double bound_mm);
 
   [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> command(model::BedPoint target);

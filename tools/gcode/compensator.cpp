@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Moves become commands.
+/// Converts moves to commands.
 #include "tools/gcode/compensator.hpp"
 
 #include <fmt/format.h>
@@ -15,22 +15,23 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// The tool's path is stretched by at most this against the commanded one (steepest corrections are
-/// far smaller), so that a chord's deviation is measured in commands but promised at the tool.
+/// Upper bound of the tool's path length relative to the commanded one (the steepest corrections
+/// allowed are far smaller): a chord's deviation is measured in commands, but the tolerance holds
+/// at the tool.
 constexpr double kStretch = 1.05;
-/// Short straight moves bend by less than this share of the tolerance, by the sampled curvature and
-/// a safety of two.
+/// Short straight moves are not checked if their bow is less than this share of the tolerance, by
+/// the sampled curvature and a safety factor of two.
 constexpr double kUncheckedShare = 0.25;
 constexpr double kCurvatureSafety = 2.0;
 
-/// What verify's own errors take of the tolerance, and a little of the chords' between the places
+/// Share of the tolerance for verify's own errors, and for the chords' deviation between the points
 /// where they are checked.
 constexpr double kSpare = 0.045;
 /// Half a unit of single precision below 2048 mm, in X and Y.
 constexpr double kSinglePrecisionMm = 0.5 * 1.25e-4 * 1.5;
-/// Share of the tolerance that tabulating the commands may cost; it lies within kSpare.
+/// Share of the tolerance for the error of the tables; included in kSpare.
 constexpr double kTableShare = 0.005;
-/// A circle keeps its shape even where the tolerance would let it become a point.
+/// A circle keeps its shape even if the tolerance would allow a point.
 constexpr double kMostTurnRad = 0.25 * std::numbers::pi;
 
 /// Half a unit of the last decimal, in X, Y and Z.
@@ -117,7 +118,7 @@ Result<void> Compensator::emit(const Move& move, double feed, const PathSample& 
   examine(move, sample);
   if (here_ && options_.on_command) options_.on_command(move, *here_, sample);
   here_ = sample;
-  // What is written after a problem is thrown away.
+  // Output after a problem is discarded.
   if (findings_.problem_count > 0) return {};
   const bool named_z = move.names_z;
   const auto written = emitter_.command(move.kind == MoveKind::rapid,
@@ -129,7 +130,7 @@ Result<void> Compensator::emit(const Move& move, double feed, const PathSample& 
   return {};
 }
 
-/// The running directions of the chains behind t; a chain that does not run keeps its direction.
+/// The directions of motion of the chains after t; a chain that does not move keeps its direction.
 ChainDirections Compensator::directions_at(const Move& move,
                                            double t,
                                            ChainDirections otherwise) const {
@@ -151,7 +152,7 @@ Result<void> Compensator::piece(
   const auto visit = [&](const PathSample& sample) {
     if (outcome) outcome = emit(move, feed, sample);
   };
-  // Without play the last command is this one's start.
+  // Without play the last command is the start of this one.
   const bool known = here_ && !has_play() && from == 0.0 && here_->target == move.from;
   const auto start = known ? PathSample{0.0, here_->target, here_->command} : commands(from);
   if (!start) {
@@ -159,7 +160,7 @@ Result<void> Compensator::piece(
     object(move, start.error(), place.x_mm, place.y_mm);
     return {};
   }
-  // Where the play is taken up, the chains run while the tool stays.
+  // While the play is taken up, the chains move and the tool stays.
   if (has_play() && here_ && directions != directions_) visit(*start);
   directions_ = directions;
   const double length = (to - from) * length_mm(move);
@@ -184,11 +185,11 @@ Result<void> Compensator::piece(
   return outcome;
 }
 
-/// In pieces between the places where a chain turns around, if that matters.
+/// In pieces between the points where a chain reverses, if there is play.
 Result<void> Compensator::along(const Move& move, double feed) {
   if (!here_ && move.kind == MoveKind::rapid) {
-    // Where the tool stands before the first move is not known, nor which way its chains ran: only
-    // its end can be right, and that as if both chains had been paid out.
+    // The tool's position before the first move is unknown, and so are the directions of its
+    // chains: only the end of that move is compensated, as if both chains had been paid out.
     const auto end = curve(move, directions_)(1.0);
     if (!end) {
       object(move, end.error(), move.to.x_mm, move.to.y_mm);
@@ -221,8 +222,8 @@ Result<void> Compensator::along(const Move& move, double feed) {
   return {};
 }
 
-/// A program that cuts before it says where X and Y are starts where the controller believes to be:
-/// at zero. There the tool stands beside the program's start by the correction.
+/// A program that cuts before it states X and Y starts at the controller's position, which is zero.
+/// The tool's position differs from the program's start by the correction.
 Result<void> Compensator::go_to_assumed_start(const Move& move) {
   note({move.line,
         "start_assumed",

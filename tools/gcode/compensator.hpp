@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The pipeline's end: events of a program in, a file out whose commands move the tool where the
-/// program wants it.
+/// The last stage of the pipeline: reads a program's events and writes a file whose commands move
+/// the tool along the program's path.
 ///
-/// Error budget of a path: chord (measured against the exact map, arcs and lines alike) + rounding
-/// of the words (half a unit of the last decimal in each axis) <= tolerance. Feed rates per minute
-/// are kept; inverse time feeds become feeds per minute, so that every piece of a move takes its
-/// share of the time.
+/// Error budget of a path: chord (measured against the exact map, for arcs and lines) + rounding of
+/// the words (half a unit of the last decimal in each axis) <= tolerance. Feed rates per minute are
+/// kept; inverse time feeds are converted to feeds per minute, so that every piece of a move takes
+/// its share of the time.
 ///
-/// Nothing that would be cut wrong is written: targets outside the map, beyond what the controller
-/// clamps to, with a correction or a slope of it above the stated limits become problems, each with
+/// Nothing is written that would be cut wrong: targets outside the map or outside the controller's
+/// clamping box, and corrections or slopes of it above the stated limits, are problems, each with
 /// its line.
 ///
 /// \code
@@ -37,19 +37,19 @@ namespace chaintrue::gcode {
 struct CompensateOptions {
   double tolerance_mm = 0.05;
   int decimals = 3;
-  /// Added to every X and Y of the program before it is a point of the sheet.
+  /// Added to every X and Y of the program to give a point of the sheet.
   model::BedPoint home;
-  /// Larger corrections than this point to a wrong map, machine or home.
+  /// Larger corrections indicate a wrong map, machine or home.
   double largest_correction_mm = 30.0;
   /// Change of the correction per millimetre of path.
   double steepest_correction = 0.05;
-  /// Rapids in one piece: their ends are right, their middles are not.
+  /// Rapids are single commands: their ends are compensated, their paths are not.
   bool keep_rapids_whole = false;
-  /// G28 and G30 go to the machine's zero; otherwise they are refused unless the program says where
-  /// home is.
+  /// G28 and G30 go to the machine's zero; otherwise they are rejected unless the program sets its
+  /// home.
   bool home_is_zero = false;
   std::optional<ClampBox> clamp_box;
-  /// Half the width of a named direction_hysteresis, per chain.
+  /// Half the width of a named direction_hysteresis for each chain.
   model::ChainLengths half_play_mm;
   std::string map_hash;
   std::string input_hash;
@@ -60,7 +60,7 @@ struct CompensateOptions {
   std::function<void(const Move&, const PathSample&, const PathSample&)> on_command;
 };
 
-/// What the run found. Problems and notes keep the first hundred of their kind, and count all.
+/// Results of the run. Problems and notes keep the first hundred of each kind, and count all.
 struct Findings {
   static constexpr std::size_t kMostKept = 100;
   std::vector<Problem> problems;
@@ -82,18 +82,18 @@ struct CompensateSummary {
   double steepest_correction = 0.0;
 };
 
-/// What rounding to so many decimals takes of a tolerance; a tolerance must be larger.
+/// Rounding error at this number of decimals; the tolerance must be larger.
 [[nodiscard]] double least_tolerance_mm(int decimals);
 
 /// One run, not thread safe.
 class Compensator final : private Sink {
  public:
-  /// Keeps the reference.
-  /// \throws std::invalid_argument where the tolerance leaves nothing beside the rounding.
+  /// Keeps a reference. \throws std::invalid_argument if the tolerance does not exceed the
+  /// rounding.
   Compensator(const Corrector& corrector, CompensateOptions options, ByteSink out);
 
-  /// An unexpected value is a problem of the program itself; what the map and the controller object
-  /// to is in findings().
+  /// An unexpected value is a problem of the program itself; problems with the map and the
+  /// controller are in findings().
   [[nodiscard]] Result<CompensateSummary> run(LineSource& source, const Dialect& dialect);
   [[nodiscard]] const Findings& findings() const { return findings_; }
 
@@ -129,10 +129,10 @@ class Compensator final : private Sink {
   double unchecked_length_mm_ = 0.0;
   Findings findings_;
   CompensateSummary summary_;
-  std::optional<PathSample> here_;  // empty until the program says where X and Y are
+  std::optional<PathSample> here_;  // empty until the program states X and Y
   ChainDirections directions_;
   std::size_t objected_line_ = 0;
-  std::set<std::string, std::less<>> unknown_words_;  // that a note has been made of
+  std::set<std::string, std::less<>> unknown_words_;  // words that already have a note
 };
 
 }  // namespace chaintrue::gcode

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What is not compensated: places off the map, corrections that are too large or too steep,
+/// Cases that are not compensated: points off the map, corrections that are too large or too steep,
 /// commands that the controller would clamp.
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// Between nearer points rounding makes slopes of its own.
+/// Between nearer points rounding dominates the slope.
 constexpr double kSlopeBaseMm = 1.0;
 
 }  // namespace
@@ -39,7 +39,7 @@ void Compensator::object(const Move& move, CorrectionFailure failure, double x_m
                         fmt::format("X{:.3f} Y{:.3f} {}", x_mm, y_mm, explain(failure))});
 }
 
-/// Holds a sample against the limits.
+/// Checks a sample against the limits.
 void Compensator::examine(const Move& move, const PathSample& sample) {
   const double dx = sample.command.x_mm - sample.target.x_mm;
   const double dy = sample.command.y_mm - sample.target.y_mm;
@@ -110,7 +110,7 @@ void Compensator::examine(const Move& move, const PathSample& sample) {
   }
 }
 
-/// The word is written all the same: it says nothing of the path.
+/// The word is written all the same: it does not affect the path.
 void Compensator::note_unknown(const PassedWord& word) {
   const char letter = word.text.front();
   if (letter != 'G' && letter != 'M') return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Codes, arcs and short moves against a controller's table.
+/// Checks codes, arcs and short moves against a controller's table.
 #include "tools/gcode/controller_check.hpp"
 
 #include <fmt/format.h>
@@ -53,7 +53,7 @@ Result<void> ControllerCheck::move(const Move& move) {
   if (firmware_.tick_s > 0.0 && length < speed_mm_per_s * firmware_.tick_s) {
     short_ticks_.see(move.line);
   }
-  // The way to stop from the feed has to lie within the moves that are planned.
+  // The stopping distance from the feed must be within the planned moves.
   const double stop_mm =
       firmware_.acceleration_mm_per_s2 > 0.0
           ? speed_mm_per_s * speed_mm_per_s / (2.0 * firmware_.acceleration_mm_per_s2)

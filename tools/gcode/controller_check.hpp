@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a controller, as it is sold, cannot follow in a program that is sent to it as it is.
+/// What an unmodified controller cannot follow in an uncompensated program.
 #pragma once
 
 #include <map>
@@ -10,11 +10,11 @@
 
 namespace chaintrue::gcode {
 
-/// Run a program with it as the sink; the notes are made at the program's end, each with its first
-/// line and how often it applies.
+/// Use as the sink of a program; the notes are made at the program's end, each with its first line
+/// and the number of occurrences.
 class ControllerCheck final : public Sink {
  public:
-  /// Keeps the references.
+  /// Keeps references.
   ControllerCheck(const Firmware& firmware, Findings& findings)
       : firmware_(firmware), findings_(findings) {}
 

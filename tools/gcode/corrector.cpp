@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Map and controller, one behind the other.
+/// Map and controller in series.
 #include "tools/gcode/corrector.hpp"
 
 #include <fmt/format.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From where the tool shall be to what the controller must be told, and back.
+/// The command for a position of the tool, and the inverse.
 ///
 ///   command(p) = controller.command(map.lengths(p) + play)
 ///   tool(c)    = map.tool(controller.lengths(c))
 ///
-/// play is zero unless a direction_hysteresis was named: half its width, with the sign of the
-/// direction in which each chain runs.
+/// play is half the width of a named direction_hysteresis, with the sign of each chain's direction
+/// of motion; zero if none was named.
 #pragma once
 
 #include <tl/expected.hpp>
@@ -17,7 +17,7 @@
 
 namespace chaintrue::gcode {
 
-/// Signs of the chains' running directions: +1 paying out, -1 reeling in.
+/// Signs of the chains' directions of motion: +1 paying out, -1 reeling in.
 struct ChainDirections {
   int left = 1;
   int right = 1;
@@ -37,7 +37,7 @@ class Corrector {
 
   [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> command(
       model::BedPoint target) const;
-  /// With half the play added in the directions that the chains run.
+  /// With half the play added in the chains' directions of motion.
   [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> command(
       model::BedPoint target, model::ChainLengths half_play_mm, ChainDirections directions) const;
   [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> tool(
@@ -50,7 +50,7 @@ class Corrector {
   [[nodiscard]] const Firmware& firmware() const { return firmware_; }
 
   /// The largest second derivative of the correction along any direction, in 1/mm, sampled over the
-  /// map's bounds: a straight move of length s bends by at most s^2/8 times this.
+  /// map's bounds: a straight move of length s bows by at most s^2/8 times this.
   [[nodiscard]] double sampled_curvature_per_mm() const;
 
  private:

@@ -15,7 +15,7 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// Three decimals, more only where a slow feed needs them to have six digits.
+/// Three decimals; more only if a slow feed needs them for six digits.
 std::string feed_text(double feed) {
   const int digits_before = static_cast<int>(std::floor(std::log10(feed))) + 1;
   std::string text = fmt::format("{:.{}f}", feed, std::clamp(6 - digits_before, 3, 20));
@@ -24,7 +24,7 @@ std::string feed_text(double feed) {
   return text;
 }
 
-/// Does not cut a UTF-8 character in two.
+/// Truncates without splitting a UTF-8 character.
 std::size_t cut(std::string_view text, std::size_t most) {
   if (text.size() <= most) return text.size();
   const std::size_t blank = text.rfind(' ', most - 1);
@@ -163,8 +163,8 @@ Result<bool> Emitter::command(bool rapid,
   return true;
 }
 
-/// S stands with the M3 behind it and T with its M6, as some controllers need them; every other
-/// word has its own line.
+/// S is on the line of the M3 that follows and T on that of its M6, as some controllers require;
+/// every other word has its own line.
 Result<void> Emitter::word(const PassedWord& word) {
   std::string_view text = word.text;
   if (text == "G61.1") text = "G61";
@@ -208,7 +208,7 @@ void Emitter::comment(const Comment& comment) {
   for (char& c : text) {
     if (c == '(') c = '[';
     if (c == ')') c = ']';
-    // A control character inside a comment may end the line for some readers.
+    // A control character inside a comment ends the line for some readers.
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   }
   const std::string_view open = comment.message ? "(MSG," : "(";

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Writes G-code that every controller of such machines reads alike: G21 G90, G0 and G1 only, X and
-/// Y always together, no dotted codes, no exponents, no moves of zero length, at most 60 characters
-/// a line.
+/// Writes G-code that all controllers of such machines read in the same way: G21 G90, G0 and G1
+/// only, X and Y always together, no dotted codes, no exponents, no moves of zero length, at most
+/// 60 characters a line.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ inline constexpr std::string_view kMarker = "compensated by chaintrue";
 /// A comment that begins so, whatever a sender has made of its capitals and blanks.
 [[nodiscard]] bool is_marked(std::string_view comment);
 
-/// What the header says, so that nobody compensates twice or with the wrong map.
+/// Content of the header; prevents compensating twice or with the wrong map.
 struct Header {
   std::string map_hash;
   std::string input_hash;
@@ -46,8 +46,8 @@ class Emitter {
   Emitter(ByteSink out, int decimals);
 
   void header(const Header& header);
-  /// One straight command. XY is empty for a move in Z alone, z where the height stays. A command
-  /// that changes nothing after rounding is left out; false then.
+  /// One straight command. XY is empty for a move in Z alone, z if the height does not change. A
+  /// command that changes nothing after rounding is left out; then returns false.
   Result<bool> command(bool rapid,
                        std::size_t line,
                        std::optional<model::BedPoint> xy,
@@ -75,7 +75,7 @@ class Emitter {
   std::optional<std::int64_t> z_;
   std::string feed_;
   std::string text_;
-  std::string waiting_word_;  // S or T, which share a line with the M word behind them
+  std::string waiting_word_;  // S or T, written on the line of the M word that follows
   std::size_t waiting_line_ = 0;
   std::uint64_t commands_ = 0;
 };

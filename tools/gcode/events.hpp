@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a program makes the machine do, in order: moves in mm in the machine frame, words that pass
+/// The actions of a program, in order: moves in mm in the machine frame, words that are passed
 /// through, comments.
 ///
-/// The machine frame is the one that G53 speaks of: work offsets, G92 and rotation are applied.
+/// The machine frame is that of G53: work offsets, G92 and rotation are applied.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ struct Arc {
   double start_radius_mm = 0.0;
   double end_radius_mm = 0.0;
   double start_angle_rad = 0.0;
-  /// Positive counter-clockwise seen against first x second; whole turns included.
+  /// Positive counter-clockwise about first x second; whole turns included.
   double sweep_rad = 0.0;
   double start_height_mm = 0.0;
   double end_height_mm = 0.0;
@@ -60,15 +60,16 @@ struct Move {
   Point to;
   std::optional<Arc> arc;  ///< for MoveKind::arc
   FeedRate feed;           ///< meaningless for rapids
-  /// Whether the program itself says where X or Y, and Z, go. A first move that does not leaves the
-  /// axis where it is.
+  /// Whether the program itself states X or Y, and Z. A first move that does not leaves the axis
+  /// where it is.
   bool names_xy = false;
   bool names_z = false;
-  /// Degrees that A, B and C turn by; such axes do not exist on a two-chain router.
+  /// Rotation of A, B and C in degrees; a two-chain router has no such axes.
   std::array<double, 3> turn_deg{};
 };
 
-/// A word that says nothing of the path and goes through unchanged (S, T, M, G4, G43, G61 ...).
+/// A word that does not affect the path and is passed through unchanged (S, T, M, G4, G43, G61
+/// ...).
 struct PassedWord {
   std::size_t line = 0;
   std::string text;  ///< `M3`, `S1000`, `G4 P0.5`
@@ -76,19 +77,18 @@ struct PassedWord {
 
 struct Comment {
   std::size_t line = 0;
-  std::string text;  ///< parameters of (debug, ...) and (print, ...) are written out
-  bool message =
-      false;  ///< (msg, ...), (debug, ...), (print, ...): text is what the person is told
+  std::string text;      ///< parameters of (debug, ...) and (print, ...) are written out
+  bool message = false;  ///< (msg, ...), (debug, ...), (print, ...): text is a message for the user
 };
 
-/// Something a person should know that is no reason to refuse.
+/// Information for the user that is no reason to reject the program.
 struct Note {
   std::size_t line = 0;
   std::string_view name;  ///< stable, such as "no_program_end"
   std::string sentence;
 };
 
-/// Where the program's events go. Moves may be refused; then the interpreter stops with that
+/// Receives the program's events. It may reject a move; the interpreter then stops with that
 /// problem.
 class Sink {
  public:
@@ -97,7 +97,7 @@ class Sink {
   virtual Result<void> word(const PassedWord&) { return {}; }
   virtual Result<void> comment(const Comment&) { return {}; }
   virtual void note(const Note&) {}
-  /// Every code of every executed line ('G' or 'M', in tenths), where wants_codes() says so.
+  /// Every code of every executed line ('G' or 'M', in tenths), if wants_codes() is true.
   virtual void code(std::size_t /*line*/, char /*letter*/, int /*tenths*/) {}
   [[nodiscard]] virtual bool wants_codes() const { return false; }
   /// The program has ended at this line, by this word (`M2`, `M30`, `%`), or by the end of the file

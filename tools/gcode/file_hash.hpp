@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A short name for a file's contents: FNV-1a, 64 bits, as 16 hexadecimal digits. It tells files
-/// apart; it is no protection against forgery.
+/// A hash of a file's content: FNV-1a, 64 bits, as 16 hexadecimal digits. It distinguishes files;
+/// it is no protection against forgery.
 #pragma once
 
 #include <cstdint>

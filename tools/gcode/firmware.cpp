@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The table of controllers' motion.
+/// The table of controllers.
 #include "tools/gcode/firmware.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How a controller goes from one commanded point to the next: its number format, its stepping, and
-/// what it does to targets beyond its sheet. (What chain lengths it pays out for a point is
+/// How a controller moves from one commanded point to the next: its number format, its stepping, and
+/// its treatment of targets outside its sheet. (Its chain lengths for a point are in
 /// model/controllers/payout.hpp.)
 ///
 /// Sources, by file of the firmware:
@@ -12,7 +12,7 @@
 ///                        executeGcodeLine, executeMcodeLine: the codes; a code's number is cut to
 ///                        an integer, the rest are answered "unsupported and ignored".
 ///   holey                madgrizzle/OpticalFirmware (the firmware with stretch and catenary),
-///                        cnc_ctrl_v1, the same files and functions: it moves and reads alike.
+///                        cnc_ctrl_v1, the same files and functions with the same behaviour.
 ///   fluidnc_wallplotter  bdring/FluidNC, FluidNC/src. Kinematics/WallPlotter.cpp,
 ///                        cartesian_to_motors: pieces of segment_length (10 mm by default), chain
 ///                        lengths linear within a piece, summed up in float; a move of no length is
@@ -41,52 +41,51 @@ struct Firmware {
   model::ControllerKind kind = model::ControllerKind::ideal;
   const char* name = "ideal";
   bool single_precision = false;
-  /// A new position every tick; 0: as fine as one likes.
+  /// A new position every tick; 0: continuous.
   double tick_s = 0.0;
-  /// Chain lengths run linearly through pieces of about this length; 0: the commanded line is
-  /// followed.
+  /// Chain lengths are linear over pieces of about this length; 0: the commanded line is followed.
   double chain_linear_piece_mm = 0.0;
-  /// At most of that length; otherwise at least.
+  /// The length is an upper bound; otherwise a lower bound.
   bool pieces_at_most = false;
-  /// Targets beyond half the believed bed are clamped without a word.
+  /// Targets outside half the set bed are clamped without a message.
   bool clamps_to_bed = false;
-  /// Knows G43 H. The others pass over it, or stop there.
+  /// Implements G43 H. The others ignore it or stop.
   bool tool_lengths = false;
-  /// Moves that are planned ahead, and what speed is taken back with (its default).
+  /// Number of moves planned ahead, and the default deceleration.
   int planned_moves = 0;
   double acceleration_mm_per_s2 = 0.0;
-  /// What it does to a code that it does not know.
+  /// Its treatment of an unknown code.
   const char* unknown = "";
   ArcRule arcs = ArcRule::exact;
-  /// A move of no length goes somewhere else.
+  /// A move of zero length goes to another position.
   bool phantom_moves = false;
 };
 
 [[nodiscard]] const Firmware& firmware(model::ControllerKind kind);
-/// Of a Maslow 4. Its kind is that of the FluidNC that it is built on, whose codes it has; its
-/// kinematics are model/belts/belt_controller.hpp.
+/// The firmware of a Maslow 4. Its kind is that of FluidNC, on which it is based and whose codes it
+/// has; its kinematics are in model/belts/belt_controller.hpp.
 [[nodiscard]] const Firmware& firmware_of_four_belts();
 
-/// Into how many pieces, linear in chain length, it cuts a command of that length.
+/// Number of pieces, linear in chain length, for a command of that length.
 [[nodiscard]] double pieces_of(const Firmware& firmware, double length_mm);
 
-/// The code that it takes a code for ('G' or 'M', in tenths: G38.2 is 382).
+/// The code that it executes for a code ('G' or 'M', in tenths: G38.2 is 382).
 [[nodiscard]] int taken_for(const Firmware& firmware, char letter, int tenths);
-/// Whether it acts on the code that it takes this one for.
+/// Whether it implements the code that it executes for this one.
 [[nodiscard]] bool knows_code(const Firmware& firmware, char letter, int tenths);
 
-/// Half the width and height that the controller clamps to; empty where it does not clamp.
+/// Half the width and height that the controller clamps to; empty if it does not clamp.
 struct ClampBox {
   double half_width_mm = 0.0;
   double half_height_mm = 0.0;
 };
 [[nodiscard]] std::optional<ClampBox> clamp_box(const model::Machine& machine);
 
-/// A straight command as the controller runs it.
+/// The path of a straight command in the controller.
 class CommandWay {
  public:
   /// Keeps references.
-  /// \param doubt_mm taken off the command's length (its numbers will be rounded) before the
+  /// \param doubt_mm subtracted from the command's length (its numbers will be rounded) before the
   /// controller's pieces are counted.
   CommandWay(const Firmware& firmware,
              const model::ControllerKinematics& kinematics,
@@ -94,11 +93,11 @@ class CommandWay {
              model::BedPoint to,
              double doubt_mm = 0.0);
 
-  /// Pieces that are linear in chain length; 1 where the controller follows the line.
+  /// Pieces that are linear in chain length; 1 if the controller follows the line.
   [[nodiscard]] int pieces() const { return pieces_; }
-  /// The commanded point that stands for where the controller is at the fraction t: on the line,
-  /// or, where it interpolates chain lengths, where equal lengths would be commanded. Empty where
-  /// its own kinematics fail.
+  /// The commanded point that is equivalent to the controller's position at the fraction t: on the
+  /// line, or, if it interpolates chain lengths, the point with the same lengths. Empty if its own
+  /// kinematics fail.
   [[nodiscard]] std::optional<model::BedPoint> at(double t);
 
  private:
@@ -111,7 +110,7 @@ class CommandWay {
   model::BedPoint from_;
   model::BedPoint to_;
   int pieces_ = 1;
-  int piece_ = -1;  // whose ends are known
+  int piece_ = -1;  // whose ends are computed
   std::optional<model::ChainLengths> start_;
   std::optional<model::ChainLengths> end_;
 };

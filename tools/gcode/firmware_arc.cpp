@@ -19,7 +19,8 @@ constexpr float kGrblArcToleranceMm = 0.002F;
 constexpr int kGrblArcCorrection = 12;
 constexpr float kGrblAngleEpsilon = 5e-7F;
 
-/// In the arc's plane, from its centre, with the height along its axis as a share of the whole.
+/// In the arc's plane, relative to its centre, with the height along its axis as a share of the
+/// whole.
 class PlaneOfArc {
  public:
   explicit PlaneOfArc(const Move& move) : arc_(*move.arc) {}
@@ -44,7 +45,7 @@ class PlaneOfArc {
   const Arc& arc_;
 };
 
-/// The angle from start to end in the arc's direction, with this firmware's idea of a whole turn.
+/// The angle from start to end in the arc's direction, with this firmware's rule for a whole turn.
 float turned(const PlaneOfArc& plane, float whole_turn, float epsilon) {
   const auto angle = static_cast<float>(plane.last_turn());
   if (plane.clockwise()) return angle >= -epsilon ? angle - whole_turn : angle;
@@ -82,7 +83,7 @@ void as_grbl(const Move& move, const Visit& visit) {
   const auto start = static_cast<float>(plane.start_angle());
   const auto radius = static_cast<float>(plane.radius());
   const float sweep = turned(plane, 2.0F * std::numbers::pi_v<float>, kGrblAngleEpsilon);
-  // Below half the tolerance the firmware's root has no value: the arc is its end.
+  // Below half the tolerance the firmware's square root is not a number: the arc becomes its end.
   const float root = kGrblArcToleranceMm * (2.0F * radius - kGrblArcToleranceMm);
   const float chords =
       root > 0.0F ? std::floor(std::fabs(0.5F * sweep * radius) / std::sqrt(root)) : 0.0F;

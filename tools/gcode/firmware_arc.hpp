@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How a controller cuts an arc of a program that is sent to it as it is.
+/// How a controller cuts an arc of an uncompensated program.
 ///
 /// Sources:
 ///
@@ -26,10 +26,9 @@ namespace chaintrue::gcode {
 /// Whether an arc of this radius and angle (of one turn at most, no sign) becomes a straight line.
 [[nodiscard]] bool cuts_straight(const Firmware& firmware, double radius_mm, double sweep_rad);
 
-/// The ends of the straight moves that an arc becomes, in order; the last is the arc's end. Stops
-/// where `visit` returns false.
-/// \param bow_mm how far apart the true arc and the chords are at most where the controller follows
-/// the arc itself
+/// The ends of the straight moves that an arc becomes, in order; the last is the arc's end. Stops if
+/// `visit` returns false.
+/// \param bow_mm the largest deviation of the chords if the controller follows the arc itself
 void for_each_chord(const Firmware& firmware,
                     const Move& arc,
                     double bow_mm,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// O-words. A block that is open is known by its label; loops come back by the file's offset.
+/// O-words. An open block is identified by its label; loops return by the file's offset.
 #include "tools/gcode/flow.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace {
 /// LinuxCNC allows ten levels of subroutines.
 constexpr std::size_t kDeepestCall = 10;
 
-/// Where a line's O-word may begin: behind a slash and a line number.
+/// Where a line's O-word may begin: after a slash and a line number.
 std::size_t control_start(std::string_view text) {
   std::size_t at = 0;
   if (at < text.size() && text[at] == '/') ++at;
@@ -63,7 +63,7 @@ Result<Flow::ControlLine> Flow::parse(const CleanLine& line, std::size_t at) con
     std::string_view text;
     Keyword keyword;
   };
-  // Longer words before their beginnings.
+  // Longer words before their prefixes.
   static constexpr Name kNames[] = {
       {"endsub", Keyword::endsub},
       {"sub", Keyword::sub},
@@ -170,7 +170,7 @@ Result<Flow::Found> Flow::skip_to(const std::string& label,
     const Keyword keyword = control->keyword;
     const bool wanted = std::find(keywords.begin(), keywords.end(), keyword) != keywords.end();
     if (depth == 0 && wanted) return Found{std::move(*control), line_start_};
-    // The same label once more, inside: controllers other than LinuxCNC allow it.
+    // The same label again, nested: allowed by controllers other than LinuxCNC.
     if (keyword == Keyword::if_ || keyword == Keyword::repeat) ++depth;
     if (keyword == Keyword::endif || keyword == Keyword::endrepeat) --depth;
     depth = std::max(depth, 0);
@@ -192,7 +192,7 @@ Result<void> Flow::begin_sub(const CleanLine& line, const ControlLine& control) 
   return {};
 }
 
-/// Looks ahead to the end of the file, then from its beginning.
+/// Searches to the end of the file, then from its beginning.
 Result<LineSource::Position> Flow::find_body(const std::string& label, Place place) {
   if (const auto known = bodies_.find(label); known != bodies_.end()) return known->second;
   const LineSource::Position here = source_.position();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// O-words: conditions, loops and subroutines, as LinuxCNC has them, and Fanuc's M98/M99.
+/// O-words: conditions, loops and subroutines as in LinuxCNC, and Fanuc's M98/M99.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,23 @@
 
 namespace chaintrue::gcode {
 
-/// The program's place in the file and the blocks that are open there.
+/// The program's place in the file and the open blocks there.
 class Flow {
  public:
   /// Keeps references.
   Flow(LineSource& source, Interpreter& interpreter) : source_(source), interpreter_(interpreter) {}
 
-  /// The next line to execute; false at the end of the file. Charges the budget for lines that were
-  /// read before.
+  /// The next line to execute; false at the end of the file. Counts lines that are read again
+  /// against the budget.
   [[nodiscard]] Result<bool> next(SourceLine& line);
 
-  /// Executes an O-line (line.text begins with o, or has it behind `at`).
+  /// Executes an O-line (line.text begins with o, or has it at `at`).
   [[nodiscard]] Result<void> control(const CleanLine& line, std::size_t at);
   /// M98.
   [[nodiscard]] Result<void> call_program(long number, long repeats, Place place);
-  /// M99. True where the main program ends by it.
+  /// M99. True if it ends the main program.
   [[nodiscard]] Result<bool> leave_program(Place place);
-  /// At the end of the program: what is still open.
+  /// At the end of the program: reports open blocks.
   [[nodiscard]] Result<void> finish(Place place) const;
 
  private:
@@ -61,7 +61,7 @@ class Flow {
   struct OpenBlock {
     std::string label;
     Keyword kind = Keyword::if_;  // if_, while_, do_ or repeat
-    LineSource::Position start;   // of the line that a loop comes back to
+    LineSource::Position start;   // of the line that a loop returns to
     long remaining = 0;           // repeat only
     std::size_t line = 0;
   };
@@ -87,8 +87,8 @@ class Flow {
   Result<double> value(const CleanLine& line, std::size_t at) const;
   Result<std::optional<double>> optional_value(const CleanLine& line, std::size_t at) const;
   Result<LineSource::Position> find_body(const std::string& label, Place place);
-  /// Reads on to the next O-line of that label with one of the keywords, leaving blocks of the same
-  /// label aside.
+  /// Reads on to the next O-line of that label with one of the keywords, skipping nested blocks of
+  /// the same label.
   struct Found {
     ControlLine control;
     LineSource::Position before;
@@ -106,7 +106,7 @@ class Flow {
   Interpreter& interpreter_;
   std::vector<OpenBlock> blocks_;
   std::vector<OpenCall> calls_;
-  std::map<std::string, LineSource::Position, std::less<>> bodies_;  // behind `sub` or `O100`
+  std::map<std::string, LineSource::Position, std::less<>> bodies_;  // after `sub` or `O100`
   std::map<std::string, std::size_t, std::less<>> defined_at_;
   std::uint64_t furthest_ = 0;
   LineSource::Position line_start_;

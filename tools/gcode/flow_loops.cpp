@@ -31,7 +31,7 @@ Result<void> Flow::begin_loop(const CleanLine& line, const ControlLine& control)
   if (!count) return tl::unexpected(count.error());
   if (control.keyword == Keyword::repeat) {
     block.start = source_.position();
-    // An expression may miss a whole number by its roundings.
+    // An expression may differ from a whole number by rounding.
     if (std::fabs(*count - std::round(*count)) > 0.0001) {
       return refuse(ProblemName::bad_flow,
                     line.place(control.rest),
@@ -79,7 +79,7 @@ Result<void> Flow::end_loop(const CleanLine& line, const ControlLine& control) {
     blocks_.resize(index);
     return {};
   }
-  // `while` is read again, and opens its block again where its condition holds.
+  // `while` is read again, and reopens its block if its condition holds.
   blocks_.resize(kind == Keyword::repeat ? index + 1 : index);
   source_.seek(start);
   return {};
@@ -93,7 +93,7 @@ Result<void> Flow::condition(const CleanLine& line, const ControlLine& control) 
                   line.place(0),
                   fmt::format("o{} continues a condition that does not begin here", control.label));
   }
-  if (!begins) {  // the branch that was taken is over
+  if (!begins) {  // the executed branch is over
     blocks_.resize(static_cast<std::size_t>(open - blocks_.data()));
     if (control.keyword == Keyword::endif) return {};
     const auto end = skip_to(control.label, {Keyword::endif}, line.place(0));
@@ -135,7 +135,7 @@ Result<void> Flow::jump_out(const CleanLine& line, const ControlLine& control) {
     blocks_.resize(index);
     return {};
   }
-  // continue: the line that ends the loop decides.
+  // continue: the condition at the loop's end is evaluated next.
   blocks_.resize(index + 1);
   source_.seek(found->before);
   return {};

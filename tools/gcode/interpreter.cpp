@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The order in which a block's words take effect, and everything that is not motion.
+/// The order in which a block's words are executed, and everything that is not motion.
 #include "tools/gcode/interpreter.hpp"
 
 #include <fmt/format.h>
@@ -82,7 +82,7 @@ Result<AfterBlock> Interpreter::execute(const Block& block, const std::vector<Co
   return after(block);
 }
 
-/// The motion that this block asks for, or -1.
+/// The motion of this block, or -1.
 Result<int> Interpreter::motion_to_be(const Block& block) const {
   const GCode* motion = block.code(GGroup::motion);
   const GCode* once_code = block.code(GGroup::once);
@@ -153,7 +153,7 @@ std::string Interpreter::written_out(std::string_view text) const {
       result.append(text.substr(at, end - at));
     } else {
       const auto value = ValueReader(line, parameters_).real();
-      // Half a unit of the last place keeps a rounding error from reading as minus zero.
+      // Half a unit of the last digit keeps a rounding error from printing as minus zero.
       const bool zero = value && std::fabs(*value) < 5e-7;
       result += value ? fmt::format("{:.6f}", zero ? 0.0 : *value) : std::string("######");
     }
@@ -186,7 +186,7 @@ Result<void> Interpreter::comments(const Block& block, const std::vector<Comment
 Result<void> Interpreter::set_feed(const Block& block, int motion) {
   if (const GCode* mode = block.code(GGroup::feed_mode)) {
     const FeedMode next = mode->tenths == 930 ? FeedMode::inverse_time : FeedMode::per_minute;
-    // A feed rate of the other mode means nothing; LinuxCNC forgets it with every G94 that follows
+    // A feed rate of the other mode has no meaning; LinuxCNC clears it with every G94 that follows
     // G93.
     if (next != modes_.feed_mode) modes_.feed = 0.0;
     modes_.feed_mode = next;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The modal interpreter: one block after the other becomes moves in the machine frame.
+/// The modal interpreter: converts blocks to moves in the machine frame.
 ///
-/// RS274/NGC as LinuxCNC 2.9 executes it: within a block by a fixed order, not from left to right
+/// RS274/NGC as LinuxCNC 2.9 executes it: within a block in a fixed order, not from left to right
 /// (comments, feed mode, F, S, T, M6, spindle, coolant, dwell, plane, units, tool length,
-/// coordinate system, distance mode, retract mode, offsets, motion, stop). docs/gcode.md lists
-/// where it differs from LinuxCNC, and why.
+/// coordinate system, distance mode, retract mode, offsets, motion, stop). docs/gcode.md lists the
+/// differences from LinuxCNC and their reasons.
 ///
-/// Not thread safe; one interpreter runs one program. Program (program.hpp) feeds it.
+/// Not thread safe; one interpreter runs one program. Program (program.hpp) drives it.
 #pragma once
 
 #include <array>
@@ -21,21 +21,21 @@
 
 namespace chaintrue::gcode {
 
-/// What a person may say about a file that the file itself does not.
+/// Properties of a file that the user states because the file does not.
 struct Dialect {
-  /// Lines that begin with a slash are left out, as with the controller's block delete switch on.
+  /// Lines that begin with a slash are skipped, as with the controller's block delete switch on.
   bool skip_deletable_blocks = false;
-  /// The tool table holds zeros, so that G41 and G42 change nothing. Otherwise they are refused.
+  /// The tool table holds zeros, so that G41 and G42 have no effect. Otherwise they are rejected.
   bool tools_have_no_diameter = false;
-  /// Lines read again in loops and subroutines, and moves of canned cycles, until the program is
-  /// refused as endless.
+  /// Limit on lines read again in loops and subroutines plus moves of canned cycles; beyond it the
+  /// program is rejected as endless.
   std::uint64_t step_budget = 10'000'000;
 };
 
 /// X, Y, Z in mm, A, B, C in degrees.
 using Axes = std::array<double, 6>;
 
-/// What the program does after a block.
+/// The action of the program after a block.
 struct AfterBlock {
   enum class Flow { next, end, call_program, leave_program };
   Flow flow = Flow::next;
@@ -56,12 +56,12 @@ class Interpreter {
 
   [[nodiscard]] Parameters& parameters() { return parameters_; }
   [[nodiscard]] const Dialect& dialect() const { return dialect_; }
-  /// Charges the budget of steps.
+  /// Counts one step against the budget.
   [[nodiscard]] Result<void> step(Place place);
   /// The nesting of subroutines, for #<_call_level>.
   void set_call_level(std::size_t level) { call_level_ = level; }
 
-  /// For `explain`: the modal state in words, one line each.
+  /// For `explain`: the modal state in words, one line for each item.
   [[nodiscard]] std::vector<std::string> describe() const;
 
  private:
@@ -91,7 +91,7 @@ class Interpreter {
   };
   struct Sticky {
     int plane = 170;
-    double start = 0.0;  ///< height where the row of cycles began
+    double start = 0.0;  ///< height at the start of the row of cycles
     double r = 0.0;      ///< as written, in mm
     double depth = 0.0;
     double p = 0.0;
@@ -112,7 +112,7 @@ class Interpreter {
   [[nodiscard]] Result<void> check_assignments(const Block& block) const;
   [[nodiscard]] std::string written_out(std::string_view text) const;
 
-  // interpreter_words.cpp: what the words of a block belong to, and those that pass through.
+  // interpreter_words.cpp: which code a block's words belong to, and words that are passed through.
   Result<void> check_words(const Block& block, int motion) const;
   Result<void> pass_words(const Block& block);
   Result<void> output_word(const Block& block);
@@ -170,7 +170,7 @@ class Interpreter {
   Modes modes_;
   Frame frame_;
   Sticky sticky_;
-  Axes machine_{};  ///< where the machine stands
+  Axes machine_{};  ///< the machine's position
   std::uint64_t steps_ = 0;
   std::size_t call_level_ = 0;
   bool home_known_[2] = {false, false};

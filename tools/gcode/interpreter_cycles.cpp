@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Canned cycles G73 and G81 to G89, taken apart into moves as LinuxCNC does.
+/// Canned cycles G73 and G81 to G89, expanded into moves as in LinuxCNC.
 ///
 /// A cycle works in the active plane; "depth" is along the plane's normal. Words that a following
-/// block of the same cycle leaves out keep their values.
+/// block of the same cycle omits keep their values.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct Interpreter::Cycle {
   std::size_t normal = 2;
   double retract = 0.0;  // the R plane
   double bottom = 0.0;
-  double clear = 0.0;  // where it retracts to at the end
+  double clear = 0.0;  // height of the retract at the end
   double dwell_s = 0.0;
   double peck = 0.0;
   Axes program{};  // the other axes
@@ -74,7 +74,8 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   }
   const bool again = modes_.motion == motion;
   const bool within = is_cycle(modes_.motion) && sticky_.plane == modes_.plane;
-  // G98 goes back to where the row of cycles in this plane began, and G91 counts R from there.
+  // G98 returns to the height at the start of the row of cycles in this plane; with G91, R is
+  // relative to it.
   if (!within) sticky_.start = cycle.program[cycle.normal];
   sticky_.plane = modes_.plane;
   const auto sticky = [&](char letter, double& kept, bool is_length) -> bool {
@@ -140,14 +141,14 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   cycle.dwell_s = sticky_.p;
   cycle.peck = sticky_.q;
   modes_.motion = motion;
-  // From below the R plane first straight to it; a row that began below it goes to it even from a
-  // higher retract.
+  // From below the R plane first straight up to it; a row that began below it goes to it even from
+  // a higher retract.
   if (sticky_.start < cycle.retract && height != cycle.retract) {
     CHAINTRUE_GCODE_TRY(
         cycle_move(block, cycle, MoveKind::rapid, {here_first, here_second, cycle.retract}));
     height = cycle.retract;
   }
-  // G98 crosses no lower than the row began.
+  // G98 does not traverse below the height at the start of the row.
   if (!modes_.retract_to_r) height = std::max(height, sticky_.start);
   cycle.clear = modes_.retract_to_r ? cycle.retract : std::max(sticky_.start, cycle.retract);
   for (double count = repeats; count > 0.0; count -= 1.0) {
@@ -232,7 +233,7 @@ Result<void> Interpreter::tap_or_bore(const Block& block,
   if (motion == 860) {
     CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, {first, second, cycle.clear}));
   } else {
-    // The person retracts by hand while the program is stopped.
+    // The user retracts by hand while the program is stopped.
     CHAINTRUE_GCODE_TRY(pass(block, "M0"));
     Axes program = cycle.program;
     program[cycle.first] = first;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kLetters = "xyzabc";
 constexpr double kDegree = std::numbers::pi / 180.0;
-/// More turns than this are a slip of the pen.
+/// More turns than this are a typing error.
 constexpr double kMostTurns = 1000.0;
 
 Point point(const Axes& axes) { return {axes[0], axes[1], axes[2]}; }
@@ -36,7 +36,7 @@ void name_axes(const Block& block, Move& move) {
   const bool changes_xy = move.to.x_mm != move.from.x_mm || move.to.y_mm != move.from.y_mm;
   move.names_xy = changes_xy || move.arc || block.has('x') || block.has('y') || block.has('@') ||
                   block.has('^');
-  // An arc of G18 or G19 leaves its height even where it comes back to it.
+  // An arc in G18 or G19 changes height even if it returns to it.
   const bool upright = move.arc && (move.arc->first.z_mm != 0.0 || move.arc->second.z_mm != 0.0);
   move.names_z = move.to.z_mm != move.from.z_mm || block.has('z') || upright;
 }
@@ -79,7 +79,7 @@ Result<void> Interpreter::move(const Block& block, int motion) {
   }
 }
 
-/// Where the block's axis words lead, in the machine frame.
+/// The target of the block's axis words, in the machine frame.
 Result<Axes> Interpreter::target(const Block& block) const {
   if (block.is(GGroup::once, 530)) return machine_target(block);
   Axes program = to_program(machine_);
@@ -203,7 +203,7 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
   request.clockwise = clockwise;
   request.absolute_centre = modes_.absolute_centres;
   request.mm_per_unit = mm_per_unit();
-  // LinuxCNC reckons absolute centres in the program's frame, offsets included.
+  // LinuxCNC takes absolute centres in the program's frame, offsets included.
   const auto found = arc_centre(request, block);
   if (!found) return tl::unexpected(found.error());
 

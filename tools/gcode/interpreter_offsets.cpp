@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where the program's zero lies: work coordinate systems, G10, G52, G92, and the homes of G28 and
-/// G30.
+/// The position of the program's zero: work coordinate systems, G10, G52, G92, and the homes of G28
+/// and G30.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -76,7 +76,7 @@ void Interpreter::select_system(int system) {
   refresh_frame();
 }
 
-/// The codes that act once: offsets and homes. G4 and G53 are done elsewhere.
+/// Codes that act once: offsets and homes. G4 and G53 are handled elsewhere.
 Result<void> Interpreter::once(const Block& block) {
   const GCode* code = block.code(GGroup::once);
   if (code == nullptr) return {};
@@ -147,13 +147,13 @@ Result<void> Interpreter::set_system(const Block& block) {
   Axes origin;
   double rotation_deg = 0.0;
   read_system(system, origin, rotation_deg);
-  // Where the machine stands, seen from that system.
+  // The machine's position in that system.
   Axes here{};
   for (std::size_t i = 0; i < here.size(); ++i) here[i] = machine_[i] - origin[i];
   const Turn by = turn(rotation_deg);
   rotate(here, {by.cosine, -by.sine});
-  // What must be added to the origin, in the system's directions, so that the machine's place reads
-  // as written.
+  // The change of the origin, in the system's directions, with which the machine's position has the
+  // given coordinates.
   Axes shift{};
   const bool offset_on = parameters_.stored(parameter::kOffsetOn) != 0.0;
   for (std::size_t i = 0; i < origin.size(); ++i) {
@@ -173,7 +173,7 @@ Result<void> Interpreter::set_system(const Block& block) {
   return {};
 }
 
-/// G92 makes the place where the machine stands read as written; G52 states the offset itself. They
+/// G92 gives the machine's position the stated coordinates; G52 states the offset itself. They
 /// share it.
 Result<void> Interpreter::set_offset(const Block& block) {
   if (!block.has_axes()) {
@@ -218,8 +218,7 @@ void Interpreter::store_home(int first) {
   home_known_[first == parameter::kHome ? 0 : 1] = true;
 }
 
-/// Through the point that the axis words name, then home with those axes; with all where none is
-/// named.
+/// Through the point of the axis words, then home with those axes; with all if none is given.
 Result<void> Interpreter::go_home(const Block& block, int first) {
   if (!home_known_[first == parameter::kHome ? 0 : 1]) {
     sink_.note({block.line,
@@ -234,7 +233,7 @@ Result<void> Interpreter::go_home(const Block& block, int first) {
   for (std::size_t i = 0; i < home.size(); ++i)
     home[i] = parameters_.stored(first + static_cast<int>(i));
   if (!block.has_axes()) return straight(block, MoveKind::rapid, home);
-  // The words name axes of the program, which a rotated frame does not share with the machine.
+  // The words refer to axes of the program, which differ from the machine's in a rotated frame.
   const Axes home_program = to_program(home);
   Axes program = to_program(machine_);
   for (std::size_t i = 0; i < program.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Words: which code uses which, which take whole numbers, and those that pass through.
+/// Words: which code uses which, which must be whole numbers, and which are passed through.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// LinuxCNC takes a value for a whole number when it is this near to one.
+/// LinuxCNC accepts a value as a whole number if it is this near to one.
 constexpr double kWhole = 0.0001;
 
 char upper(char letter) { return static_cast<char>(letter - 'a' + 'A'); }
@@ -25,7 +25,7 @@ bool one_of(int value, std::initializer_list<int> list) {
 int tenths(const GCode* code) { return code == nullptr ? -1 : code->tenths; }
 int number(const MCode* code) { return code == nullptr ? -1 : code->number; }
 
-/// How many of a line's codes use a word of this letter. With two, what it means depends on the
+/// Number of codes in a line that use a word of this letter. With two, its meaning depends on the
 /// controller.
 struct WordUse {
   char letter;
@@ -80,7 +80,7 @@ constexpr WordUse kWordUses[] = {
      "G2, G3, G10 or a canned cycle"},
 };
 
-/// Words that count or number something.
+/// Words that are counts or numbers.
 struct WholeWord {
   char letter;
   bool (*counts)(const Block&);
@@ -248,7 +248,7 @@ Result<void> Interpreter::dwell(const Block& block) {
 
 Result<void> Interpreter::tool_length(const Block& block) {
   if (const GCode* cutter = block.code(GGroup::cutter)) {
-    // G41 and G42 come this far only where tools have no diameter.
+    // G41 and G42 reach this point only if tools have no diameter.
     if (cutter->tenths == 400) CHAINTRUE_GCODE_TRY(pass(block, "G40"));
   }
   if (const GCode* code = block.code(GGroup::tool_length)) {
@@ -267,7 +267,7 @@ Result<void> Interpreter::tool_length(const Block& block) {
   if (const GCode* control = block.code(GGroup::path_control)) {
     modes_.path_control = control->tenths;
     std::string text = g_name(control->tenths);
-    // check_words has made sure that P and Q belong to no other code of the line.
+    // check_words has ensured that P and Q belong to no other code of the line.
     if (control->tenths == 640 && block.has('p')) text += with_value(" P", length(block, 'p'));
     if (control->tenths == 640 && block.has('q')) text += with_value(" Q", length(block, 'q'));
     CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));

@@ -61,7 +61,7 @@ Result<bool> LineSource::next(SourceLine& line) {
       }
       ++end;
     }
-    // Some editors leave CR CR LF: a run of CRs before an LF is one end of line.
+    // Some editors write CR CR LF: a run of CRs before an LF is one end of line.
     const std::size_t after = std::min(buffer_.find_first_not_of('\r', end), buffer_.size());
     if (after < buffer_.size() || exhausted_) break;
     const std::size_t length = end - begin_;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The lines of a program, read as a stream: constant memory, whatever the file's length, and a way
-/// back for loops.
+/// The lines of a program, read as a stream: constant memory for files of any length, and positions
+/// to return to for loops.
 ///
-/// LF, CRLF and CR end a line. A UTF-8 byte order mark is skipped. NUL bytes and UTF-16 are refused
-/// as not text.
+/// LF, CRLF and CR end a line. A UTF-8 byte order mark is skipped. NUL bytes and UTF-16 are
+/// rejected as not text.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace chaintrue::gcode {
 
-/// A longer line is no G-code: the controllers' own limits lie between 60 and 256 characters.
+/// A longer line is not G-code: the controllers' own limits are between 60 and 256 characters.
 inline constexpr std::size_t kMaxLineLength = 4096;
 
 struct SourceLine {
@@ -30,7 +30,7 @@ struct SourceLine {
 
 class LineSource {
  public:
-  /// A place to come back to: the start of the line after `lines_before` lines.
+  /// A position to return to: the start of the line after `lines_before` lines.
   struct Position {
     std::uint64_t offset = 0;
     std::size_t lines_before = 0;
@@ -44,10 +44,10 @@ class LineSource {
 
   /// False at the end of the file.
   [[nodiscard]] Result<bool> next(SourceLine& line);
-  /// Of the line that next() would give.
+  /// Position of the line that next() would return.
   [[nodiscard]] Position position() const;
   void seek(Position position);
-  /// `listener` is told with every line how many bytes of the file lie before its end.
+  /// `listener` is called for every line with the number of bytes of the file up to its end.
   void on_line(std::function<void(std::uint64_t)> listener) { listener_ = std::move(listener); }
 
  private:

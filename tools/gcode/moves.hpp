@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A whole program's moves in memory, for files of a modest size: every target with its line and
+/// All moves of a program in memory, for files of moderate size: every target with its line and
 /// kind.
 ///
 /// \code

@@ -26,7 +26,7 @@ double Parameters::get(int index) const {
 void Parameters::set(int index, double value) { values_[static_cast<std::size_t>(index)] = value; }
 
 bool Parameters::writable(int index) const {
-  // 5400 to 5428 tell the tool and the position.
+  // 5400 to 5428 are the tool and the position.
   return exists(index) && (index < 5400 || index > 5428);
 }
 

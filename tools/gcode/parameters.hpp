@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The parameters of a program: numbered ones (#1 .. #5602), named ones (#<name> local to a
-/// subroutine, #<_name> global), and those that tell the interpreter's state.
+/// subroutine, #<_name> global), and those that give the interpreter's state.
 ///
-/// Lengths in #5161-#5390 are mm, whatever the program's unit, as LinuxCNC keeps them on a metric
+/// Lengths in #5161-#5390 are in mm for every unit of the program, as in LinuxCNC on a metric
 /// machine.
 #pragma once
 
@@ -18,7 +18,7 @@
 namespace chaintrue::gcode {
 
 /// Indices with a meaning. Coordinate system p (1 .. 9) has its X origin at kFirstSystem + 20 (p -
-/// 1), then Y, Z, A, B, C, U, V, W, and its rotation in degrees 9 behind X.
+/// 1), then Y, Z, A, B, C, U, V, W, and its rotation in degrees at index X + 9.
 namespace parameter {
 inline constexpr int kProbe = 5061;
 inline constexpr int kHome = 5161;
@@ -33,8 +33,8 @@ inline constexpr int kCount = 5603;
 
 class Parameters {
  public:
-  /// Gives the values that follow the interpreter's state: a numbered one (5420 ..) or a predefined
-  /// name.
+  /// Return the values that depend on the interpreter's state: of a number (5420 ..) or a
+  /// predefined name.
   using StateByNumber = std::function<std::optional<double>(int)>;
   using StateByName = std::function<std::optional<double>(std::string_view)>;
 
@@ -46,14 +46,14 @@ class Parameters {
   void set(int index, double value);
   [[nodiscard]] bool writable(int index) const;
   [[nodiscard]] static bool exists(int index) { return index > 0 && index < parameter::kCount; }
-  /// The stored value, in mm where it is a length; no state is asked.
+  /// The stored value, in mm if it is a length; without the interpreter's state.
   [[nodiscard]] double stored(int index) const { return values_[static_cast<std::size_t>(index)]; }
 
   [[nodiscard]] std::optional<double> get(std::string_view name) const;
-  /// False where the name is predefined and only to be read.
+  /// False if the name is predefined and read-only.
   [[nodiscard]] bool set(std::string_view name, double value);
 
-  /// Enters a subroutine: its #1 .. #30 are the arguments, its names its own.
+  /// Enters a subroutine: its #1 .. #30 are the arguments, and its local names start empty.
   void enter(const std::vector<double>& arguments);
   void leave();
 

@@ -15,7 +15,7 @@ Point between(Point a, Point b, double t) {
 }
 
 double distance_mm(Point a, Point b) {
-  // Millimetres neither overflow nor vanish when squared; std::hypot is four times slower.
+  // Millimetres neither overflow nor underflow when squared; std::hypot is four times slower.
   const double dx = a.x_mm - b.x_mm;
   const double dy = a.y_mm - b.y_mm;
   const double dz = a.z_mm - b.z_mm;

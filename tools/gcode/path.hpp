@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The exact geometry of a move: lines, arcs, helices and the spirals that rounded words make of
-/// arcs.
+/// The exact geometry of a move: lines, arcs, helices, and the spirals that result from arcs with
+/// rounded words.
 #pragma once
 
 #include "tools/gcode/events.hpp"
 
 namespace chaintrue::gcode {
 
-/// The place at t = 0 .. 1; exactly `from` and `to` at the ends. Lines: constant speed; arcs:
+/// The point at t = 0 .. 1; exactly `from` and `to` at the ends. Lines: constant speed; arcs:
 /// constant angular speed.
 [[nodiscard]] Point at(const Move& move, double t);
 
-/// Along the way, mm. For spirals with the mean radius: their radii differ by a rounding only.
+/// Length of the path, mm. For spirals with the mean radius: their radii differ only by rounding.
 [[nodiscard]] double length_mm(const Move& move);
 
 [[nodiscard]] double distance_mm(Point a, Point b);
 
-/// The nearest point of the straight piece from a to b: its parameter 0 .. 1.
+/// Parameter 0 .. 1 of the nearest point on the straight piece from a to b.
 [[nodiscard]] double nearest_on_line(Point a, Point b, Point p);
 
 [[nodiscard]] Point between(Point a, Point b, double t);

@@ -15,7 +15,7 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// A circle smaller than the step still shows its shape.
+/// Samples per turn, so that a circle smaller than the step keeps its shape.
 constexpr double kRowsPerTurn = 8.0;
 
 class Sampler final : public Sink {

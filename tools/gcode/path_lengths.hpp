@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Chain lengths along a program's path: through the end of every move, and between, no further
-/// apart than asked; at least eight a turn.
+/// Chain lengths along a program's path: at the end of every move, and between, no further apart
+/// than requested; at least eight per turn.
 #pragma once
 
 #include <functional>
@@ -18,8 +18,8 @@ struct PathLengths {
   double feed_mm_per_min = 0.0;  ///< 0 for rapids
 };
 
-/// Writes a place; places off the map become problems of `findings` instead, one a line of the
-/// program.
+/// Writes the lengths at each point; points off the map become problems of `findings` instead, one
+/// for each line of the program.
 [[nodiscard]] Result<ProgramSummary> path_lengths(
     LineSource& source,
     const Dialect& dialect,

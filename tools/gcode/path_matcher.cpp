@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The free-space diagram, a column for each piece of the track.
+/// The free-space diagram, one column for each piece of the track.
 ///
 /// Cell (i, j) belongs to piece i of the path and piece j of the track. Its left and right edges
 /// are parametrised along the path, bottom and top along the track; the free part of each is an
-/// interval, because a ball meets a line in one. What is reachable of an edge is the free part
-/// above (right of) the lowest reachable entry.
+/// interval, because a ball intersects a line in one. The reachable part of an edge is the free
+/// part above (right of) the lowest reachable entry.
 #include "tools/gcode/path_matcher.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// What a fault is widened by until the track can be followed on.
+/// Factor by which the distance grows after a fault until the track can be followed again.
 constexpr double kWiden = 1.1;
 constexpr double kMostDistanceMm = 1e6;
 constexpr double kHalf = 0.5;
@@ -34,7 +34,7 @@ struct Interval {
 };
 
 /// The part of the piece a b within a distance of c. The ends are decided by their own distances,
-/// so that the four edges that meet in a corner agree about it.
+/// so that the four edges that meet in a corner are consistent.
 Interval free_part(Point a, Point b, Point c, double distance2) {
   const bool a_inside = squared(a, c) <= distance2;
   const bool b_inside = squared(b, c) <= distance2;
@@ -49,7 +49,7 @@ Interval free_part(Point a, Point b, Point c, double distance2) {
   const Point foot{a.x_mm + along * dx, a.y_mm + along * dy, a.z_mm + along * dz};
   const double rest = distance2 - squared(foot, c);
   if (rest < 0.0) {
-    // The line passes by, but for the rounding of an end that is just inside.
+    // The line is outside, up to the rounding of an end that is just inside.
     if (a_inside) return {0.0, 0.0};
     if (b_inside) return {1.0, 1.0};
     return {};
@@ -72,7 +72,7 @@ bool PathMatcher::agree(const PathPiece& a, const PathPiece& b) const {
                         limits_.speed_share * std::max(a.speed_mm_per_min, b.speed_mm_per_min);
 }
 
-/// Whether a piece is far enough into its run that the other curve must have the like.
+/// Whether a piece is so far into its run that the other curve must have a run of the same kind.
 bool PathMatcher::pin(Run& run, Point from, const PathPiece& piece) const {
   const PathPiece before{.to = from, .rapid = run.rapid, .speed_mm_per_min = run.speed, .line = 0};
   if (run.speed < 0.0 || !agree(before, piece)) {
@@ -85,7 +85,7 @@ bool PathMatcher::pin(Run& run, Point from, const PathPiece& piece) const {
   return pinned;
 }
 
-/// The next piece of the path joins those that are open.
+/// Adds the next piece of the path to the open ones.
 bool PathMatcher::read() {
   if (exhausted_) return false;
   Open next;
@@ -124,7 +124,7 @@ PathMatcher::Outcome PathMatcher::begin(Point intended, Point tool, std::size_t 
   return outcome;
 }
 
-/// The path runs on while the tool stands.
+/// The path advances while the tool does not move.
 void PathMatcher::close_up() {
   while (open_[reached_].left.high >= 1.0) {
     note_corner(open_[reached_], tool_, tool_line_);
@@ -150,7 +150,7 @@ void PathMatcher::note_corner(Open& open, Point tool, std::size_t line) {
   }
 }
 
-/// What can be reached of a cell's right and top edges, given their free parts.
+/// The reachable parts of a cell's right and top edges, given their free parts.
 void PathMatcher::cell(Open& open,
                        Span bottom,
                        const PathPiece& piece,
@@ -165,7 +165,7 @@ void PathMatcher::cell(Open& open,
     if (left.empty()) top.low = std::max(top.low, bottom.low);
     return;
   }
-  // Unlike pieces do not pass each other's pinned middles.
+  // Pieces of different kinds do not pass each other's pinned middles.
   const bool left_upper = !left.empty() && left.high >= kHalf;
   const bool left_lower = !left.empty() && left.low <= kHalf;
   const bool bottom_late = !bottom.empty() && bottom.high >= kHalf;
@@ -186,7 +186,7 @@ void PathMatcher::cell(Open& open,
   }
 }
 
-/// Reachability after one more piece of the track; false where there is none.
+/// Reachability after one more piece of the track; false if nothing is reachable.
 bool PathMatcher::column(const PathPiece& piece, bool pinned, double distance_mm, bool labels) {
   const double distance2 = distance_mm * distance_mm;
   Span bottom;
@@ -217,7 +217,7 @@ bool PathMatcher::column(const PathPiece& piece, bool pinned, double distance_mm
   return any;
 }
 
-/// The tool has arrived at the end of the piece.
+/// The tool is at the end of the piece.
 void PathMatcher::commit(const PathPiece& piece) {
   Pair nearest{kMostDistanceMm, {}, piece.to, 0, piece.line};
   bool rapid = false;
@@ -288,7 +288,7 @@ PathMatcher::Outcome PathMatcher::finish() {
   return Outcome::follows;
 }
 
-/// What is left of the path was not run: all of it counts from where the tool stands.
+/// The rest of the path was not run: all of it is compared with the tool's last position.
 void PathMatcher::finish_anyhow() {
   std::size_t i = first_;
   std::size_t line = 0;
@@ -301,7 +301,7 @@ void PathMatcher::finish_anyhow() {
     open_.clear();
     i = 0;
   } while (read());
-  // The ends belong together.
+  // The ends correspond to each other.
   note(false, {distance_mm(path_end_, tool_), path_end_, tool_, line, tool_line_});
 }
 

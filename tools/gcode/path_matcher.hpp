@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Whether a tool's track follows an intended path: the Frechet distance of two curves, decided as
-/// both are read.
+/// Whether a tool's track follows an intended path: the Frechet distance of two curves, decided
+/// while both are read.
 ///
-/// Both curves are polylines. The track follows the path within a distance d when two points can
-/// run along them from their starts to their ends, neither ever going back, and never further
-/// apart than d. That is decided exactly, by the free-space diagram: H. Alt, M. Godau, "Computing
-/// the Frechet distance between two polygonal curves", Int. J. Comput. Geom. Appl. 5 (1995),
-/// section 3. A move that is missing, superfluous, out of order, or gone over twice is therefore a
-/// fault even where every place of the tool is near to some place of the path.
+/// Both curves are polylines. The track follows the path within a distance d if two points can move
+/// along them from start to end, both monotonically, and never further apart than d. This is
+/// decided exactly with the free-space diagram: H. Alt, M. Godau, "Computing the Frechet distance
+/// between two polygonal curves", Int. J. Comput. Geom. Appl. 5 (1995), section 3. A move that is
+/// missing, superfluous, out of order or repeated is therefore a fault even if every point of the
+/// track is near to some point of the path.
 ///
-/// Pieces also have a kind (rapid or feed) and a speed. A piece may pass another one only where
-/// these agree, from `least_run_mm` of travel on: rounding may swallow what is shorter.
+/// Pieces also have a kind (rapid or feed) and a speed. Pieces correspond only if these agree, from
+/// `least_run_mm` of travel on: shorter moves may vanish by rounding.
 ///
-/// Only the part of the path that the tool can stand for is kept: memory is bounded by
-/// `most_open` pieces. Where more are in reach, those furthest behind are given up.
+/// Only the part of the path that can correspond to the tool's position is kept: memory is bounded
+/// by `most_open` pieces. If more are reachable, those furthest behind are dropped.
 ///
 /// \code
 ///   PathMatcher matcher({.distance_mm = 0.05}, next_piece_of_the_path);
@@ -31,7 +31,7 @@
 
 namespace chaintrue::gcode {
 
-/// A straight piece, from where the last one ended.
+/// A straight piece, starting at the end of the previous one.
 struct PathPiece {
   Point to;
   bool rapid = false;
@@ -43,19 +43,19 @@ class PathMatcher {
  public:
   struct Limits {
     double distance_mm = 0.05;
-    /// Feeds agree when their speeds differ by no more than this share.
+    /// Feeds agree if their speeds differ by no more than this share.
     double speed_share = 0.06;
     double least_run_mm = 0.01;
     std::size_t most_open = 1024;
   };
-  /// Gives the next piece of the path; false where the section ends.
+  /// Returns the next piece of the path; false at the end of the section.
   using Path = std::function<bool(PathPiece&)>;
 
   enum class Outcome {
     follows,
     strays,       ///< no such pair of runs within the distance
-    wrong_speed,  ///< there is one, but with other kinds or speeds
-    past_end,     ///< the tool goes on where the section of the path has ended
+    wrong_speed,  ///< there is one, but kinds or speeds differ
+    past_end,     ///< the tool continues after the end of the section of the path
   };
   struct Pair {
     double distance_mm = 0.0;
@@ -67,24 +67,24 @@ class PathMatcher {
 
   PathMatcher(const Limits& limits, Path path);
 
-  /// Starts a section, both curves at these places. \return strays where they are too far apart.
+  /// Starts a section with both curves at these points. \return strays if they are too far apart.
   Outcome begin(Point intended, Point tool, std::size_t line);
-  /// The tool moves on. After anything but `follows` the tool is still where it was.
+  /// The tool moves on. After any result but `follows` the tool is still at its previous position.
   Outcome advance(const PathPiece& piece);
-  /// The same with whatever distance it takes, to within a tenth; for what follows a fault.
+  /// The same with the smallest sufficient distance, to within a tenth; used after a fault.
   void advance_anyhow(const PathPiece& piece);
-  /// Both curves end here. past_end: the path goes on.
+  /// Both curves end here. past_end: the path continues.
   Outcome finish();
   void finish_anyhow();
-  /// Kinds and speeds no longer matter.
+  /// Kinds and speeds are ignored from here on.
   void ignore_speed() { labels_ = false; }
 
-  /// The end of the path so far as it was read.
+  /// The end of the path as far as it was read.
   [[nodiscard]] Point path_end() const { return path_end_; }
-  /// Where the tool and the last place of the path that it can stand for are, for messages.
+  /// The tool's position and the last point of the path that can correspond to it, for messages.
   [[nodiscard]] Pair front() const;
-  /// The largest distance of a place of the tool, or of a corner of the path, from the nearest
-  /// place that the order allows. Never above the Frechet distance.
+  /// The largest distance of a point of the tool, or of a corner of the path, from the nearest
+  /// point that the order allows. Never above the Frechet distance.
   [[nodiscard]] const Pair& largest(bool rapid) const { return largest_[rapid ? 1 : 0]; }
 
  private:
@@ -94,7 +94,7 @@ class PathMatcher {
     double high = 0.0;
     [[nodiscard]] bool empty() const { return low > high; }
   };
-  /// Follows a curve's runs of one kind and speed.
+  /// Tracks a curve's runs of one kind and speed.
   struct Run {
     bool rapid = false;
     double speed = -1.0;
@@ -107,7 +107,7 @@ class PathMatcher {
     bool pinned = false;
     Span left;    // reachable with the tool at the start of its piece
     Span right;   // and at its end
-    Pair corner;  // the nearest that the tool came to the piece's end
+    Pair corner;  // the tool's nearest approach to the piece's end
   };
 
   bool read();
@@ -133,7 +133,7 @@ class PathMatcher {
   bool labels_ = true;
   bool exhausted_ = true;  // the section of the path has been read to its end
   std::vector<Open> open_;
-  std::size_t first_ = 0;    // of those still in reach
+  std::size_t first_ = 0;    // of the reachable ones
   std::size_t reached_ = 0;  // the last with a left span
   Point path_end_;
   Point tool_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Why a G-code program is refused: a stable name, the place, and a sentence for a machinist.
+/// Why a G-code program is rejected: a stable name, the place, and a sentence for the user.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,7 @@ enum class ProblemName {
 #undef CHAINTRUE_GCODE_PROBLEM
 };
 
-/// Where in the source file: both count from 1; column 0 means the line as a whole, line 0 the
-/// file.
+/// Place in the source file, counted from 1; column 0 is the line as a whole, line 0 the file.
 struct Place {
   std::size_t line = 0;
   std::size_t column = 0;
@@ -34,7 +33,7 @@ struct Problem {
   [[nodiscard]] std::string message() const;
 };
 
-/// Stable text (`bad_arc`), used in documents, tests and JSON.
+/// Stable identifier (`bad_arc`), used in documents, tests and JSON.
 [[nodiscard]] std::string_view name(ProblemName problem);
 [[nodiscard]] ProblemKind kind(ProblemName problem);
 
@@ -49,7 +48,7 @@ using Result = tl::expected<T, Problem>;
 
 }  // namespace chaintrue::gcode
 
-/// Leaves the calling function with the problem of a Result, if it has one.
+/// Returns the problem of a Result from the calling function, if it has one.
 #define CHAINTRUE_GCODE_TRY(result)                                                            \
   do {                                                                                         \
     auto&& chaintrue_result = (result);                                                        \

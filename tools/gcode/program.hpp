@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Runs a whole program: lines, `%`, line numbers, block delete, O-words, subroutines, M98; every
-/// event to a sink.
+/// Runs a whole program: lines, `%`, line numbers, block delete, O-words, subroutines, M98. Every
+/// event goes to a sink.
 ///
-/// Memory does not grow with the length of the file. Endless loops end at the budget of steps.
+/// Memory is independent of the length of the file. Endless loops end at the budget of steps.
 ///
 /// \code
 ///   auto source = LineSource::from_file("part.nc");
@@ -38,7 +38,7 @@ using BeforeLine = std::function<bool(std::size_t line, const Interpreter&)>;
                                                  Sink& sink,
                                                  const BeforeLine& before_line = {});
 
-/// The same, a line at a time.
+/// The same, line by line.
 class Program {
  public:
   /// Keeps references to source and sink.
@@ -51,7 +51,7 @@ class Program {
   [[nodiscard]] Result<bool> step();
   [[nodiscard]] const ProgramSummary& summary() const;
   [[nodiscard]] const Interpreter& interpreter() const;
-  /// Of the line that step() would read, in the order of execution.
+  /// Number of the line that step() will read, in the order of execution.
   [[nodiscard]] std::size_t next_line() const;
 
  private:

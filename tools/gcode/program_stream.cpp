@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A queue between the interpreter and who pulls.
+/// A queue between the interpreter and the caller.
 #include "tools/gcode/program_stream.hpp"
 
 namespace chaintrue::gcode {
@@ -37,12 +37,12 @@ Result<void> ProgramStream::word(const PassedWord& word) {
   ProgramEvent& event = events_.emplace_back();
   event.kind = ProgramEvent::Kind::word;
   event.line = word.line;
-  // G61.1 is written as G61: the dot is misread by some controllers.
+  // G61.1 is written as G61: some controllers misread the dot.
   event.text = word.text == "G61.1" ? "G61" : word.text;
   return {};
 }
 
-/// A closing % and the end of the file are the same end.
+/// A closing % and the end of the file are equivalent.
 Result<void> ProgramStream::end(std::size_t line, std::string_view word) {
   ProgramEvent& event = events_.emplace_back();
   event.kind = ProgramEvent::Kind::end;

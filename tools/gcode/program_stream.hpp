@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A program's events, pulled one by one instead of pushed: moves, words that pass through, the
-/// end.
+/// A program's events, pulled one by one instead of pushed: moves, words that are passed through,
+/// the end.
 #pragma once
 
 #include <deque>
@@ -22,11 +22,11 @@ struct ProgramEvent {
 
 class ProgramStream final : private Sink {
  public:
-  /// Keeps the reference.
+  /// Keeps a reference.
   ProgramStream(LineSource& source, const Dialect& dialect, model::BedPoint home)
       : program_(source, dialect, *this), home_(home) {}
 
-  /// The next event, which stays the next until pop(); Kind::end for ever at the end.
+  /// The next event, unchanged until pop(); Kind::end from the end on.
   [[nodiscard]] Result<const ProgramEvent*> peek();
   void pop();
 

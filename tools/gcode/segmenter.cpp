@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Greedy longest chords. Deviation grows with the square of a chord's length, which predicts the
-/// next trial.
+/// Greedy longest chords. The deviation grows with the square of a chord's length, which predicts
+/// the next trial.
 #include "tools/gcode/segmenter.hpp"
 
 #include <algorithm>
@@ -10,20 +10,21 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// A chord is long enough when its deviation has this share of the tolerance: sqrt(0.85) = 0.92 of
-/// the longest.
+/// A chord is accepted if its deviation is this share of the tolerance: sqrt(0.85) = 0.92 of the
+/// longest.
 constexpr double kGoodEnough = 0.85;
-/// Aim of the next trial, as a share of the tolerance.
+/// Target of the next trial, as a share of the tolerance.
 constexpr double kAim = 0.93;
 constexpr int kMostTrials = 12;
-/// Chords are checked at least this densely: measured residual surfaces have no shorter waves.
+/// Chords are checked at least this densely: measured residual surfaces have no shorter
+/// wavelengths.
 constexpr double kCheckEveryMm = 30.0;
 constexpr int kFewestChecks = 6;
 /// Rounding changes a command's length by less, at two decimals and more.
 constexpr double kRoundingMm = 0.02;
 /// Half a unit of single precision below 2048 mm, in X and Y.
 constexpr double kPieceRoundingMm = 0.5 * 1.2207e-4 * 1.4143;
-/// Below this a chord is not cut further: output has three decimals.
+/// Chords are not divided below this: output has three decimals.
 constexpr double kShortestMm = 0.002;
 
 }  // namespace
@@ -39,8 +40,8 @@ tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& cur
                       {b.command.x_mm, b.command.y_mm},
                       doubt_mm);
   };
-  // Where rounding decides how many pieces the controller makes, either number must do: a piece's
-  // bow may lie on the curve's own side or against it.
+  // If rounding decides the number of the controller's pieces, both numbers must be within the
+  // tolerance: a piece's bow may be on the curve's side of the chord or on the other.
   CommandWay fewer = way(kRoundingMm);
   CommandWay more = way(-kRoundingMm);
   const auto first = deviation_mm(curve, a, b, length_mm, fewer);
@@ -57,16 +58,16 @@ tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& cur
   int checks = std::max(kFewestChecks,
                         static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEveryMm))));
   const bool own_way = corrector_.firmware().chain_linear_piece_mm > 0.0;
-  // Each of the controller's pieces bows: the worst is in the middle of one, or where two meet.
+  // Each of the controller's pieces bows: the worst point is in the middle of one, or between two.
   if (own_way) checks = 2 * way.pieces() * ((checks + 2 * way.pieces() - 1) / (2 * way.pieces()));
   double worst = 0.0;
   double behind = 0.0;
   for (int i = own_way ? 1 : 0; i < checks; ++i) {
-    // Unequal spacing elsewhere, so that no wave of the surface falls between all checks.
+    // Unequal spacing otherwise, so that no wave of the surface is missed by all checks.
     const double share = (i + (own_way ? 0.0 : 0.5 + 0.118 * (i % 3 - 1))) / checks;
     const auto sample = curve(a.t + share * (b.t - a.t));
     if (!sample) return tl::unexpected(sample.error());
-    // The tool does not go back along its chord: where the curve does, that counts.
+    // The tool does not move back along its chord; where the curve does, that counts as deviation.
     const double u = std::max(behind, nearest_on_line(a.command, b.command, sample->command));
     behind = u;
     Point on_way = between(a.command, b.command, u);
@@ -78,7 +79,7 @@ tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& cur
     }
     worst = std::max(worst, distance_mm(sample->command, on_way));
   }
-  // FluidNC adds its pieces up in single precision.
+  // FluidNC sums its pieces in single precision.
   return own_way ? worst + way.pieces() * kPieceRoundingMm : worst;
 }
 
@@ -92,11 +93,11 @@ tl::expected<void, CorrectionFailure> Segmenter::run(
   const double per_mm = length_mm > 0.0 ? (end - start.t) / length_mm : 0.0;
   PathSample a = start;
   while (a.t < end) {
-    // The furthest that this command may go.
+    // The end of the longest allowed command.
     const double furthest =
         per_mm > 0.0 ? std::min(end, a.t + extent.longest_mm * per_mm * (1.0 + 1e-9)) : end;
     double reach = per_mm > 0.0 ? std::min(furthest, a.t + last_step_mm_ * per_mm) : end;
-    // What remains behind a sample is not worth one of its own.
+    // A remainder this short after a sample does not get one of its own.
     PathSample best;
     double best_share = 0.0;
     for (int trial = 0; trial < kMostTrials; ++trial) {
@@ -120,7 +121,7 @@ tl::expected<void, CorrectionFailure> Segmenter::run(
       }
     }
     if (!(best.t > a.t)) {
-      // The deviation did not shrink with the chord: take the shortest.
+      // The deviation did not decrease with the chord: take the shortest.
       const auto b = curve(std::min(end, a.t + std::max(kShortestMm * per_mm, 1e-12)));
       if (!b) return tl::unexpected(b.error());
       best = *b;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Cuts a curve of commanded points into the longest straight commands that stay within a
+/// Divides a curve of commanded points into the longest straight commands that stay within a
 /// tolerance.
 ///
-/// From each sample the next is set as far on as the tolerance allows (to within 8 %), so that no
-/// other choice of samples on the curve needs markedly fewer. The deviation is measured at
-/// interior points of the exact curve, against the way that the controller itself takes between the
-/// two commands, in space and without regard to time.
+/// From each sample the next is placed as far on as the tolerance allows (to within 8 %), so that
+/// no other choice of samples on the curve needs markedly fewer. The deviation is measured at
+/// interior points of the exact curve from the controller's own path between the two commands, in
+/// space and independent of time.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@
 
 namespace chaintrue::gcode {
 
-/// A point of the path and what is commanded for it; both have the same height.
+/// A point of the path and its command; both have the same height.
 struct PathSample {
   double t = 0.0;
   Point target;
@@ -28,8 +28,8 @@ using Curve = std::function<tl::expected<PathSample, CorrectionFailure>(double t
 
 class Segmenter {
  public:
-  /// Keeps the reference.
-  /// \param tolerance_mm above zero: what a chord may deviate from the curve.
+  /// Keeps a reference.
+  /// \param tolerance_mm largest deviation of a chord from the curve, above zero.
   Segmenter(const Corrector& corrector, double tolerance_mm)
       : corrector_(corrector), tolerance_mm_(tolerance_mm) {}
 
@@ -38,9 +38,9 @@ class Segmenter {
     double longest_mm = 0.0;
   };
 
-  /// Visits the samples behind `start` up to t = `end`, in order.
-  /// \param extent the curve's length from start to end, which only a first guess and the density
-  /// of checks depend on, and how much of it one command may cover.
+  /// Visits the samples after `start` up to t = `end`, in order.
+  /// \param extent the curve's length from start to end, which affects only the first trial and
+  /// the density of checks, and the largest part of it that one command may cover.
   [[nodiscard]] tl::expected<void, CorrectionFailure> run(
       const Curve& curve,
       const PathSample& start,
@@ -48,7 +48,8 @@ class Segmenter {
       Extent extent,
       const std::function<void(const PathSample&)>& visit);
 
-  /// The largest distance from the curve between two samples to the way between their commands.
+  /// The largest distance from the curve between two samples to the controller's path between their
+  /// commands.
   [[nodiscard]] tl::expected<double, CorrectionFailure> deviation_mm(const Curve& curve,
                                                                      const PathSample& a,
                                                                      const PathSample& b,
@@ -63,7 +64,7 @@ class Segmenter {
 
   const Corrector& corrector_;
   double tolerance_mm_;
-  double last_step_mm_ = 50.0;  // a typical one, only a first guess
+  double last_step_mm_ = 50.0;  // a typical value, as a first guess
 };
 
 }  // namespace chaintrue::gcode

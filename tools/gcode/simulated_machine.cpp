@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Straight commands, pieces that are linear in chain length, arcs as firmwares cut them.
+/// Straight commands, pieces that are linear in chain length, arcs as cut by the firmwares.
 #include "tools/gcode/simulated_machine.hpp"
 
 #include <fmt/format.h>
@@ -14,9 +14,10 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// With play the tool's track has kinks where a chain turns around.
+/// With play the tool's track has kinks where a chain reverses.
 constexpr double kPlayStepMm = 1.0;
-/// A way that is linear in chain lengths bends with at least this radius: the shortest chain's.
+/// The radius of curvature of a path linear in chain lengths is at least this: the shortest
+/// chain's.
 constexpr double kShortestChainMm = 400.0;
 
 double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm); }
@@ -51,7 +52,7 @@ Result<Point> SimulatedMachine::tool(Point command, std::size_t line) {
   }
   const auto paid = corrector_.paid_out(place);
   if (!paid) return no_place(paid.error(), command, line);
-  // A chain follows only when its motor has crossed the gap; both begin paid out.
+  // A chain follows once its motor has crossed the gap; both begin paid out.
   const auto follow = [](std::optional<double>& chain, double motor, double half) {
     chain = chain ? std::clamp(*chain, motor - half, motor + half) : motor - half;
     return *chain;
@@ -121,7 +122,7 @@ Result<bool> SimulatedMachine::straight(Point from,
   return visit(*where, to);
 }
 
-/// FluidNC: whole pieces of about its segment length, summed up in single precision.
+/// FluidNC: a whole number of pieces of about its segment length, summed in single precision.
 Result<bool> SimulatedMachine::chain_linear(Point from,
                                             Point to,
                                             std::size_t line,

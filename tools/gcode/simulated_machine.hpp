@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A controller and its machine, simulated: the tool's track for the moves of a program.
+/// A simulated controller and machine: the tool's track for the moves of a program.
 ///
-/// Numbers are taken in the controller's own format; its way between two commands, and what it
-/// makes of an arc, are its own (firmware.hpp); the machine is the map backwards, with play if
-/// there is any. Nothing of what compensating computes is used.
+/// Numbers are converted to the controller's own format; its path between two commands and its
+/// treatment of arcs are those of firmware.hpp; the machine is the inverse of the map, with play if
+/// there is any. Nothing that the compensation computes is used.
 #pragma once
 
 #include <functional>
@@ -19,28 +19,28 @@ class SimulatedMachine {
  public:
   struct Options {
     model::ChainLengths half_play_mm;
-    /// Between two places that are visited the tool leaves their chord by less than this.
+    /// Between two visited points the tool is within this distance of their chord.
     double flatness_mm = 5e-4;
-    /// What interpolating the map may cost; see ToolField.
+    /// Error bound of interpolating the map; see ToolField.
     double field_bound_mm = 2.5e-4;
-    /// Of rapids only the ends are visited.
+    /// Only the ends of rapids are visited.
     bool rapids_whole = false;
   };
-  /// A place of the tool, and the commanded place that led to it. False ends the move there.
+  /// A point of the tool, and its commanded point. A return of false ends the move there.
   using Visit = std::function<bool(Point tool, Point command)>;
 
-  /// Keeps the reference.
+  /// Keeps a reference.
   SimulatedMachine(const Corrector& corrector, const Options& options)
       : corrector_(corrector),
         options_(options),
         field_(corrector, options.field_bound_mm),
         play_(options.half_play_mm.left_mm != 0.0 || options.half_play_mm.right_mm != 0.0) {}
 
-  /// Where the tool is when the controller believes to stand at `command`.
+  /// The tool's position when the controller's position is `command`.
   [[nodiscard]] Result<Point> place(Point command, std::size_t line);
-  /// Visits the places behind the move's start, up to its end.
+  /// Visits the points after the move's start, up to its end.
   [[nodiscard]] Result<void> run(const Move& move, const Visit& visit);
-  /// By how much the controller's last tick of a command has overshot its end, at most.
+  /// Largest overshoot of the controller's last tick of a command.
   [[nodiscard]] double tick_overshoot_mm() const { return tick_overshoot_mm_; }
 
  private:
@@ -55,7 +55,7 @@ class SimulatedMachine {
   Options options_;
   ToolField field_;
   bool play_;
-  std::optional<double> left_mm_;  // of the chains behind the play
+  std::optional<double> left_mm_;  // of the chains after the play
   std::optional<double> right_mm_;
   double tick_overshoot_mm_ = 0.0;
 };

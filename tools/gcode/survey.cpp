@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Boxes and counts.
+/// Bounding boxes and counts.
 #include "tools/gcode/survey.hpp"
 
 #include <fmt/format.h>

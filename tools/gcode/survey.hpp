@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a program does, without a map: its box, its moves, and what leaves the sheet, by line.
+/// A program without a map: its bounding box, its moves, and the lines that leave the sheet.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct Box {
 };
 
 struct Survey {
-  std::optional<Box> box;  ///< of the whole path; arcs with their bulges
+  std::optional<Box> box;  ///< of the whole path, including the bulges of arcs
   std::uint64_t rapids = 0;
   std::uint64_t feeds = 0;
   std::uint64_t arcs = 0;
@@ -27,7 +27,7 @@ struct Survey {
   ProgramSummary program;
 };
 
-/// \param sheet what may not be left; the offending lines become problems (outside_sheet).
+/// \param sheet lines that leave it become problems (outside_sheet).
 [[nodiscard]] Result<Survey> survey(LineSource& source,
                                     const Dialect& dialect,
                                     model::BedPoint home,

@@ -9,11 +9,11 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// A cell is held against the exact answer here.
+/// The points at which a cell is compared with the exact value.
 constexpr double kLook[][2] = {{0.5, 0.5}, {0.25, 0.75}};
 constexpr double kErrorSafety = 2.0;
 constexpr double kCurvatureSafety = 2.0;
-/// Where nothing is known of the curvature.
+/// Used if the curvature is unknown.
 constexpr double kCarefulStepMm = 1.0;
 constexpr double kLongestStepMm = 24.0;
 
@@ -22,7 +22,7 @@ std::uint64_t key(std::int64_t column, std::int64_t row) {
          (static_cast<std::uint64_t>(row) & 0xFFFFFFFFU);
 }
 
-/// Beyond any bed there is nothing to keep.
+/// Commands far outside any bed are not cached.
 bool near(model::BedPoint command) {
   constexpr double kFarMm = 1e5;
   return std::fabs(command.x_mm) < kFarMm && std::fabs(command.y_mm) < kFarMm;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where the tool is for a command: Corrector::tool, evaluated on a lattice as the program comes by
-/// and interpolated between.
+/// The tool's position for a command: Corrector::tool, evaluated on a lattice as needed by the
+/// program and interpolated between.
 ///
-/// Cubic Lagrange interpolation of tool(c) - c over 16 nodes, kSpacingMm apart. Every cell is held
-/// against the exact answer at two places before it is used; where twice the larger difference is
-/// above the bound, or where a node has no answer, the cell is not interpolated: each place in it
-/// is computed. Error: below the bound at the places looked at; docs/gcode.md states it as part of
-/// what verify proves.
+/// Cubic Lagrange interpolation of tool(c) - c over 16 nodes, kSpacingMm apart. Every cell is
+/// compared with the exact value at two points before it is used; if twice the larger difference is
+/// above the bound, or a node has no value, the cell is not interpolated: each point in it is
+/// computed. Error: below the bound at the checked points; docs/gcode.md states it as part of what
+/// verify proves.
 ///
-/// Not thread safe. Memory grows with the area that the program covers, not with its length: 4 MB
-/// for a full sheet.
+/// Not thread safe. Memory grows with the area of the program, not with its length: 4 MB for a full
+/// sheet.
 #pragma once
 
 #include <array>
@@ -25,14 +25,14 @@ class ToolField {
  public:
   static constexpr double kSpacingMm = 16.0;
 
-  /// Keeps the reference.
+  /// Keeps a reference.
   ToolField(const Corrector& corrector, double bound_mm)
       : corrector_(corrector), bound_mm_(bound_mm) {}
 
   [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> tool(model::BedPoint command);
 
-  /// How far a straight command may go on from here until the tool's way bows by `flatness_mm`
-  /// from its chord, by the second differences of the lattice (with a safety of two).
+  /// How far a straight command may continue from here until the tool's path bows by `flatness_mm`
+  /// from its chord, by the second differences of the lattice (with a safety factor of two).
   [[nodiscard]] double straight_mm(model::BedPoint command, double flatness_mm);
 
  private:

@@ -34,7 +34,7 @@ Outcome arc_function(double x, double (*apply)(double)) {
   return apply(x) / kDegree;
 }
 
-/// Longer names before their beginnings.
+/// Longer names before their prefixes.
 constexpr Function kFunctions[] = {
     {"abs", [](double x) -> Outcome { return std::fabs(x); }},
     {"acos", [](double x) { return arc_function(x, [](double y) { return std::acos(y); }); }},
@@ -118,7 +118,7 @@ Result<double> finite(const Outcome& outcome, Place place) {
 
 }  // namespace
 
-/// Counts how deep the reader is, so that no line can exhaust the stack.
+/// Counts the depth of nesting, so that no line can overflow the stack.
 struct ValueReader::Nesting {
   explicit Nesting(ValueReader& reader) : depth(reader.depth_) { ++depth; }
   ~Nesting() { --depth; }
@@ -164,7 +164,7 @@ Result<double> ValueReader::number() {
   std::size_t end = at_;
   while (end < text.size() &&
          (is_digit(text[end]) || text[end] == '.' || text[end] == '+' || text[end] == '-')) {
-    // A sign stands only in front of a number; inside an expression it is the next operator.
+    // A sign is allowed only before a number; inside an expression it is the next operator.
     if (end > at_ && !is_digit(text[end]) && text[end] != '.') break;
     ++end;
   }
@@ -284,8 +284,7 @@ Result<double> ValueReader::operand_chain(int lowest_precedence) {
     if (found == nullptr || found->precedence < lowest_precedence) return left;
     const Place start = place();
     at_ += found->name.size();
-    // Everything that binds tighter belongs to the right operand: the operators group from the
-    // left.
+    // Operators that bind tighter belong to the right operand: operators group from the left.
     const auto right = operand_chain(found->precedence + 1);
     if (!right) return right;
     left = finite(found->apply(*left, *right), start);

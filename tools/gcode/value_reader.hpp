@@ -3,7 +3,7 @@
 /// Numbers, parameters and expressions of RS274/NGC, evaluated as they are read.
 ///
 /// A value is a number, `#` parameter, `[` expression `]`, a function (`sin[30]`, `atan[1]/[2]`,
-/// degrees), or any of these behind a sign. Operators, tightest first: `**` · `* / mod` · `+ -` ·
+/// degrees), or any of these after a sign. Operators, tightest first: `**` · `* / mod` · `+ -` ·
 /// `eq ne gt ge lt le` · `and or xor`; all group from the left. `eq` and `ne` compare to 0.0001, as
 /// LinuxCNC does. There are no exponents: E is a word.
 #pragma once
@@ -23,12 +23,12 @@ class ValueReader {
       : line_(line), parameters_(parameters), at_(at) {}
 
   [[nodiscard]] bool done() const { return at_ >= line_.text.size(); }
-  /// The character here, or zero at the end.
+  /// The current character, or zero at the end.
   [[nodiscard]] char peek() const { return done() ? '\0' : line_.text[at_]; }
   [[nodiscard]] std::size_t at() const { return at_; }
   [[nodiscard]] Place place() const { return line_.place(at_); }
   void skip(std::size_t count) { at_ += count; }
-  /// Reads `text` if it stands here.
+  /// Reads `text` if it is next.
   bool accept(std::string_view text);
 
   [[nodiscard]] Result<double> real();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Two programs side by side: one says where the tool shall be, the other where it is. Words divide
-/// both into sections; within a section the tool's track is matched with the path.
+/// Two programs read in parallel: one gives the intended path, the other the actual track. Words
+/// divide both into sections; within a section the tool's track is matched with the path.
 #include "tools/gcode/verifier.hpp"
 
 #include <fmt/format.h>
@@ -17,18 +17,18 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// Shares of the tolerance that the simulation's own errors take; what is left is for the file.
-constexpr double kArcShare = 0.01;       // arcs of the path become chords
-constexpr double kFlatnessShare = 0.01;  // so does the tool's track
-constexpr double kFieldShare = 0.005;    // interpolating the map backwards
+/// Shares of the tolerance for the simulation's own errors; the rest is for the file.
+constexpr double kArcShare = 0.01;       // arcs of the path are replaced by chords
+constexpr double kFlatnessShare = 0.01;  // so is the tool's track
+constexpr double kFieldShare = 0.005;    // error of interpolating the inverse map
 constexpr double kLeft = 1.0 - kArcShare - kFlatnessShare - kFieldShare;
 constexpr int kFewestChordsPerTurn = 16;
-/// Shorter commands are rounded too coarsely to tell their stretch.
+/// Shorter commands are rounded too coarsely to determine their stretch.
 constexpr double kLeastStretchedMm = 2.0;
 
 bool same_xy(Point a, Point b) { return a.x_mm == b.x_mm && a.y_mm == b.y_mm; }
 
-/// Where a program begins: with a place in X and Y, or with a cut where it stands.
+/// Start of a program: a position in X and Y, or a cut from the current position.
 bool begins(const Move& move) {
   return move.names_xy || (move.kind != MoveKind::rapid && move.to.z_mm < move.from.z_mm);
 }
@@ -38,7 +38,7 @@ double speed(const Move& move) {
                                                   : move.feed.value;
 }
 
-/// Before X and Y are known only heights are compared.
+/// Until X and Y are known only heights are compared.
 Point height_of(Point point) { return {0.0, 0.0, point.z_mm}; }
 
 std::string words(Point point) {
@@ -99,14 +99,14 @@ class Verification {
   void fail(bool in_original, const Problem& problem) {
     if (!problem_) problem_ = VerifyProblem{in_original, problem};
   }
-  /// The original's next event; null where it has a problem.
+  /// The original's next event; null if it has a problem.
   const ProgramEvent* expected() {
     const auto event = intended_.peek();
     if (!event) fail(true, event.error());
     return event ? *event : nullptr;
   }
 
-  /// The next piece of the intended path within the section; arcs become chords.
+  /// The next piece of the intended path within the section; arcs are replaced by chords.
   bool next_piece(PathPiece& piece) {
     for (;;) {
       if (chord_ < chords_) {
@@ -122,7 +122,7 @@ class Verification {
         heights_done_ = begins(move);
         piece = {height_of(move.to), move.kind == MoveKind::rapid, speed(move), move.line};
         const bool changes_height = move.from.z_mm != move.to.z_mm;
-        if (!heights_done_) intended_.pop();  // which ends the life of move
+        if (!heights_done_) intended_.pop();  // which invalidates move
         if (changes_height) return true;
         continue;
       }
@@ -148,7 +148,7 @@ class Verification {
     return static_cast<int>(std::min(1e8, std::ceil(std::fabs(arc.sweep_rad) / turn)));
   }
 
-  /// Both curves begin: at the end of a rapid, or at the start of a cut.
+  /// Both curves start: at the end of a rapid, or at the start of a cut.
   void start(const Move& command) {
     if (command.kind == MoveKind::rapid && command.from.z_mm != command.to.z_mm) {
       advance({height_of(command.to), true, 0.0, command.line});
@@ -249,7 +249,8 @@ class Verification {
     matcher_.advance_anyhow(piece);
   }
 
-  /// A word of the file that is run, or its end: the section ends on both sides, and by the same.
+  /// A word of the file that is run, or its end: the section must end on both sides with the same
+  /// word.
   void compare(const ProgramEvent& found) {
     const PathMatcher::Outcome outcome = matcher_.finish();
     if (problem_) return;
@@ -313,7 +314,7 @@ class Verification {
     summary_.strays = true;
     first_fault(sentence);
   }
-  /// Where the words differ there is nothing to match the rest by.
+  /// Where the words differ, the rest cannot be matched.
   void differ(std::string difference, const std::string& sentence) {
     summary_.words_differ = std::move(difference);
     first_fault(sentence);
@@ -330,7 +331,7 @@ class Verification {
   bool stopped_ = false;
   bool started_ = false;
   bool heights_done_ = false;
-  Move arc_;  // that is being cut into chords
+  Move arc_;  // being divided into chords
   int chord_ = 0;
   int chords_ = 0;
   Point last_tool_;

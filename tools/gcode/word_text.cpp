@@ -27,8 +27,8 @@ void append_fixed(std::string& text, double value) {
 
 #else
 
-/// The fewest decimals that read back as the value: the digits of std::to_chars, which libc++ has
-/// only from 14 on.
+/// The fewest decimals that read back as the value: the digits of std::to_chars, which libc++
+/// supports only from version 14 on.
 void append_fixed(std::string& text, double value) {
   constexpr int kMostDecimals = 1074;  // of the smallest double
   for (int decimals = 0; decimals <= kMostDecimals; ++decimals) {

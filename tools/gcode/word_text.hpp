@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How the value of a word is written.
+/// Formats the value of a word.
 #pragma once
 
 #include <string>

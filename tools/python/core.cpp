@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue._core: the libraries for Python. Arrays are float64 of shape (n, 2); where there is no
-/// answer a mask says so and the number is zero, never a NaN. The package's chaintrue/__init__.py
-/// makes of it what a user sees, and says what each thing is.
+/// answer a mask is false and the number is zero, never NaN. The user interface and its
+/// documentation are in the package's chaintrue/__init__.py.
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -37,7 +37,7 @@ namespace files = grid::files;
 
 using Pairs = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// A task that ended in words: chaintrue.Failure in Python.
+/// A task that failed with a message: chaintrue.Failure in Python.
 struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -48,7 +48,7 @@ auto value_or_throw(Expected result) {
   return *std::move(result);
 }
 
-/// \throws std::invalid_argument for another shape, or a number that is none.
+/// \throws std::invalid_argument for another shape, or a number that is not finite.
 void check_pairs(const Pairs& pairs, const char* name) {
   if (pairs.ndim() != 2 || pairs.shape(1) != 2) {
     throw std::invalid_argument(
@@ -79,7 +79,7 @@ std::vector<std::string> sentences_of(const std::vector<files::Warning>& warning
   return sentences;
 }
 
-/// A column of the points, or nothing where one of them has none.
+/// A column of the points, or nothing if one of them has none.
 template <class Get>
 std::optional<Pairs> column(const grid::MeasuredGrid& grid, Get get) {
   Pairs pairs = new_pairs(grid.points.size());
@@ -119,7 +119,7 @@ std::optional<std::vector<int>> order_of(const grid::MeasuredGrid& grid) {
   return order;
 }
 
-/// Goes through the file's text, so that a grid made of arrays is held to what a file is held to.
+/// Converts the arrays to a file's text, so that the same input checks apply.
 grid::MeasuredGrid grid_of(const Pairs& marks,
                            const std::optional<Pairs>& lengths,
                            const std::optional<Pairs>& commanded,

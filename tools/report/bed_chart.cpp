@@ -17,13 +17,14 @@ constexpr double kLongestArrow = 0.12;
 
 double width_mm(const Outline& outline) { return outline.x_max_mm - outline.x_min_mm; }
 
-/// Of a way from `from` by `way` the share up to the first of two borders; 1 where it ends before.
+/// The share of the segment from `from` by `way` up to the first of two borders; 1 if it ends
+/// before.
 double share_within(double from, double way, double low, double high) {
   if (way == 0.0) return 1.0;
   return std::clamp(((way > 0.0 ? high : low) - from) / way, 0.0, 1.0);
 }
 
-/// Of an arrow the share that is drawn: that of a good point whole, that of a bad one up to the frame.
+/// The drawn share of an arrow: a good point's is drawn whole, a bad point's up to the frame.
 double shown_of(const Arrow& arrow, const Outline& view, double magnification) {
   if (!arrow.is_bad) return 1.0;
   return std::min(

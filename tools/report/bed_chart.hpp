@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What every picture of the bed shares: its outline, the window around it, and arrows on it.
+/// Shared by every chart of the bed: its outline, the window around it, and arrows on it.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace chaintrue::report {
 
-/// An error at the tool.
+/// An error of the tool's position.
 struct ToolVector {
   double x_mm = 0.0;
   double y_mm = 0.0;
 };
 
-/// The sheet, or what of it was measured.
+/// The sheet, or its measured part.
 struct Outline {
   double x_min_mm = 0.0;
   double x_max_mm = 0.0;
@@ -24,7 +24,7 @@ struct Outline {
   double y_max_mm = 0.0;
 };
 
-/// Vermilion and blue of Okabe and Ito's palette, told apart with every colour vision.
+/// Vermilion and blue of Okabe and Ito's palette, distinguishable with every colour vision.
 inline constexpr const char* kBeforeColor = "#d55e00";
 inline constexpr const char* kAfterColor = "#0072b2";
 inline constexpr const char* kNeutralColor = "#8a94a3";
@@ -48,32 +48,33 @@ struct Arrow {
 /// The sheet and the marks, with a margin of 5 % of the sheet's width.
 /// \throws std::invalid_argument for a sheet without an extent.
 [[nodiscard]] Outline view_of(const Outline& sheet, const std::vector<Arrow>& marks);
-/// As the charts of the bed declare them.
+/// The signals declared by the charts of the bed.
 [[nodiscard]] std::vector<Signal> bed_signals(const Outline& sheet,
                                               const std::vector<Arrow>& marks);
 
-/// How much to magnify, so that the longest arrow of a good point spans an eighth of the bed; once
-/// where all are of no length.
+/// The magnification at which the longest arrow of a good point spans an eighth of the bed; 1 if
+/// all have zero length.
 [[nodiscard]] double magnification_of(const Outline& sheet, const std::vector<Arrow>& arrows);
-/// charts/bed_arrows without title and caption; the scale is printed in the picture. The arrow of a bad point, which no
-/// scale is chosen for, ends at the frame.
+/// charts/bed_arrows without title and caption; the scale is printed in the chart. The arrow of a bad point,
+/// which does not count for the scale, ends at the frame.
 [[nodiscard]] Chart arrows_chart(const Outline& sheet,
                                  const std::vector<Arrow>& arrows,
                                  double magnification,
                                  const char* color);
-/// Which arrows end at the frame, and how long they are: " Cut off at the frame: point 9 (25.40 mm).", or nothing.
+/// Names the arrows that end at the frame, with their lengths: " Cut off at the frame: point 9 (25.40 mm).",
+/// or empty.
 [[nodiscard]] std::string cut_off_at_frame(const Outline& sheet,
                                            const std::vector<Arrow>& arrows,
                                            double magnification);
 
-/// What the pictures before and after say of themselves.
+/// Texts of the charts before and after.
 struct ArrowWords {
   std::string before, before_caption, after, after_caption;
-  /// After that the arrows are so many times larger.
+  /// Preceded by the magnification of the arrows.
   std::string close_caption{};
 };
-/// Before and after at one scale, and after once more where it is much smaller; before alone where
-/// nothing comes after.
+/// Before and after at one scale, and after once more if it is much smaller; before alone if there
+/// is nothing after.
 [[nodiscard]] std::vector<ChartRow> arrow_rows(const Outline& sheet,
                                                const std::vector<Arrow>& before,
                                                const std::vector<Arrow>& after,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a verb says, built once: a verdict, then sections of text, lists, tables and charts. It is
-/// rendered to the terminal and to one self-contained HTML page (style, data, chart specifications
-/// and Vega, which draws them, are inside it). Same document, same bytes.
+/// The output of a verb, built once: a verdict, then sections of text, lists, tables and charts. It
+/// is rendered to the terminal and to one self-contained HTML page (style, data, chart
+/// specifications and Vega, which draws them, are inside it). Same document, same bytes.
 ///
-/// Texts are plain: escaping, and the signs for "+-" and minus, are the renderers' work. Whatever
-/// the terminal shows is on the page too; Detail says what only the page shows.
+/// Texts are plain: escaping, and the signs for "+-" and minus, are the renderers' work. Everything
+/// on the terminal is on the page too; Detail marks what only the page shows.
 ///
 /// A chart is the name of a Vega specification in charts/ plus the data tables and signals that it
 /// declares without values; hovering or tapping a mark shows the object of its `tooltip`.
@@ -30,15 +30,15 @@
 
 namespace chaintrue::report {
 
-/// Where something is shown: on the terminal and the page; on the terminal only when all is asked
-/// for; on the page alone.
+/// Where something is shown: on the terminal and the page; on the terminal only with --verbose; on
+/// the page only.
 enum class Detail { always, verbose, page };
 
-/// How the verdict reads at a glance; said in words too, so colour alone carries nothing.
+/// The colour of the verdict; its text says the same.
 enum class Tone { good, caution, bad };
 
 /// A question that the page answers at a glance: "Named?" "yes, one cause" in the tone's colour and
-/// with its sign. Page only.
+/// with its symbol. Page only.
 struct Light {
   Tone tone = Tone::good;
   std::string question{};
@@ -48,11 +48,11 @@ struct Light {
 struct Paragraph {
   std::string text{};
   Detail detail = Detail::always;
-  /// An assumption or a warning, which the terminal marks as "Note:".
+  /// An assumption or a warning, printed as "Note:" on the terminal.
   bool is_note = false;
 };
 
-/// Lines, each with lines that belong to it.
+/// List items, each with its own sub-items.
 struct Item {
   std::string text{};
   std::vector<Item> items{};
@@ -63,7 +63,7 @@ struct List {
   std::vector<Item> items{};
 };
 
-/// A few numbers that matter most, set large: "0.21 mm" over "expected at the tool". Page only.
+/// A few important numbers in large type: "0.21 mm" over "expected at the tool". Page only.
 struct Figure {
   std::string value{};
   std::string label{};
@@ -72,7 +72,7 @@ struct Figures {
   std::vector<Figure> figures{};
 };
 
-/// A text, a number with its column's digits, or nothing known.
+/// A text, a number with its column's digits, or unknown.
 struct Cell {
   std::variant<std::monostate, std::string, double> value{};
   Cell() = default;
@@ -89,18 +89,19 @@ struct Column {
   bool is_number = false;  ///< set flush right
   int digits = 2;          ///< after the point, of cells that hold a number
   bool has_sign = false;   ///< also of positive numbers
-  /// What the page says in place of the heading, with the unit; empty: the same.
+  /// The heading on the page, with the unit; empty: the same.
   std::string page_heading{};
-  /// On the terminal: as many characters at least, with the space on its left; 0: as each cell needs.
+  /// On the terminal: the least number of characters, with the space on its left; 0: as each cell
+  /// needs.
   int width = 0;
   /// On the terminal: blanks on the left of a text.
   int gap = 0;
   Detail detail = Detail::always;
 };
 struct Row {
-  /// Those of the last columns may be left out.
+  /// The last cells may be left out.
   std::vector<Cell> cells{};
-  /// A flagged row stands out; its last cell should say why.
+  /// A flagged row is highlighted; its last cell should give the reason.
   bool is_flagged = false;
 };
 struct Table {
@@ -108,15 +109,15 @@ struct Table {
   std::vector<Row> rows{};
   /// Below the table, on the page.
   std::string caption{};
-  /// On the terminal the first column's heading is that of the section.
+  /// On the terminal the section's heading takes the place of the first column's.
   bool is_headed = false;
-  /// On the terminal: of the first heading; 0: as wide as its column.
+  /// On the terminal: width of the first heading; 0: as wide as its column.
   int head_width = 0;
 };
 
 using Value = std::variant<double, bool, std::string>;
 
-/// Rows of named fields, as a chart's specification declares them.
+/// Rows of named fields, as declared by a chart's specification.
 struct DataTable {
   std::string name{};
   std::vector<std::string> fields{};
@@ -132,10 +133,10 @@ struct Chart {
   std::string caption{};
   std::vector<DataTable> data{};
   std::vector<Signal> signals{};
-  /// The same in numbers: on the terminal, and on a page whose scripts do not run.
+  /// The same as numbers: on the terminal, and on a page without scripts.
   std::optional<Table> alternative{};
 };
-/// Charts side by side, one below the other where the screen is narrow.
+/// Charts next to each other, or below each other on a narrow screen.
 struct ChartRow {
   std::vector<Chart> charts{};
 };
@@ -145,10 +146,10 @@ using Block = std::variant<Paragraph, List, Figures, Table, Chart, ChartRow>;
 struct Section {
   std::string title{};
   std::vector<Block> blocks{};
-  /// Shows its title alone until somebody opens it; on paper it is open.
+  /// Shows only its title until it is opened; open in print.
   bool is_folded = false;
   Detail detail = Detail::always;
-  /// Whether the terminal shows the title, with the blocks set in below it.
+  /// Whether the terminal shows the title, with the blocks indented below it.
   bool is_titled = true;
 };
 
@@ -163,27 +164,26 @@ struct Document {
   std::vector<Paragraph> advice{};
   /// What the verdict does not prove; empty: no such line.
   Paragraph not_proved{};
-  /// Set large below the verdict.
+  /// In large type below the verdict.
   std::vector<Figure> figures{};
-  /// What the verdict rests on: on the terminal directly below it and without the title, on the page
+  /// The basis of the verdict: on the terminal directly below it and without the title, on the page
   /// after the sections.
   Section remarks{};
   std::vector<Section> sections{};
-  /// The page ends with the glossary's words.
+  /// The page ends with the glossary.
   bool has_glossary = false;
-  /// Set closely, so that it prints on one sheet of A4.
+  /// Compact, so that it prints on one sheet of A4.
   bool is_one_sheet = false;
-  /// Where the page came from: inputs, program and version.
+  /// Origin of the page: inputs, program and version.
   std::string provenance{};
 };
 
-/// The document as a page.
-/// \throws std::invalid_argument where a number is not finite, a row has more cells than its table
-/// has columns, or no chart specification has the name asked for.
+/// The document as a page. \throws std::invalid_argument where a number is not finite, a row has
+/// more cells than its table has columns, or a chart specification does not exist.
 [[nodiscard]] std::string render_html(const Document& document);
 
-/// The document as lines for a terminal: what `detail` (always or verbose) includes.
-/// \throws std::invalid_argument where a number is not finite or a row has too many cells.
+/// The document as lines for a terminal, with the details of `detail` (always or verbose). \throws
+/// std::invalid_argument where a number is not finite or a row has too many cells.
 [[nodiscard]] std::string render_text(const Document& document, Detail detail = Detail::always);
 
 }  // namespace chaintrue::report

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The files that a page carries with it, embedded at build time: "vega" (Debian's modules, in the
-/// order in which they load), "chart" (charts/<name>.vg.json) and "asset" (the page's style, script
-/// and licence notices).
+/// The files embedded in a page at build time: "vega" (Debian's modules, in the order in which they
+/// load), "chart" (charts/<name>.vg.json) and "asset" (the page's style, script and licence
+/// notices).
 #pragma once
 
 #include <string_view>
@@ -18,7 +18,7 @@ struct EmbeddedFile {
 /// All files of a kind, in the order in which they were embedded.
 [[nodiscard]] std::vector<EmbeddedFile> embedded_files(std::string_view kind);
 
-/// \throws std::invalid_argument where nothing has that kind and name.
+/// \throws std::invalid_argument if there is no file of that kind and name.
 [[nodiscard]] std::string_view embedded_text(std::string_view kind, std::string_view name);
 
 }  // namespace chaintrue::report

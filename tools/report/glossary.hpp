@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The words of the pages that a workshop does not use every day: at the end of a page, and as hover
-/// text where one of them first stands in a paragraph.
+/// Technical terms of the pages: listed at the end of a page, and as hover text where a term first
+/// occurs in a paragraph.
 #pragma once
 
 #include <span>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The pictures of a compensation map from plain data: the caller fills it, picture_sections() draws
-/// it: before and after on the bed, what each step gained, the error to expect, every point
-/// predicted without itself.
+/// The charts of a compensation map from plain data: before and after on the bed, the gain of each
+/// step, the expected error, every point predicted without itself.
 ///
-/// All vectors are where the tool lands minus where it should, at the tool, in mm, x right and y
-/// up. "Held out" means that the point was predicted by a map made without it.
+/// All vectors are the tool's actual less its intended position, in mm, x right and y up. "Held out"
+/// means that the point was predicted by a map fitted without it.
 #pragma once
 
 #include <optional>
@@ -20,7 +19,7 @@ namespace chaintrue::report {
 /// A measured point.
 struct ReportPoint {
   std::string name{};  ///< "point 7"
-  /// Where the tool truly stood, in the frame of the page.
+  /// True position of the tool, in the page's frame.
   double x_mm = 0.0;
   double y_mm = 0.0;
   /// With the machine as stated.
@@ -28,7 +27,7 @@ struct ReportPoint {
   /// With the machine calibrated and the residual surface added.
   std::optional<ToolVector> after{};
   std::optional<ToolVector> held_out{};
-  /// How surprising the held-out error is, in sigmas.
+  /// The held-out error in sigmas.
   double held_out_sigmas = 0.0;
   /// The fit gave this point little or no weight.
   bool is_bad = false;
@@ -47,7 +46,7 @@ struct ErrorMap {
   std::vector<ErrorCell> cells{};
 };
 
-/// One step on the way to the map, with the error at the tool that is left there.
+/// One step on the way to the map, with the tool error that remains after it.
 struct ErrorStep {
   enum class Kind { before, after, reference };
   Kind kind = Kind::after;
@@ -60,15 +59,15 @@ struct ErrorStep {
 
 struct MapPictures {
   Outline sheet{};
-  /// In the order of the work; the last may be the noise floor.
+  /// In the order of the work; the last may be the noise.
   std::vector<ErrorStep> steps{};
   std::vector<ReportPoint> points{};
-  /// What the points' `before` is: "the machine as stated".
+  /// Description of the points' `before`: "the machine as stated".
   std::string before_what{"the machine as stated"};
   std::optional<ErrorMap> error_map{};
   /// Rms of the held-out errors, drawn as a line and a ring; 0: computed from the points.
   double held_out_rms_mm = 0.0;
-  /// What the readings' own noise amounts to at the tool; 0: not drawn.
+  /// The noise of the readings at the tool; 0: not drawn.
   double noise_floor_mm = 0.0;
 };
 
@@ -76,8 +75,7 @@ struct MapPictures {
 /// error map.
 [[nodiscard]] Chart error_map_chart(const MapPictures& map);
 
-/// Sections without data are left out.
-/// \throws std::invalid_argument where the sheet has no extent.
+/// Sections without data are left out. \throws std::invalid_argument if the sheet has no extent.
 [[nodiscard]] std::vector<Section> picture_sections(const MapPictures& map);
 
 }  // namespace chaintrue::report

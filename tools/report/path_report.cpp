@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Lays a PathReport out.
+/// Layout of a PathReport.
 #include "tools/report/path_report.hpp"
 
 #include <fmt/format.h>
@@ -15,15 +15,15 @@
 namespace chaintrue::report {
 namespace {
 
-/// The largest drawn correction spans this share of the path's own extent, so that it can be seen.
+/// The largest drawn correction is this share of the path's own extent, so that it is visible.
 constexpr double kDrawnCorrection = 0.05;
 
 double size_mm(const ToolVector& vector) { return std::hypot(vector.x_mm, vector.y_mm); }
 
-/// The view is at least so wide, so that a single hole has its surroundings.
+/// The least width of the view, so that a single hole has its surroundings.
 constexpr double kLeastViewMm = 20.0;
 constexpr double kMargin = 0.08;
-/// Height by width: a page is no scroll.
+/// Height by width, so that a chart fits on a screen.
 constexpr double kTallest = 0.8;
 constexpr double kFlattest = 0.15;
 
@@ -62,7 +62,7 @@ void widen(Outline& view, double x_mm, double y_mm) {
   view.y_max_mm = std::max(view.y_max_mm, y_mm);
 }
 
-/// By `most` at least between the ends, about their middle.
+/// At least `least` between the ends, about their middle.
 void stretch(double& low, double& high, double least) {
   const double missing = least - (high - low);
   if (missing <= 0.0) return;
@@ -70,7 +70,7 @@ void stretch(double& low, double& high, double least) {
   high += 0.5 * missing;
 }
 
-/// The cuts; where there are none, all of the path.
+/// The cuts; the whole path if there are none.
 Outline part_of(const PathReport& report, double magnification) {
   Outline view{1e9, -1e9, 1e9, -1e9};
   for (const bool rapids : {false, true}) {
@@ -90,7 +90,7 @@ Outline part_of(const PathReport& report, double magnification) {
   return view.x_min_mm <= view.x_max_mm ? view : report.sheet;
 }
 
-/// The part with a margin, in a shape that fits a page.
+/// The part with a margin, in an aspect ratio that fits a page.
 Outline view_of(const PathReport& report, double magnification) {
   if (!(report.sheet.x_max_mm > report.sheet.x_min_mm) ||
       !(report.sheet.y_max_mm > report.sheet.y_min_mm)) {
@@ -118,7 +118,7 @@ Outline view_of(const PathReport& report, double magnification) {
 constexpr double kColouredShare = 1.0 / 60.0;
 
 int parts_of(const PathPiece& piece, const Outline& view, std::size_t pieces) {
-  // Where there are many pieces they are short, or as many as a page can hold.
+  // If there are many pieces they are short, or the page has its limit of pieces.
   if (piece.is_rapid || pieces > PathReport::kMostPieces / 60) return 1;
   const double length = std::hypot(piece.x1_mm - piece.x0_mm, piece.y1_mm - piece.y0_mm);
   return std::clamp(

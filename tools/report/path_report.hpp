@@ -20,8 +20,7 @@
 
 namespace chaintrue::report {
 
-/// A straight command: from and to on the sheet, and by how much the commanded ends differ from
-/// them.
+/// A straight command: start and end on the sheet, and the commanded ends less these.
 struct PathPiece {
   std::size_t line = 0;  ///< of the program
   bool is_rapid = false;
@@ -39,11 +38,11 @@ struct PathReport {
   Outline sheet{};
   std::vector<Figure> figures{};
 
-  /// Keeps at most kMostPieces: when there are more, every second one, every fourth, ... so that
-  /// memory stays constant.
+  /// Keeps at most kMostPieces: beyond that, every second one, every fourth, ... so that memory is
+  /// bounded.
   void add(const PathPiece& piece);
   [[nodiscard]] const std::vector<PathPiece>& pieces() const { return pieces_; }
-  /// One piece in so many is drawn.
+  /// One in this number of pieces is drawn.
   [[nodiscard]] std::uint64_t stride() const { return stride_; }
 
   static constexpr std::size_t kMostPieces = 20000;

@@ -25,7 +25,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Inside a script element no text may look like its end or like a comment.
+/// Inside a script element no text may contain its end tag or the start of a comment.
 std::string script_json(const Json& json) {
   std::string out;
   for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
@@ -268,7 +268,7 @@ class Writer {
     add("</body>\n</html>\n");
   }
 
-  /// Debian's modules expect require(); each gets the ones before it.
+  /// Debian's modules expect require(); each gets the modules before it.
   void write_module(const EmbeddedFile& module) {
     html_ +=
         "(() => {\nconst module = {exports: {}}, exports = module.exports;\n"
@@ -278,7 +278,7 @@ class Writer {
     add("\nchaintrueModules[\"{}\"] = module.exports;\n}})();\n", module.name);
   }
 
-  /// A paragraph with the meaning of each word of the glossary where it first stands on the page.
+  /// A paragraph with the definition of each glossary term where it first occurs on the page.
   std::string explained(std::string_view text) {
     std::string html = set(text);
     const auto is_letter = [&html](std::size_t at) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Writes a Document as lines for a terminal: the verdict, what to do, what it does not prove and
-/// rests on, then the sections, each after an empty line. Charts show their alternative.
+/// Writes a Document as lines for a terminal: the verdict, the advice, what is not proved and the
+/// basis, then the sections, each after an empty line. Charts show their alternative.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kIndent = 2;
 
-/// Characters, of which each but the first byte of UTF-8 begins with the bits 10.
+/// Number of characters: every byte of UTF-8 except continuation bytes, which begin with the bits
+/// 10.
 int width_of(std::string_view text) {
   return static_cast<int>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
@@ -108,7 +109,7 @@ class Writer {
                       cell.value);
   }
 
-  /// At least as wide as the widest cell; numbers keep a blank between them.
+  /// At least as wide as the widest cell; numbers are separated by a blank.
   [[nodiscard]] static std::vector<int> widths_of(const Table& table) {
     std::vector<int> widths;
     for (const Column& column : table.columns) widths.push_back(column.width);

@@ -11,8 +11,7 @@
 namespace chaintrue::report {
 namespace {
 
-/// How many bytes the UTF-8 character at the text's beginning has; 0 where they are none (RFC
-/// 3629).
+/// Number of bytes of the UTF-8 character at the text's beginning; 0 if it is not valid (RFC 3629).
 std::size_t character_length(std::string_view text) {
   const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(0);
@@ -29,7 +28,7 @@ std::size_t character_length(std::string_view text) {
   return is_overlong || is_no_character ? 0 : length;
 }
 
-/// File names are bytes: those that are no UTF-8 become the replacement character.
+/// File names are bytes: invalid UTF-8 becomes the replacement character.
 std::string as_utf8(std::string_view text) {
   std::string out;
   while (!text.empty()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Numbers and texts as a document's renderers set them.
+/// Formatting of numbers and texts for a document's renderers.
 #pragma once
 
 #include <string>
@@ -11,19 +11,18 @@
 namespace chaintrue::report {
 
 [[nodiscard]] std::string capitalised(std::string text);
-/// For a page: +- as one sign that no line is broken at.
+/// For a page: +- as one sign, without a line break after it.
 [[nodiscard]] std::string typeset(std::string text);
 /// Fixed digits with a true minus sign, never "-0.00".
 [[nodiscard]] std::string fixed(double value, int digits);
 /// The number of a column, with an ASCII sign; never "-0.00".
 /// \throws std::invalid_argument where it is not finite.
 [[nodiscard]] std::string number_of(double value, const Column& column);
-/// A row's cells, which are as many as the table has columns at most.
-/// \throws std::invalid_argument where they are more.
+/// A row's cells, at most as many as the table has columns. \throws std::invalid_argument for more.
 void check_row(const Table& table, const Row& row);
 
-/// For text between tags and in quoted attributes; bytes that are no UTF-8 become the replacement
-/// character, since file names are bytes.
+/// For text between tags and in quoted attributes; invalid UTF-8 becomes the replacement character,
+/// since file names are bytes.
 [[nodiscard]] std::string escaped(std::string_view bytes);
 
 template <class... Handlers>

@@ -22,7 +22,7 @@ except ImportError:
     sys.exit(77)
 
 HERE = pathlib.Path(__file__).resolve().parent
-# In the order in which somebody meets them.
+# In the order of reading.
 FIRST = ["README.md", "docs/start.md", "docs/holes.md", "docs/diagnosis.md", "docs/gcode.md", "docs/report.md"]
 LAST = ["model/README.md", "interp/README.md", "fixtures/README.md", "CHANGELOG.md"]
 
@@ -56,7 +56,7 @@ class Site:
             body = converter.convert(text)
             found = re.search(r"<h1[^>]*>(.*?)</h1>", body, re.S)
             self.titles[path] = re.sub(r"<[^>]+>", "", found.group(1)) if found else path
-            # Ids of one page must not meet those of another.
+            # Ids of one page must differ from those of another.
             self.bodies[path] = re.sub(
                 r'(<h[1-6] )id="([^"]*)"', lambda m: f'{m[1]}id="{page_id(path)}--{m[2]}"', body
             )
@@ -85,7 +85,7 @@ class Site:
             return ""
         if file.suffix == ".json":
             return f'download="{file.name}" href="{self.data_of(file)}"'
-        # What else there is stands in the repository only.
+        # Other files exist in the repository only.
         return f'title="{html.escape(relative)}, in the repository"'
 
     def picture(self, path, file):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Makes the page and the package of emscripten's output:
+// Makes the page and the package from emscripten's output:
 //   node build.mjs FOLDER_OF_CHAINTRUE_JS OUTPUT_FOLDER VERSION
 import {execFileSync} from "node:child_process";
 import {existsSync, mkdirSync, readFileSync, renameSync, statSync, writeFileSync} from "node:fs";
@@ -13,10 +13,10 @@ const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "../..");
 const read = (path) => readFileSync(path, "utf8");
 
-/** What a page may carry, in bytes: what a mail takes beside a few pictures. */
+/** Largest size of a page in bytes: it must fit into a mail together with a few pictures. */
 const MOST_BYTES = 3e6;
 
-/** What the compiler's output uses; browsers of 2023 have it. */
+/** Features that the compiler's output uses; browsers of 2023 have them. */
 const WASM_FEATURES = ["--enable-exception-handling", "--enable-simd", "--enable-bulk-memory", "--enable-sign-ext",
   "--enable-mutable-globals", "--enable-nontrapping-float-to-int"];
 
@@ -28,12 +28,12 @@ export function bundle(entry, options = {}) {
   return made.outputFiles[0].text;
 }
 
-/** A text that is ready to be read by a browser, with less bytes. */
+/** A minified text for the browser. */
 const minified = (text, loader) => esbuild.transformSync(text, {loader, minify: true, charset: "utf8", legalComments: "inline"}).code;
 
 const packed = (bytes) => encoded(gzipSync(bytes, {level: 9}));
 
-/** The file `to` that `make(begun)` makes of `from`. It takes a minute, so that it is kept until `from` is another. */
+/** The file `to` that `make(begun)` makes from `from`. It takes a minute, so it is kept until `from` changes. */
 function made(folder, from, to, make) {
   const [source, result, begun] = [from, to, `begun.${to}`].map((name) => join(folder, name));
   if (!existsSync(result) || statSync(result).mtimeMs < statSync(source).mtimeMs) {
@@ -43,17 +43,17 @@ function made(folder, from, to, make) {
   return readFileSync(result);
 }
 
-/** The command in a third less bytes. */
+/** The command, a third smaller. */
 const smallerWasm = (folder) => made(folder, "chaintrue.wasm", "chaintrue.small.wasm", (source, begun) => {
   execFileSync("wasm-opt", ["-Oz", ...WASM_FEATURES, source, "-o", begun], {stdio: "inherit"});
 });
 
-/** The same as gzip, packed by zopfli: a twentieth less than gzip itself makes of it, for any browser to unpack. */
+/** In gzip format, compressed by zopfli: 5 % smaller than by gzip itself, readable by any browser. */
 const packedWasm = (folder) => made(folder, "chaintrue.small.wasm", "chaintrue.small.wasm.gz", (source, begun) => {
   writeFileSync(begun, execFileSync("zopfli", ["--i3", "-c", source], {maxBuffer: 1e9}));
 });
 
-/** Text of a script element: nothing in it may end it. */
+/** Text of a script element: it must not contain the end tag. */
 const inScript = (text) => text.replaceAll("</", "<\\/");
 
 function licences() {
@@ -85,7 +85,7 @@ function main([from, to, version]) {
   mkdirSync(to, {recursive: true});
   writeFileSync(join(to, "chaintrue.html"), html);
   writeFileSync(join(to, "chaintrue.wasm"), wasm);
-  // Emscripten's script asks for parts of node that a module has not, and listens to its process once more with each run.
+  // Emscripten's script uses node features that modules lack, and adds a listener to its process with each run.
   const withoutNode = `const createChaintrue = ((process) => {\n${glue}\nreturn createChaintrue;\n})();`;
   writeFileSync(join(to, "chaintrue.mjs"), `${withoutNode}\n${bundle("engine/package.js", {format: "esm", minify: false, platform: "node"})}`);
   writeFileSync(join(to, "chaintrue.d.ts"), read(join(here, "engine/chaintrue.d.ts")));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Stands before fmt's own header on the include path of every room that prints, so that whoever
-/// prints there does it through the gate of grid/printing.hpp, without having to remember it.
+/// Precedes fmt's own header on the include path of every library that prints, so that all printing
+/// uses grid/printing.hpp.
 #pragma once
 #pragma GCC system_header
 #include_next <fmt/format.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// anchor_flex: an anchor, or the frame, gives along the pull of its belt, whatever the belt's length.
+/// anchor_flex: an anchor, or the frame, yields along the pull of its belt, independent of the belt's
+/// length.
 ///   g  how far, mm
 ///
 ///   added = -g of a belt that is pulled, 0 of one that holds                                (1)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// anchor_height: an anchor stands higher or lower than is stated.
+/// anchor_height: an anchor is higher or lower than stated.
 ///   h  true less stated, mm
 ///
 ///   z += h                                                                                  (1)

@@ -7,7 +7,7 @@
 ///
 ///   anchor += d (cos a, sin a) for n >= m                                                   (1)
 ///
-/// All four alike: the frame moved as a whole, which no length shows.
+/// The same for all four: the frame moved as a whole, which does not change any length.
 #include <cmath>
 
 #include "model/belts/effects/belt_effect.hpp"

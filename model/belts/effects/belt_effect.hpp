@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What may be wrong with a router on four belts, or with what it reads: words, parameters and one
-/// pure function, all in one constant. A new one is one file that defines it and one line in
-/// belt_effects.def; the contract suite tests whatever the table lists.
+/// An effect: something that may be wrong with a router on four belts or with its readings. Texts,
+/// parameters and one pure function in one constant. A new effect is one file that defines it and one
+/// line in belt_effects.def; the contract suite runs over the table.
 ///
-/// A reading passes three stations, and each effect stands at one of them:
+/// A reading is computed in three stages, and each effect acts at one of them:
 ///
-///   machine   where an anchor really is                                  `alter`
-///   belt      what the encoder counts, beside the belt's length          `add`
+///   machine   where an anchor really is                                `alter`
+///   belt      what the encoder counts in addition to the belt's length  `add`
 ///   print     the counted length in the controller's convention, with the arm, the extension and the
-///             heights that it believes                                   (belt_readings.hpp)
+///             heights set in it                                        (belt_readings.hpp)
 ///
 /// Symbols: L the belt's own length, slanting, mm; n the number of the visit.
 #pragma once
@@ -22,14 +22,14 @@
 
 namespace chaintrue::model::belts {
 
-/// What an effect may act on: nothing in particular, one belt, or all with one shared value.
+/// What an effect acts on: the machine as a whole, one belt, or all belts with one shared value.
 using BeltSide = effects::EffectSide;
 [[nodiscard]] bool acts_on(BeltSide side, Belt belt);
 
 /// A belt at a visit.
 struct BeltVisit {
   Belt belt = Belt::tl;
-  bool pulled = false;  ///< by its motor, at the reading; otherwise it holds
+  bool pulled = false;  ///< by its motor at the reading; otherwise it is held
   int order = 0;        ///< n
 };
 
@@ -41,7 +41,7 @@ struct BeltEffect {
   std::span<const effects::EffectParameter> parameters;
 
   std::string_view cause;
-  std::string_view signature;  ///< what is seen of it in the lengths, or on the sheet
+  std::string_view signature;  ///< what it changes in the lengths, or on the sheet
   std::string_view equation;
   std::string_view source;
   std::string_view not_modelled;
@@ -69,13 +69,12 @@ inline constexpr BeltSide kOneBeltOrAll[] = {
 [[nodiscard]] std::span<const BeltEffect* const> belt_effects();
 /// Null where there is none of that name.
 [[nodiscard]] const BeltEffect* find_belt_effect(std::string_view id);
-/// Its words, sides and parameters as those of the chains' catalogue have them, for whoever speaks of
-/// either; the function stays here.
+/// Its texts, sides and parameters in the form of the chains' catalogue.
 [[nodiscard]] const effects::Effect& described(const BeltEffect& effect);
-/// The effect that is so described; null for one of the chains' catalogue.
+/// The effect with this description; null for one of the chains' catalogue.
 [[nodiscard]] const BeltEffect* belt_effect_of(const effects::Effect& described);
 
-/// A place or a size of an effect that sets in at a visit.
+/// The visit at which an effect sets in.
 inline constexpr effects::EffectParameter kFirstVisit = {
     .name = "first_visit",
     .symbol = "m",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// belt_scale: a belt's encoder counts turns of another length than is believed.
+/// belt_scale: a turn of a belt's encoder has another length than set.
 ///   s  true over counted, less 1
 ///   L  the belt, mm
 ///

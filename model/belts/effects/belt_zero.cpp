@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// belt_zero: a belt, or all four, are counted from elsewhere than is believed.
+/// belt_zero: the count of a belt, or of all four, starts from another length than set.
 ///   z  offset, mm
 ///
 ///   added = z                                                                               (1)

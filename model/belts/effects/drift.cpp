@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// drift: a belt's count creeps from visit to visit.
-///   d  rate, mm a visit
+/// drift: a belt's count drifts from visit to visit.
+///   d  rate, mm per visit
 ///
 ///   added = d n                                                                             (1)
 #include "model/belts/effects/belt_effect.hpp"

@@ -19,7 +19,7 @@ double dot(const Place& a, const Place& b) { return a[0] * b[0] + a[1] * b[1] + 
 
 Place minus(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-/// Where the segment lies within the distance of a place.
+/// The part of the segment within the distance of a position.
 Interval near(const Place& from, const Place& to, const Place& place, double distance) {
   const Place way = minus(to, from);
   const Place back = minus(from, place);
@@ -33,7 +33,7 @@ Interval near(const Place& from, const Place& to, const Place& place, double dis
   return {std::max(0.0, (-b - half) / a), std::min(1.0, (-b + half) / a)};
 }
 
-/// What can be reached of the lower edges of a row of cells.
+/// The reachable part of the lower edges of a row of cells.
 struct Edge {
   std::size_t cell;
   Interval reached;
@@ -43,7 +43,7 @@ struct Edge {
 
 bool within(const std::vector<Place>& a, const std::vector<Place>& b, double distance) {
   if (a.empty() || b.empty()) return a.empty() && b.empty();
-  // A path of one place is a segment of no length.
+  // A path of one position is a segment of zero length.
   std::vector<Place> p = a;
   std::vector<Place> q = b;
   if (p.size() == 1) p.push_back(p.front());
@@ -51,7 +51,7 @@ bool within(const std::vector<Place>& a, const std::vector<Place>& b, double dis
   const auto apart = [](const Place& u, const Place& v) { return std::sqrt(dot(minus(u, v), minus(u, v))); };
   if (apart(p.front(), q.front()) > distance || apart(p.back(), q.back()) > distance) return false;
   const std::size_t cells = p.size() - 1;
-  // The lower edge of the first row: along p while q stands at its beginning.
+  // The lower edge of the first row: along p while q is at its beginning.
   std::vector<Edge> lower;
   for (std::size_t i = 0; i < cells; ++i) {
     const Interval free = near(p[i], p[i + 1], q[0], distance);
@@ -59,7 +59,7 @@ bool within(const std::vector<Place>& a, const std::vector<Place>& b, double dis
     lower.push_back({i, free});
     if (free.to < 1.0) break;
   }
-  bool left_border = true;  // q may run while p stands at its beginning
+  bool left_border = true;  // q may advance while p is at its beginning
   bool end = false;
   for (std::size_t j = 0; j + 1 < q.size(); ++j) {
     std::vector<Edge> upper;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How far two paths are from each other when both are walked from their beginnings to their ends,
-/// never backwards: the Frechet distance of two polygonal lines.
+/// The Frechet distance of two polygonal lines: both are traversed from beginning to end, never
+/// backwards.
 ///
 /// H. Alt, M. Godau, Computing the Frechet distance between two polygonal curves, International
 /// Journal of Computational Geometry and Applications 5 (1995), 75-91: the free-space diagram, here
-/// with only the cells that can be reached, so that near paths cost as much as their lengths.
+/// restricted to reachable cells, so that the cost for near paths is proportional to their lengths.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@
 
 namespace chaintrue::follower {
 
-/// Whether the distance is at most this. Exact but for rounding.
+/// Whether the distance is at most this. Exact up to rounding.
 [[nodiscard]] bool within(const std::vector<Place>& a, const std::vector<Place>& b, double distance_mm);
 
 /// The distance to within a part in 500 of itself, or most_mm where it is larger.

@@ -60,7 +60,7 @@ class Machine {
   bool ended_ = false;
   std::size_t number_ = 0;
   bool says_xy_ = false;
-  // Kept from line to line of a row of cycles.
+  // Kept for the following lines of a row of cycles.
   double row_start_ = 0.0;
   double row_r_ = 0.0;
   double row_bottom_ = 0.0;
@@ -126,7 +126,7 @@ void Machine::set_modes(const Line& line) {
   }
 }
 
-/// G10 L2, G92 and its kin. True words of the line are used up.
+/// G10 L2, G92 and related codes.
 void Machine::offsets(const Line& line) {
   for (const int code : line.g) {
     if (code == 100) {
@@ -165,7 +165,7 @@ void Machine::arc(const Line& line, bool clockwise) {
     const double db = end[b] - start[b];
     const double chord = std::hypot(da, db);
     const double height = std::sqrt(std::max(0.0, radius * radius - 0.25 * chord * chord));
-    // Left of the chord lies the centre of a short arc that runs counter-clockwise.
+    // The centre of a short counter-clockwise arc is to the left of the chord.
     const double side = (clockwise == (radius > 0.0) ? -1.0 : 1.0) * height / chord;
     ca = 0.5 * (start[a] + end[a]) - side * db;
     cb = 0.5 * (start[b] + end[b]) + side * da;
@@ -176,7 +176,7 @@ void Machine::arc(const Line& line, bool clockwise) {
   const double from = std::atan2(start[b] - cb, start[a] - ca);
   double sweep = std::atan2(end[b] - cb, end[a] - ca) - from;
   const double whole = clockwise ? -kTurn : kTurn;
-  // An end within rounding of the start means a whole turn.
+  // An end within rounding of the start makes a whole turn.
   constexpr double kSameRad = 5e-7;
   while (clockwise ? sweep >= -kSameRad : sweep <= kSameRad) sweep += whole;
   while (std::fabs(sweep) > kTurn + kSameRad) sweep -= whole;

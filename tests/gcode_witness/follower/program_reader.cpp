@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// Small letters, without blanks and comments.
+/// In lower case, without blanks and comments.
 std::string bare(const std::string& raw) {
   std::string text;
   bool comment = false;
@@ -154,7 +154,7 @@ Line Reader::read(const std::string& raw) {
       throw std::runtime_error(std::string("a word stands twice: ") + letter);
     }
   }
-  // Parameters take effect behind the line that sets them.
+  // Parameters take effect after the line that sets them.
   for (const auto& [index, value] : assignments) parameters_[index] = value;
   return line;
 }

@@ -24,7 +24,7 @@ struct Line {
 /// Reads lines and keeps the numbered parameters.
 class Reader {
  public:
-  /// \throws std::runtime_error where the line is not understood.
+  /// \throws std::runtime_error if the line is not understood.
   [[nodiscard]] Line read(const std::string& raw);
 
  private:

@@ -8,7 +8,7 @@ namespace chaintrue::follower {
 namespace {
 
 constexpr std::size_t kLongestLine = 80;
-/// grbl keeps so many significant digits and forgets the rest (MAX_INT_DIGITS).
+/// grbl keeps this number of significant digits and drops the rest (MAX_INT_DIGITS).
 constexpr int kDigits = 8;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }

@@ -7,21 +7,21 @@
 namespace chaintrue::follower {
 namespace {
 
-/// The tool's way bends by 1e-5 per mm at most: over 4 mm that is 2e-5 mm.
+/// The curvature of the tool's path is 1e-5 per mm at most: over 4 mm that is 2e-5 mm.
 constexpr double kSampleMm = 4.0;
 
 Place along(const Place& a, const Place& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
 
-/// A place for chain lengths, or nothing.
+/// The position for chain lengths; empty if there is none.
 std::optional<Place> tool(const Workshop& workshop, model::ChainLengths lengths, double z_mm) {
   const auto place = workshop.machine->inverse(lengths);
   if (!place) return std::nullopt;
   return Place{place->x_mm, place->y_mm, z_mm};
 }
 
-/// Appends the tool's places behind the beginning of one command.
+/// Appends the tool's positions after the beginning of one command.
 bool follow(const Workshop& workshop, const Place& from, const Place& to, std::vector<Place>& path) {
   const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
   const double piece_mm = workshop.chain_linear_piece_mm;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where the tool of a simulated machine goes when a controller runs a program: the controller turns
-/// places into chain lengths by its own kinematics, the machine's map turns lengths into places.
+/// The path of a simulated machine's tool when a controller runs a program: the controller converts
+/// positions to chain lengths by its own kinematics, the machine's map converts lengths to
+/// positions.
 #pragma once
 
 #include <optional>
@@ -16,15 +17,15 @@ namespace chaintrue::follower {
 struct Workshop {
   const grid::CompensationMap* machine = nullptr;
   const model::ControllerKinematics* controller = nullptr;
-  /// The controller keeps places as single precision numbers.
+  /// The controller keeps positions in single precision.
   bool single_precision = false;
-  /// FluidNC's WallPlotter cuts a command into pieces of about this length and runs the chains
-  /// linearly through each; 0: the tool's command stays on the line.
+  /// FluidNC's WallPlotter divides a command into pieces of about this length and moves the chains
+  /// linearly over each; 0: the command is followed on the line.
   double chain_linear_piece_mm = 0.0;
 };
 
-/// The tool's places along the joined commands, 4 mm apart at most; empty where the machine or the
-/// controller has no answer.
+/// The tool's positions along the joined commands, 4 mm apart at most; empty if the machine or the
+/// controller fails anywhere.
 [[nodiscard]] std::optional<std::vector<Place>> tool_path(const Workshop& workshop,
                                                           const std::vector<Place>& commands);
 

@@ -16,12 +16,12 @@
 namespace chaintrue::witness {
 namespace {
 
-/// Truths have nine decimals and passed through inches; a metre has sixteen digits.
+/// Stored values have nine decimals and were converted through inches; a metre has sixteen digits.
 constexpr double kPlaceMm = 1e-6;
-/// A centre that was found from a radius: half the chord is within 1e-12 of the radius where it is
-/// a half circle by rounding, and the square root of that is lost.
+/// A centre computed from a radius: for a half circle up to rounding, half the chord is within
+/// 1e-12 of the radius, and the square root of that is lost.
 constexpr double kCentreMm = 1e-5;
-/// Twelve digits are written, and inches to millimetres and back costs one.
+/// Twelve digits are written, and the conversion through inches costs one.
 constexpr double kFeed = 1e-9;
 
 Call read_call(const std::string& text) {
@@ -55,7 +55,7 @@ Call read_call(const std::string& text) {
   return call;
 }
 
-/// Turns our events into calls.
+/// Converts our events to calls.
 class Listener final : public gcode::Sink {
  public:
   gcode::Result<void> move(const gcode::Move& move) override {
@@ -70,8 +70,8 @@ class Listener final : public gcode::Sink {
     call.feed_tolerance = kFeed;
     if (move.arc) {
       const auto& arc = *move.arc;
-      // Its length, and with it an inverse-time feed, is that of some radius between the two that
-      // rounded words leave.
+      // Its length, and with it an inverse-time feed, is that of a radius between the two that the
+      // rounded words give.
       if (move.feed.mode == gcode::FeedMode::inverse_time) {
         call.feed_tolerance += std::fabs(arc.end_radius_mm - arc.start_radius_mm) /
                                std::min(arc.end_radius_mm, arc.start_radius_mm);
@@ -103,7 +103,7 @@ class Listener final : public gcode::Sink {
     if (text.starts_with("G4 P")) say(with_value("DWELL", word.line, number(4)));
     if (text == "M6") {
       say(with_value("TOOL", word.line, selected_));
-      spindle_ = "M5";  // a tool is changed with the spindle at rest
+      spindle_ = "M5";  // the spindle stops for a tool change
     }
     return {};
   }
@@ -151,7 +151,7 @@ class Listener final : public gcode::Sink {
   std::string spindle_ = "M5";
   bool mist_ = false;
   bool flood_ = false;
-  std::string found_ = state();  ///< by the line at hand
+  std::string found_ = state();  ///< after the current line
   std::string told_ = found_;
 };
 
@@ -177,7 +177,7 @@ bool near(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) <= kPlaceMm;
 }
 
-/// Within the arc's plane: along its axis canonical calls give no centre.
+/// In the arc's plane: along its axis canonical calls have no centre.
 bool same_centre(const Call& linuxcnc, const Call& here) {
   for (const auto& axis : here.axes) {
     double across = 0.0;
@@ -205,8 +205,8 @@ bool same(const Call& linuxcnc, const Call& here) {
              here.feed_tolerance * linuxcnc.feed_mm_per_min;
 }
 
-/// Without the moves that end where they begin: a row of cycles rapids to its retract plane at every
-/// hole, whether it stands there or not. The first move always counts.
+/// Without moves of zero length: a row of cycles has a rapid to its retract plane at every hole,
+/// even if it is there already. The first move is always kept.
 Answer with_ways(const Answer& answer) {
   Answer result = answer;
   const std::array<double, 3>* here = nullptr;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Canonical calls: what LinuxCNC's interpreter says of a program, what ours says, and where they
-/// differ.
+/// Canonical calls: those of LinuxCNC's interpreter for a program, ours, and their differences.
 #pragma once
 
 #include <array>
@@ -20,12 +19,12 @@ struct Call {
   std::size_t line = 0;
   std::array<double, 3> to{};
   std::array<double, 3> centre{};
-  /// Of an arc: its plane's two axes in the machine frame, filled by ours() alone.
+  /// For an arc: its plane's two axes in the machine frame, set by ours() only.
   std::array<std::array<double, 3>, 2> axes{};
   int plane = 0;
   int turns = 0;
   double feed_mm_per_min = 0.0;
-  /// How far feeds may differ, relatively; ours() alone says it.
+  /// Allowed relative difference of feeds; set by ours() only.
   double feed_tolerance = 0.0;
   double value = 0.0;  ///< seconds of a dwell, number of a tool
   std::string state;   ///< of STATE
@@ -34,25 +33,25 @@ struct Call {
 struct Answer {
   std::vector<Call> calls;
   bool accepted = false;
-  bool unknown = false;      ///< LinuxCNC's module cannot know
-  std::string refusal;       ///< the sentence
-  std::string problem;       ///< its stable name; ours alone
+  bool unknown = false;      ///< LinuxCNC's module has no answer
+  std::string refusal;       ///< the message
+  std::string problem;       ///< its stable name; ours() only
   std::size_t problem_line = 0;
 };
 
-/// Of a truth as linuxcnc_moves.py writes it.
+/// Parses an answer in the format of linuxcnc_moves.py.
 [[nodiscard]] Answer read_truth(std::string_view truth);
 
-/// What our interpreter makes of a program.
+/// Our interpreter's answer to a program.
 [[nodiscard]] Answer ours(const std::string& program, const gcode::Dialect& dialect = {});
 
-/// The first difference in a sentence, or nothing. Moves that go nowhere are left out. Refusals agree
-/// whatever their reasons, and then only the calls that both made before are compared.
+/// The first difference as a sentence; empty if there is none. Moves of zero length are left out.
+/// Rejections count as equal for any reason; then only the calls before them are compared.
 [[nodiscard]] std::optional<std::string> difference(const Answer& linuxcnc, const Answer& here);
 
-/// The same for programs that nobody has looked at: leaves out what docs/gcode.md lists as different.
-/// That is: what we know and refuse as not supported, a loop or condition without its end, and cycles
-/// in a program that says neither G98 nor G99.
+/// The same for unreviewed programs: leaves out the differences listed in docs/gcode.md: codes that
+/// we reject as not supported, a loop or condition without its end, and cycles in a program without
+/// G98 and G99.
 [[nodiscard]] std::optional<std::string> unlisted_difference(const std::string& program,
                                                              const Answer& linuxcnc,
                                                              const Answer& here);

@@ -12,7 +12,7 @@
 namespace chaintrue::witness {
 namespace {
 
-/// Many programs, asked about at once.
+/// Many programs in one batch.
 std::vector<std::optional<std::string>> differences(const std::vector<std::string>& programs,
                                                     std::size_t* accepted = nullptr) {
   std::vector<Record> asked;
@@ -41,9 +41,9 @@ Answer limited(const std::string& program) {
   return ours(program, dialect);
 }
 
-/// Programs on which LinuxCNC 2.9 itself errs, by seed: a break in a while loop that is not entered
-/// ends a later loop (reduced: o100 while [0] / o100 break / o100 endwhile / o102 do / o102 while
-/// [1] comes to its end there, though its last loop is endless).
+/// Programs for which LinuxCNC 2.9 itself is wrong, by seed: a break in a while loop that is not
+/// entered ends a later loop (reduced: o100 while [0] / o100 break / o100 endwhile / o102 do / o102
+/// while [1] comes to its end there, though its last loop is endless).
 constexpr std::array<std::uint64_t, 1> kLinuxCncErrs = {1180};
 
 LanguageRun compare_language(std::uint64_t first_seed,

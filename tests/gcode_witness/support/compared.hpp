@@ -14,15 +14,15 @@ namespace chaintrue::witness {
 
 struct LanguageRun {
   std::size_t accepted = 0;   ///< by LinuxCNC
-  std::size_t different = 0;  ///< without those on which LinuxCNC errs (compared.cpp)
+  std::size_t different = 0;  ///< without those for which LinuxCNC is wrong (compared.cpp)
   /// Seed, small program and difference, of the first few.
   std::vector<std::string> failures;
 };
 
-/// Our answer, with a budget of steps that ends endless programs soon.
+/// Our answer, with a small budget of steps for endless programs.
 [[nodiscard]] Answer limited(const std::string& program);
 
-/// Seeds from the first on; asks LinuxCNC.
+/// Seeds from the first on; runs LinuxCNC.
 [[nodiscard]] LanguageRun compare_language(std::uint64_t first_seed,
                                            std::uint64_t count,
                                            std::size_t most_reduced);

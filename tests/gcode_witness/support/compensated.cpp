@@ -16,7 +16,7 @@ model::Machine with_controller(model::Machine machine, model::ControllerKind kin
   return machine;
 }
 
-/// Facts of the firmwares, stated here once more: a wrong entry in tools/gcode/firmware.cpp shows.
+/// The firmwares' constants, stated independently of tools/gcode/firmware.cpp.
 follower::Workshop workshop(const grid::CompensationMap& map,
                             const model::ControllerKinematics& kinematics,
                             model::ControllerKind kind) {

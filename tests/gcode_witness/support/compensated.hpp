@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A machine that was measured and the controllers that drive it, for tests that compensate.
+/// A measured machine and its controllers, for tests that compensate.
 #pragma once
 
 #include <memory>
@@ -23,16 +23,16 @@ class Shop {
   Shop(const Shop&) = delete;
   Shop& operator=(const Shop&) = delete;
 
-  /// The output, or nothing and why not.
+  /// The output; empty if it was rejected, with the reason.
   [[nodiscard]] std::optional<std::string> compensate(const std::string& program,
                                                       double tolerance_mm,
                                                       std::string& why) const;
-  /// verify's verdict: empty where it holds, otherwise its sentence.
+  /// verify's verdict: empty if the file passes, otherwise its message.
   [[nodiscard]] std::string verify(const std::string& original,
                                    const std::string& output,
                                    double tolerance_mm) const;
-  /// The second opinion: how far the simulated tool is from the intended path, up to most_mm.
-  /// \throws std::runtime_error where the follower does not understand one of the files.
+  /// The independent check: distance of the simulated tool from the intended path, up to most_mm.
+  /// \throws std::runtime_error if the follower does not understand one of the files.
   [[nodiscard]] double distance_mm(const std::string& original,
                                    const std::string& output,
                                    double most_mm) const;

@@ -24,9 +24,9 @@ constexpr std::array kKinds = {ControllerKind::ideal,
                                ControllerKind::holey,
                                ControllerKind::fluidnc_wallplotter};
 
-/// What the follower adds of its own: its chords, its samples, and single precision's 6e-5 mm.
+/// The follower's own errors: its chords, its samples, and single precision's 6e-5 mm.
 constexpr double kOwnMm = follower::kChordMm + 1e-4;
-/// The two judges sample and match differently: about the tolerance they may disagree.
+/// The two checks sample and match differently: they may disagree near the tolerance.
 constexpr double kBand = 0.1;
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -48,7 +48,7 @@ struct Command {
   double y;
 };
 
-/// The lines of the output that go somewhere in X and Y.
+/// The lines of the output that move in X or Y.
 std::vector<Command> commands(const std::vector<std::string>& lines) {
   std::vector<Command> result;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -60,7 +60,7 @@ std::vector<Command> commands(const std::vector<std::string>& lines) {
   return result;
 }
 
-/// The output with one command moved across its way by so much.
+/// The output with one command moved perpendicular to its path by this distance.
 std::optional<std::string> moved(const std::string& output, Random& random, double by_mm) {
   auto lines = lines_of(output);
   const auto all = commands(lines);
@@ -96,7 +96,7 @@ class Trial {
   Trial(const Shop& shop, const std::string& program, double tolerance_mm, Random& random)
       : shop_(shop), program_(program), tolerance_mm_(tolerance_mm), random_(random) {}
 
-  /// Empty where it is right.
+  /// Empty if it is right.
   std::string run(FollowRun& run) {
     std::string why;
     const auto output = shop_.compensate(program_, tolerance_mm_, why);
@@ -120,8 +120,8 @@ class Trial {
   }
 
  private:
-  /// Verify's verdict on a changed output is the follower's. Verify looks at more than the path, so
-  /// that it may fail where the path alone holds.
+  /// Verify's verdict on a changed output must equal the follower's. Verify checks more than the
+  /// path, so that it may fail where the path alone passes.
   std::string alike(const std::string& output, const char* what) const {
     if (shop_.follows(program_, output, (1.0 + kBand) * tolerance_mm_ + kOwnMm)) return {};
     if (!shop_.verify(program_, output, tolerance_mm_).empty()) return {};
@@ -136,7 +136,7 @@ class Trial {
   Random& random_;
 };
 
-/// Empty where the program is compensated and judged rightly, or refused.
+/// Empty if the program is compensated and judged correctly, or rejected.
 std::string judged(const Shop& shop,
                    const std::string& program,
                    double tolerance_mm,
@@ -150,7 +150,7 @@ std::string judged(const Shop& shop,
   }
 }
 
-/// The fault's first words: a smaller program shows it with other numbers.
+/// The fault's first words: a smaller program has the same fault with other numbers.
 std::string kind_of(const std::string& fault) { return fault.substr(0, 10); }
 
 }  // namespace
@@ -165,7 +165,7 @@ FollowRun follow(const std::string& fixtures, const FollowOptions& options) {
   for (std::uint64_t i = options.share; i < options.count; i += options.shares) {
     const std::uint64_t seed = options.first_seed + i;
     const std::string program = random_program(seed, generator);
-    // Evenly over the orders of magnitude from 0.005 to 1 mm.
+    // Log-uniform from 0.005 to 1 mm.
     const double tolerance_mm = 0.005 * std::pow(200.0, Random(~seed).unit());
     const Shop& shop = *shops[seed % shops.size()];
     ++run.programs;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Random programs, compensated, judged by verify and by the follower that shares no line with it.
+/// Random programs, compensated, checked by verify and by the independent follower.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@ namespace chaintrue::witness {
 
 struct FollowRun {
   std::size_t programs = 0;
-  std::size_t compensated = 0;  ///< the others are refused, for instance because they leave the bed
+  std::size_t compensated = 0;  ///< the others are rejected, for instance because they leave the bed
   std::size_t judged_moved = 0; ///< outputs that were moved by 1.5 tolerances, and outputs that lost a line
   std::size_t failed = 0;
-  /// Of the first few: seed, controller, tolerance, what went wrong, and a small program that shows it.
+  /// Of the first few: seed, controller, tolerance, the fault, and a small program with it.
   std::vector<std::string> failures;
 };
 
@@ -31,7 +31,7 @@ struct FollowOptions {
 /// controller in turn:
 ///   the tool follows the path within the tolerance (follower), and verify holds;
 ///   the output with one command moved across the path by 1.5 tolerances fails both;
-///   the output without one of its moves is judged alike by both, but for a band about the tolerance.
+///   the output without one of its moves is judged equally by both, except in a band about the tolerance.
 [[nodiscard]] FollowRun follow(const std::string& fixtures, const FollowOptions& options);
 
 }  // namespace chaintrue::witness

@@ -12,7 +12,7 @@
 namespace chaintrue::witness {
 namespace {
 
-/// A folder of our own, gone at the end.
+/// A temporary folder, removed at the end.
 class Scratch {
  public:
   Scratch() {

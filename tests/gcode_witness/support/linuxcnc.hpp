@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// LinuxCNC's own interpreter, where it is present.
+/// LinuxCNC's own interpreter, if it is installed.
 ///
-/// It is looked for where RS274_ROOT says (the folder that Debian's linuxcnc-uspace was unpacked
-/// into), then in build/rs274, where `unpack_interpreter` puts it, then among the installed
-/// packages.
+/// It is searched in RS274_ROOT (the folder that Debian's linuxcnc-uspace was unpacked into), then
+/// in build/rs274, where `unpack_interpreter` puts it, then among the installed packages.
 #pragma once
 
 #include <string>
@@ -14,11 +13,11 @@
 
 namespace chaintrue::witness {
 
-/// Empty where the interpreter answers, otherwise what to do so that it does.
+/// Empty if the interpreter works, otherwise how to install it.
 [[nodiscard]] const std::string& linuxcnc_missing();
 
-/// The truth of each program, in order, as linuxcnc_moves.py writes it.
-/// \throws std::runtime_error where the interpreter does not answer.
+/// LinuxCNC's answer for each program, in order, in the format of linuxcnc_moves.py. \throws
+/// std::runtime_error if the interpreter fails.
 [[nodiscard]] std::vector<Record> ask_linuxcnc(const std::vector<Record>& programs);
 
 }  // namespace chaintrue::witness

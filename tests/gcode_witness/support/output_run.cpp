@@ -17,10 +17,10 @@
 namespace chaintrue::witness {
 namespace {
 
-/// grbl keeps eight digits, and single precision numbers have no more.
+/// grbl keeps eight digits, as many as single precision has.
 constexpr double kDigits = 1e-7;
 
-/// A word that must come out as it went in: `M67 Q 0.5`.
+/// A word that must be unchanged in the output: `M67 Q 0.5`.
 struct Word {
   std::string code;
   char letter;
@@ -29,7 +29,7 @@ struct Word {
 
 bool equal(double a, double b) { return std::fabs(a - b) <= kDigits * std::max(std::fabs(a), std::fabs(b)); }
 
-/// Small and large, round and not.
+/// Small and large values, round and not.
 std::string some_value(Random& random, double most) {
   switch (random.whole(0, 4)) {
     case 0:
@@ -99,7 +99,7 @@ class WordProgram {
     text += fmt::format("G1 X{:.3f} Y{:.3f}{}\n",
                         random_.between(-300.0, 300.0), random_.between(-200.0, 200.0), feed);
   }
-  /// A feed that a person may write: zero is none.
+  /// A valid feed: zero is not allowed.
   std::string some_feed() {
     return random_.one_in(3) ? fmt::format("{}", random_.whole(1, 9000))
                              : fmt::format("{:.6f}", std::pow(10.0, random_.between(-3.0, 4.0)));
@@ -107,7 +107,7 @@ class WordProgram {
   Random random_;
 };
 
-/// Reads an output as a small controller does, and compares its moves with ours.
+/// Reads an output like a small controller, and compares its moves with ours.
 class StrictRun {
  public:
   explicit StrictRun(const Answer& ours) {
@@ -116,7 +116,7 @@ class StrictRun {
     }
   }
 
-  /// Empty where all is well.
+  /// Empty if there is no difference.
   std::string run(const std::string& output) {
     std::istringstream lines(output);
     for (std::string text; std::getline(lines, text);) {
@@ -144,7 +144,7 @@ class StrictRun {
     }
     if (at_ == moves_.size()) return "a move that our interpreter does not find";
     const Call& move = moves_[at_++];
-    // Places have three decimals.
+    // Positions have three decimals.
     const double off = std::hypot(move.to[0] - state_['X'], move.to[1] - state_['Y'], move.to[2] - state_['Z']);
     const bool feed = code == "G0" || equal(move.feed_mm_per_min, state_['F']);
     const bool kind = move.kind == (code == "G0" ? "RAPID" : "FEED");

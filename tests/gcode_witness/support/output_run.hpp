@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What compensate writes, read by our interpreter, by a reader as strict as grbl's, and by LinuxCNC's.
+/// The output of compensate, read by our interpreter, by a reader as strict as grbl's, and by
+/// LinuxCNC's.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@ namespace chaintrue::witness {
 struct OutputRun {
   std::size_t outputs = 0;
   std::size_t different = 0;
-  /// Seed and what differs, of the first few.
+  /// Seed and difference, of the first few.
   std::vector<std::string> failures;
 };
 

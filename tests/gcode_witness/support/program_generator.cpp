@@ -66,7 +66,7 @@ void write_statement(ProgramWriter& writer, Random& random, Scope scope) {
   }
 }
 
-/// One slip of the pen: a character lost, a word twice, a word that nothing uses, a line lost.
+/// One typing error: a character lost, a word twice, an unused word, a line lost.
 std::string damaged(const std::string& program, Random& random) {
   std::string text = program;
   const auto at = static_cast<std::size_t>(random.whole(0, static_cast<int>(text.size()) - 1));

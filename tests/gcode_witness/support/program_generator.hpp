@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Random programs over the whole language that is accepted, each made from its seed alone.
+/// Random programs over the whole accepted language, each a function of its seed.
 ///
-/// The generator keeps track of where the program stands, so that arcs end on their circles and
-/// cycles go down: most programs are accepted. One in eight is then damaged in one place, so that
-/// refusals are compared too.
+/// The generator tracks the program's position, so that arcs end on their circles and cycles go
+/// down: most programs are accepted. One in eight is then damaged in one place, so that rejections
+/// are compared too.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ namespace chaintrue::witness {
 
 enum class Scope {
   language,  ///< everything that our interpreter reads
-  path,      ///< what NIST IR 6556 says of a path: no O-words, polar words, G52, L20, named parameters; always accepted
+  path,      ///< NIST IR 6556 alone: no O-words, polar words, G52, L20, named parameters; always accepted
 };
 
 struct GeneratorOptions {
   Scope scope = Scope::language;
-  int statements = 14;          ///< about as many
+  int statements = 14;          ///< approximate number
   double half_width_mm = 200.0; ///< of the area that it works in, about the machine's zero
   double half_height_mm = 150.0;
 };

@@ -29,7 +29,7 @@ ProgramWriter::Plane ProgramWriter::axes() const {
 
 void ProgramWriter::line(std::vector<std::string> words) {
   if (words.empty()) return;
-  // Words may stand in any order.
+  // Words may be in any order.
   if (random_.one_in(4))
     std::swap(words.front(), words[static_cast<std::size_t>(random_.whole(0, static_cast<int>(words.size()) - 1))]);
   std::string result = random_.one_in(12) ? fmt::format("N{} ", random_.whole(1, 99999)) : "";
@@ -114,7 +114,7 @@ std::vector<std::string> ProgramWriter::motion(const std::string& code) {
 
 void ProgramWriter::add_feed(std::vector<std::string>& words, double length_mm) {
   if (inverse_time_) {
-    // Minutes of a move at some speed: LinuxCNC's own lower limit of the speed is far below.
+    // Minutes for a move at some speed: LinuxCNC's own lower limit of the speed is far below.
     words.push_back(number('F', random_.between(300.0, 3000.0) / std::max(length_mm, 1.0), 2));
   } else if (random_.one_in(6)) {
     words.push_back(length('F', random_.decimal(100.0, 3000.0, 1), 1));
@@ -144,7 +144,7 @@ std::string ProgramWriter::finish() {
       plain("M30");
       break;
     default:
-      break;  // LinuxCNC gets its M2 behind every program
+      break;  // LinuxCNC gets an M2 after every program
   }
   return text_;
 }
@@ -210,11 +210,11 @@ void ProgramWriter::tool() {
   if (!random_.one_in(3)) words.push_back(fmt::format("T{}", random_.whole(1, 20)));
   if (!words.empty() && random_.one_in(2)) {
     words.push_back("M6");
-    spindle_on_ = false;  // a tool is changed with the spindle at rest
+    spindle_on_ = false;  // the spindle stops for a tool change
   }
   if (random_.one_in(4)) words.push_back(random_.any({"G43 H1", "G49", "G40"}));
   const bool changes = words.size() > 1 && words[1] == "M6";
-  if (changes) go_somewhere();  // LinuxCNC's Python module loses its place behind an arc
+  if (changes) go_somewhere();  // LinuxCNC's Python module loses its position after an arc
   line(std::move(words));
   if (changes) go_somewhere();
 }
@@ -271,7 +271,7 @@ void ProgramWriter::axis_offset() {
   } else {
     std::vector<std::string> words = {
         options_.scope == Scope::language && random_.one_in(3) ? "G52" : "G92"};
-    // From a place near by, so that the offset is small.
+    // From a nearby position, so that the offset is small.
     const bool here = words.front() == "G92";
     for (std::size_t i = 0; i < 2; ++i) {
       words.push_back(length("XYZ"[i], (here ? place_[i] : 0.0) + random_.between(-20.0, 20.0)));

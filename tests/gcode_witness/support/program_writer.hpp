@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Writes one random program, statement by statement, and knows where it stands.
+/// Writes one random program, statement by statement, and tracks its position.
 #pragma once
 
 #include <array>
@@ -61,26 +61,26 @@ class ProgramWriter {
   };
   [[nodiscard]] Plane axes() const;
 
-  /// A line: words in any order that keeps its meaning, with or without blanks, N and comments.
+  /// A line: words in any order with the same meaning, with or without blanks, N and comments.
   void line(std::vector<std::string> words);
-  /// A line that must stand as it is.
+  /// A line that is written unchanged.
   void plain(const std::string& text) { text_ += text + "\n"; }
   /// `X12.5` of a length in mm, in the units in force.
   std::string length(char letter, double mm, int places = 3);
   std::string number(char letter, double value, int places = 3);
   std::string written(double value, int places);
   std::string expression(double value, int places);
-  /// Rounded as length() writes it, in mm.
+  /// The value in mm as rounded by length().
   [[nodiscard]] double rounded(double mm, int places = 3) const;
-  /// The axis word that leads from here to there, and the place where that really is.
+  /// The axis word for a move to a position, and the position actually reached.
   std::string axis(std::size_t index, double to_mm, double& reached_mm, int places = 3);
-  /// G word, or nothing where the mode is in force already.
+  /// The G word; empty if the mode is in force already.
   std::vector<std::string> motion(const std::string& code);
-  /// F where inverse time needs it.
+  /// F if inverse time needs it.
   void add_feed(std::vector<std::string>& words, double length_mm);
   std::array<double, 3> somewhere();
   void arc_to(double centre_first, double centre_second, double sweep, bool whole, int turns);
-  /// Goes to a place that is known again, in G90.
+  /// Moves to a known position, in G90.
   void go_somewhere();
   std::string label();
 

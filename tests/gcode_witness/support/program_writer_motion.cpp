@@ -37,13 +37,13 @@ void ProgramWriter::straight() {
   line(std::move(words));
 }
 
-/// From where the program stands about a centre in the plane; a negative sweep is clockwise.
+/// From the current position about a centre in the plane; a negative sweep is clockwise.
 void ProgramWriter::arc_to(
     double centre_first, double centre_second, double sweep, bool whole, int turns) {
   const Plane plane = axes();
   const bool clockwise = sweep < 0.0;
   std::vector<std::string> words = motion(clockwise ? "G2" : "G3");
-  // The centre as the words will say it.
+  // The centre as rounded in its words.
   const double base_first = absolute_centres_ ? 0.0 : place_[plane.first];
   const double base_second = absolute_centres_ ? 0.0 : place_[plane.second];
   const double written_first = rounded(centre_first - base_first, 4);
@@ -78,7 +78,7 @@ void ProgramWriter::arc_to(
 void ProgramWriter::arc_by_centre() {
   const Plane plane = axes();
   const double radius = random_.one_in(3) ? random_.between(0.3, 3.0) : random_.between(3.0, 60.0);
-  // Towards the middle, so that the program does not wander off.
+  // Towards the middle, so that the program stays in its area.
   const double inward = std::atan2(-place_[plane.second], -place_[plane.first]);
   const double towards = inward + random_.between(-1.0, 1.0);
   const double sweep = random_.one_in(5) ? 0.5 * kTurn : random_.between(0.02, 0.99) * kTurn;
@@ -113,7 +113,7 @@ void ProgramWriter::arc_by_radius() {
   }
   const double half = 0.5 * std::hypot(place_[0] - before[0], place_[1] - before[1], place_[2] - before[2]);
   const double radius = half * random_.between(1.02, 3.0) + 0.01;
-  // The long arc of a large circle leaves the sheet.
+  // The long arc of a large circle would leave the sheet.
   const bool is_long = radius < 60.0 && random_.one_in(4);
   words.push_back(length('R', is_long ? -radius : radius));
   if (random_.one_in(5)) {
@@ -130,7 +130,7 @@ void ProgramWriter::cycle() {
   if (inverse_time_) inverse_time();
   const Plane plane = axes();
   std::vector<std::string> kinds = {"G81", "G82", "G83", "G73", "G85", "G89"};
-  // Cycles that stop the spindle speak of words that NIST's and LinuxCNC's do not share.
+  // Cycles that stop the spindle have words that differ between NIST and LinuxCNC.
   if (spindle_on_ && options_.scope == Scope::language) kinds.emplace_back("G86");
   const std::string kind = kinds[static_cast<std::size_t>(random_.whole(0, static_cast<int>(kinds.size()) - 1))];
   if (random_.one_in(3)) line({random_.any({"G98", "G99"})});

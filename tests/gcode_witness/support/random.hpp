@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Random numbers that are the same on every machine: the standard's distributions are not.
+/// Random numbers that are identical on every machine, unlike the standard's distributions.
 #pragma once
 
 #include <cmath>
@@ -14,15 +14,15 @@ namespace chaintrue::witness {
 class Random {
  public:
   explicit Random(std::uint64_t seed) : bits_(seed) {}
-  /// From 0 to 1, 1 never.
+  /// In [0, 1).
   double unit() { return static_cast<double>(bits_() >> 11U) * 0x1p-53; }
   double between(double least, double most) { return least + (most - least) * unit(); }
-  /// From least to most, both included.
+  /// From least to most, inclusive.
   int whole(int least, int most) {
     return least + static_cast<int>(bits_() % static_cast<std::uint64_t>(most - least + 1));
   }
   bool one_in(int count) { return bits_() % static_cast<std::uint64_t>(count) == 0; }
-  /// A decimal number with so many places.
+  /// A decimal number with this many places.
   double decimal(double least, double most, int places) {
     const double scale = std::pow(10.0, places);
     return std::round(between(least, most) * scale) / scale;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Programs and answers by the bundle: `=== NAME BYTES`, a line feed, that many bytes, a line feed.
+/// Bundles of programs and answers: `=== NAME BYTES`, a line feed, that many bytes, a line feed.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct Record {
 };
 
 [[nodiscard]] std::string write_records(const std::vector<Record>& records);
-/// \throws std::runtime_error where the text is no bundle.
+/// \throws std::runtime_error if the text is not a bundle.
 [[nodiscard]] std::vector<Record> read_records(std::string_view text);
 
 /// A whole file. \throws std::runtime_error where it cannot be read.

@@ -20,7 +20,7 @@ std::vector<std::string> parts(const std::string& text, char separator) {
 
 using Join = std::function<std::string(const std::vector<std::string>&)>;
 
-/// Leaves out runs of parts: halves first, single parts at the end, until none can go.
+/// Removes runs of parts: halves first, single parts at the end, until no part can be removed.
 std::vector<std::string> without_needless(std::vector<std::string> kept,
                                           const Join& join,
                                           const Faulty& faulty) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From a program that shows a fault to a small one that still does.
+/// Reduces a program with a fault to a small one with the same fault.
 #pragma once
 
 #include <functional>
@@ -9,10 +9,10 @@
 
 namespace chaintrue::witness {
 
-/// For each program whether it shows the fault. Many at a time: asking LinuxCNC costs per batch.
+/// For each program whether it has the fault. In batches: each call of LinuxCNC is expensive.
 using Faulty = std::function<std::vector<bool>(const std::vector<std::string>&)>;
 
-/// Leaves out lines, then words, as long as the fault stays.
+/// Removes lines, then words, as long as the fault remains.
 [[nodiscard]] std::string shrink(const std::string& program, const Faulty& faulty);
 
 }  // namespace chaintrue::witness

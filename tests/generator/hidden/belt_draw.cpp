@@ -10,9 +10,10 @@ namespace chaintrue::generator {
 namespace {
 
 constexpr const char* kSides[] = {"tl", "tr", "bl", "br"};
-/// 43.975 mm of belt a turn of 22 teeth.
+/// 43.975 mm of belt per turn of 22 teeth.
 constexpr double kToothMm = 43.975 / 22.0;
-/// 150 N make 0.015 mm of 2 m: nothing beside the least noise, and forces that still balance to 1e-4 N.
+/// 150 N stretch 2 m by 0.015 mm: negligible against the least noise, with forces that still balance to
+/// 1e-4 N.
 constexpr double kRigidN = 2e7;
 
 /// Usual sizes, from least to most; those of either sign are drawn with either.
@@ -63,8 +64,8 @@ BeltFrame drawn_frame(Dice& dice) {
   return frame;
 }
 
-/// Readings of all four without noise, each belt in the frame that is true for its visit, from this
-/// visit on.
+/// Readings of all four without noise, each belt in the true frame of its visit, starting with this
+/// visit.
 std::vector<FourLengths> readings(const BeltFrame& frame,
                                   const BeltSecret& secret,
                                   const std::vector<std::array<double, 2>>& commands,
@@ -105,7 +106,7 @@ std::vector<FourLengths> readings(const BeltFrame& frame,
   return read;
 }
 
-/// Length of a change of the readings beyond what anchors and places take of it, mm.
+/// Norm of a change of the readings after projection on anchors and positions, mm.
 double beyond_the_fit(const BeltFrame& frame,
                       const std::vector<std::array<double, 2>>& places,
                       const std::vector<FourLengths>& change) {
@@ -180,7 +181,7 @@ BeltDraw draw_belts(const BeltRecipe& recipe, std::uint64_t seed) {
     const auto point = static_cast<int>(draw.lengths_mm.size()) * k / recipe.bad_readings +
                        static_cast<int>(dice.below(3));
     const auto belt = dice.below(4);
-    // Far beyond the noise: slips that a person would want to know of.
+    // Far beyond the noise: errors that a user would want to know of.
     draw.lengths_mm[static_cast<std::size_t>(point)][belt] +=
         dice.sign() * draw.noise_mm * dice.log_uniform(15.0, 100.0);
     draw.secret.bad.push_back({point, static_cast<int>(belt)});

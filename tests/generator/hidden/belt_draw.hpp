@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A session of four belts with something wrong with it, drawn from a seed: the secret, and what its
-/// owner would have in hand. No line of it is shared with the product.
+/// A session of four belts with a hidden cause, drawn from a seed: the truth, and the data that the
+/// owner would have. Shares no code with the product.
 ///
-/// The strength of a cause is the length, in sigmas of one belt's reading, of what it does to the
-/// readings once five anchor coordinates and the place of each point have taken what they can. The
-/// noise is chosen so that it is what is asked for.
+/// The strength of a cause is the norm, in sigmas of one belt's reading, of its change of the
+/// readings after projection on the five anchor coordinates and the position of each point. The
+/// noise is chosen to give the required strength.
 #pragma once
 
 #include <array>
@@ -20,30 +20,30 @@ namespace chaintrue::generator {
 struct BeltSecret {
   std::string effect;  ///< belt_stretch, belt_scale, ...; empty: nothing
   std::string side;    ///< tl, tr, bl, br, all; empty: none
-  double size = 0.0;   ///< elongation, share, mm, teeth, mm a visit
+  double size = 0.0;   ///< elongation, share, mm, teeth, mm per visit
   double direction_rad = 0.0;
   int first_visit = 0;
   double strength = 0.0;
-  std::vector<std::array<int, 2>> bad;  ///< point and belt (tl, tr, bl, br) of readings that are off
+  std::vector<std::array<int, 2>> bad;  ///< point and belt (tl, tr, bl, br) of bad readings
 };
 
 struct BeltRecipe {
-  std::string effect;  ///< empty: any of the seven that one belt or all show at their usual sizes
+  std::string effect;  ///< empty: any of the seven that are observable at their usual sizes
   bool nothing = false;
   double least_strength = 6.0;
   double most_strength = 40.0;
-  int bad_readings = 0;  ///< of one belt each, at points of their own
+  int bad_readings = 0;  ///< of one belt each, at separate points
 };
 
 struct BeltDraw {
   BeltSecret secret;
   BeltFrame frame;  ///< the true one, before anything moved
-  std::vector<FourLengths> lengths_mm;  ///< belts alone, slanting; in the order of the visits
+  std::vector<FourLengths> lengths_mm;  ///< slanting, belts alone; in the order of the visits
   double noise_mm = 0.0;
 };
 [[nodiscard]] BeltDraw draw_belts(const BeltRecipe& recipe, std::uint64_t seed);
 
-/// What the same machine reads at further places (in the frame, mm), after its last visit.
+/// Readings of the same machine at further positions (in the frame, mm), after its last visit.
 [[nodiscard]] std::vector<FourLengths> measured_on(const BeltDraw& draw,
                                                    const std::vector<std::array<double, 2>>& places,
                                                    std::uint64_t seed);

@@ -70,7 +70,7 @@ SledAtRest rest_on_belts(const BeltFrame& frame,
     const Force now = force(rest.x_mm, rest.y_mm);
     rest.left_over_n = std::hypot(now.x, now.y);
     if (rest.left_over_n < 1e-7) break;
-    // Newton with differences; a step is at most 5 mm, for belts go slack at once.
+    // Newton with differences; a step is at most 5 mm, because belts go slack suddenly.
     constexpr double h = 1e-4;
     const Force right = force(rest.x_mm + h, rest.y_mm);
     const Force up = force(rest.x_mm, rest.y_mm + h);

@@ -39,7 +39,7 @@ struct Range {
   double to = 22.0;
 };
 
-/// An effect with the strength that it has in the data.
+/// An effect with its strength in the data.
 struct Sized {
   Hidden hidden;
   double delta = 0.0;
@@ -69,8 +69,8 @@ TrueMachine with_settings_off(TrueMachine m, double factor, Dice& dice) {
   return m;
 }
 
-// The size that gives the wanted delta: the secant of log delta over log size, which is straight
-// for most effects.
+// The size that gives the required delta: the secant method on log delta over log size, which is
+// linear for most effects.
 std::optional<Sized> sized(const Yardstick& yardstick, Hidden effect, double wanted) {
   const CauseCard& c = card(effect.cause);
   const double sign = effect.size < 0.0 ? -1.0 : 1.0;
@@ -93,7 +93,7 @@ std::optional<Sized> sized(const Yardstick& yardstick, Hidden effect, double wan
     last_log_size = log_size;
     last_log_delta = log_delta;
     const double step = std::clamp((std::log(wanted) - log_delta) / slope, -2.5, 2.5);
-    // A step that would leave the catalogue's bounds stops at them once; beyond, there is no size.
+    // A step beyond the catalogue's bounds is limited to them once; beyond, there is no solution.
     const double next = size * std::exp(step);
     if (next > bound) {
       if (size >= bound) return std::nullopt;
@@ -105,7 +105,7 @@ std::optional<Sized> sized(const Yardstick& yardstick, Hidden effect, double wan
   return std::nullopt;
 }
 
-// Whole links: any of the pairs whose delta is in range, each as likely.
+// Whole links: any of the pairs with a delta in range, with equal probability.
 std::optional<Sized> whole_links(const Yardstick& yardstick,
                                  Hidden effect,
                                  Range range,
@@ -133,13 +133,13 @@ std::optional<Sized> whole_links(const Yardstick& yardstick,
   return chosen;
 }
 
-// Side and place drawn anew up to 30 times before the effect is given up.
+// Side and place are drawn again up to 30 times before the effect is dropped.
 std::optional<Sized> draw_effect(const Yardstick& yardstick, Cause cause, Range range, Dice& dice) {
   const CauseCard& c = card(cause);
   for (int n = 0; n < 30; ++n) {
     Hidden effect{cause, c.sides[dice.below(c.sides.size())], 0.0, 0.0};
     if (c.whole()) {
-      // A single wanted strength: whole links come near it at best.
+      // A single required strength: whole links only approximate it.
       const Range near = range.from == range.to ? Range{0.87 * range.from, 1.15 * range.to} : range;
       if (auto found = whole_links(yardstick, effect, near, dice)) return found;
       continue;
@@ -160,7 +160,7 @@ std::optional<Sized> draw_effect(const Yardstick& yardstick, Cause cause, Range 
   return std::nullopt;
 }
 
-// Effects that are not each other's likeness, each with a strength of its own.
+// Effects that are not collinear, each with its own strength.
 std::vector<Sized> draw_effects(
     const Yardstick& yardstick, const Recipe& recipe, std::size_t count, Range range, Dice& dice) {
   for (int n = 0; n < 300; ++n) {
@@ -203,7 +203,7 @@ void note_rival(const Yardstick& yardstick, const Sized& truth, Answer& answer) 
   answer.separable = truth.delta >= strength_to_separate(answer.nearest_rho);
 }
 
-// Scaled so that what the catalogue cannot explain has a delta of 10 to 20.
+// Scaled so that the part not explained by the catalogue has a delta of 10 to 20.
 void draw_unlisted(const Yardstick& yardstick, Answer& answer, Dice& dice) {
   const auto rivals = yardstick.rivals();
   for (int n = 0; n < 200; ++n) {
@@ -217,7 +217,7 @@ void draw_unlisted(const Yardstick& yardstick, Answer& answer, Dice& dice) {
     const double left = whole * std::sqrt(std::max(0.0, 1.0 - best * best));
     if (!(left > 1e-3)) continue;
     u.size_mm = dice.log_uniform(10.0, 20.0) / left;
-    // More than this is no longer overlooked.
+    // A larger size would be noticed.
     if (u.size_mm > 12.0) continue;
     answer.unlisted = u;
     answer.left_over_delta = left * u.size_mm;
@@ -272,7 +272,7 @@ std::vector<HiddenMachine::Note> written_down(const Recipe& recipe,
   return notes;
 }
 
-// A tenth of the points, slips of 8 to 20 mm in any direction, never more than one at a mark.
+// A tenth of the points with errors of 8 to 20 mm in any direction, at most one at a mark.
 void slip(std::vector<HiddenMachine::Note>& notes, Answer& answer, Dice& dice) {
   const std::size_t count = (notes.size() + 5) / 10;
   while (answer.bad_points.size() < count) {
@@ -314,7 +314,8 @@ bool has_pattern(Mix mix) {
 
 PatternRules rules_of(const Recipe& recipe) {
   PatternRules rules{.group = recipe.patterns};
-  // Beside a cause whatever a height of 1 to 2 mm makes, if it can be seen; alone as asked.
+  // Together with a cause, any strength of a height of 1 to 2 mm that is detectable; alone, as
+  // required.
   const bool beside = recipe.kind == Mix::beside || recipe.kind == Mix::two_beside;
   if (beside) rules.most_delta = 1e9;
   rules.near = recipe.kind == Mix::near;

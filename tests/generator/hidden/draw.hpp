@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Sealed sets: from a seed and a mix to the grid file that a person would have, and the answer in
-/// an envelope of its own.
+/// Sealed sets: from a seed and a mix to the grid file that a user would have, and the answer separately.
 ///
-/// The mix that figures are stated for: the classic machine; regular grids of 28, 60, 117, 200 or 465 marks
-/// plus six repeats; 0.2 mm noise of length and 0.3 mm of position, stated with 12 degrees of
-/// freedom; motors off by 1.5 mm and zeros by 0.5 mm (one sigma; stated 3 and 1); rows, columns,
-/// serpentines and random orders alike; an effect, then its side, then its place drawn evenly, then
-/// the strength delta log-uniform in 6 .. 22 and the size searched that has it. Sizes outside the
-/// catalogue's bounds are drawn again. Whole links take one of the (links, visit) whose delta is in
-/// range.
+/// The mix of the published figures: the classic machine; regular grids of 28, 60, 117, 200 or 465 marks
+/// plus six repeats; 0.2 mm noise of length and 0.3 mm of position, stated with 12 degrees of freedom;
+/// motors off by 1.5 mm and zeros by 0.5 mm (one sigma; stated 3 and 1); rows, columns, serpentines and
+/// random orders; an effect, then its side, then its place drawn uniformly, then the strength delta
+/// log-uniform in 6 .. 22 and the size with that strength. Sizes outside the catalogue's bounds are drawn
+/// again. Whole links use one of the pairs (links, visit) with a delta in range.
 ///
 /// \code
 ///   const SealedSet set = draw_set({.kind = Mix::single, .points = 28}, seed);
 ///   set.grid_text;                 // chaintrue_grid
-///   set.answer.hidden.front();     // opened afterwards
+///   set.answer.hidden.front();     // used afterwards
 /// \endcode
 #pragma once
 
@@ -45,10 +43,10 @@ enum class Mix {
   bad_points_and_effect,  ///< the same with an effect of delta 12
   no_order,               ///< as single, without visiting numbers
   rounded,                ///< as single, read to 0.5 mm
-  beside,                 ///< as single, and a pattern that is not much like it
-  two_beside,             ///< as two, and a pattern
+  beside,                 ///< as single, with a pattern that is not collinear with it
+  two_beside,             ///< as two, with a pattern
   pattern,                ///< a pattern alone, delta 6 to 30
-  near,                   ///< a pattern alone that looks like an effect of the catalogue
+  near,                   ///< a pattern alone that is collinear with an effect of the catalogue
 };
 [[nodiscard]] std::string_view word(Mix mix);
 [[nodiscard]] std::optional<Mix> mix_of(std::string_view word);
@@ -56,39 +54,39 @@ enum class Mix {
 struct Recipe {
   Mix kind = Mix::single;
   int points = 28;
-  /// In place of 6 .. 22.
+  /// Instead of 6 .. 22.
   std::optional<double> delta;
   /// Draws another geometry, feed, tilt and weight as well.
   bool other_machines = false;
   Extent extent = Extent::whole;
-  /// This one in place of a draw; its strength is still drawn.
+  /// This cause instead of a drawn one; its strength is still drawn.
   std::optional<Cause> cause;
   std::optional<Order> order;
-  /// These as they are, in place of any draw of effects.
+  /// Exactly these instead of any drawn effects.
   std::vector<Hidden> exactly;
-  /// As stated, in place of the classic one.
+  /// The stated machine, instead of the classic one.
   std::optional<TrueMachine> machine;
-  /// Times the usual errors of the settings.
+  /// Factor on the usual errors of the settings.
   double settings_off = 1.0;
-  /// The true noise; stated as it is, unless the mix or noise_ratio say otherwise.
+  /// The true noise; stated correctly unless the mix or noise_ratio differ.
   NoiseLevel noise;
-  /// Stated over true.
+  /// Stated over true noise.
   std::optional<double> noise_ratio;
-  /// Of the mixes with a pattern.
+  /// For the mixes with a pattern.
   PatternGroup patterns = PatternGroup::smooth;
 };
 
-/// What is in the envelope.
+/// The truth of a set.
 struct Answer {
   std::vector<Hidden> hidden;
   std::vector<double> delta;  ///< of each on its own
-  /// Largest |cosine| of the first with any other effect, its class left aside, and which.
+  /// Largest |cosine| of the first with any other effect outside its class, and which.
   double nearest_rho = 0.0;
   Cause nearest = Cause::tape_scale;
   Where nearest_where = Where::nowhere;
-  bool separable = false;  ///< delta is enough for that rival
+  bool separable = false;  ///< delta is sufficient to separate it from that rival
   std::optional<Unlisted> unlisted;
-  double left_over_delta = 0.0;  ///< of the unlisted, what no effect of the catalogue explains
+  double left_over_delta = 0.0;  ///< of the unlisted, the part that no effect explains
   double whole_delta = 0.0;
   std::optional<SizedPattern> pattern;
   std::vector<std::size_t> bad_points;
@@ -96,7 +94,7 @@ struct Answer {
   double noise_ratio = 1.0;  ///< stated over true
 };
 
-/// The machine behind a set: it can be measured again. Not thread safe.
+/// The machine of a set: it can be measured again. Not thread safe.
 class HiddenMachine {
  public:
   HiddenMachine(TrueMachine stated, TrueMachine truth, std::vector<Hidden> hidden);
@@ -106,9 +104,9 @@ class HiddenMachine {
     Lengths lengths{};
     int number = 0;
   };
-  /// Goes to a mark (by the tape that wrote the others) and reads the chains.
+  /// Visits a mark (written with the same tape as the others) and reads the chains.
   [[nodiscard]] std::optional<Note> measure(Vec2 mark, NoiseLevel noise, Dice& dice);
-  /// A reading of the machine itself, with its sigma; nothing for an unknown word.
+  /// A reading of the machine itself, with its sigma; empty for an unknown name.
   struct Reading {
     double value = 0.0;
     double sigma = 0.0;
@@ -117,7 +115,7 @@ class HiddenMachine {
                                             std::string_view side,
                                             Dice& dice) const;
 
-  /// The session so far: true places in order of visit.
+  /// The session so far: true positions in order of visit.
   [[nodiscard]] const std::vector<Visit>& visits() const { return visits_; }
   void went_to(std::vector<Visit> visits) { visits_ = std::move(visits); }
   [[nodiscard]] const TrueMachine& stated() const { return stated_; }
@@ -125,7 +123,7 @@ class HiddenMachine {
   [[nodiscard]] const std::vector<Hidden>& hidden() const { return hidden_; }
   void suffers(Unlisted what) { unlisted_ = what; }
   void suffers(const Pattern& what) { pattern_ = what; }
-  /// Noise-free readings of a whole session, what no catalogue lists included.
+  /// Noise-free readings of a whole session, unlisted disturbances included.
   [[nodiscard]] std::optional<std::vector<Lengths>> exact(std::span<const Visit> visits) const;
 
  private:
@@ -142,20 +140,20 @@ struct SealedSet {
   Answer answer;
   HiddenMachine machine;
   NoiseLevel noise;
-  /// The numbers of the text, before they were rounded to 0.0001 mm.
+  /// The numbers of the text before rounding to 0.0001 mm.
   std::vector<HiddenMachine::Note> notes;
 };
 
-/// Same recipe and seed, same bytes. \throws std::runtime_error where no effect fits the recipe.
+/// Same recipe and seed, same bytes. \throws std::runtime_error if no effect fits the recipe.
 [[nodiscard]] SealedSet draw_set(const Recipe& recipe, std::uint64_t seed);
 
-/// Same points in another session: as many visits of the same order, each beside the old place by
-/// up to `beside_mm`; what held-out errors are measured on. Visits that cannot be made are left
-/// where they were.
+/// The same points in another session: as many visits in the same order, each up to `beside_mm`
+/// from its old position; for measuring held-out errors. Visits that cannot be made keep their
+/// position.
 [[nodiscard]] std::vector<Visit> fresh_session(const HiddenMachine& machine,
                                                double beside_mm,
                                                Dice& dice);
-/// Places over the rectangle that the marks span, one at random in each cell of a grid.
+/// Positions over the rectangle of the marks, one at random in each cell of a grid.
 [[nodiscard]] std::vector<Visit> area_session(const HiddenMachine& machine, Dice& dice);
 
 }  // namespace chaintrue::generator

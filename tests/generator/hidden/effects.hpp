@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The catalogue written down a second time, from its description alone: what each effect does to
-/// a reading, and in which order. The bounds are those of the product's catalogue (a test compares
+/// A second implementation of the catalogue, from its description alone: the change of a reading by
+/// each effect, and their order. The bounds are those of the product's catalogue (a test compares
 /// them), everything else is the hidden side's own.
 ///
 ///   reading = (L0 + plane + eccentricity + kink + hysteresis) / (1 + e) + zero + drift + links
@@ -41,10 +41,10 @@ inline constexpr std::size_t kCauses = 16;
 enum class Where { nowhere, left, right, both, x, y };
 [[nodiscard]] std::string_view word(Where where);
 
-/// What a second parameter counts.
+/// The kind of an effect's second parameter.
 enum class Place { none, phase, angle, visit };
 
-/// What an effect hangs on: where the tool is, the machine itself, or when a place was visited.
+/// What an effect depends on: the tool's position, the machine itself, or the visit.
 enum class Nature { of_place, of_machine, of_order };
 
 struct CauseCard {
@@ -58,7 +58,7 @@ struct CauseCard {
   std::string_view place_name = "";
   Cause cause = Cause::tape_scale;
 
-  /// Of links.
+  /// In links.
   [[nodiscard]] bool whole() const { return place == Place::visit; }
   [[nodiscard]] bool alters_machine() const { return nature == Nature::of_machine; }
   [[nodiscard]] bool needs_order() const { return nature == Nature::of_order; }
@@ -67,7 +67,7 @@ struct CauseCard {
 [[nodiscard]] const std::array<CauseCard, kCauses>& cards();
 [[nodiscard]] const CauseCard& card(Cause cause);
 
-/// One effect at work; `place` where its card has one.
+/// An acting effect; `place` if its card has one.
 struct Hidden {
   Cause cause = Cause::tape_scale;
   Where where = Where::nowhere;
@@ -75,7 +75,7 @@ struct Hidden {
   double place = 0.0;
 };
 
-/// The tool's place at a visit, and the visit's number.
+/// The tool's position at a visit, and the visit's number.
 struct Visit {
   Vec2 place;
   int number = 0;
@@ -84,17 +84,18 @@ struct Visit {
 using Lengths = std::array<double, 2>;
 
 [[nodiscard]] TrueMachine altered(TrueMachine machine, std::span<const Hidden> effects);
-/// What is written beside a mark that truly is at `place`.
+/// The written coordinates of a mark whose true position is `place`.
 [[nodiscard]] Vec2 written(Vec2 place, std::span<const Hidden> effects);
-/// Where the mark truly is beside which this is written.
+/// The true position of the mark with these written coordinates.
 [[nodiscard]] Vec2 place_of(Vec2 written_mark, std::span<const Hidden> effects);
 
-/// Every visit at rest; nothing where one cannot be reached. `near` holds neighbours' rests.
+/// The equilibrium at every visit; empty if one cannot be reached. `near` are equilibria of
+/// neighbours.
 [[nodiscard]] std::optional<std::vector<Rest>> rests(const TrueMachine& machine,
                                                      std::span<const Visit> visits,
                                                      const std::vector<Rest>* near = nullptr);
-/// Readings of a session whose rests (with every machine effect on) are known. The visits stand in
-/// rising order of their numbers.
+/// Readings of a session with known equilibria (with every machine effect on). The visits are in
+/// increasing order of their numbers.
 [[nodiscard]] std::vector<Lengths> readings(const TrueMachine& machine,
                                             std::span<const Hidden> effects,
                                             std::span<const Visit> visits,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the person writes down: a chaintrue_grid file, composed by hand from its description.
+/// The user's file: a chaintrue_grid, composed by hand from the format's description.
 #pragma once
 
 #include <string>

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kSettings = 6;
 
-/// The unknowns as one vector: motors, zeros, then sizes and places of what was told.
+/// The unknowns as one vector: motors, zeros, then sizes and places of the given effects.
 class Unknowns {
  public:
   Unknowns(const HiddenMachine& machine, std::span<const Hidden> told)

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What could be known at best: a least-squares fit of the settings and of the effects that truly
-/// are there (sizes, phases and knees free, whole links and visits told), begun at the truth, with
-/// the stated settings as data and slips of the pen left out. With no effect told it is the plain
-/// calibration.
+/// The best possible result: a least-squares fit of the settings and of the true effects (sizes,
+/// phases and knees free, whole links and visits given), started at the truth, with the stated
+/// settings as data and gross errors left out. Without effects it is the plain calibration.
 #pragma once
 
 #include <optional>
@@ -14,7 +13,7 @@
 
 namespace chaintrue::generator {
 
-/// What a person wrote down, and how much of it counts.
+/// The written data, and how many of them are used.
 struct Record {
   std::vector<HiddenMachine::Note> notes;  ///< rising numbers
   NoiseLevel noise;
@@ -22,7 +21,7 @@ struct Record {
   std::vector<std::size_t> left_out;
 };
 
-/// A machine on the drum with what acts on it, ready to predict.
+/// A machine on the drum with its effects, ready to predict.
 struct Fitted {
   TrueMachine machine;
   std::vector<Hidden> effects;

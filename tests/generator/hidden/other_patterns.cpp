@@ -25,7 +25,7 @@ constexpr PatternFamily kFamilies[] = {PatternFamily::fold,
                                        PatternFamily::patch,
                                        PatternFamily::length_steps};
 
-// What each family keeps in Pattern::knots.
+// The entries of Pattern::knots for each family.
 namespace fold_knot {
 constexpr std::size_t kBehind = 0, kAhead = 1;  // slopes per mm, counted away from the line
 }
@@ -33,7 +33,7 @@ namespace band_knot {
 constexpr std::size_t kLeftEdgeMm = 0, kRightEdgeMm = 1;
 }
 namespace angle_knot {
-constexpr std::size_t kCount = 7;  // the values stand before it
+constexpr std::size_t kCount = 7;  // stored after the values
 }
 namespace heave_knot {
 constexpr std::size_t kPower = 0;  // 0: exponential
@@ -47,13 +47,13 @@ namespace steps_knot {
 constexpr std::size_t kLevels = 0, kPlacesMm = 4, kMostSteps = 3;
 }
 
-/// From 0 to 1 over a slope centred at `beyond` 0, level on either side.
+/// From 0 to 1 over a slope centred at `beyond` 0, constant on either side.
 double rise(double beyond, double slope) {
   const double t = std::clamp(beyond / slope + 0.5, 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
 
-/// As seen from the centre: x along the direction, y to the left of it.
+/// Relative to the centre: x along the direction, y to the left of it.
 Vec2 turned(const Pattern& p, Vec2 place) {
   const Vec2 from{place.x - p.centre.x, place.y - p.centre.y};
   const double c = std::cos(p.direction_rad);
@@ -69,7 +69,7 @@ double largest_size(std::span<const double> values) {
 
 double fold_at(const Pattern& p, Vec2 place) {
   const double across = turned(p, place).x;
-  // A board bends round a radius rather than at a corner.
+  // A board bends over a radius rather than at a corner.
   const double away = std::hypot(across, p.extent_mm) - p.extent_mm;
   return 0.5 * (p.knots[fold_knot::kAhead] * (away + across) +
                 p.knots[fold_knot::kBehind] * (away - across));
@@ -100,11 +100,11 @@ double angle_function_at(const Pattern& p, double angle_rad) {
 }
 
 double heave_at(const Pattern& p, Vec2 place) {
-  // The centre is the middle of the edge, the direction points out over it.
+  // The centre is the middle of the edge, the direction points outwards across it.
   const Vec2 from_edge = turned(p, place);
   const double depth = std::max(0.0, -from_edge.x) / p.extent_mm;
   const double power = p.knots[heave_knot::kPower];
-  // Either falls off equally steeply at the edge; the power has the longer tail.
+  // Both fall off equally steeply at the edge; the power has the longer tail.
   const double decay = power > 0.0 ? std::pow(1.0 + depth / power, -power) : std::exp(-depth);
   const bool upright = std::abs(p.centre.x) > std::abs(p.centre.y);
   const double along = from_edge.y / (upright ? kHalfHeightMm : kHalfWidthMm);
@@ -112,7 +112,7 @@ double heave_at(const Pattern& p, Vec2 place) {
   return decay * (1.0 + lean * along) / (1.0 + std::abs(lean));
 }
 
-/// How far outside the rim; below 0 inside.
+/// Distance outside the rim; below 0 inside.
 double beyond_rim(const Pattern& p, Vec2 place) {
   const Vec2 own = turned(p, place);
   const double other_radius = p.knots[patch_knot::kOtherRadiusMm];
@@ -120,7 +120,7 @@ double beyond_rim(const Pattern& p, Vec2 place) {
   const double u = own.x / p.extent_mm;
   const double v = own.y / other_radius;
   const double reach = std::hypot(u, v);
-  // To first order: what the ellipse's equation misses, over its gradient.
+  // To first order: the residual of the ellipse's equation over its gradient.
   const double gradient = std::hypot(u / p.extent_mm, v / other_radius);
   if (gradient <= 0.0) return -std::min(p.extent_mm, other_radius);
   return reach * (reach - 1.0) / gradient;
@@ -142,7 +142,7 @@ double steps_at(const Pattern& p, double length_mm) {
 
 void draw_fold(Pattern& p, Dice& dice) {
   p.centre = {dice.uniform(-900.0, 900.0), dice.uniform(-420.0, 420.0)};
-  // Oblique: 8 degrees at least from either axis.
+  // Oblique: at least 8 degrees from either axis.
   const auto quarter = static_cast<double>(dice.below(4));
   p.direction_rad = 0.5 * kPi * (quarter + dice.uniform(8.0, 82.0) / 90.0) - kPi;
   p.extent_mm = dice.log_uniform(10.0, 120.0);
@@ -150,7 +150,7 @@ void draw_fold(Pattern& p, Dice& dice) {
   // -1 would be a plane without a fold.
   const bool both_sides = dice.sign() > 0.0;
   p.knots[fold_knot::kBehind] = both_sides ? dice.uniform(-0.5, 1.0) : 0.0;
-  // Straight on either side, so largest at a corner.
+  // Linear on either side, so largest at a corner.
   const double corners[] = {fold_at(p, {-kHalfWidthMm, -kHalfHeightMm}),
                             fold_at(p, {-kHalfWidthMm, kHalfHeightMm}),
                             fold_at(p, {kHalfWidthMm, -kHalfHeightMm}),
@@ -208,12 +208,12 @@ void draw_steps(Pattern& p, Dice& dice) {
   const std::size_t steps = 1 + dice.below(steps_knot::kMostSteps);
   const auto levels = std::span(p.knots).subspan(steps_knot::kLevels, steps_knot::kMostSteps + 1);
   const auto places = std::span(p.knots).subspan(steps_knot::kPlacesMm, steps_knot::kMostSteps);
-  // A step in each of as many equal parts of the length, so that no two fall together.
+  // One step in each of as many equal parts of the length, so that steps do not coincide.
   const double first_mm = 1100.0;
   const double part_mm = (2750.0 - first_mm) / static_cast<double>(steps);
   levels[0] = dice.uniform(-0.5, 0.5);
   for (std::size_t i = 0; i < steps_knot::kMostSteps; ++i) {
-    // Steps beyond those drawn have no height, so their place is of no account.
+    // Steps beyond those drawn have no height, so their position does not matter.
     levels[i + 1] = levels[i];
     if (i >= steps) continue;
     levels[i + 1] += dice.sign() * dice.uniform(0.4, 1.0);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Patterns that no catalogue lists and that act beside a cause: one scalar field of height 1 that
-/// enters the two chains at a fixed ratio, as whatever acts on one chain, one axis or the sled's
-/// height does it.
+/// Patterns that are in no catalogue and act in addition to a cause: one scalar field of height 1
+/// that enters the two chains at a fixed ratio, as for anything that acts on one chain, one axis or
+/// the sled's height.
 ///
-/// Two groups. Those of smooth fields (pattern.cpp): dents and waves, at the lengths of the figures
-/// that are asked for and at short ones. Those of other making (other_patterns.cpp): written apart
-/// from whoever set the analysis up, and not looked at while that was done.
+/// Two groups. Those of smooth fields (pattern.cpp): dents and waves, at the lengths of the
+/// required figures and at short ones. Other families (other_patterns.cpp): written independently
+/// of the analysis and not used in its development.
 #pragma once
 
 #include <array>
@@ -25,22 +25,22 @@ enum class PatternGroup {
   smooth,       ///< dents of 180 to 320 mm (one sigma), waves of 500 to 900 mm
   short_scale,  ///< dents of 90 to 150 mm, waves of 250 to 450 mm
   broad,        ///< dents of 400 to 900 mm, waves of 1200 to 3000 mm: as smooth as effects are
-  other,        ///< of other making
+  other,        ///< other families
 };
 
 enum class PatternFamily {
   dent,
   wave,
-  fold,         ///< straight on either side of a line, bent along it
+  fold,         ///< linear on either side of a line, bent along it
   column_band,  ///< one upright strip of the bed
   chain_angle,  ///< a function of one chain's angle
   edge_heave,   ///< rises towards one edge of the bed
-  patch,        ///< one level over a part of the bed, another outside, a short slope between
+  patch,        ///< constant over a part of the bed and outside it, a short slope between
   length_steps  ///< along one chain's length: a few levels with slopes between
 };
 [[nodiscard]] std::string_view word(PatternFamily family);
 
-/// Where a field is asked for: the tool's place, and the angles of the chains there.
+/// Argument of a field: the tool's position, and the angles of the chains there.
 struct PatternSite {
   Vec2 place;
   std::array<double, 2> angle_rad{};
@@ -50,44 +50,45 @@ struct PatternSite {
 struct Pattern {
   PatternFamily family = PatternFamily::dent;
   double height_mm = 1.0;
-  Lengths entry{1.0, 0.0};     ///< what of it goes into either chain; a unit vector
+  Lengths entry{1.0, 0.0};     ///< its share in each chain; a unit vector
   Vec2 centre;                 ///< of a dent or patch; a point of a line
   double direction_rad = 0.0;  ///< a wave's run; across a line
   double extent_mm = 0.0;      ///< one sigma, wavelength, width
   double phase_rad = 0.0;
-  std::size_t chain = 0;         ///< whose angle or length it follows
-  std::array<double, 8> knots{};  ///< what else a family draws
+  std::size_t chain = 0;         ///< whose angle or length it depends on
+  std::array<double, 8> knots{};  ///< further parameters of a family
 };
 
-/// Of height 1: its largest over the bed is about that.
+/// Of height 1: that is about its maximum over the bed.
 [[nodiscard]] double field(const Pattern& pattern, const PatternSite& site);
-/// The families of other making.
+/// The other families.
 [[nodiscard]] double other_field(const Pattern& pattern, const PatternSite& site);
 
-/// Family, place and extent; of height 1.
+/// Family, position and extent; of height 1.
 [[nodiscard]] Pattern draw_family(PatternGroup group, Dice& dice);
 [[nodiscard]] Pattern draw_other_family(Dice& dice);
 
-/// What it adds to the chains at each site.
+/// Its addition to the chains at each site.
 [[nodiscard]] std::vector<Lengths> extra_lengths(const Pattern& pattern,
                                                  std::span<const Visit> visits,
                                                  const std::vector<Rest>& at_rest);
 
-/// A pattern drawn with its strength in the data and its likeness to what is hidden beside it.
+/// A pattern with its strength in the data and its collinearity with the hidden causes.
 struct SizedPattern {
   Pattern pattern;
   double delta = 0.0;
-  double rho = 0.0;  ///< largest |cosine| with the signatures beside it, or with any effect
+  double rho = 0.0;  ///< largest |cosine| with the given signatures, or with any effect
 };
 struct PatternRules {
   PatternGroup group = PatternGroup::smooth;
-  /// Height 1 to 2 mm; a strength outside this is drawn again.
+  /// Height 1 to 2 mm; a strength outside this range is drawn again.
   double least_delta = 6.0;
   double most_delta = 30.0;
-  /// Alike to some effect of the catalogue: |cosine| 0.9 to 0.98. Else below 0.5 with `beside`.
+  /// Collinear with some effect of the catalogue: |cosine| 0.9 to 0.98. Otherwise below 0.5 with
+  /// `beside`.
   bool near = false;
 };
-/// \throws std::runtime_error where 20 000 draws find none.
+/// \throws std::runtime_error if 20 000 draws find none.
 [[nodiscard]] SizedPattern draw_pattern(const Yardstick& yardstick,
                                         const PatternRules& rules,
                                         std::span<const Signature> beside,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Random numbers of the hidden draws: counters scrambled by a mixing function (the finaliser of
-/// MurmurHash3, variant 13 of D. Stafford), one stream a purpose, so that a further draw in one
-/// place moves no number in another. Normals by Box and Muller's transform.
+/// MurmurHash3, variant 13 of D. Stafford), one stream for each purpose, so that an additional draw
+/// in one place changes no number in another. Normals by the Box-Muller transform.
 #pragma once
 
 #include <cmath>

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kGravity = 9.80665;
 constexpr double kPi = std::numbers::pi;
-// A slack chain bends by more than nothing within a link: either tooth will do that close to a tie.
+// A slack chain bends within a link: near a tie either tooth is accepted.
 constexpr double kSeat = 1.01;
 
 /// End of a hanging chain and its derivatives by H, V and S.
@@ -51,7 +51,7 @@ Hang hang(double h, double v, double free_mm, int pieces, double w, double c) {
   r.u_v = -piece * h * cubed_v;
   r.y_h = r.u_v;
   r.y_v = piece * (inverse - cubed_vv + c * n);
-  // By the piece's length: directly, and through the weight that it carries.
+  // By the piece's length: directly, and through the weight below it.
   r.u_s = (r.u / piece - piece * h * w * cubed_v_k) / n;
   r.y_s = (r.y / piece + piece * w * (h * h * cubed_k + c * sum_k)) / n;
   return r;
@@ -76,7 +76,7 @@ Wheel wheel_of(const TrueMachine& m) {
   return w;
 }
 
-/// What both chains share while they are being solved.
+/// Constants of a solution, shared by both chains.
 struct Setting {
   const TrueMachine& m;
   Wheel wheel;
@@ -106,7 +106,7 @@ Pull pull_of(const Setting& s, const Unknowns& q, int side) {
   return {q.h, s.weight_n - q.v};
 }
 
-// Ring and chain, common to drum and teeth; tension at the sprocket included.
+// Ring and chain, common to drum and teeth; includes the tension at the sprocket.
 Closure hung(const Setting& s, Pull p, double free_mm, int pieces, int side) {
   const double rho = s.m.ring_radius_mm;
   const double ta = std::hypot(p.h, p.v);
@@ -126,7 +126,7 @@ Closure hung(const Setting& s, Pull p, double free_mm, int pieces, int side) {
   return r;
 }
 
-// a = S: the chain touches the drum where its slope says.
+// a = S: the chain touches the drum at its own slope.
 Closure on_drum(const Setting& s, Pull p, double free_mm, int pieces, int side) {
   Closure r = hung(s, p, free_mm, pieces, side);
   const double vb = p.v + s.w * free_mm;
@@ -146,7 +146,7 @@ Closure on_drum(const Setting& s, Pull p, double free_mm, int pieces, int side) 
   return r;
 }
 
-// a = turn of the tooth: the chain swings about that corner.
+// a = turn of the tooth: the chain pivots on that corner.
 Closure on_tooth(const Setting& s, Pull p, double turn, int links, int side) {
   Closure r = hung(s, p, links * s.wheel.side, links * s.m.pieces_per_link, side);
   r.error[0] += s.wheel.sense * s.wheel.corner * std::sin(turn);
@@ -203,7 +203,7 @@ bool newton(const Setting& s, Unknowns& q, const ClosureOf& closure_of, double l
     q.a[1] += share * m[3][4];
     if (!(std::isfinite(q.h) && std::isfinite(q.v) && q.h > 0.0)) return false;
     const double step = std::abs(m[0][4]) / q.h + std::abs(m[1][4]) / s.weight_n + a_step;
-    // Quadratic: what remains is the square of this.
+    // Quadratic convergence: the error is the square of this.
     if (share == 1.0 && step < 1e-7) return true;
   }
   return false;
@@ -236,7 +236,7 @@ double turn_of(const Setting& s, double angle_rad) {
   return s.wheel.sense > 0.0 ? angle_rad : kPi - angle_rad;
 }
 
-// The tooth that holds a chain is the one nearest to the chain's direction.
+// The tooth that holds a chain is the nearest one to the chain's direction.
 bool settle_on_teeth(const Setting& s, Unknowns q, Rest& rest) {
   std::array<int, 2> links{};
   for (std::size_t i = 0; i < 2; ++i) {

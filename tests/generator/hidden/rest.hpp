@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where two chains of links and the sled between them come to rest: a second, finer account of the
-/// machine for tests that hide something in it. It shares no line with the product, and its include
-/// path cannot reach one.
+/// The equilibrium of two chains of links and the sled between them: a second, finer model of the
+/// machine for tests with hidden effects. It shares no code with the product, and its include path
+/// does not contain the product.
 ///
-/// A chain is what it is: links of one pitch, each straight, stretched by its own tension, half its
-/// weight on either pin (pieces_per_link parts them further; the error against an even cable falls
-/// with its square, 7e-5 mm for whole links). Links sit on the sprocket's teeth, the corners of a
-/// polygon; only a whole number of them hangs free. WheelShape::round puts an ideal drum in its
-/// place, as the product has it.
+/// A chain consists of links of one pitch, each straight, stretched by its own tension, with half
+/// its weight on either pin (pieces_per_link divides them further; the error against an even cable
+/// falls with its square, 7e-5 mm for whole links). Links sit on the sprocket's teeth, the corners
+/// of a polygon; only a whole number of them hangs free. WheelShape::round replaces it by an ideal
+/// drum, as in the product.
 ///
 /// Notation, per chain, frame at the sled, u towards the sprocket, y up, both in the bed's plane
 ///   H, V    horizontal and vertical pull of the chain on the ring [N]
@@ -18,7 +18,7 @@
 ///   rho     ring radius [mm]
 ///   psi     turn of the point where the chain leaves the sprocket, from 12 o'clock [rad]
 ///
-/// Thread safe: nothing is shared.
+/// Thread safe: no shared state.
 #pragma once
 
 #include <array>
@@ -33,13 +33,13 @@ struct Vec2 {
 
 enum class WheelShape { teeth, round };
 
-/// The machine as it truly is; mm, N, kg.
+/// The true machine; mm, N, kg.
 struct TrueMachine {
   std::array<Vec2, 2> axis{{{-1489.2, 1072.6}, {1489.2, 1072.6}}};  ///< left, right
   std::array<double, 2> chain_zero_mm{};
   int teeth = 10;
   double pitch_mm = 6.35;
-  /// Added to pitch * teeth / (2 pi), tangent and wrap alike.
+  /// Added to pitch * teeth / (2 pi), for tangent and wrap.
   double wheel_radius_offset_mm = 0.0;
   bool over_top = true;
   double ring_radius_mm = 139.1;
@@ -47,7 +47,7 @@ struct TrueMachine {
   double compliance_per_n = 5.17e-6;
   double sled_mass_kg = 11.6;
   double tilt_from_vertical_deg = 15.0;
-  /// Each axis moves towards the sled along its chain by so much per newton.
+  /// Each axis moves towards the sled along its chain by this per newton.
   double beam_give_mm_per_n = 0.0;
   /// Towards +x, on the sled.
   double side_force_n = 0.0;
@@ -59,19 +59,19 @@ struct ChainRest {
   double free_mm = 0.0;    ///< S
   double angle_rad = 0.0;  ///< below the horizontal at the sprocket
   double tension_n = 0.0;  ///< there
-  double length_mm = 0.0;  ///< free chain and what lies on the wheel past 12 o'clock
+  double length_mm = 0.0;  ///< free chain plus the chain on the wheel past 12 o'clock
 };
 
 struct Rest {
   std::array<ChainRest, 2> chain;
-  /// The drum's solution, from which a neighbour's search begins.
+  /// The drum's solution, the starting point for neighbours.
   double horizontal_right_n = 0.0;
   double vertical_left_n = 0.0;
   std::array<double, 2> drum_free_mm{};
 };
 
-/// Nothing where no rest exists within reach of Newton's method. `near` may be the rest of a
-/// neighbouring place or machine.
+/// Empty if Newton's method finds no equilibrium. `near` may be the equilibrium of a neighbouring
+/// position or machine.
 [[nodiscard]] std::optional<Rest> come_to_rest(const TrueMachine& machine,
                                                Vec2 bit,
                                                const Rest* near = nullptr);

@@ -57,7 +57,7 @@ std::vector<PlannedVisit> plan_visits(const Layout& layout, Order order, Dice& d
   if (order == Order::random) dice.shuffle(marks);
   for (std::size_t i = 0; i < marks.size(); ++i) marks[i].mark = i;
 
-  // The k-th repeat comes once (k + 1) / (repeats + 1) of the marks are done, the last at the end.
+  // The k-th repeat comes after (k + 1) / (repeats + 1) of the marks, the last at the end.
   std::vector<PlannedVisit> visits;
   const auto repeats = static_cast<std::size_t>(layout.repeats);
   std::vector<bool> taken(marks.size(), false);

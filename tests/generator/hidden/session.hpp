@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where a person puts marks and in which order they are visited, repeats included.
+/// The marks of a session and the order in which they are visited, repeats included.
 #pragma once
 
 #include <string_view>
@@ -15,7 +15,7 @@ enum class Order { rows, columns, serpentine_rows, serpentine_columns, random };
 inline constexpr std::size_t kOrders = 5;
 [[nodiscard]] std::string_view word(Order order);
 
-/// Part of the bed that carries marks.
+/// Part of the bed with marks.
 enum class Extent { whole, without_corners, left_side };
 
 struct Layout {
@@ -29,8 +29,8 @@ struct Layout {
 /// 28, 60, 117, 200 or 465 marks. \throws std::invalid_argument for another number.
 [[nodiscard]] Layout layout_of(int points);
 
-/// Marks in visiting order, numbered from 0; the repeats are marks seen before, spread evenly over
-/// the session. `mark` says which one a visit returns to.
+/// Marks in visiting order, numbered from 0; the repeats are earlier marks, spread evenly over the
+/// session. `mark` is the index of the repeated mark.
 struct PlannedVisit {
   Vec2 place;
   std::size_t mark = 0;

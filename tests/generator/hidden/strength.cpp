@@ -10,8 +10,8 @@
 namespace chaintrue::generator {
 namespace {
 
-// Wide enough that the rounding of a pose (1e-10 mm) does not show, narrow enough that the cubic
-// term of a length of 1 m does not either.
+// Wide enough that the rounding of a pose (1e-10 mm) is negligible, narrow enough that the cubic
+// term of a length of 1 m is as well.
 constexpr double kStep = 0.5;
 constexpr Eigen::Index kSettings = 6;
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How strong something hidden is in the data of a session: the length of its signature in units
-/// of noise, once the settings have taken their share.
+/// The strength of a hidden cause in the data of a session: the norm of its signature in units of
+/// noise, after projection on the settings.
 ///
 /// Notation
-///   g      reading less what the machine without the effect reads at the mark as written, per
+///   g      reading less that of the machine without the effect at the mark as written, per
 ///          visit and chain, whitened by C = s_L^2 + s_xy^2 J J', J = d(L, R)/d(x, y)
-///   A      what the six settings do, whitened alike, and their stated sigmas as further rows
+///   A      derivatives by the six settings, whitened by C, and their stated sigmas as further rows
 ///   M      projection orthogonal to A
 ///   delta  |M g|
 ///   rho    |cosine| of M g of two effects
 ///
 /// Derivatives are differences on the drum: the teeth's ripple of 0.02 mm is in the readings and
-/// would only disturb a slope.
+/// would disturb a slope.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,10 +33,10 @@ struct StatedSigmas {
   double zero_mm = 1.0;
 };
 
-/// A signature after projection; empty where the machine cannot take the effect.
+/// A signature after projection; empty if the machine cannot have the effect.
 using Signature = Eigen::VectorXd;
 
-/// An effect of the catalogue at one side and place, as the space its size (and phase) span.
+/// An effect of the catalogue at one side and place, as the space spanned by its size (and phase).
 struct Rival {
   Cause cause;
   Where where;
@@ -45,16 +45,16 @@ struct Rival {
 
 class Yardstick {
  public:
-  /// Nothing where the machine cannot reach a visit.
+  /// Empty if the machine cannot reach a visit.
   static std::optional<Yardstick> make(const TrueMachine& machine,
                                        std::span<const Visit> visits,
                                        NoiseLevel noise,
                                        StatedSigmas stated);
 
   [[nodiscard]] std::optional<Signature> signature(std::span<const Hidden> effects) const;
-  /// Of marks that truly lie `shift` away from where they are thought to be.
+  /// For marks whose true positions are `shift` away from the assumed ones.
   [[nodiscard]] Signature signature_of_shifts(std::span<const Vec2> shift) const;
-  /// Of readings that are `extra` too large.
+  /// For readings that are `extra` too large.
   [[nodiscard]] Signature signature_of_lengths(std::span<const Lengths> extra) const;
 
   /// The whole catalogue at its usual sizes and at places all over the session.
@@ -80,9 +80,9 @@ class Yardstick {
   Eigen::MatrixXd settings_;                      ///< orthonormal
 };
 
-/// |cosine| between a signature and the nearest of what a rival can look like.
+/// Largest |cosine| between a signature and those of a rival.
 [[nodiscard]] double likeness(const Signature& signature, const Rival& rival);
-/// 1.645 sqrt(2 / (1 - rho)): strength at which 95 of 100 are told from the rival.
+/// 1.645 sqrt(2 / (1 - rho)): the strength at which 95 of 100 are distinguished from the rival.
 [[nodiscard]] double strength_to_separate(double rho);
 
 }  // namespace chaintrue::generator

@@ -40,7 +40,7 @@ Vec2 shift(const Unlisted& what, Vec2 place) {
       return {d * c, d * s};
     }
     case Oddity::edge: {
-      // The sled's rim drops over the sheet's border.
+      // The sled's rim drops over the sheet's edge.
       const double x = std::exp((std::abs(place.x) - kHalfWidth) / what.extent_mm);
       const double y = std::exp((std::abs(place.y) - kHalfHeight) / what.extent_mm);
       return {std::copysign(what.size_mm * x, place.x), std::copysign(what.size_mm * y, place.y)};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Things that no catalogue lists: places where the board or the frame under the sled puts the bit
-/// beside its mark. The tool's shift is `size_mm` at its largest or per its own measure.
+/// Disturbances that are in no catalogue: positions where the board or the frame under the sled
+/// moves the bit off its mark. The tool's shift is `size_mm` at its maximum or per its own unit.
 #pragma once
 
 #include <span>
@@ -26,9 +26,9 @@ struct Unlisted {
   double phase_rad = 0.0;
 };
 
-/// How far the bit is from its mark at a place.
+/// Distance of the bit from its mark at a position.
 [[nodiscard]] Vec2 shift(const Unlisted& what, Vec2 place);
-/// Its place and extent; the size is 1 mm.
+/// Its position and extent; the size is 1 mm.
 [[nodiscard]] Unlisted draw_oddity(Oddity oddity, Dice& dice);
 
 }  // namespace chaintrue::generator

@@ -61,9 +61,9 @@ double narrowness(std::span<const ScatteredPoint> points) {
   return extent(1) > 0.0 ? std::sqrt(std::max(0.0, extent(0)) / extent(1)) : 0.0;
 }
 
-// One cell for eight points, at least 32 and at most 40 cells: fewer cannot follow, and beyond the
-// penalty decides alone (measured: the error does not change from 8 x 4 to 24 x 12). What is given
-// stays as it is.
+// One cell for eight points, at least 32 and at most 40 cells: fewer cannot follow the data, and
+// beyond that the penalty determines the result (measured: the error does not change from 8 x 4 to
+// 24 x 12). Given values are kept.
 void choose_intervals(const Rectangle& box, std::size_t points, ScatteredOptions& options) {
   const double cells = std::clamp(static_cast<double>(points) / 8.0, 32.0, 40.0);
   const double ratio = std::clamp(box.width() / box.height(), 0.125, 8.0);
@@ -100,8 +100,8 @@ class ScatteredFitter {
   }
 
   tl::expected<ScatteredSurface, ScatteredFailure> run() {
-    // Each round the weights follow from the errors of the round before; four settle them to a
-    // twentieth, and with no contradicted point the first round is the last.
+    // In each round the weights follow from the errors of the round before; they converge to a
+    // twentieth in four rounds, and without contradicted points the first round is the last.
     constexpr int kMostRounds = 5;
     tl::expected<PenalisedFit, FitFailure> fit = solve();
     bool judged = false;
@@ -125,8 +125,8 @@ class ScatteredFitter {
     ScatteredSurface surface(basis_, std::move(*fit));
     judge(surface);
     const LeftOutErrors& e = surface.left_out_;
-    // Interpolating smooth data leaves no residual and a small error; only an error that is both
-    // far above the residual and above a plane's says that the surface swings between its points.
+    // Interpolating smooth data leaves no residual and a small error; only an error that is far
+    // above both the residual and a plane's shows that the surface oscillates between its points.
     if (e.rms > e.plane_rms && e.rms > 3.0 * e.residual_rms) {
       return refuse(
           ScatteredFailure::Reason::untrustworthy,
@@ -136,7 +136,7 @@ class ScatteredFitter {
                       e.rms,
                       e.plane_rms));
     }
-    // The basis sums to one: the mean taken off before the fit is added to every coefficient.
+    // The basis sums to one: the mean subtracted before the fit is added to every coefficient.
     surface.fit_.coefficients.array() += mean_;
     return surface;
   }
@@ -167,7 +167,7 @@ class ScatteredFitter {
     return fit_penalised(problem);
   }
 
-  // A point's row of the design as what it is made of: four runs of four columns.
+  // A point's row of the design in factored form: four runs of four columns.
   struct Row {
     std::array<Eigen::Index, 4> first;
     Eigen::Vector4d x;
@@ -185,7 +185,7 @@ class ScatteredFitter {
     return row;
   }
 
-  // e_i, its sigma from the noise as fitted, and r_i.
+  // e_i, its sigma from the fitted noise, and r_i.
   struct LeftOut {
     double error;
     double sigma;
@@ -207,7 +207,7 @@ class ScatteredFitter {
       }
     }
     const double variance = fit.sigma2 * points_[i].sigma * points_[i].sigma;
-    // A point that alone holds the surface in place cannot be judged by the others.
+    // A point that alone determines the surface at its position cannot be tested by the others.
     const double rest = std::max(1e-9, 1.0 - weight_[i] * spread / variance);
     return {residual / rest, std::sqrt(variance + spread / rest), residual};
   }

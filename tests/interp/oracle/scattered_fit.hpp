@@ -6,9 +6,8 @@
 ///
 /// Cubic B-splines with a thin-plate penalty whose weight is chosen by restricted maximum
 /// likelihood (bspline_basis.hpp, reml.hpp). Points that the others contradict are given less
-/// weight and named. A fit that would be garbage is refused, with the reason: points on a line,
-/// data that do not determine the surface, a surface that predicts points it has not seen worse
-/// than a plane does.
+/// weight and reported. A meaningless fit is rejected, with the reason: points on a line, data that
+/// do not determine the surface, a surface that predicts held-out points worse than a plane does.
 ///
 /// Notation: h_i leverage, r_i residual, e_i = r_i / (1 - h_i) the error at point i when it is left
 /// out, t_i = e_i over its own sigma.
@@ -41,38 +40,38 @@ struct ScatteredOptions {
   int intervals_x = 0;                 ///< 0: chosen from the number of points and the shape
   int intervals_y = 0;
   NoiseScale noise = {NoiseKnowledge::unknown, 0.0};
-  bool robust = true;               ///< give points the others contradict less weight
+  bool robust = true;               ///< reduce the weight of points that the others contradict
   double contradicted_from = 4.0;   ///< |t_i| from which on a point counts as contradicted
   double same_place_within = 1e-6;  ///< points nearer than this are repeats of one another
 };
 
 enum class PointDoubt {
-  contradicted,      ///< the surface through the others misses it by more than it should
-  repeats_disagree,  ///< lies where another point lies, and differs by more than the noise allows
+  contradicted,      ///< the residual from the surface through the others is too large
+  repeats_disagree,  ///< at the position of another point, and differs by more than the noise
 };
 
-/// A point that the fit doubts.
+/// A point that the fit flags.
 struct PointFlag {
   std::size_t index;
   PointDoubt doubt;
   double standardized;  ///< t_i, or the difference from the repeats' mean over its sigma
-  double weight;        ///< what the point counted in the fit: 1 fully, less the more it is off
+  double weight;        ///< its weight in the fit: 1 full, less for larger errors
 };
 
 struct ScatteredFailure {
   enum class Reason {
     too_few_points,  ///< fewer than six
-    on_a_line,       ///< wider across than 1/1000 of its length is asked for
-    rank_deficient,  ///< the points leave some of the surface free
-    not_converged,   ///< the choice of smoothing did not settle
+    on_a_line,       ///< narrower than 1/1000 of its length
+    rank_deficient,  ///< the points do not determine the surface
+    not_converged,   ///< the choice of smoothing did not converge
     untrustworthy,   ///< left-out points are predicted worse than by a plane
   } reason;
   std::string sentence;
 };
 
-/// How well the surface predicts points it has not seen.
+/// Errors of the surface at held-out points.
 struct LeftOutErrors {
-  Eigen::VectorXd error;  ///< e_i in the unit of z, one a point
+  Eigen::VectorXd error;  ///< e_i in the unit of z, one for each point
   double rms = 0.0;       ///< of e_i over points that are not flagged
   double largest = 0.0;
   double plane_rms = 0.0;  ///< the same for the best plane
@@ -85,7 +84,8 @@ class ScatteredSurface final : public Surface {
  public:
   [[nodiscard]] ValueGradient at(double x, double y) const override;
   [[nodiscard]] Rectangle domain() const override { return basis_.rectangle(); }
-  /// Standard deviation of the surface at one point (pointwise), with the smoothing's own doubt.
+  /// Standard deviation of the surface at one point (pointwise), including the uncertainty of the
+  /// smoothing.
   [[nodiscard]] double sigma(double x, double y) const;
 
   [[nodiscard]] const PenalisedFit& fit() const { return fit_; }

@@ -14,7 +14,7 @@
 
 namespace chaintrue::model {
 
-/// A place on the chain.
+/// A point of the chain.
 struct ShapePoint {
   BedPoint place;
   double off_sheet_mm = 0.0;  ///< towards the front; zero but for elastic_3d
@@ -25,8 +25,8 @@ struct ShapePoint {
 /// Const, no allocation. Accuracy: that of the pose.
 class ChainShape {
  public:
-  /// `parameters` must be those of the kinematics that gave the pose; `model` which it was.
-  /// \throws std::invalid_argument for a closed formula, whose chains have no shape.
+  /// `parameters` and `model` must be those of the kinematics that returned the pose. \throws
+  /// std::invalid_argument for a closed formula, whose chains have no shape.
   ChainShape(const EquilibriumParameters& parameters,
              const Pose& pose,
              Side side,

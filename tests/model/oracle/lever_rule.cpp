@@ -21,9 +21,9 @@ struct HungChain {
   double rise_by_share = 0.0;  ///< mm/N, slope of the tip's depth by the weight it carries
 };
 
-/// Steps 3, 4, 6 and 7 for one chain. The free length depends on the top angle, which depends on
-/// it: settled by repetition, each round smaller by the sprocket's radius over the chain's radius
-/// of curvature.
+/// Steps 3, 4, 6 and 7 for one chain. The free length and the top angle depend on each other:
+/// solved by fixed-point iteration, whose error decreases in each step by the ratio of the
+/// sprocket's radius to the chain's radius of curvature.
 HungChain hang(const EquilibriumConstants& m, double h_n, double share_n, double length_mm) {
   const double w = m.chain.weight_n_per_mm, c = m.chain.compliance_per_n;
   const double a = h_n / w, substitute = share_n / w;
@@ -47,7 +47,7 @@ HungChain hang(const EquilibriumConstants& m, double h_n, double share_n, double
   return chain;
 }
 
-/// Step 8: the bit, from the sprocket's axis over tangent point, chain and ring.
+/// Step 8: the bit, from the sprocket's axis via tangent point, chain and ring.
 BedPoint bit_of(const EquilibriumConstants& m, Side side, const HungChain& chain) {
   const double towards = side == Side::left ? 1.0 : -1.0;
   const double across = m.sg * m.r * std::sin(chain.top_angle_rad) + chain.across_mm +
@@ -119,9 +119,9 @@ tl::expected<LeverRuleResult, PoseFailure> lever_rule_pose(const EquilibriumPara
       pose.iterations = n + 1;
       return result;
     }
-    // Chains that span more than the sprockets' distance pull too flat.
+    // Chains that span more than the sprockets' distance have too small a horizontal tension.
     h_n *= spacing / (spacing + pass.gap_across_mm);
-    // The left bit too high: its chain carries too little.
+    // If the left bit is too high, its chain carries too little.
     share_n += pass.gap_in_height_mm / (left.rise_by_share + right.rise_by_share);
     share_n = std::clamp(share_n, 0.0, m.W);
   }

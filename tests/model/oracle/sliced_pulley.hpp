@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A pulley with a slice cut off: beyond a critical angle the belt no longer winds on the round but
-/// hangs on the slice's corner, and moves less than the round would move it. The same error is the
-/// catalogue's angular_kink, as a straight line beyond a knee.
+/// A pulley with a slice cut off: beyond a critical angle the belt does not wind on the round part
+/// but hangs on the slice's corner, and moves less than a round pulley would move it. The same
+/// error is the catalogue's angular_kink, as a straight line beyond a knee.
 ///
 /// Notation
 ///   R, r   belt line's radius on the pulley and on the drive gear
@@ -24,7 +24,7 @@
 /// \code
 ///   const SlicedPulley pulley = firepick_delta_pulley();
 ///   pulley.critical_angle_rad();                    // -0.9126, that is -52.29 degrees
-///   pulley.travel_error_mm(-67.2 * kDegree);        // how much less the belt moved
+///   pulley.travel_error_mm(-67.2 * kDegree);        // belt travel less the round pulley's
 /// \endcode
 #pragma once
 
@@ -59,7 +59,7 @@ class SlicedPulley {
   [[nodiscard]] double belt_travel_mm(double arm_angle_rad) const;
   /// Belt travel less the round pulley's: never positive, zero up to the critical angle.
   [[nodiscard]] double travel_error_mm(double arm_angle_rad) const;
-  /// The round pulley's travel per radian, R.
+  /// A round pulley's travel per radian, R.
   [[nodiscard]] double travel_per_rad_mm() const { return d_.pulley_radius_mm; }
   /// Least squares line through the error at equally spaced angles, as a kink in the raising angle
   /// (-arm angle). \throws std::invalid_argument for fewer than two samples or from == to.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// constant_sensitivity: what halving and doubling each constant of the diagnosis does to the sealed
-/// rates. Prints a table in Markdown, two lines a constant; the same sets for every line, so that
-/// an answer that differs from the first line's is the constant's doing. A probability or a share
-/// is varied by its odds, a factor on the noise by what it is beyond one.
+/// constant_sensitivity: the change of the sealed rates by halving and doubling each constant of the
+/// diagnosis. Prints a table in Markdown, two lines for each constant; every line uses the same
+/// sets, so that differences from the first line are caused by the constant. A probability or a
+/// share is varied by its odds, a factor on the noise by its excess over one.
 ///
 ///   constant_sensitivity --sets 40 --jobs 2
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ namespace diagnosis = chaintrue::grid::diagnosis;
 namespace generator = chaintrue::generator;
 using chaintrue::sealed::Trial;
 
-/// Something that is set: its usual values, what a factor makes of each, and how they are set.
+/// An adjustable constant: its usual values, their change by a factor, and how they are set.
 struct Constant {
   std::string name;
   std::vector<double> usual;
@@ -84,7 +84,7 @@ std::vector<Constant> constants() {
 struct Mix {
   const char* name;
   const char* words;
-  int share_of_sets;  ///< one in so many
+  int share_of_sets;  ///< one in this number
   std::uint64_t first_seed;
 };
 constexpr Mix kMixes[] = {{"single", "one cause", 1, 90000},
@@ -94,12 +94,13 @@ constexpr Mix kMixes[] = {{"single", "one cause", 1, 90000},
                           {"nothing", "nothing", 2, 93000},
                           {"wrong_noise", "noise stated wrongly", 2, 94000},
                           {"unlisted", "a pattern that is not listed", 2, 95000}};
-/// Where a constant shows the most; on more points causes are told apart whatever it is.
+/// Number of points at which a constant matters most; with more points causes are distinguished for
+/// every value.
 constexpr int kPoints = 28;
-/// Of one cause: about where it begins to be named; the other mixes are as drawn.
+/// For one cause: strengths near the threshold of naming; the other mixes are as drawn.
 constexpr double kStrengths[] = {5.0, 6.0, 7.0, 8.0};
 
-/// The trials of every mix, one after the other.
+/// The trials of every mix, in order.
 struct Trials {
   std::vector<Trial> of_mix[std::size(kMixes)];
 };
@@ -115,7 +116,7 @@ std::vector<Trial> run_mix(const Mix& mix, int sets, int jobs) {
       if (mix.first_seed == kMixes[0].first_seed) {
         options.recipe.delta = kStrengths[static_cast<std::size_t>(i) % std::size(kStrengths)];
       }
-      options.stability = false;  // a quarter of the time, and none of the constants
+      options.stability = false;  // a quarter of the time, and independent of the constants
       trials[static_cast<std::size_t>(i)] =
           run_trial(options, mix.first_seed + static_cast<std::uint64_t>(i));
     }
@@ -149,7 +150,7 @@ bool same_answer(const Trial& a, const Trial& b) {
                     [](const auto& x, const auto& y) { return x.id == y.id; });
 }
 
-/// Trials whose verdict or causes are others than those of `usual`.
+/// Trials whose verdict or causes differ from those of `usual`.
 int changed(const Trials& usual, const Trials& now) {
   int count = 0;
   for (std::size_t m = 0; m < std::size(kMixes); ++m) {
@@ -160,7 +161,7 @@ int changed(const Trials& usual, const Trials& now) {
   return count;
 }
 
-/// Of the processor, over all trials.
+/// Processor time, averaged over all trials.
 double mean_seconds(const Trials& trials) {
   double sum = 0.0;
   std::size_t count = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// sealed_belts: hides a cause, nothing, or bad readings in many sessions of four belts, has each
-/// diagnosed, opens the answers and prints how often the diagnosis was right. Not part of the test
-/// run; its table stands in docs/maslow4.md.
+/// sealed_belts: hides a cause, nothing, or bad readings in many sessions of four belts, diagnoses
+/// each, compares with the truth and prints how often the diagnosis was right. Not part of the test
+/// run; its table is in docs/maslow4.md.
 ///
 ///   sealed_belts --sets 1000 --first-seed 1 --show
 #include <fmt/format.h>
@@ -26,10 +26,10 @@ struct Arguments {
   bool go_on = false;
 };
 
-/// Chances of noise that are counted.
+/// P-values of noise whose frequencies are counted.
 constexpr std::array kChances = {0.1, 0.01, 0.001};
 
-/// What became of the sessions that were not right.
+/// The sessions that were not right.
 struct Missed {
   int set_with = 0, set_without = 0, pattern = 0, silent = 0, wrong = 0;
   void count(const BeltsTrial& t) {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// sealed_rates: diagnoses the frozen list of sealed sets of chains, holes and belts, a line a set,
-/// and prints the table of rates; or what one version of the diagnosis loses against another on the
-/// same sets. fixtures/sealed/outcomes.txt holds the frozen ones (docs/diagnosis.md).
+/// sealed_rates: diagnoses the frozen list of sealed sets of chains, holes and belts, one line for
+/// each set, and prints the table of rates; or compares two versions of the diagnosis on the same
+/// sets. fixtures/sealed/outcomes.txt contains the frozen outcomes (docs/diagnosis.md).
 ///
 ///   sealed_rates now.txt --shard 3/16                      # of an hour and a half, resumable
 ///   sealed_rates all.txt --join now1.txt --join now2.txt --most 0
 ///   sealed_rates now.txt --against fixtures/sealed/outcomes.txt
 ///
 /// A file belongs to one version of the diagnosis and to one process at a time. Exit code 1: a row
-/// is worse; 3: a file cannot be read, or holds other sets.
+/// is worse; 3: a file cannot be read, or has other sets.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -59,7 +59,7 @@ std::vector<Outcome> read(const std::string& path) {
   return parse_outcomes(text.str());
 }
 
-/// In one step, so that an interruption leaves the old file or the new one.
+/// By an atomic rename, so that an interruption leaves the old file or the new one.
 void write(const std::string& path, const std::vector<Outcome>& outcomes) {
   const std::string whole = path + ".part";
   std::ofstream file(whole, std::ios::binary);
@@ -79,7 +79,7 @@ std::vector<Outcome> known(const Arguments& arguments) {
   return sorted(std::move(outcomes));
 }
 
-/// The shard that was asked for, of the whole list or of what the frozen outcomes hold of it.
+/// The requested shard, of the whole list or of the sets in the frozen outcomes.
 std::vector<PlannedSet> asked(const Arguments& arguments, const std::vector<Outcome>& frozen) {
   std::vector<PlannedSet> list = plan();
   if (!arguments.against.empty()) {
@@ -101,7 +101,7 @@ std::vector<PlannedSet> asked(const Arguments& arguments, const std::vector<Outc
   return list;
 }
 
-/// Each outcome is in the file as soon as it is known.
+/// Each outcome is written as soon as it is known.
 void run(const Arguments& arguments,
          const std::vector<PlannedSet>& list,
          std::vector<Outcome>& outcomes) {

@@ -32,7 +32,7 @@ bool same_bad(const generator::BeltSecret& secret, const grid::diagnosis::Diagno
   });
 }
 
-/// False as well where it is not among the causes that are compared: nothing points to it.
+/// Also false if it is not among the compared causes.
 bool is_separable(const generator::BeltSecret& secret, const grid::diagnosis::Diagnosis& found) {
   const auto is_hidden = [&](const auto& cause) {
     return cause.effect->id == secret.effect && name(cause.side) == secret.side;
@@ -46,8 +46,8 @@ bool is_separable(const generator::BeltSecret& secret, const grid::diagnosis::Di
   return compared;
 }
 
-/// The places that are proposed, as the hidden machine reads them, added to what was measured.
-/// \returns how many.
+/// Adds the hidden machine's readings at the proposed positions to the measurements. \returns their
+/// number.
 int measure_as_proposed(const generator::BeltDraw& draw,
                         const grid::diagnosis::Diagnosis& found,
                         std::uint64_t seed,

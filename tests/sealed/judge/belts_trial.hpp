@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// One hidden session of four belts diagnosed, and the answer opened.
+/// The diagnosis of one hidden session of four belts, compared with the truth.
 #pragma once
 
 #include <cstdint>
@@ -17,25 +17,26 @@ struct BeltsTrial {
   int points = 0;
   generator::BeltSecret secret;
   bool failed = false;
-  bool named = false;        ///< anything at all
-  bool exact = false;        ///< what is hidden, alone, with its belt
-  bool held = false;         ///< what is hidden is among what is named
-  bool right_belt = false;   ///< what is named first is of the hidden belt
-  /// At its strength these data tell what is hidden from every other cause, 95 of 100 times, by how
-  /// alike they look once the anchors have taken their share.
+  bool named = false;        ///< any cause
+  bool exact = false;        ///< the hidden cause alone, with its belt
+  bool held = false;         ///< the hidden cause is among the named ones
+  bool right_belt = false;   ///< the first named cause has the hidden belt
+  /// At its strength these data distinguish the hidden cause from every other in 95 of 100 cases,
+  /// by their collinearity after projection on the anchors.
   bool separable = false;
-  bool bad_found = false;    ///< the bad readings, each by point and belt, and no others
+  bool bad_found = false;    ///< exactly the bad readings, each by point and belt
   std::string sentence;
-  std::string verdict;          ///< as files have it; empty where it failed
+  std::string verdict;          ///< as in files; empty if it failed
   std::vector<NamedCause> causes;
   double family_wise_p = 1.0;
-  double probability = 0.0;     ///< that what is hidden acts, as the table of hypotheses has it
-  /// Where no single name was given and the trial went on: places that were proposed and measured,
-  /// and whether what is hidden was then named alone.
+  double probability = 0.0;     ///< that the hidden cause acts, by the table of hypotheses
+  /// If no single name was given and the trial continued: the number of proposed and measured
+  /// positions, and whether the hidden cause was then named alone.
   int proposed = 0;
   bool parted = false;
 };
-/// `go_on`: where no single name is given, what is proposed is measured and diagnosed once more.
+/// `go_on`: if no single name is given, the proposed positions are measured and the diagnosis is
+/// repeated.
 [[nodiscard]] BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe,
                                          std::uint64_t seed,
                                          bool go_on = false);

@@ -19,7 +19,7 @@ double probability_of(int k, int of, double p) {
   return std::exp(ways + k * std::log(p) + (of - k) * std::log1p(-p));
 }
 
-/// The p at which a chance that grows with p is `wanted`.
+/// The p at which a probability that increases with p is `wanted`.
 template <class Chance>
 double where(Chance chance, double wanted) {
   double low = 0.0, high = 1.0;
@@ -38,7 +38,8 @@ double probability_of_at_least(int least, int of, double p) {
     throw std::invalid_argument(
         fmt::format("probability_of_at_least: {} trials of probability {}", of, p));
   }
-  // The shorter tail is summed, so that a small chance is not the difference of two large ones.
+  // The shorter tail is summed, so that a small probability is not the difference of two large
+  // ones.
   double sum = 0.0;
   if (least > p * of) {
     for (int k = of; k >= std::max(least, 0); --k) sum += probability_of(k, of, p);

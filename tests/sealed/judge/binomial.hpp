@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Exact binomial tests of counts: bounds of a rate, and whether of paired outcomes more were lost
-/// than gained.
+/// Exact binomial tests of counts: bounds of a rate, and a comparison of losses and gains of paired
+/// outcomes.
 ///
 /// Sources: Clopper and Pearson, Biometrika 26 (1934) 404-413; McNemar, Psychometrika 12 (1947)
 /// 153-157, in its exact form, which is the sign test of the pairs that differ.
@@ -21,9 +21,9 @@ struct RateBounds {
 /// \throws std::invalid_argument unless 0 <= hits <= of.
 [[nodiscard]] RateBounds rate_bounds_95(int hits, int of);
 
-/// One-sided exact sign test: the chance that so many or more of the sets that differ are lost where
-/// each is lost or gained as likely. Twice this, at most one, is McNemar's exact two-sided test where
-/// more were lost than gained. 1 where none differs.
+/// One-sided exact sign test: the probability of at least that many losses among the sets that
+/// differ, if losses and gains are equally likely. Twice this, at most one, is McNemar's exact
+/// two-sided test where more were lost than gained. 1 if none differs.
 [[nodiscard]] double sign_test(int lost, int gained);
 
 }  // namespace chaintrue::sealed

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A person who goes back and measures what the diagnosis asks for.
+/// Measures what the diagnosis proposes.
 #pragma once
 
 #include "sealed/judge/trial.hpp"
 
 namespace chaintrue::sealed {
 
-/// Measures in the order of the list, diagnoses again once it is done, and so on until a single
-/// cause stands or so many measurements are made.
+/// Measures in the order of the list, repeats the diagnosis after each round, until a single cause
+/// remains or the number of measurements is reached.
 [[nodiscard]] FollowUp follow_up(generator::SealedSet& set,
                                  grid::MeasuredGrid grid,
                                  grid::diagnosis::Diagnosis found,

@@ -30,15 +30,16 @@ Eigen::Vector2d reading(const TrueMachine& machine, std::span<const Hidden> effe
   return {lengths.front()[0], lengths.front()[1]};
 }
 
-/// Where these lengths are read: Newton's method with differences of half a millimetre.
+/// The position at which these lengths are read: Newton's method with differences of half a
+/// millimetre.
 Vec2 place_of(const TrueMachine& machine,
               std::span<const Hidden> effects,
               const model::ChainLengths& paid_out,
               Vec2 at) {
   constexpr double kStepMm = 0.5;
   constexpr int kMost = 20;
-  constexpr double kThereMm = 1e-3;      // against a noise of 0.3 mm
-  constexpr double kFarMm = 0.05;        // would be a part of that noise
+  constexpr double kThereMm = 1e-3;      // compared with a noise of 0.3 mm
+  constexpr double kFarMm = 0.05;        // a significant part of that noise
   const Eigen::Vector2d wanted(paid_out.left_mm, paid_out.right_mm);
   for (int step = 0; step < kMost; ++step) {
     const Eigen::Vector2d here = reading(machine, effects, at);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Holes cut by the hidden machine, which shares no line with the product: where it comes to rest
-/// with the lengths that the controller paid out, measured with a tape, and diagnosed.
+/// Holes cut by the hidden machine, which shares no code with the product: its equilibrium with the
+/// lengths that the controller paid out, measured with a tape, and diagnosed.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 namespace chaintrue::sealed {
 
 /// Nine holes and twenty distances (fixtures/holes/nine_holes.json, its lengths replaced); motors
-/// off by 1.5 mm and zeros by 0.5 mm, one sigma; stated 3 and 1.
-/// \throws std::runtime_error where the machine cannot cut one of the holes.
+/// off by 1.5 mm and zeros by 0.5 mm, one sigma; stated 3 and 1. \throws std::runtime_error if the
+/// machine cannot cut one of the holes.
 [[nodiscard]] grid::MeasuredHoles hidden_holes(const std::vector<generator::Hidden>& effects,
                                                std::uint64_t seed);
 
-/// Nothing, or 0.15 % of a long chain, left of even seeds and right of odd ones: a strength of some
-/// eight. Points count the distances.
+/// No cause, or a chain that is 0.15 % long, left for even seeds and right for odd ones: a strength
+/// of some eight. `points` is the number of distances.
 [[nodiscard]] Trial run_holes_trial(bool long_chain, std::uint64_t seed);
 
 }  // namespace chaintrue::sealed

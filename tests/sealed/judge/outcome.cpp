@@ -16,7 +16,7 @@ namespace {
 
 using grid::diagnosis::Verdict;
 
-/// A name that is claimed with less is not counted as a claim.
+/// Names with a lower probability do not count as claims.
 constexpr double kClaim = 0.9;
 
 std::string with_class(const NamedCause& cause) {
@@ -31,7 +31,7 @@ double strength_of(const generator::Answer& answer) {
   return answer.left_over_delta;
 }
 
-/// The facts that hold, in the order in which they are asked.
+/// The facts that are true, in the order of evaluation.
 class Facts {
  public:
   void add(const char* fact, bool holds) {

@@ -30,8 +30,8 @@ struct Kind {
   std::variant<Chains, Holes, BeltRecipe> recipe;
 };
 
-/// Seeds that no table of docs/ and no test was made with. As many sets of a kind as one point of
-/// its rate asks for: of 600 sets, one point is six.
+/// Seeds that are not used for any table of docs/ or any test. The number of sets of a kind follows
+/// from one point of its rate: of 600 sets, one point is six.
 const std::vector<Kind>& all_kinds() {
   static const std::vector<Kind> list = {
       {"single", 1'000'000, 900, Chains{Mix::single}},
@@ -65,7 +65,7 @@ const Kind& kind_of(const std::string& name) {
   throw std::invalid_argument("no kind of sealed sets: \"" + name + "\"");
 }
 
-/// Of four sets three have 28 points, where a cause is hardest to tell, and one has 60.
+/// Three of four sets have 28 points, where causes are hardest to distinguish, and one has 60.
 int points_of(std::uint64_t seed) { return seed % 4 == 3 ? 60 : 28; }
 
 Outcome run(const Kind& kind, const Chains& chains, std::uint64_t seed) {
@@ -94,7 +94,7 @@ std::vector<std::string> kinds() {
 
 std::vector<PlannedSet> plan() {
   struct Placed {
-    double at;  // share of its kind that comes before it
+    double at;  // share of its kind before it
     PlannedSet set;
   };
   std::vector<Placed> placed;

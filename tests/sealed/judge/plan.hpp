@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The frozen list of sealed sets on which two versions of the diagnosis are compared: kinds of
-/// sets with their seeds, spread evenly over the list, so that each stretch of it holds every kind
-/// in the same proportion. A set depends on its kind and seed alone.
+/// sets with their seeds, spread evenly over the list, so that each part of it has every kind in
+/// the same proportion. A set depends on its kind and seed alone.
 #pragma once
 
 #include <cstddef>
@@ -24,11 +24,11 @@ struct PlannedSet {
 [[nodiscard]] std::vector<std::string> kinds();
 /// All sets, in the order in which they are run.
 [[nodiscard]] std::vector<PlannedSet> plan();
-/// Part `shard` (from 1) of `shards` parts of the list, which together are the list.
+/// Part `shard` (from 1) of `shards` parts of the list; together they are the list.
 [[nodiscard]] std::vector<PlannedSet> shard_of(const std::vector<PlannedSet>& list,
                                                std::size_t shard,
                                                std::size_t shards);
-/// Draws the set, has it diagnosed and opens its answer. An exception is a set that failed.
+/// Draws the set, diagnoses it and compares with the truth. An exception counts as a failed set.
 /// \throws std::invalid_argument for a kind that is not in the list.
 [[nodiscard]] Outcome run_set(const PlannedSet& set);
 

@@ -13,7 +13,7 @@
 namespace chaintrue::sealed {
 namespace {
 
-/// Of a rate: what two versions may differ by where chance cannot be excluded.
+/// Allowed difference of a rate between two versions where chance cannot be excluded.
 constexpr double kMarginPoints = 1.0;
 constexpr double kChance = 0.05;
 
@@ -22,7 +22,7 @@ std::string percent(double share) { return fmt::format("{:.1f}", 100.0 * share);
 std::pair<std::string, std::uint64_t> key(const Outcome& o) { return {o.kind, o.seed}; }
 
 bool same_set(const Outcome& a, const Outcome& b) {
-  // The strength is written to 0.01; another compiler may round it to its neighbour.
+  // The strength is written to 0.01; another compiler may round it to a neighbouring value.
   return a.points == b.points && a.hidden == b.hidden && std::abs(a.strength - b.strength) < 0.02;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From the outcomes of sealed sets to the table of rates, and from two versions' outcomes of the
-/// same sets to what one lost against the other.
+/// The table of rates from the outcomes of sealed sets, and the comparison of two versions'
+/// outcomes of the same sets.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ namespace chaintrue::sealed {
 
 /// One row of the table: the sets of a kind within a range of strength that have all of `facts`.
 struct RateRow {
-  std::string hidden;    ///< in words
-  std::string right_is;  ///< in words
+  std::string hidden;    ///< for the table
+  std::string right_is;  ///< for the table
   std::string kind;
   std::vector<std::string> facts;
   double from_strength = 0.0;
@@ -26,10 +26,10 @@ struct RateRow {
 };
 [[nodiscard]] const std::vector<RateRow>& rate_rows();
 
-/// As Markdown, with binomial 95 % bounds; rows without a set are left out.
+/// As Markdown, with binomial 95 % bounds; rows without sets are left out.
 [[nodiscard]] std::string rates_table(const std::vector<Outcome>& outcomes);
 
-/// One row of two versions on the same sets.
+/// One row for two versions on the same sets.
 struct RowComparison {
   std::string hidden;
   std::string right_is;
@@ -39,21 +39,21 @@ struct RowComparison {
   int gained = 0;  ///< wrong as frozen, right now
   double p = 1.0;  ///< sign_test(lost, gained)
 
-  /// In points, now less frozen.
+  /// In points, new less frozen.
   [[nodiscard]] double difference() const;
-  /// By more than one point, and by more than chance makes once in twenty times.
+  /// By more than one point, and by more than chance gives once in twenty times.
   [[nodiscard]] bool worse() const;
 };
 struct Comparison {
   std::vector<RowComparison> rows;
-  int sets = 0;  ///< that both have
-  /// Sets whose outcome is another, as frozen and now; names and verdicts included.
+  int sets = 0;  ///< present in both
+  /// Sets with different outcomes, frozen and new; names and verdicts included.
   std::vector<std::pair<Outcome, Outcome>> changed;
 
   [[nodiscard]] bool worse() const;
 };
-/// Of the sets that both have. \throws std::invalid_argument where what is hidden in a set of one is
-/// not what is hidden in the other's: these are not the same sets.
+/// For the sets present in both. \throws std::invalid_argument if the hidden causes of a set differ:
+/// these are not the same sets.
 [[nodiscard]] Comparison compare(const std::vector<Outcome>& frozen,
                                  const std::vector<Outcome>& now);
 [[nodiscard]] std::string comparison_table(const Comparison& comparison);

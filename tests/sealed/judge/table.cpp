@@ -19,7 +19,7 @@ namespace {
 using generator::Mix;
 using grid::diagnosis::Verdict;
 
-/// Two columns, one row a figure.
+/// Two columns, one row for each figure.
 class Rows {
  public:
   void add(const std::string& what, const std::string& value) {
@@ -160,7 +160,7 @@ void about_errors(const std::vector<Trial>& trials, Rows& rows) {
     oracle += e.oracle * e.oracle;
     ++count;
     worse.push_back(e.extended / e.calibrated);
-    // Naming a reading that was written down wrong changes next to nothing elsewhere.
+    // Naming a reading with a gross error hardly changes anything else.
     if (names_something(t) && !only_miscounts(t.answer)) {
       const double drop = e.calibrated * e.calibrated - e.extended * e.extended;
       honest.count(std::abs(e.reported_drop - drop) <= 0.15 * std::abs(drop));

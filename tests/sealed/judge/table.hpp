@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From many trials to the figures that are stated of them, as Markdown, and to a line a trial.
+/// The figures of many trials as Markdown, and one line for each trial.
 #pragma once
 
 #include <string>
@@ -22,8 +22,8 @@ struct Share {
 };
 [[nodiscard]] std::string text(const Share& share);
 
-/// Mean gap between what leading causes claim and how often they are right, in ten bins; and how
-/// often claims of 0.95 or more are.
+/// Mean difference between the stated probability of the best causes and their rate of being right,
+/// in ten bins; and that rate for probabilities of 0.95 or more.
 struct Honesty {
   double calibration_error = 0.0;
   int claims = 0;
@@ -31,7 +31,7 @@ struct Honesty {
 };
 [[nodiscard]] Honesty honesty(const std::vector<Trial>& trials);
 
-/// Deterministic but for the times, which stand in a row of their own.
+/// Deterministic except for the times, which have a separate row.
 [[nodiscard]] std::string markdown(const TrialOptions& options, const std::vector<Trial>& trials);
 [[nodiscard]] std::string csv(const std::vector<Trial>& trials);
 

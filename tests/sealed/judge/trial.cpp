@@ -18,7 +18,7 @@ std::string id_of(std::string_view effect, std::string_view side) {
   return std::string(effect) + ":" + (side.empty() ? "-" : std::string(side));
 }
 
-// Of the processor, so that other work on the machine does not count.
+// Processor time, so that other work on the machine does not count.
 double thread_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -70,7 +70,7 @@ Trial run_trial(const TrialOptions& options, std::uint64_t seed) {
   how.gain = options.gain;
   how.next_measurements = options.follow_up;
   how.steps = options.steps;
-  how.accept_class = true;  // what the oracle is told, the person accepts
+  how.accept_class = true;  // as the oracle is given the cause, its class is accepted
 
   const double start = thread_seconds();
   const auto found = grid::diagnosis::diagnose(grid, how);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// One sealed set from the envelope to the judgement: the grid's text is read as a person's file
-/// would be, diagnosed, and only then is the answer opened.
+/// The trial of one sealed set: the grid's text is read like a user's file and diagnosed, and only
+/// then compared with the truth.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ namespace chaintrue::sealed {
 struct TrialOptions {
   generator::Recipe recipe;
   grid::diagnosis::Steps steps;
-  bool stability = true;   ///< naming without each reading, and no name that one reading makes
+  bool stability = true;   ///< names without each reading, and no name that depends on one
   bool gain = false;       ///< held-out errors, reported and true
-  bool follow_up = false;  ///< measures what the diagnosis asks for, where it leaves a set
+  bool follow_up = false;  ///< measures what the diagnosis proposes, if it leaves a set of causes
   int follow_up_measurements = 8;
 };
 
-/// A cause as the diagnosis gave it.
+/// A cause as reported by the diagnosis.
 struct NamedCause {
   std::string id;  ///< effect:side
   double probability = 0.0;
@@ -33,9 +33,9 @@ struct NamedCause {
 /// Errors of the tool on a fresh session without noise [mm, rms].
 struct TrueErrors {
   double calibrated = 0.0;
-  double extended = 0.0;       ///< as the diagnosis would have it
-  double oracle = 0.0;         ///< told the cause
-  double reported_drop = 0.0;  ///< of the mean square, as the diagnosis states it
+  double extended = 0.0;       ///< with the diagnosis's machine
+  double oracle = 0.0;         ///< given the cause
+  double reported_drop = 0.0;  ///< of the mean square, as reported by the diagnosis
   double reported_share = 0.0;
 };
 
@@ -54,7 +54,7 @@ struct Trial {
   grid::diagnosis::Verdict verdict = grid::diagnosis::Verdict::nothing_found;
   std::vector<NamedCause> causes;
   std::vector<grid::diagnosis::Hypothesis> hypotheses;
-  double unknown_probability = 0.0;  ///< of a pattern, alone or beside causes
+  double unknown_probability = 0.0;  ///< of a pattern, alone or together with causes
   double family_wise_p = 1.0;
   double left_over_delta = 0.0;
   double noise_factor = 1.0;
@@ -69,20 +69,20 @@ struct Trial {
 
 /// In the order of the diagnosis.
 [[nodiscard]] std::vector<NamedCause> named_causes(const grid::diagnosis::Diagnosis& found);
-/// Takes what a trial says of a diagnosis over from it.
+/// Copies the results of a diagnosis into a trial.
 void take_over(const grid::diagnosis::Diagnosis& found, Trial& trial);
 
 /// The cause or a member of its class.
 [[nodiscard]] bool means(const NamedCause& named, const std::string& id);
 /// Any of named, named_set, several_causes.
 [[nodiscard]] bool names_something(const Trial& trial);
-/// The hidden cause leads.
+/// The hidden cause is the first.
 [[nodiscard]] bool leads_right(const Trial& trial);
 /// The hidden cause is among `causes`.
 [[nodiscard]] bool in_set(const Trial& trial);
 /// Every hidden cause is among `causes`.
 [[nodiscard]] bool all_named(const Trial& trial);
-/// Every point that is bad is among those that were set aside.
+/// Every bad point is among the rejected ones.
 [[nodiscard]] bool all_bad_found(const Trial& trial);
 /// effect:side, `-` for no side.
 [[nodiscard]] std::string id_of(const generator::Hidden& hidden);

@@ -16,7 +16,7 @@ using generator::Lengths;
 using generator::Vec2;
 using generator::Visit;
 
-// A miscount happened once; a fresh session does not have it.
+// A miscount happened once; a fresh session does not include it.
 std::vector<Hidden> lasting(std::vector<Hidden> effects) {
   std::erase_if(effects,
                 [](const Hidden& h) { return h.cause == generator::Cause::link_miscount; });
@@ -43,7 +43,8 @@ struct Fresh {
 std::optional<Fresh> fresh_of(const generator::SealedSet& set) {
   generator::Dice dice(1, "fresh session");
   Fresh fresh;
-  // What hangs on the visits is seen where they were; anything else over the whole area.
+  // Effects of the visits are evaluated at the session's own positions; all others over the whole
+  // area.
   fresh.visits = hangs_on_visits(set) ? generator::fresh_session(set.machine, 150.0, dice)
                                       : generator::area_session(set.machine, dice);
   const auto hidden = lasting(set.machine.hidden());
@@ -62,7 +63,7 @@ std::optional<Fresh> fresh_of(const generator::SealedSet& set) {
   return fresh;
 }
 
-// Through the inverse slope, from chains to tool.
+// By the inverse Jacobian, from chains to tool.
 double tool_rms_mm(const Fresh& fresh, const std::vector<Lengths>& predicted) {
   double sum = 0.0;
   for (std::size_t i = 0; i < predicted.size(); ++i) {
@@ -83,7 +84,7 @@ std::optional<double> told(const generator::SealedSet& set,
   record.notes = set.notes;
   record.noise = set.noise;
   record.left_out = set.answer.bad_points;
-  // Whoever does not know of a miscount still sees that one point is out by a whole link.
+  // Without the miscount, one point is still off by a whole link.
   for (const Hidden& h : set.answer.hidden) {
     if (h.cause == generator::Cause::link_miscount) {
       record.left_out.push_back(static_cast<std::size_t>(h.place));
@@ -97,8 +98,8 @@ std::optional<double> told(const generator::SealedSet& set,
   return tool_rms_mm(fresh, *predicted);
 }
 
-// The diagnosis's machine with the corrections that it makes of the data; of those that hang on the
-// visits only where these are the session's own: no map holds them.
+// The diagnosis's machine with its corrections of the data; those that depend on the visits only
+// for the session's own visits: no map includes them.
 model::Machine extended(const grid::diagnosis::Diagnosis& found, bool same_visits) {
   model::Machine machine = found.extended_machine;
   machine.effects.insert(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How wrong the tool would be with what a diagnosis made of the data, against the hidden machine
-/// itself and against somebody who was told the cause.
+/// The true error of the tool with the result of a diagnosis, from the hidden machine itself,
+/// compared with the error if the cause is given.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace chaintrue::sealed {
 
-/// Nothing where a fit or a prediction fails.
+/// Empty if a fit or a prediction fails.
 [[nodiscard]] std::optional<TrueErrors> true_errors(const generator::SealedSet& set,
                                                     const grid::diagnosis::Diagnosis& found);
 

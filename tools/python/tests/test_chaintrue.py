@@ -61,10 +61,11 @@ def test_a_query_has_shapes_and_an_inverse(map):
     answer = chaintrue.query(map, points)
     assert answer.lengths.shape == answer.sigma.shape == (3, 2)
     assert answer.tool_sigma.shape == answer.status.shape == (3,)
-    # The numbers that README.md shows, to its last digit.
+    # The numbers of README.md, to the last digit.
     assert [f"{length:.6f}" for length in answer.lengths[0]] == ["1678.789218", "1510.239393"]
     assert answer.status[0] == "inside"
-    # Newton's steps end at 1e-9 mm; a bed's chain lengths move the tool no more than tenfold.
+    # Newton's steps end at 1e-9 mm; on the bed the tool moves at most ten times as far as the
+    # chains.
     assert numpy.abs(chaintrue.inverse(map, answer.lengths) - points).max() < 1e-8
 
 

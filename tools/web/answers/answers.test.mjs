@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same answers: every verb on the fixtures, under node as a package and natively. Text, tables and G-code equal to
+// Equal results: every verb on the fixtures, as a package under node and natively. Text, tables and G-code equal to
 // the byte; numbers of JSON and of a report's charts to 1e-9 of their size.
 //   node --test answers/                       every verb on each kind of file: two minutes
 //   ANSWERS=all node --test answers/           all of them
@@ -27,11 +27,11 @@ describe("the same answers", {concurrency: 1}, () => {
     test(`chaintrue ${words.join(" ")}`, async () => {
       const before = new Map(filesBelow(folder).map((path) => [path, statSync(join(folder, path)).mtimeMs]));
       const wanted = runNative(words, folder);
-      // The corpus is large, and nobody reads it but by name.
+      // The corpus is large, and files of it are read only by name.
       const read = Object.entries(inMemory).filter(([path]) => !path.startsWith("fixtures/gcode/corpus/") || words.includes(path));
       const found = await chaintrue.run(words, Object.fromEntries(read));
       const written = filesBelow(folder).filter((path) => before.get(path) !== statSync(join(folder, path)).mtimeMs);
-      // Each verb is compared on the same input: what the native command wrote is what both read next.
+      // Each verb is compared on the same input: both read what the native command wrote before.
       for (const path of written) inMemory[path] = new Uint8Array(readFileSync(join(folder, path)));
       const place = words.join(" ");
       assertSame(found.stderr, wanted.stderr, `${place}: standard error`);

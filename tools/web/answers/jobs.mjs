@@ -15,7 +15,7 @@ export const fixtures = filesBelow(join(root, "fixtures")).sort();
 const of = (folder, pattern) => fixtures.filter((path) => path.startsWith(folder) && pattern.test(path)).map((path) => `fixtures/${path}`);
 
 const CLASSIC = ["--machine", "fixtures/machines/classic.json"];
-/** Every verb, one after the other; a later one may read what an earlier one has written. */
+/** Every verb, in order; a later one may read what an earlier one has written. */
 const verbs = [
   ["--help-all"],
   ["--version"],
@@ -53,7 +53,7 @@ const verbs = [
   ["gcode", "explain", "fixtures/gcode/bracket.nc:14", "--map", "map.json"],
 ];
 
-/** On each file of a kind; none writes what another reads. */
+/** For each file of a kind; no job reads the output of another. */
 const onFiles = [
   ...of("machines/", /\.json$/).flatMap((path) => [["effects", "chain_sag", "--machine", path],
     ["simulate", "--machine", path, "--grid", "3x3", "-o", "-"]]),
@@ -74,7 +74,7 @@ const onFiles = [
 
 export const jobs = [...verbs, ...onFiles];
 
-/** What a command line is about: its words with the kinds of files in place of their names. */
+/** The kind of a command line: its words with the kinds of files in place of their names. */
 function kindOf(words) {
   return words.map((word) => {
     const file = /^fixtures\/(gcode\/corpus\/\w+|.*\/[a-z0-9]+)(?:[_/].*)?\.(\w+)$/.exec(word);
@@ -82,10 +82,10 @@ function kindOf(words) {
   }).join(" ");
 }
 
-/** One file in so many of a kind. */
+/** One file in this number of each kind is used. */
 const EVERY = 12;
 
-/** "all" of them; "few": every verb, and one file in twelve of each kind; "FROM-TO": those of these numbers, and every verb. */
+/** "all"; "few": every verb, and one file in twelve of each kind; "FROM-TO": these job numbers, and every verb. */
 export function chosenJobs(which) {
   if (which === "all") return jobs;
   const range = /^(\d+)-(\d+)$/.exec(which);

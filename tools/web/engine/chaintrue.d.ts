@@ -13,16 +13,16 @@ export interface Result {
 }
 
 export interface Options {
-  /** What `-` reads. */
+  /** Standard input, read by `-`. */
   stdin?: Uint8Array;
-  /** Told of long work, at most ten times a second: "diagnose: 3 s, step 2 of 5, ...". */
+  /** Called during long work, at most ten times a second: "diagnose: 3 s, step 2 of 5, ...". */
   onProgress?: (words: string) => void;
 }
 
 export interface Chaintrue {
-  /** Runs the command with these words in a folder of these files. Rejects only where the engine itself dies. */
+  /** Runs the command with these words in a folder of these files. Rejects only if the engine itself fails. */
   run(words: string[], files?: Files, options?: Options): Promise<Result>;
 }
 
-/** The command, compiled once; `wasm` is chaintrue.wasm where it does not lie beside chaintrue.mjs. */
+/** The command, compiled once; `wasm` is chaintrue.wasm if it is not next to chaintrue.mjs. */
 export function load(wasm?: ArrayBuffer | Uint8Array): Promise<Chaintrue>;

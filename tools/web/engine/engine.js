@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command as the page sees it: one run after the other in a worker that can be stopped.
+// The command for the page: runs in sequence in a worker that can be stopped.
 
-/** The command did not come to its end: it was stopped, or the engine died. */
+/** The command did not finish: it was stopped, or the engine died. */
 export class NotFinished extends Error {
   constructor(message, isCancelled) {
     super(message);
@@ -22,7 +22,7 @@ export class Engine {
     return new Engine(source, await WebAssembly.compile(wasm));
   }
 
-  /** @param module is compiled once for all workers: what the browser has learnt of it in one is known to the next */
+  /** @param module is compiled once for all workers, so that the browser's optimised code is shared */
   constructor(source, module) {
     this.#source = source;
     this.#module = module;
@@ -30,8 +30,8 @@ export class Engine {
   }
 
   /**
-   * Runs the command after those that wait. `supersede` names a task: of several that wait under one name
-   * only the last is run, the others end as cancelled.
+   * Queues a run of the command. `supersede` names a task: of several queued runs with one name
+   * only the last is executed, the others are cancelled.
    * @returns a promise of {code, stdout, stderr, files}; rejects with NotFinished
    */
   run(words, files, {onProgress, supersede} = {}) {
@@ -42,7 +42,7 @@ export class Engine {
     });
   }
 
-  /** Stops the runs that `which` chooses, the one under way among them. */
+  /** Stops the runs selected by `which`, including the current one. */
   cancel(which = () => true) {
     const stopped = this.#waiting.filter(which);
     this.#waiting = this.#waiting.filter((job) => !stopped.includes(job));
@@ -65,7 +65,7 @@ export class Engine {
     worker.onmessage = ({data}) => this.#heard(data);
     worker.onerror = (event) => {
       event.preventDefault();
-      // One that was stopped has nothing more to say of the work of the next.
+      // Messages of a stopped worker do not concern the next run.
       if (worker === this.#worker) this.#died(event.message || "the worker ended");
     };
     worker.postMessage({module: this.#module});
@@ -93,7 +93,7 @@ export class Engine {
       return;
     }
     if (starved !== undefined && !job.isSecond) {
-      // What earlier runs left in the worker's memory goes with the worker.
+      // A new worker, to release the memory of earlier runs.
       this.#restart();
       this.#waiting.unshift({...job, isSecond: true});
       this.#next();

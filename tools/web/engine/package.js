@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command as a package for others' pages and for node. `createChaintrue` stands before this text.
+// The command as a package for other pages and for node. `createChaintrue` precedes this text.
 import {freshInstance, runIn} from "./run.js";
 
 const isNode = typeof process !== "undefined" && process.versions?.node !== undefined;
@@ -10,7 +10,7 @@ async function bytesOf(url) {
   return readFile(url);
 }
 
-/** The command, ready to be run: see chaintrue.d.ts. */
+/** The command, ready to run: see chaintrue.d.ts. */
 export async function load(wasm) {
   const bytes = wasm ?? await bytesOf(new URL("chaintrue.wasm", import.meta.url));
   const module = await WebAssembly.compile(bytes);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One run of the command in an instance of its own: its words, the files it may read, and what comes of it.
+// One run of the command in a fresh instance: its words, its input files, and its results.
 
 const FOLDER = "/folder";
-/** When the files were written that a run is given: what it writes itself is of today. */
+/** Modification time of a run's input files; files that it writes have today's. */
 const GIVEN = 0;
 
 /** Text of a run's standard output or error; bytes come one at a time. */
@@ -34,7 +34,7 @@ function writeFiles(FS, files) {
   FS.chdir(FOLDER);
 }
 
-/** The files that a run has written, by path, be they as they were before; those that it only read are not among them. */
+/** The files that a run has written, by path, changed or not; without files that it only read. */
 function writtenFiles(FS, folder = "", written = {}) {
   for (const name of FS.readdir(`${FOLDER}/${folder}`)) {
     if (name === "." || name === "..") continue;
@@ -47,10 +47,10 @@ function writtenFiles(FS, folder = "", written = {}) {
 }
 
 /**
- * An instance of the command that has not run yet. It runs once: what a run leaves in memory is gone with it.
- * @param createChaintrue what emscripten's script defines
+ * A fresh instance of the command. It runs once: its memory is released with it.
+ * @param createChaintrue the function that emscripten's script defines
  * @param module the compiled WebAssembly.Module
- * @throws where the browser has no memory for it
+ * @throws if the browser has not enough memory
  */
 export function freshInstance(createChaintrue, module) {
   const fresh = {out: collector(), err: collector(), stdin: new Uint8Array(), code: null, instance: null};
@@ -60,7 +60,7 @@ export function freshInstance(createChaintrue, module) {
       thisProgram: "chaintrue",
       noInitialRun: true,
       instantiateWasm: (imports, ready) => {
-        // Emscripten's script would wait for ever for one that cannot be made.
+        // Emscripten's script would wait forever for an instance that cannot be made.
         WebAssembly.instantiate(module, imports).then((made) => ready(made, module)).catch(reject);
         return {};
       },
@@ -80,10 +80,10 @@ export function freshInstance(createChaintrue, module) {
 /**
  * Runs the command in a fresh instance.
  * @param words the command line without the command's name
- * @param files path -> Uint8Array, the folder that the command finds itself in
+ * @param files path -> Uint8Array, the command's working folder
  * @param options onProgress(words); stdin (Uint8Array)
  * @returns {code, stdout, stderr, files}: the exit code, both texts, and the files written.
- * @throws what the engine died of; nothing of the folder is lost by that
+ * @throws the engine's error; the folder is unchanged
  */
 export function runIn(fresh, words, files, options = {}) {
   const {instance, out, err} = fresh;

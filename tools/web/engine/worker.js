@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command off the page's own thread. `createChaintrue` stands before this text in the worker's source.
+// Runs the command outside the page's thread. `createChaintrue` precedes this text in the worker's source.
 //   {module: WebAssembly.Module}                   once, before anything else
-//   {id, words, files} -> {id, progress} ... then {id, result}, {id, crashed}, or {id, starved} where there was no memory to
+//   {id, words, files} -> {id, progress} ... then {id, result}, {id, crashed}, or {id, starved} without the memory to
 //                         begin with
 import {freshInstance, runIn} from "./run.js";
 
 let module = null;
-/** The instance of the next run, made while the person looks at the last one's answer. */
+/** The instance for the next run, made in advance after each run. */
 let next = null;
 
 function prepare() {
   next = freshInstance(self.createChaintrue, module);
-  // Told to whom asks for it.
+  // The error is reported when the promise is awaited.
   next.catch(() => {});
 }
 

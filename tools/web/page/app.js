@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page: an owner's evening in four steps on one folder. The engine and the example lie in the page as data.
+// The page: an owner's evening in four steps on one folder. The engine and the example are embedded as data.
 import {Engine} from "../engine/engine.js";
 import {decoded} from "./base85.js";
 import {Busy} from "./busy.js";

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bytes as text of a script element: four of them in five characters, where base64 has three in four.
+// Bytes as text of a script element: four bytes in five characters; base64 has three in four.
 
-/** The printable characters but space, at sign and those that mean something in HTML or in a string of JavaScript. */
+/** The printable characters except space, at sign and those with a meaning in HTML or in a JavaScript string. */
 const DIGITS = Array.from({length: 94}, (_, i) => String.fromCharCode(33 + i)).filter((one) => !"<>&\"'`\\@-".includes(one)).join("");
 const BASE = DIGITS.length;
 
-/** The last group, if it is short by n bytes, is short by n characters. */
+/** A last group that is n bytes short is n characters short. */
 export function encoded(bytes) {
   let text = "";
   for (let at = 0; at < bytes.length; at += 4) {
@@ -18,14 +18,14 @@ export function encoded(bytes) {
   return text;
 }
 
-/** The bytes of what `encoded` made. */
+/** The inverse of `encoded`. */
 export function decoded(text) {
   const values = new Uint8Array(128);
   for (let digit = 0; digit < BASE; ++digit) values[DIGITS.charCodeAt(digit)] = digit;
   const bytes = new Uint8Array(Math.floor(text.length * 4 / 5));
   for (let from = 0, to = 0; from < text.length; from += 5, to += 4) {
     let group = 0;
-    // What is missing counts as the largest digit, so that the bytes before it keep their values.
+    // Missing characters count as the largest digit, so that the bytes before them keep their values.
     for (let i = 0; i < 5; ++i) group = group * BASE + (from + i < text.length ? values[text.charCodeAt(from + i)] : BASE - 1);
     for (let i = 0; i < 4 && to + i < bytes.length; ++i) bytes[to + i] = group >>> (24 - 8 * i);
   }

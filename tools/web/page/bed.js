@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bed beside the table: where the rows' places lie, and which is being typed in.
+// The bed next to the table: the positions of the rows, with the current one marked.
 import {svg} from "./dom.js";
 
 const MARGIN_MM = 60;
 
-/** @param bed {width_mm, height_mm}; @param sheet a Sheet; @param pick(row) is told of a click */
+/** @param bed {width_mm, height_mm}; @param sheet a Sheet; @param pick(row) is called on a click */
 export function bedPicture(bed, sheet, pick) {
   const width = bed.width_mm;
   const height = bed.height_mm;
@@ -26,7 +26,7 @@ export function bedPicture(bed, sheet, pick) {
   if (isDistances) picture.append(...sheet.places.map((place) => hole(place)));
   return {
     element: picture,
-    /** Rows that are filled in, and rows that something is wrong with. */
+    /** Rows that are filled in, and rows with a problem. */
     show({active, filled, wrong}) {
       for (const [index, item] of items.entries()) {
         if (!item) continue;

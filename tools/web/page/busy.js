@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the command is doing, and the button that stops it.
+// The progress of the command, and the button that stops it.
 import {h} from "./dom.js";
 
-/** Shorter work is not worth a word. */
+/** Shorter work shows no message. */
 const QUIET_MS = 300;
 
 export class Busy {

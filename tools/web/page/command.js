@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A verb of the command on the page's folder, and what it says.
+// A verb of the command on the page's folder, and its messages.
 import {NotFinished} from "../engine/engine.js";
 import {h} from "./dom.js";
 
-/** Exit codes of the command, as docs and --help have them. */
+/** Exit codes of the command, as in docs and --help. */
 export const DONE = 0;
 export const CHECK_FAILED = 1;
 
 /**
- * Runs a verb in the folder. What it wrote is in `files` of the answer; it is not yet in the folder.
- * @returns {code, stdout, stderr, files}, or null where it was stopped or died, which is said.
+ * Runs a verb in the folder. The files that it wrote are in `files` of the answer, not yet in the folder.
+ * @returns {code, stdout, stderr, files}, or null if it was stopped or died, with a message.
  */
 export async function runVerb(page, words, {quiet = false, supersede, files = page.store.folder} = {}) {
   const task = quiet ? null : page.busy.begin(words.slice(0, 2).filter((word) => !word.includes(".")).join(" "));
@@ -24,12 +24,12 @@ export async function runVerb(page, words, {quiet = false, supersede, files = pa
   }
 }
 
-/** The sentences that a run says to a person. The next command is the page's own business. */
+/** The messages of a run for the user, without the next command. */
 export function sentencesOf(result) {
   return result.stderr.split("\n").filter((line) => line !== "" && !line.startsWith("Next: "));
 }
 
-/** The same of a run on a list: points that they name by number with their rows. */
+/** The same for a run on a list: points named by number get their rows. */
 export function sentencesAbout(list, result) {
   return sentencesOf(result).map((sentence) => list?.withRows(sentence) ?? sentence);
 }
@@ -48,7 +48,7 @@ export function sentenceList(sentences, properties = {}) {
   return h("ul", {class: "sentences", ...properties}, sentences.map((sentence) => h("li", {}, sentence)));
 }
 
-/** Text of a run that is a table: what goes to standard output. */
+/** Text of a run that prints a table: its standard output. */
 export function printed(text, label) {
   return h("pre", {tabindex: "0", "aria-label": label}, text);
 }

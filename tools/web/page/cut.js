@@ -5,14 +5,14 @@ import {contentOf, download, fileDrop, h, unreadable} from "./dom.js";
 import {reportFrame} from "./frame.js";
 
 const PROGRAMS = [".nc", ".gcode", ".ngc", ".tap", ".cnc", ".txt"];
-/** Those that drive to the marks, which belong to their lists. */
+/** Programs that drive to the marks; they belong to the lists of marks. */
 const SHEETS = ["marks.nc", "holes.nc", "lengths.nc", "five.nc"];
-/** The work that a newer program takes the place of. */
+/** The task that a newer program supersedes. */
 const TASK = "cut";
 
 const isProgram = (path) => PROGRAMS.some((end) => path.toLowerCase().endsWith(end));
 
-/** Why a file of this name cannot be put into the folder as a program; null where it can. */
+/** Why a file of this name cannot be added to the folder as a program; null if it can. */
 function refusalOf(name, folder) {
   if (!isProgram(name)) return `${name} is not opened: a G-code program's name ends in ${PROGRAMS.slice(0, -1).join(", ")} or ${PROGRAMS.at(-1)}.`;
   if (name in folder && (SHEETS.includes(name) || name === "README.txt"))
@@ -32,7 +32,7 @@ export function cutStep(page) {
       fileDrop("program", "Open a G-code program", PROGRAMS.join(","), "Or drop it here.", ([file]) => take(file)), jobs),
     said, outcome);
 
-  /** Of programs that come one after the other the last is worked on and shown. */
+  /** Of several programs in sequence only the last is processed and shown. */
   let latest = 0;
   function begin() {
     page.engine.cancel((job) => job.supersede === TASK);

@@ -20,7 +20,7 @@ export const svg = (tag, properties, ...children) => fill(document.createElement
 export const textOf = (bytes) => new TextDecoder().decode(bytes);
 export const bytesOf = (text) => new TextEncoder().encode(text);
 
-/** The bytes of a file that somebody chose or dropped; null where there are none to be had, as of a folder. */
+/** The bytes of a chosen or dropped file; null if it cannot be read, such as a folder. */
 export async function contentOf(file) {
   try {
     return new Uint8Array(await file.arrayBuffer());
@@ -31,7 +31,7 @@ export async function contentOf(file) {
 
 export const unreadable = (file) => `${file.name} cannot be read. Open a file, not a folder, that is still there.`;
 
-/** Gives the browser a file to keep. */
+/** Offers a file as a download. */
 export function download(name, bytes) {
   const url = URL.createObjectURL(new Blob([bytes], {type: "application/octet-stream"}));
   const link = h("a", {href: url, download: name});
@@ -42,7 +42,7 @@ export function download(name, bytes) {
   setTimeout(() => URL.revokeObjectURL(url), 60_000);
 }
 
-/** A button that opens the browser's choice of files, and a place to drop them. */
+/** A button that opens the browser's file dialog, and an area to drop files. */
 export function fileDrop(id, label, accept, hint, take, {multiple = false} = {}) {
   const input = h("input", {type: "file", id, accept, multiple, onchange: async () => {
     const files = [...input.files];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The folder's files, one by one: they are the command's own.
+// The folder's files, one by one, as the command wrote them.
 import {download, h} from "./dom.js";
 
 export function filesStep(page) {

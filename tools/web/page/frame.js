@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A page that the command wrote, in a frame of its own: it can run its charts, and reach neither this page nor a network.
+// A page written by the command, in a frame: it can run its charts, but reach neither this page nor a network.
 import {h, textOf} from "./dom.js";
 
-/** Tells the frame's height, and prints when asked: the frame is of no origin, so only messages pass. */
+/** Reports the frame's height, and prints on request: the frame has no origin, so only messages can be exchanged. */
 const INSIDE = `<script>
 new ResizeObserver(() => parent.postMessage({chaintrueHeight: document.documentElement.getBoundingClientRect().height}, "*"))
   .observe(document.documentElement);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The first step: whose machine it is.
+// The first step: the machine.
 import {DONE, problemOf, runVerb, sentenceList, sentencesOf} from "./command.js";
 import {bytesOf, contentOf, fileDrop, h, textOf, unreadable} from "./dom.js";
 import {MachineForm} from "./machine_form.js";
 import {Sheet} from "./sheet.js";
 import {folderOf} from "./zip.js";
 
-/** Where the command puts the machine and its sheets; here it is the folder of the page itself. */
+/** The folder of the machine and its sheets in the command; here it is the page's own folder. */
 const FOLDER = "my-machine";
 const SETTINGS = ".ini,.json,.yaml,.yml,.txt,.zip";
 
@@ -43,7 +43,7 @@ export function machineStep(page) {
       try {
         form.draw(JSON.parse(textOf(file)));
       } catch {
-        numbers.hidden = true;  // the command says what is wrong with it wherever it is used
+        numbers.hidden = true;  // the command reports what is wrong with it whenever it is used
       }
     },
     marked: (problems) => say(form.mark(problems).map(({text}) => text), true),
@@ -51,7 +51,7 @@ export function machineStep(page) {
   };
 }
 
-/** True where somebody has typed readings into a list: that is not thrown away unasked. */
+/** True if readings were typed into a list: they are not discarded without a question. */
 export function hasReadings(folder) {
   return Object.entries(folder).some(([path, bytes]) => path.endsWith(".csv") && (Sheet.of(textOf(bytes))?.filled ?? 0) > 0);
 }
@@ -61,7 +61,7 @@ export function mayReplace(page) {
     confirm("This replaces the machine and the readings in this page. Undo brings them back until the page is closed.");
 }
 
-/** The whole folder becomes `files`, in one step. */
+/** Replaces the whole folder by `files`, in one step. */
 export function replaceFolder(page, files, step) {
   const gone = Object.fromEntries(Object.keys(page.store.folder).map((path) => [path, null]));
   page.store.change({...gone, ...files});
@@ -138,7 +138,7 @@ async function example(page, say) {
   page.store.change({"marks.csv": bytesOf(files["marks.csv"]), "bracket.nc": bytesOf(files["bracket.nc"])});
 }
 
-/** A number of the form: checked by the command, which plans new sheets where nothing is read yet. */
+/** A number of the form: checked by the command, which plans new sheets if nothing was read yet. */
 async function numbersTyped(page, machine, name, say) {
   const bytes = bytesOf(`${JSON.stringify(machine, null, 2)}\n`);
   page.store.change({"machine.json": bytes}, name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The machine's numbers with a drawing that shows what each is. Ranges and their sentences are the command's.
+// The machine's numbers with a drawing that labels them. Ranges and messages are the command's.
 import {h, svg} from "./dom.js";
 
 const at = (machine, path) => path.reduce((value, key) => value?.[key], machine);
@@ -9,12 +9,12 @@ function put(machine, path, value) {
   return {...machine, [key]: rest.length === 0 ? value : put(machine?.[key] ?? {}, rest, value)};
 }
 
-/** A number of the file as it stands. */
+/** A number as it is in the file. */
 const plain = (id, label, ...path) => ({
   id, label, pointer: `/${path.join("/")}`, get: (machine) => at(machine, path), set: (machine, value) => put(machine, path, value),
 });
 
-/** Motors are given by their distance and by their height, as a tape sees them. */
+/** Motors are given by their distance and height, as measured with a tape. */
 const distance = {
   id: "distance", label: "Between the motors, mm", pointer: "/motors",
   get: ({motors}) => round(motors.right.x_mm - motors.left.x_mm),
@@ -62,7 +62,7 @@ export class MachineForm {
   #drawn = null;
   #fields = [];
 
-  /** @param changed(machine, name) is told the machine with a number replaced */
+  /** @param changed(machine, name) is called with the machine with a number replaced */
   constructor(changed) {
     this.#changed = changed;
   }
@@ -78,7 +78,7 @@ export class MachineForm {
     if (active?.startsWith("machine-")) document.getElementById(active)?.focus();
   }
 
-  /** Says each problem {pointer, text} at the field that it is of; gives those of no field. */
+  /** Shows each problem {pointer, text} at its field; returns those without a field. */
   mark(problems) {
     const left = [...problems];
     for (const {field, input, note} of this.#fields) {
@@ -107,7 +107,7 @@ export class MachineForm {
   #take(field, machine, typed) {
     const text = typed.trim().replace(/^([-+]?\d*),(\d+)$/, "$1.$2");
     const value = Number(text);
-    // A text goes into the file as it is, for the command to say what it expected there.
+    // A text is written to the file unchanged, so that the command reports what it expected.
     const isNumber = text !== "" && Number.isFinite(value);
     const changed = isNumber || field.pointer !== "/motors" ? field.set(machine, isNumber ? value : text)
       : put(machine, ["motors", "left", "x_mm"], text);
@@ -119,7 +119,7 @@ function dimension(id, x1, y1, x2, y2, x, y, text) {
   return svg("g", {class: `dimension of-${id}`}, svg("line", {x1, y1, x2, y2}), svg("text", {x, y}, text));
 }
 
-/** Not to scale: which number is which. */
+/** A sketch, not to scale, that labels the numbers. */
 function drawing() {
   return svg("svg", {class: "machine-drawing", viewBox: "0 0 420 300", role: "img",
     "aria-label": "The machine: a sheet, above it two motors, from each a chain to the sled. The number being typed is lit."},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A Maslow 4: its log becomes belt lengths, these the anchors, and these the lines to paste.
+// A Maslow 4: from its log to belt lengths, anchors, and the lines to paste.
 import {DONE, printed, runVerb, sentenceList, sentencesOf} from "./command.js";
 import {h} from "./dom.js";
 import {replaceFolder} from "./machine.js";

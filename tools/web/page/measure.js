@@ -11,10 +11,10 @@ const WAYS = [
   ["holes.csv", "Holes: distances between them, with a tape"],
   ["lengths.csv", "Chain lengths: read off the machine at each mark"],
 ];
-/** New points that the map is held against, once there is one; they are no readings to fit. */
+/** New points for checking the map, once there is one; they are not fitted. */
 export const NEW_POINTS = "five.csv";
 const CHECK = [NEW_POINTS, "New points: does the map still hold?"];
-/** Between the last key and a run of the command: as long as a person takes from key to key. */
+/** Delay between the last key and a run of the command: the time between two keys. */
 const PAUSE_MS = 350;
 
 export function measureStep(page) {
@@ -93,7 +93,7 @@ export function bedOf(folder) {
   }
 }
 
-/** The list of readings that the map is made from: the one shown, or the last one that was. */
+/** The list of readings for the map: the one shown, or the one shown last. */
 export const fittedList = ({sheet, fitted}) => (sheet === NEW_POINTS ? fitted ?? WAYS[0][0] : sheet);
 
 export async function chooseWay(page, path) {
@@ -107,7 +107,7 @@ export async function chooseWay(page, path) {
   page.store.show({sheet: path, fitted: fittedList({...page.store.view, sheet: path === NEW_POINTS ? page.store.view.sheet : path})});
 }
 
-/** What the command says of what is typed so far; its sentences stand below, and at the rows that they are about. */
+/** The command's messages on the input so far, shown below the list and at the rows they refer to. */
 async function judge(page, readings, said) {
   const {sheet: path} = page.store.view;
   const text = page.store.folder[path];
@@ -138,7 +138,7 @@ async function judge(page, readings, said) {
   said.replaceChildren(...outcome(page, sentences.map(withRows), result.code));
 }
 
-/** What a check prints: the verdict on the first line, the numbers below. */
+/** The output of a check: the verdict on the first line, the numbers below. */
 function showVerdict(said, {code, stdout}, sentences, withRows) {
   const [verdict, ...numbers] = withRows(stdout).split("\n").filter((line) => line !== "");
   said.className = code === DONE ? "said" : "said problem";
@@ -159,7 +159,7 @@ function outcome(page, sentences, code) {
   ].filter(Boolean);
 }
 
-/** Puts a sentence at the row that it is about: a place in the file, or a point by its number. */
+/** Shows a message at the row that it refers to, by a place in the file or a point's number. */
 function markRow(problems, list, sentence, path) {
   if (!list) return;
   const problem = problemOf(sentence, path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table that readings are typed into, with the bed beside it. What is wrong with a cell the command says.
+// The table for typing readings, next to the bed. Problems of a cell are the command's messages.
 import {bedPicture} from "./bed.js";
 import {h} from "./dom.js";
 import {millimetresOf, shownIn} from "./sheet.js";
@@ -26,15 +26,15 @@ export class Readings {
   #wrong = new Map();
 
   /**
-   * @param changed(text, name) is told of the whole list and of the name of the cell
-   * @param outcome what stands below the bed: what the readings say
+   * @param changed(text, name) is called with the whole list and the name of the cell
+   * @param outcome the results from the readings, shown below the bed
    */
   constructor(changed, outcome) {
     this.#changed = changed;
     this.#outcome = outcome;
   }
 
-  /** Draws the list anew, unless it is what the table itself has just made of it. */
+  /** Redraws the list, unless the table itself has just changed it. */
   draw(sheet, bed, unit) {
     if (this.#sheet && this.#sheet.text() === sheet.text() && this.#unit === unit && this.#bed?.of === bedKey(bed)) return;
     this.#sheet = sheet;
@@ -119,7 +119,7 @@ export class Readings {
     target.select();
   }
 
-  /** A block of a spreadsheet goes from this cell on to the right and down; one number goes into the cell. */
+  /** Pastes a block of a spreadsheet from this cell to the right and down; a single number into the cell. */
   #paste(event, row, column) {
     const text = event.clipboardData.getData("text/plain").replace(/\r/g, "").replace(/\n+$/, "");
     if (!/[\n\t]/.test(text)) return;

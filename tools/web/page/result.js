@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The third step: the map's report, why the machine errs, better numbers, what to measure next.
+// The third step: the map's report, the causes, better numbers, the next measurements.
 import {DONE, printed, runVerb, sentenceList, sentencesAbout, sentencesOf} from "./command.js";
 import {bytesOf, download, h, textOf} from "./dom.js";
 import {reportFrame} from "./frame.js";
@@ -29,7 +29,7 @@ export function resultStep(page) {
       h("p", {class: "buttons"}, h("button", {type: "button", onclick: () => planCheck(page)}, "Set new points"))));
   const seen = {};
 
-  /** Draws `box` anew where `path` of the folder has changed. */
+  /** Redraws `box` if `path` of the folder has changed. */
   function follow(path, box, draw) {
     const bytes = page.store.folder[path];
     if (seen[path] === bytes) return;
@@ -60,7 +60,7 @@ export function resultStep(page) {
 
 const NOISE = [["--noise-length-mm", "A chain length is good to, mm"], ["--noise-position-mm", "A place that you read is good to, mm"]];
 
-/** The noise that a person states, one sigma. */
+/** The noise stated by the user, one sigma. */
 class NoiseFields {
   #page;
   #inputs = NOISE.map(([option]) => h("input", {
@@ -87,7 +87,7 @@ class NoiseFields {
   }
 }
 
-/** What README.txt of the command tells its owner to state. */
+/** The noise that the command's README.txt recommends. */
 function usual(folder, option) {
   const readme = folder["README.txt"] ? textOf(folder["README.txt"]) : "";
   return new RegExp(`chaintrue diagnose .*${option} (\\S+)`).exec(readme)?.[1] ?? "";
@@ -126,7 +126,7 @@ async function planNext(page, box) {
   ]));
 }
 
-/** The new lines in the columns of the list; their numbers go on where the list ends. */
+/** The new lines in the columns of the list; their numbers continue those of the list. */
 function addRows(page, bytes) {
   const path = fittedList(page.store.view);
   const list = textOf(page.store.folder[path]);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A list of the command's (marks.csv, holes.csv, five.csv) as cells, and back; what is not touched stays as it is, to
-// the byte.
+// A list of the command (marks.csv, holes.csv, five.csv) as cells, and back; unchanged parts keep their bytes.
 
-/** The columns that a person fills in, of the first kind of list that has them. */
+/** The columns that the user fills in, of the first kind of list that has them. */
 const READ = [["distance_mm"], ["left_mm", "right_mm"], ["x_mm", "y_mm"]];
 
 const isNote = (line) => line === "" || line.startsWith("#");
-/** The cells of a line as they stand, quotes and all. The pattern finds one empty cell more behind a line's end. */
+/** The cells of a line, quotes included. The pattern matches one more empty cell after the line's end. */
 const cellsOf = (line) => line.match(/("(?:[^"]|"")*"|[^,"]*)(?:,|$)/g)
   .slice(0, line.endsWith(",") ? undefined : -1).map((cell) => cell.replace(/,$/, ""));
 const quoted = (text) => (/[",]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
@@ -18,11 +17,11 @@ export class Sheet {
   rows = [];
   columns = [];
   readColumns = [];
-  /** Places by the name of their row: hole A, or the row's own number. */
+  /** Positions by the name of their row: hole A, or the row's number. */
   places = [];
   #lines;
 
-  /** Null where the text is not in the form that the command writes lists in. */
+  /** Null if the text is not in the format of the command's lists. */
   static of(text) {
     const lines = text.split("\n").filter((line) => !isNote(line));
     if (lines.length === 0 || /[";\t\r]/.test(lines[0])) return null;
@@ -55,7 +54,7 @@ export class Sheet {
     return this.#lines.join("\n");
   }
 
-  /** Sets a cell; gives the text of the whole list. */
+  /** Sets a cell; returns the text of the whole list. */
   set(row, column, value) {
     const {line, cells} = this.rows[row];
     cells[column] = quoted(value);
@@ -75,7 +74,7 @@ export class Sheet {
     return this.rows.filter((_, row) => !this.isBlank(row)).length;
   }
 
-  /** The row and the column of a place in the text: line and column as the command counts them, from 1. */
+  /** The row and column of a place in the text, given as the command's line and column, from 1. */
   cellAt(line, column) {
     const row = this.rows.findIndex((one) => one.line === line - 1);
     if (row < 0) return null;
@@ -88,8 +87,8 @@ export class Sheet {
   }
 
   /**
-   * The command counts the points that are filled in, a person the rows: where the two differ, the row is said beside the
-   * point's number in a sentence of the command.
+   * The command counts the points that are filled in, the user the rows: if the two differ, the row is added to the
+   * point's number in the command's messages.
    */
   withRows(sentence) {
     if (!this.isOfPoints) return sentence;
@@ -112,7 +111,7 @@ export class Sheet {
   }
 }
 
-/** Where things lie: [{name, x, y}] and, of distances, the two names of each row. */
+/** Positions: [{name, x, y}] and, for distances, the two names of each row. */
 function placesOf(tables) {
   for (const {columns, rows} of tables) {
     const x = ["commanded_x_mm", "x_mm"].map((name) => columns.indexOf(name)).find((index) => index >= 0);
@@ -128,8 +127,8 @@ function placesOf(tables) {
 const MM_PER_INCH = 25.4;
 
 /**
- * What a person types as what the list holds: millimetres with a decimal point. A decimal comma, the long minus of a
- * spreadsheet and the fractions of an inch rule are read; what is no number is left as it is, for the command to say.
+ * Converts typed text to the list's form: millimetres with a decimal point. A decimal comma, the long minus of a
+ * spreadsheet and the fractions of an inch rule are read; other text is unchanged, for the command to report.
  */
 export function millimetresOf(typed, unit) {
   const text = typed.trim().replace(/^\u2212/, "-").replace(/^([-+]?\d*),(\d+)$/, "$1.$2");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the browser keeps between visits, in IndexedDB: the files of one folder, each for itself, and the view. Where it
-// keeps nothing (private windows, a full disk) the page is told, and goes on without.
+// Data stored by the browser between visits, in IndexedDB: the files of one folder, each separately, and the view. If
+// nothing can be stored (private windows, a full disk) the page is notified and continues without.
 
 const DATABASE = "chaintrue";
 const FILES = "files";
@@ -20,12 +20,12 @@ export class Storage {
   #kept = {};
   #onProblem;
 
-  /** @param onProblem(sentence) is told what goes wrong, and null where all goes well again */
+  /** @param onProblem(sentence) is called with an error, and with null once it is resolved */
   constructor(onProblem) {
     this.#onProblem = onProblem;
   }
 
-  /** {folder, view} as it was kept, or null. */
+  /** The stored {folder, view}, or null. */
   async open() {
     try {
       const request = indexedDB.open(DATABASE, 1);
@@ -46,7 +46,7 @@ export class Storage {
     }
   }
 
-  /** Keeps {folder, view}; of several that come while one is being written, the last. */
+  /** Stores {folder, view}; of several calls while one is being written, the last. */
   keep(state) {
     if (!this.#database) return Promise.resolve();
     this.#pending = state;
@@ -78,7 +78,7 @@ export class Storage {
     }
   }
 
-  /** A file is never changed in place: one that is the same object is the same file. */
+  /** Files are never changed in place: the same object is the same file. */
   #putChanged(store, folder) {
     for (const [path, bytes] of Object.entries(folder)) {
       if (this.#kept[path] !== bytes) store.put(bytes, path);

@@ -6,7 +6,7 @@ const MOST_STEPS = 200;
 
 export class Store {
   folder = {};
-  /** What is no file: the step that is shown, the unit of the table. */
+  /** State besides the files: the step that is shown, the unit of the table. */
   view = {step: "machine", unit: "mm", sheet: "marks.csv"};
   #past = [];
   #future = [];
@@ -17,7 +17,7 @@ export class Store {
     this.#listeners.push(listener);
   }
 
-  /** As it was kept. */
+  /** Restores the stored state. */
   restore(kept) {
     this.folder = kept.folder;
     this.view = {...this.view, ...kept.view};
@@ -25,8 +25,8 @@ export class Store {
   }
 
   /**
-   * Something that a person did: `files` are put into the folder, null takes one out. Changes one after the other
-   * under one `name` (the digits of a cell) are one step back.
+   * An action of the user: `files` are added to the folder, null removes one. Consecutive changes
+   * with one `name` (the digits of a cell) are one undo step.
    */
   change(files, name = null) {
     if (name === null || name !== this.#last) {
@@ -38,7 +38,7 @@ export class Store {
     this.#put(files);
   }
 
-  /** What the command made of it; no step of its own. */
+  /** The command's output; not a separate undo step. */
   derive(files) {
     this.#put(files);
   }

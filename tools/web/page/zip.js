@@ -2,7 +2,7 @@
 // The folder as one zip of the command's own files, and back.
 import {unzipSync, zipSync} from "fflate";
 
-/** Of the day that zips begin with: the same folder gives the same bytes. */
+/** The earliest date of the format: the same folder gives the same bytes. */
 const FIRST_DAY = new Date(1980, 0, 1);
 const FOLDER = "my-machine/";
 
@@ -11,7 +11,7 @@ export function zipOf(folder) {
   return zipSync(Object.fromEntries(paths.map((path) => [FOLDER + path, folder[path]])), {level: 6, mtime: FIRST_DAY});
 }
 
-/** The files of a zip without the folder that all of them lie in. Throws on what is no zip. */
+/** The files of a zip without their common folder. Throws if it is not a zip. */
 export function folderOf(bytes) {
   const files = Object.entries(unzipSync(bytes)).filter(([path]) => !path.endsWith("/") && !path.startsWith("__MACOSX/"));
   const first = files[0]?.[0].split("/")[0];

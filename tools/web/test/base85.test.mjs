@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bytes that lie in the page as text.
+// The bytes that the page contains as text.
 import assert from "node:assert/strict";
 import {test} from "node:test";
 import {decoded, encoded} from "../page/base85.js";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The built page in a real browser, and the command of the same source beside it.
+// The built page in a real browser, and the native command of the same source.
 import {spawnSync} from "node:child_process";
 import {existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -13,7 +13,7 @@ export const built = join(root, "build/page");
 export const native = join(root, "build/chaintrue");
 export const fixture = (path) => join(root, "fixtures", path);
 
-/** Slow machines with other work take their time; what is measured is measured apart. */
+/** Generous for slow, busy machines; times are measured elsewhere. */
 export const PATIENCE_MS = 120_000;
 
 const EXECUTABLES = {chrome: ["/usr/bin/chromium"], firefox: ["/usr/bin/firefox-esr", "/usr/bin/firefox"]};
@@ -22,13 +22,13 @@ const executableOf = (browser) => EXECUTABLES[browser].find((path) => existsSync
 /** The browsers that are installed. */
 export const browsers = Object.keys(EXECUTABLES).filter(executableOf);
 
-/** A browser that was told to close and does not is ended after this. */
+/** A browser that does not close is killed after this. */
 const CLOSING_MS = 10_000;
 
 const folders = [];
 process.on("exit", () => folders.forEach((folder) => rmSync(folder, {recursive: true, force: true})));
 
-/** Browsers that are open. One that is left over would keep node from its end. */
+/** Open browsers. One left over would keep node running. */
 const open = new Set();
 after(() => Promise.all([...open].map(closed)));
 
@@ -45,7 +45,7 @@ async function closed(browser) {
   clearTimeout(timer);
 }
 
-/** A folder that is gone with the process. */
+/** A folder that is removed when the process ends. */
 export function temporaryFolder() {
   const folder = mkdtempSync(join(tmpdir(), "chaintrue-page-"));
   folders.push(folder);
@@ -58,7 +58,7 @@ export function runNative(words, folder) {
   return {code: status, stdout, stderr};
 }
 
-/** A visit to the page. Whatever a page logs as an error or throws is kept in `problems`. */
+/** A visit to the page. Errors that the page logs or throws are collected in `problems`. */
 export class Visit {
   problems = [];
 
@@ -67,7 +67,7 @@ export class Visit {
     visit.downloads = temporaryFolder();
     visit.browser = await puppeteer.launch({
       browser: browserName, executablePath: executableOf(browserName), headless: true,
-      // A container's root has no sandbox to give. Nothing but this page is opened.
+      // The sandbox is not available to root in a container. Only this page is opened.
       args: browserName === "chrome" ? ["--no-sandbox"] : [],
       ...(browserName === "chrome" && {downloadBehavior: {policy: "allow", downloadPath: visit.downloads}}),
       extraPrefsFirefox: {
@@ -113,7 +113,7 @@ export class Visit {
     await input.uploadFile(path);
   }
 
-  /** Waits until the visible text of `selector` holds `wanted`; gives the text. */
+  /** Waits until the visible text of `selector` contains `wanted`; returns the text. */
   async text(selector, wanted = "") {
     await this.page.waitForFunction((where, what) => [...document.querySelectorAll(where)].some((one) =>
       one.checkVisibility() && one.textContent !== "" && one.textContent.includes(what)), {}, selector, wanted);
@@ -129,7 +129,7 @@ export class Visit {
     return this.page.$$eval(".list input", (inputs) => inputs.map((input) => input.value));
   }
 
-  /** Puts a text in place of what a cell holds, with keys. */
+  /** Replaces the text of a cell by key presses. */
   async type(row, column, text) {
     await (await this.cell(row, column)).click({count: 3});
     await this.page.keyboard.press("Backspace");
@@ -145,7 +145,7 @@ export class Visit {
     return frame;
   }
 
-  /** The bytes of a file that the browser was given, once they are all there. */
+  /** The bytes of a downloaded file, once it is complete. */
   async downloaded(name) {
     const path = join(this.downloads, name);
     const until = Date.now() + PATIENCE_MS;

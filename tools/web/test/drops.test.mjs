@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Programs that come one after the other: twice the same, another while one is worked on, after a stop, and wrong ones.
+// Programs dropped in sequence: the same twice, another while one is processed, after a stop, and wrong ones.
 import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
 import {after, before, describe, test} from "node:test";
@@ -8,10 +8,10 @@ import {browsers, fixture, Visit} from "./browser.mjs";
 import {reliefOf} from "./relief.mjs";
 
 const BRACKET = "bracket.nc before and after";
-/** Large enough that the next program comes while it is worked on. */
+/** Large enough that the next program is dropped while this one is processed. */
 const LONG_BYTES = 5e6;
 
-/** Drops a file of these bytes where programs are dropped, as a hand does. */
+/** Drops a file of these bytes on the area for programs. */
 function drop(visit, name, bytes) {
   return visit.page.evaluate((called, text) => {
     const data = new DataTransfer();
@@ -20,7 +20,7 @@ function drop(visit, name, bytes) {
   }, name, bytes.toString());
 }
 
-/** Takes the reports that are there for old ones, so that the next that is found is a new one. */
+/** Marks the present reports as old, so that the next one found is new. */
 const forget = (visit) => visit.page.$$eval("iframe.report", (frames) => frames.forEach((frame) => {
   frame.title = "an old report";
 }));
@@ -94,7 +94,7 @@ for (const [what, poor, outcome] of [["is begun again in another worker", 1, [".
       const Given = Blob;
       const full = "WebAssembly.instantiate = () => Promise.reject(new RangeError('Out of memory'));";
       let made = 0;
-      // A worker's source is the only script that the page makes a file of: the first few have no memory.
+      // The worker's source is the only script for which the page makes a Blob: the first few run out of memory.
       globalThis.Blob = class extends Given {
         constructor(parts, options) {
           super(options?.type === "text/javascript" && made++ < workers ? [full, ...parts] : parts, options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An owner's evening, typed and clicked: from the settings file to the verified program, in every browser that is here.
+// An owner's evening, typed and clicked: from the settings file to the verified program, in every installed browser.
 import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
 import {join} from "node:path";
@@ -11,19 +11,19 @@ const READINGS = readFileSync(fixture("start/marks.csv"), "utf8").trim().split("
 const ROW_OF_SLIP = 10;
 
 /**
- * The estimator stops where a step is less than 3e-3 of a sigma (grid/estimation/estimate.cpp), sigmas being tenths of a
- * millimetre: of digits beyond a hundredth of that it promises none.
+ * The estimator stops at a step below 3e-3 of a sigma (grid/estimation/estimate.cpp), and sigmas are tenths of a
+ * millimetre: digits beyond a hundredth of that are not guaranteed.
  */
 const SETTLED_MM = 1e-6;
 
-/** Numbers equal to 1e-9 of their size or to what the estimator settles to; all else equal. */
+/** Numbers equal to 1e-9 of their size or to the estimator's tolerance; all else equal. */
 export function assertAlike(found, wanted, place = "") {
   if (typeof wanted === "number" && typeof found === "number") {
     assert.ok(Math.abs(found - wanted) <= Math.max(1e-9 * Math.abs(wanted), SETTLED_MM), `${place}: ${found}, natively ${wanted}`);
   } else if (wanted !== null && typeof wanted === "object") {
     assert.deepEqual(Object.keys(found), Object.keys(wanted), place);
     for (const key of Object.keys(wanted)) assertAlike(found[key], wanted[key], `${place}/${key}`);
-  } else if (!(typeof wanted === "string" && /\b[0-9a-f]{16}\b/.test(wanted))) {  // a hash over digits
+  } else if (!(typeof wanted === "string" && /\b[0-9a-f]{16}\b/.test(wanted))) {  // a hash of digits
     assert.equal(found, wanted, place);
   }
 }
@@ -58,7 +58,7 @@ for (const browser of browsers) {
   });
 }
 
-/** With keys alone from cell to cell; every third number with a comma. */
+/** From cell to cell by keyboard only; every third number with a comma. */
 async function typeReadings(visit) {
   await (await visit.cell(0, 0)).focus();
   for (const [row, [x, y]] of READINGS.entries()) {
@@ -80,7 +80,7 @@ async function slipAndMend(visit) {
   assert.equal(await visit.page.$eval(`tr[data-row="${ROW_OF_SLIP}"] input`, (input) => input.getAttribute("aria-invalid")), "true");
   await visit.type(ROW_OF_SLIP, 1, READINGS[ROW_OF_SLIP][1]);
   await visit.page.waitForFunction(() => document.querySelectorAll("tr.note:not([hidden])").length === 0);
-  // The marks are all there again before the page is left.
+  // All marks are restored before the page is left.
   await visit.text(".said", "the map leaves 0.39 mm");
 }
 
@@ -95,7 +95,7 @@ async function cutAPart(visit) {
   visit.program = await visit.downloaded("bracket.true.nc");
 }
 
-/** What the page hands out is the command's own, and the native command makes the same of it. */
+/** The page's downloads are the command's output, and equal those of the native command. */
 async function compareFolder(visit) {
   await visit.click("Download");
   const files = folderOf(await visit.downloaded("my-machine.zip"));

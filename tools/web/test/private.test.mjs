@@ -11,7 +11,7 @@ import {folderOf} from "../page/zip.js";
 import {browsers, built, fixture, temporaryFolder, Visit} from "./browser.mjs";
 import {reliefOf} from "./relief.mjs";
 
-/** Every way out that a script has, tried in a document. */
+/** A document in which a script tries every kind of request. */
 async function tryEveryWayOut(server) {
   const image = new Image();
   image.src = `${server}/image`;
@@ -29,13 +29,13 @@ async function tryEveryWayOut(server) {
     new WebSocket(server.replace("http", "ws")).onerror = () => {};
     new EventSource(`${server}/events`);
   } catch {
-    // Refused at once is refused as well.
+    // An immediate refusal is a refusal as well.
   }
   await fetch(`${server}/fetch`, {mode: "no-cors"}).catch(() => {});
   await new Promise((resolve) => setTimeout(resolve, 1000));
 }
 
-/** A server that counts who asks. */
+/** A server that counts requests. */
 async function listening() {
   const asked = [];
   const server = createServer((request, response) => {
@@ -62,7 +62,7 @@ for (const browser of browsers) {
       const report = await visit.report("The map");
       await report.evaluate(tryEveryWayOut, server.url);
       assert.deepEqual(server.asked, []);
-      // The attempts are real: without the policy they arrive.
+      // The attempts are effective: without the policy they reach the server.
       const open = join(temporaryFolder(), "open.html");
       writeFileSync(open, "<!DOCTYPE html><title>open</title><body></body>");
       await visit.page.goto(pathToFileURL(open).href);
@@ -173,7 +173,7 @@ describe("files", () => {
     const visit = await Visit.to("chrome", {prepare: (page) => page.evaluateOnNewDocument(() => {
       const post = Worker.prototype.postMessage;
       Worker.prototype.postMessage = function (message, ...rest) {
-        // A run whose words are none: the worker throws, as it does where the engine dies.
+        // A run without words: the worker throws, as it does if the engine dies.
         return post.call(this, message.words?.[0] === "fit" && !globalThis.healthy ? {...message, files: null} : message, ...rest);
       };
     })});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A long program.
 
-/** A relief in straight moves of half a millimetre, at least so many bytes. */
+/** A relief in straight moves of half a millimetre, of at least that many bytes. */
 export function reliefOf(bytes) {
   const lines = ["G21 G90 G17 G94", "G0 Z5", "G0 X-400 Y-300", "G1 Z-1 F800"];
   let length = 0;

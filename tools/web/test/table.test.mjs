@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of readings, the machine's form, a log in place of them: in Chromium.
+// The table of readings, the machine's form, a log instead of them: in Chromium.
 import assert from "node:assert/strict";
 import {after, before, describe, test} from "node:test";
 import {fixture, runNative, temporaryFolder, Visit, writeFolder} from "./browser.mjs";

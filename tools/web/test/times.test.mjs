@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long an owner waits, told and not judged: a machine with other work is slower.
+// Waiting times, reported but not tested: a busy machine is slower.
 import {cpSync, readFileSync} from "node:fs";
 import {join} from "node:path";
 import {performance} from "node:perf_hooks";
@@ -7,11 +7,11 @@ import {test} from "node:test";
 import {pathToFileURL} from "node:url";
 import {built, fixture, root, runNative, temporaryFolder, Visit} from "./browser.mjs";
 
-/** What takes longer than this is not told: an owner would have closed the page. */
+/** Longer times are not reported: a user would have closed the page. */
 const PATIENCE_MS = 30_000;
 const MOST_TIMES = 5;
 
-/** The shortest of a few, in seconds: what the work takes where nothing else runs. */
+/** The shortest of a few, in seconds: the time on an idle machine. */
 async function shortest(times, work) {
   let best = Infinity;
   const until = performance.now() + PATIENCE_MS;
