@@ -269,6 +269,8 @@ TEST_P(SettingsAfter, ACheckSaysThatTheSettingsHaveChanged) {
                         went.y + 0.3 * dice.normal());
   }
   write("five.csv", five);
+  const Outcome old_machine = run("check map.after.json five.csv --machine machine.json");
+  EXPECT_THAT(old_machine.err, HasSubstr("holds other settings than the map is for (motorspacingx"));
   const Outcome before = run("check map.json five.csv");
   EXPECT_EQ(before.code, 1);
   EXPECT_THAT(before.out, HasSubstr("The settings have changed since this map was measured"));

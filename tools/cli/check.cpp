@@ -90,6 +90,27 @@ std::optional<grid::Check> with_typed_settings(const grid::CompensationMap& map,
   return std::move(changed->check);
 }
 
+/// Where a file names a machine whose controller holds other settings than the map is for: its
+/// commands went by these, whether they were in force or not.
+void say_other_settings(const grid::CompensationMap& map, const grid::Measured& measured) {
+  namespace files = grid::files;
+  if (map.machine() == nullptr) return;
+  const model::ControllerKind kind = map.machine()->controller.kind;
+  // The others bear none: what they go by are the motors, which a fit moves.
+  if (kind != model::ControllerKind::maslow_classic && kind != model::ControllerKind::holey) return;
+  for (const grid::MeasuredFile& file : measured.files()) {
+    if (!file.machine() || file.machine()->controller.kind != kind) continue;
+    const auto changes = files::changed_settings(files::settings_in_force(*map.machine()),
+                                                 files::settings_in_force(*file.machine()));
+    if (changes.empty()) continue;
+    fmt::print(stderr,
+               "The machine of {} holds other settings than the map is for ({}): its commands are "
+               "taken to have gone by these. --settings says what the controller held.\n",
+               file.name.empty() ? "the new points" : file.name,
+               files::in_words(changes));
+  }
+}
+
 /// The map for the settings of --settings, and the points as commanded with these.
 grid::CompensationMap take_settings(const CheckCommand& command,
                                     const grid::CompensationMap& map,
@@ -125,6 +146,7 @@ CheckResult check_of_map(const CheckCommand& command,
     for (const InputFile& file : files)
       measured.add(load_measured(
           file, command.input, command.tape, MeasuredUse::check, as_measured.machine()));
+    if (command.settings.empty()) say_other_settings(as_measured, measured);
     const grid::CompensationMap in_force = take_settings(command, as_measured, measured);
     CheckResult check = grid::check_map(in_force, measured, shown_progress());
     if (!check) return check;
