@@ -36,7 +36,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-/// Holes cut by the belts' own machine, displaced by up to 40 mm along x at the right side.
+/// Holes that the belts' own machine cut, 40 mm out of true along x at the right side.
 std::string belt_holes(const std::string& belts) {
   const Json machine = Json::parse(belts).at("machine");
   Json file{{"file_type", "chaintrue_holes"}, {"format_version", "1.1"}, {"machine", machine}};
@@ -56,7 +56,7 @@ std::string belt_holes(const std::string& belts) {
   return file.dump(1);
 }
 
-/// The points of a grid without their visit numbers, as CSV.
+/// The points of a grid without what says when they were visited, as CSV.
 std::string as_csv(const std::string& grid, std::size_t most) {
   std::string text = "x_mm,y_mm,left_mm,right_mm\n";
   std::size_t taken = 0;
@@ -99,9 +99,43 @@ std::string numbers_of_text(const std::string& text, const std::vector<std::stri
   return numbers;
 }
 
+/// What the command makes itself: a file's name, and the line that makes it.
+std::map<std::string, std::string> made_by_the_command() {
+  return {
+      // Marks on part of the bed, on a sheet that was laid by hand.
+      {"placed.json",
+       "simulate --machine @classic.json --grid 7x5 --margin-mm 250 --length-noise-mm 0.2 "
+       "--position-noise-mm 0.3 --sheet-shift-mm 8 --sheet-rotation-mrad 4 --effect "
+       "chain_pitch_error:left:elongation=0.003 --seed 5 -o @placed.json"},
+      {"map.json", "fit @placed.json -o @map.json"},
+      {"map2.json", "fit @placed.json --machine @other.json -o @map2.json"},
+      {"anchors.json", "fit @belts.json -o @anchors.json"},
+      {"worn.json",
+       "simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
+       "--effect chain_pitch_error:left:elongation=0.0016 --seed 5 -o @worn.json"},
+      {"worn_both.json",
+       "simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
+       "--effect chain_pitch_error:both:elongation=0.003 --seed 5 -o @worn_both.json"},
+      {"lattice.json",
+       "simulate --machine @classic.json --grid 5x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
+       "--seed 9 -o @lattice.json"},
+      {"holes2.json", "simulate --machine @classic.json --holes 9 --seed 4 -o @holes2.json"},
+      {"few_belts.json",
+       "simulate --belts @anchors.json --grid 4x3 --length-noise-mm 0.6 --seed 2 -o @few_belts.json"},
+      {"belts2.json",
+       "simulate --belts @anchors.json --grid 5x5 --length-noise-mm 1 --seed 9 -o @belts2.json"},
+      {"diagnosis.json", "diagnose @grid.json -o @diagnosis.json"},
+      {"worn_diagnosis.json", "diagnose @worn.json -o @worn_diagnosis.json"},
+      {"holes_diagnosis.json", "diagnose @holes.json -o @holes_diagnosis.json"},
+      {"belts_diagnosis.json", "diagnose @belts.json -o @belts_diagnosis.json"},
+      {"belts_before.json", "diagnose @belts2.json -o @belts_before.json"},
+      {"true.nc", "gcode compensate @simple.nc --map @map.json -o @true.nc"},
+      {"belts_true.nc", "gcode compensate @simple.nc --map @anchors.json -o @belts_true.nc"}};
+}
+
 }  // namespace
 
-Workshop::Workshop() : folder_(temporary_folder()) {
+Workshop::Workshop() : folder_(temporary_folder()), lines_(made_by_the_command()) {
   const std::string fixtures = CHAINTRUE_FIXTURES;
   const std::map<std::string, std::string> copied = {
       {"grid.json", "grids/seven_by_four.json"},
@@ -122,7 +156,7 @@ Workshop::Workshop() : folder_(temporary_folder()) {
   other["motors"]["left"]["y_mm"] = other["motors"]["left"]["y_mm"].get<double>() + 12.0;
   other["attachment"]["radius_mm"] = 141.0;
   write("other.json", other.dump(1));
-  // A sheet smaller than the programs.
+  // A sheet that the programs leave.
   Json small = Json::parse(text_of("classic.json"));
   small["bed"] = {{"width_mm", 1000.0}, {"height_mm", 600.0}};
   write("small.json", small.dump(1));
@@ -131,32 +165,14 @@ Workshop::Workshop() : folder_(temporary_folder()) {
   write("moved_belts.json", moved.dump(1));
   write("belt_holes.json", belt_holes(text_of("belts.json")));
   write("marks.csv", "x_mm,y_mm\n-900,-400\n0,-380\n900,-390\n-880,410\n20,400\n910,380\n");
+  write("few_marks.csv", "x_mm,y_mm\n-800,-300\n10,-280\n820,290\n30,20\n");
   write("simple.nc", "G21 G90 G17\nF600\nG0 X-900 Y400\nG1 X900 Y400\n/G1 X900 Y-400\nG1 X0 Y0\nM2\n");
   write("offset.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG41 D1\nG1 X300 Y0\nG40\nG1 X0 Y0\nM2\n");
-  // Line 6 is reached only after the loop.
+  // Whoever wants to know of line 6 has to come out of the loop first.
   write("loop.nc",
         "G21 G90 G17 F600\n#1=0\no1 while [#1 lt 4]\n#1=[#1+1]\no1 endwhile\nG1 X100 Y0\n"
         "G1 X0 Y0\nM2\n");
   write("home.nc", "G21 G90 G17\nF600\nG1 X200 Y100\nG28\nG1 X0 Y0\nM2\n");
-  // Marks on part of the bed, on a sheet placed by hand.
-  make("simulate --machine @classic.json --grid 7x5 --margin-mm 250 --length-noise-mm 0.2 "
-       "--position-noise-mm 0.3 --sheet-shift-mm 8 --sheet-rotation-mrad 4 --effect "
-       "chain_pitch_error:left:elongation=0.003 --seed 5 -o @placed.json");
-  make("fit @placed.json -o @map.json");
-  make("fit @placed.json --machine @other.json -o @map2.json");
-  make("fit @belts.json -o @anchors.json");
-  make("simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
-       "--effect chain_pitch_error:left:elongation=0.0016 --seed 5 -o @worn.json");
-  make("simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
-       "--effect chain_pitch_error:both:elongation=0.003 --seed 5 -o @worn_both.json");
-  make("simulate --machine @classic.json --holes 9 --seed 4 -o @holes2.json");
-  make("simulate --belts @anchors.json --grid 4x3 --length-noise-mm 0.6 --seed 2 -o @few_belts.json");
-  make("diagnose @grid.json -o @diagnosis.json");
-  make("diagnose @worn.json -o @worn_diagnosis.json");
-  make("diagnose @holes.json -o @holes_diagnosis.json");
-  make("diagnose @belts.json -o @belts_diagnosis.json");
-  make("gcode compensate @simple.nc --map @map.json -o @true.nc");
-  make("gcode compensate @simple.nc --map @anchors.json -o @belts_true.nc");
 }
 
 Workshop::~Workshop() {
@@ -164,18 +180,29 @@ Workshop::~Workshop() {
   fs::remove_all(folder_, ignored);
 }
 
-void Workshop::make(const std::string& line) const {
-  const Ran ran = run(line);
-  if (ran.code != 0) throw std::runtime_error("cannot make a file: " + line + "\n" + ran.err);
+void Workshop::make_what_is_missing(const std::string& lines) const {
+  for (std::size_t at = lines.find('@'); at != std::string::npos; at = lines.find('@', at + 1)) {
+    const std::size_t end = std::min(lines.find_first_of(" :;", at), lines.size());
+    const auto own = lines_.find(lines.substr(at + 1, end - at - 1));
+    if (own == lines_.end()) continue;
+    const std::string line = own->second;
+    lines_.erase(own);  // before it runs: it names its own output
+    const Ran ran = run(line);
+    if (ran.code != 0) throw std::runtime_error("cannot make a file: " + line + "\n" + ran.err);
+  }
 }
 
-std::string Workshop::text_of(const std::string& file) const { return content_of(folder_ / file); }
+std::string Workshop::text_of(const std::string& file) const {
+  make_what_is_missing("@" + file);
+  return content_of(folder_ / file);
+}
 
 void Workshop::write(const std::string& file, const std::string& text) const {
   std::ofstream(folder_ / file) << text;
 }
 
 Ran Workshop::run(const std::string& lines) const {
+  make_what_is_missing(lines);
   static std::atomic<int> next = 0;
   const fs::path folder = folder_ / ("run" + std::to_string(next++));
   fs::create_directory(folder);
