@@ -17,7 +17,7 @@ test("a list that is only read stays as it is, to the byte", () => {
 
 test("marks have a place and two cells, distances one between two holes", () => {
   const marks = Sheet.of(MARKS);
-  assert.deepEqual([marks.rows.length, marks.filled, marks.readColumns], [28, 28, [3, 4]]);
+  assert.deepEqual([marks.rows.length, marks.filled, marks.readColumns], [32, 32, [3, 4]]);
   assert.deepEqual(marks.places[1], {name: "2", x: -969, y: -509});
   const holes = Sheet.of(HOLES);
   assert.deepEqual([holes.rows.length, holes.filled, holes.readColumns], [1, 0, [2]]);
