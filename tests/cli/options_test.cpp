@@ -234,7 +234,7 @@ TEST_F(Options, AnchorsThatWereChangedAreRefused) {
 
 /// A map of version 1.0, without a hash of its content.
 std::string without_hash(std::string map) {
-  map.replace(map.find("\"1.1\""), 5, "\"1.0\"");
+  map.replace(map.find("\"1.2\""), 5, "\"1.0\"");
   const std::size_t hash = map.rfind(",\n  \"content_hash\"");
   map.erase(hash, map.rfind('\n', map.size() - 2) - hash);
   return map;
