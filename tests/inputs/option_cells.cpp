@@ -129,6 +129,7 @@ std::vector<Telling> tellings() {
       {"fit", "--fade-mm", "--fade-mm 500"},
       {"fit", "--causes", "--causes", in_words},
       {"fit", "--causes", "--causes", in_numbers, "grid"},
+      {"fit", "--causes", "--causes --accept-class", in_numbers, "causes"},
       {"fit", "--accept-class", "--accept-class"},
       {"fit", "--verbose", "--verbose", in_words},
       {"fit", "--json", "--json", in_form},
