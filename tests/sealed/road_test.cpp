@@ -116,24 +116,36 @@ TEST(Road, ATapeThatIsOffAlongOneAxisChangesNoMap) {
   EXPECT_EQ(road.own.offered.front().reason, OfferedCause::Reason::is_paper);
 }
 
-TEST(Road, BeyondWhatWasMeasuredTheLargerOfTheTwoErrorsIsStated) {
-  const Road road = road_of({{Cause::chain_pitch_error, Where::left, 0.0015}}, 60, 1);
-  ASSERT_THAT(road.own.built_on, Not(IsEmpty()));
-  const interp::Rectangle& domain = road.own.fit.map.contents().domain;
+TEST(Road, BeyondWhatWasMeasuredSigmasAreMultipliedAndNowhereElse) {
+  generator::Recipe recipe;
+  recipe.points = 60;
+  recipe.kind = generator::Mix::nothing;
+  recipe.extent = generator::Extent::left_side;
+  const generator::SealedSet set = generator::draw_set(recipe, 1);
+  const auto plain =
+      grid::joint_fit(grid::Measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid));
+  ASSERT_TRUE(plain) << plain.error().sentence;
+  constexpr double kFactor = 1.5;
+  // Both as their files have them, which round.
+  const auto filed = [](const grid::CompensationMap& map) {
+    return grid::files::parse_map(grid::files::write_map(map), "map.json");
+  };
+  const grid::CompensationMap one = filed(plain->map);
+  const grid::CompensationMap map = filed(plain->map.with_sigma_beyond(kFactor));
+  const interp::Rectangle& domain = map.contents().domain;
   int beyond = 0;
-  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    const model::MarkPoint mark{domain.x_min + share * domain.width(), domain.y_max};
-    const auto plain = road.plain.map.query(mark);
-    const auto own = road.own.fit.map.query(mark);
-    if (!plain || !own || own->status != grid::MapStatus::extrapolated) continue;
-    ++beyond;
-    // The factor is of a raster of the domain, on which these places lie; rounding alone differs.
-    EXPECT_GE(own->tool_sigma_mm, plain->tool_sigma_mm * (1.0 - 1e-9)) << share;
+  for (double share = 0.0; share <= 1.0; share += 0.05) {
+    const model::MarkPoint mark{domain.x_min + share * domain.width(), 0.0};
+    const auto before = one.query(mark);
+    const auto after = map.query(mark);
+    ASSERT_TRUE(before && after) << share;
+    const bool is_beyond = after->status == grid::MapStatus::extrapolated;
+    beyond += is_beyond ? 1 : 0;
+    // The factor is squared and a root taken: rounding.
+    EXPECT_NEAR(after->tool_sigma_mm / before->tool_sigma_mm, is_beyond ? kFactor : 1.0, 1e-12)
+        << share;
   }
   EXPECT_GT(beyond, 0);
-  const std::string text = grid::files::write_map(road.own.fit.map);
-  EXPECT_EQ(grid::files::parse_map(text, "map.json").contents().sigma_factor_beyond,
-            road.own.fit.map.contents().sigma_factor_beyond);
 }
 
 }  // namespace
