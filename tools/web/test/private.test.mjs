@@ -201,7 +201,7 @@ describe("for everybody", () => {
       try {
         await visit.click("Try an example machine");
         await visit.text(".said", "the map leaves 0.39 mm");
-        await visit.type(10, 1, "-230.5");
+        await visit.type(11, 1, "-230.5");
         await visit.text("tr.note", "was set aside");
         await visit.page.evaluate(axe);
         for (const step of ["Machine", "Measure", "Map and causes", "Cut", "Files"]) {

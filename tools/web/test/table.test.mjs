@@ -95,10 +95,10 @@ describe("typing", () => {
     await visit.text(".said", "the map leaves 0.39 mm");
     for (const column of [0, 1]) await visit.type(3, column, " ");
     for (const column of [0, 1]) await visit.type(5, column, " ");
-    await visit.type(10, 1, "-230.5");
-    await visit.text("tr.note", "Point 9 (row 11) at (2, -230) was set aside");
-    assert.equal(await visit.page.$eval('tr[data-row="10"] input', (input) => input.getAttribute("aria-invalid")), "true");
-    await visit.text(".said", "Point 9 (row 11)");
+    await visit.type(11, 1, "-230.5");
+    await visit.text("tr.note", "Point 10 (row 12) at (2, -230) was set aside");
+    assert.equal(await visit.page.$eval('tr[data-row="11"] input', (input) => input.getAttribute("aria-invalid")), "true");
+    await visit.text(".said", "Point 10 (row 12)");
   });
 
   test("new points are planned, and say whether the map still holds", async () => {
