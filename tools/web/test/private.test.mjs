@@ -119,7 +119,7 @@ describe("files", () => {
       await visit.upload("#settings", zip);
       await visit.text(".said.problem", "This zip cannot be read");
       await visit.click("Measure");
-      assert.equal((await visit.values()).length, 56);
+      assert.equal((await visit.values()).length, 64);
       assert.deepEqual(visit.problems, []);
     } finally {
       await visit.close();
