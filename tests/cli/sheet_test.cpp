@@ -188,5 +188,21 @@ TEST_F(SheetOfPlan, IsOverwrittenOnlyWhileNobodyWroteIntoIt) {
   EXPECT_EQ(run("plan --machine " + machine_ + " -o marks.csv").code, 3);
 }
 
+TEST_F(SheetOfPlan, HasAsManySecondVisitsAsAreAskedForTheFirstMarksLast) {
+  ASSERT_EQ(run("plan --machine " + machine_ + " --second-visits 4 -o marks.csv").code, 0);
+  EXPECT_THAT(content_of(folder_ / "marks.csv"), HasSubstr("\n32,-1119,-509,,\n"));
+  // 28 marks bear nine; the 25 of a bed of 300 mm eight.
+  std::string small = content_of(classic_);
+  for (const std::string key : {"width_mm", "height_mm"}) {
+    const std::size_t at = small.find(':', small.find(key)) + 1;
+    small.replace(at, small.find_first_of(",}", at) - at, " 300");
+  }
+  write("small.json", small);
+  EXPECT_EQ(run("plan --machine small.json --second-visits 8 -o small.csv").code, 0);
+  const Outcome refused = run("plan --machine small.json --second-visits 9 -o more.csv");
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("--second-visits: found 9, expected a number from 0 to 8"));
+}
+
 }  // namespace
 }  // namespace chaintrue

@@ -160,6 +160,13 @@ int run_plan(Verb verb, PlanOptions options) {
     fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence);
     return kNotSupportedOrOutside;
   }
+  // A small bed has room for fewer marks than were asked for.
+  OptionProblems problems;
+  problems.require("--second-visits",
+                   options.second_visits,
+                   0,
+                   static_cast<int>(plan->marks.size()) / 3);
+  problems.throw_if_any();
   const ExpectedErrors errors = expected_errors(plan->map, machine.bed);
   const Sheet sheet{
       plan->marks,
