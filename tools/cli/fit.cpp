@@ -63,8 +63,11 @@ constexpr std::size_t kMostPoints = 10000;
 constexpr std::size_t kMostDistances = 5000;
 constexpr std::size_t kMostHoles = 150;
 
+/// A diagnosis of these takes half a minute (docs/reliability.md).
+constexpr std::size_t kMostWithCauses = 1200;
+
 /// Empty where there are not too many.
-std::string too_many(const grid::Measured& measured) {
+std::string too_many(const grid::Measured& measured, bool causes) {
   std::size_t points = 0;
   std::size_t distances = 0;
   std::size_t holes = 0;
@@ -86,6 +89,8 @@ std::string too_many(const grid::Measured& measured) {
   if (points > kMostPoints) return sentence(points, "points", kMostPoints);
   if (distances > kMostDistances) return sentence(distances, "distances", kMostDistances);
   if (holes > kMostHoles) return sentence(holes, "holes", kMostHoles);
+  if (causes && points + distances > kMostWithCauses)
+    return sentence(points + distances, "readings", kMostWithCauses) + ", or leave --causes out";
   return {};
 }
 
@@ -196,7 +201,7 @@ int run_fit(Verb verb, const FitCommand& command) {
   for (const InputFile& file : opened)
     all.add(load_measured(file, command.input, command.tape, MeasuredUse::fit));
   const std::vector<grid::MeasuredFile>& files = all.files();
-  if (const std::string sentence = too_many(all); !sentence.empty()) {
+  if (const std::string sentence = too_many(all, command.causes); !sentence.empty()) {
     fmt::print(stderr, "{}: {}\n", files.front().name, sentence);
     return kBadInput;
   }
