@@ -16,6 +16,7 @@
 #include "grid/files/whole_file.hpp"
 #include "grid/map/settings_to_type.hpp"
 #include "tools/cli/input_file.hpp"
+#include "tools/cli/map_words.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
@@ -35,6 +36,7 @@ struct Exported {
   files::GroundcontrolText settings;
   std::string words;
   std::vector<std::string> next;
+  bool is_refused = false;  ///< the map is not to be cut with, which was said
 };
 
 /// What the machine says otherwise than its controller.
@@ -87,7 +89,7 @@ bool is_untyped_json(const InputFile& file) {
          files::file_type_of(file.text, file.name).empty();
 }
 
-Exported export_of(const InputFile& file) {
+Exported export_of(const InputFile& file, bool forced) {
   if (is_untyped_json(file)) return of_machine(load_machine(file), {});
   require_kind(file,
                {FileKind::machine, FileKind::map, FileKind::diagnosis},
@@ -95,6 +97,7 @@ Exported export_of(const InputFile& file) {
                                               : "");
   if (file.kind == FileKind::map) {
     return with_map(file, [&](const grid::CompensationMap& map) {
+      if (!forced && refuses_to_cut_with(map)) return Exported{{}, "", {}, true};
       return of_map(map, file.name, file.path);
     });
   }
@@ -112,8 +115,9 @@ Exported export_of(const InputFile& file) {
   return of_machine(load_machine(file), {"plan", "--machine", file.path, "-o", "marks.csv"});
 }
 
-int export_groundcontrol(const ExportCommand& command) {
-  const Exported exported = export_of(open_input(command.input));
+int export_groundcontrol(const ExportCommand& command, bool forced) {
+  const Exported exported = export_of(open_input(command.input), forced);
+  if (exported.is_refused) return kCheckFailed;
   write_output(command.output, exported.settings.text);
   for (const std::string& remark : exported.settings.remarks) fmt::print(stderr, "{}\n", remark);
   if (exported.settings.remarks.empty() && exported.words.empty())
@@ -199,7 +203,11 @@ void add_export(Verb app, Run& run) {
       "came.\n\n{}",
       kExample));
   groundcontrol.when_chosen(
-      [command, &run] { run = [command] { return export_groundcontrol(*command); }; });
+      [command, groundcontrol, &run] {
+        run = [command, groundcontrol] {
+          return export_groundcontrol(*command, groundcontrol.is_given("--force"));
+        };
+      });
   add_maslow4(verb, run);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/map_words.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/report/path_report.hpp"
@@ -164,6 +165,8 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
 
 int run_gcode_compensate(const GcodeOptions& options) {
   const GcodeMachine machine(options);
+  const grid::CompensationMap* map = machine.map();
+  if (map != nullptr && !options.forced && refuses_to_cut_with(*map)) return kCheckFailed;
   return blaming(machine.on_trust(), [&] { return compensate_for(machine, options); });
 }
 
