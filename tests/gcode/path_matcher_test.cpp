@@ -16,10 +16,10 @@
 namespace chaintrue::gcode {
 namespace {
 
-using Curve = std::vector<Point>;
+using Polyline = std::vector<Point>;
 
-Curve sampled(const Curve& curve, double spacing) {
-  Curve result{curve.front()};
+Polyline sampled(const Polyline& curve, double spacing) {
+  Polyline result{curve.front()};
   for (std::size_t i = 1; i < curve.size(); ++i) {
     const int pieces = static_cast<int>(std::ceil(distance_mm(curve[i - 1], curve[i]) / spacing));
     for (int k = 1; k <= pieces; ++k)
@@ -28,7 +28,7 @@ Curve sampled(const Curve& curve, double spacing) {
   return result;
 }
 
-double discrete_frechet(const Curve& a, const Curve& b) {
+double discrete_frechet(const Polyline& a, const Polyline& b) {
   std::vector<double> row(b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     double corner = 0.0;
@@ -49,7 +49,7 @@ double discrete_frechet(const Curve& a, const Curve& b) {
   return row.back();
 }
 
-bool follows(const Curve& path, const Curve& track, double distance) {
+bool follows(const Polyline& path, const Polyline& track, double distance) {
   std::size_t next = 1;
   PathMatcher matcher({.distance_mm = distance, .speed_share = 0.1, .least_run_mm = 1e9},
                       [&](PathPiece& piece) {
@@ -74,14 +74,14 @@ TEST(PathMatcher, DecidesTheFrechetDistance) {
   };
   int decided_near = 0;
   for (int round = 0; round < 60; ++round) {
-    Curve path{{0.0, 0.0, 0.0}};
+    Polyline path{{0.0, 0.0, 0.0}};
     const int corners = 3 + round % 9;
     for (int i = 0; i < corners; ++i) {
       path.push_back({path.back().x_mm + uniform(2.0),
                       path.back().y_mm + uniform(2.0),
                       path.back().z_mm + uniform(0.5)});
     }
-    Curve track;
+    Polyline track;
     for (const Point& p : sampled(path, 0.7)) {
       track.push_back({p.x_mm + uniform(0.3), p.y_mm + uniform(0.3), p.z_mm + uniform(0.1)});
     }
@@ -98,7 +98,7 @@ TEST(PathMatcher, DecidesTheFrechetDistance) {
 
 /// Every point is on the path, but not in its order.
 TEST(PathMatcher, GoingBackIsAFault) {
-  const Curve path{{0, 0, 0}, {100, 0, 0}};
+  const Polyline path{{0, 0, 0}, {100, 0, 0}};
   EXPECT_TRUE(follows(path, {{0, 0, 0}, {60, 0, 0}, {100, 0, 0}}, 0.05));
   EXPECT_FALSE(follows(path, {{0, 0, 0}, {60, 0, 0}, {50, 0, 0}, {100, 0, 0}}, 0.05));
   EXPECT_TRUE(follows(path, {{0, 0, 0}, {60, 0, 0}, {59.92, 0, 0}, {100, 0, 0}}, 0.05));

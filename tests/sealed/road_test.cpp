@@ -42,7 +42,9 @@ Road road_of(std::vector<Hidden> hidden, int points, std::uint64_t seed, bool ac
   generator::SealedSet set = generator::draw_set(recipe, seed);
   const grid::Measured measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid);
   auto plain = grid::joint_fit(measured);
-  auto own = grid::diagnosis::fit_with_causes(measured, {.accept_class = accept_class});
+  grid::diagnosis::CausesFitOptions options;
+  options.accept_class = accept_class;
+  auto own = grid::diagnosis::fit_with_causes(measured, options);
   EXPECT_TRUE(plain.has_value()) << plain.error().sentence;
   EXPECT_TRUE(own.has_value()) << own.error().sentence;
   return {std::move(set), *std::move(plain), *std::move(own)};

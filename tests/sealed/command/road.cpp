@@ -97,7 +97,9 @@ void try_machine(const generator::Recipe& recipe, std::uint64_t seed, Tally& tal
   const generator::SealedSet set = generator::draw_set(recipe, seed);
   const grid::Measured measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid);
   const auto plain = grid::joint_fit(measured);
-  const auto own = grid::diagnosis::fit_with_causes(measured, {.accept_class = true});
+  grid::diagnosis::CausesFitOptions accepting;
+  accepting.accept_class = true;
+  const auto own = grid::diagnosis::fit_with_causes(measured, accepting);
   const auto of_plain = plain ? sealed::map_errors(set, plain->map) : std::nullopt;
   const auto of_own = own ? sealed::map_errors(set, own->fit.map) : std::nullopt;
   if (of_plain && of_own) {
