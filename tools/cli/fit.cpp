@@ -281,10 +281,6 @@ void add_fit(Verb app, Run& run) {
     if (command->json && command->output == "-") {
       usage_error("fit", "--json and the map cannot both go to standard output");
     }
-    if (command->surface == "direct" && command->outside.way == "fade") {
-      usage_error("fit",
-                  "--outside fade leaves the bare machine, which a direct surface does not have");
-    }
     run = [command, verb] { return run_fit(verb, *command); };
   });
 }
