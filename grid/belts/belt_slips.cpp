@@ -6,7 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "grid/belts/settled_frame.hpp"
+#include "grid/input_checks/findings.hpp"
+#include "grid/input_checks/number_slips.hpp"
+#include "grid/input_checks/robust_trend.hpp"
+#include "grid/statistics.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid {
@@ -28,12 +34,24 @@ constexpr double kRoundingMm = 1e-6;
 /// As many points tell a swap as well as all.
 constexpr std::size_t kMostLookedAt = 16;
 
-constexpr std::array<BeltPair, 6> kPairs = {BeltPair{Belt::tl, Belt::tr},
-                                            BeltPair{Belt::bl, Belt::br},
-                                            BeltPair{Belt::tl, Belt::bl},
-                                            BeltPair{Belt::tr, Belt::br},
-                                            BeltPair{Belt::tl, Belt::br},
-                                            BeltPair{Belt::tr, Belt::bl}};
+using BeltPairs = std::vector<BeltPair>;
+
+/// One pair, its mirror image next to it; then two pairs at once, which leave a frame a frame and
+/// turn it over.
+const std::array<BeltPairs, 9>& swaps() {
+  static const std::array<BeltPairs, 9> kSwaps = {
+      BeltPairs{{Belt::tl, Belt::tr}},
+      BeltPairs{{Belt::bl, Belt::br}},
+      BeltPairs{{Belt::tl, Belt::bl}},
+      BeltPairs{{Belt::tr, Belt::br}},
+      BeltPairs{{Belt::tl, Belt::br}},
+      BeltPairs{{Belt::tr, Belt::bl}},
+      BeltPairs{{Belt::tl, Belt::tr}, {Belt::bl, Belt::br}},
+      BeltPairs{{Belt::tl, Belt::bl}, {Belt::tr, Belt::br}},
+      BeltPairs{{Belt::tl, Belt::br}, {Belt::tr, Belt::bl}}};
+  return kSwaps;
+}
+constexpr std::size_t kSinglePairs = 6;
 
 MeasuredBelts looked_at(const MeasuredBelts& belts) {
   MeasuredBelts few = belts;
@@ -46,9 +64,10 @@ MeasuredBelts looked_at(const MeasuredBelts& belts) {
   return few;
 }
 
-MeasuredBelts swapped(MeasuredBelts belts, BeltPair pair) {
+MeasuredBelts swapped(MeasuredBelts belts, const BeltPairs& pairs) {
   for (BeltPoint& point : belts.points) {
-    std::swap(point.lengths_mm[pair.first], point.lengths_mm[pair.second]);
+    for (const BeltPair& pair : pairs)
+      std::swap(point.lengths_mm[pair.first], point.lengths_mm[pair.second]);
   }
   return belts;
 }
@@ -57,6 +76,7 @@ struct Frame {
   double spread_mm = std::numeric_limits<double>::infinity();
   /// From what the file states of anchors, or of commands; 0 where it states neither.
   double far_mm = 0.0;
+  double far_from_commands_mm = 0.0;
 };
 
 double far_from_commands(const MeasuredBelts& belts, const std::vector<model::FramePoint>& places) {
@@ -87,18 +107,19 @@ Frame frame_of(const MeasuredBelts& belts) {
   const auto settled = belts::settle(belts);
   if (!settled || !settled->is_sound) return frame;
   frame.spread_mm = settled->spread_mm;
+  frame.far_from_commands_mm = far_from_commands(belts, settled->state.places);
   if (belts.machine.anchors_known) {
     frame.far_mm =
         (settled->state.anchors - belts::anchors_of(belts.machine)).cwiseAbs().maxCoeff();
   } else {
-    frame.far_mm = far_from_commands(belts, settled->state.places);
+    frame.far_mm = frame.far_from_commands_mm;
   }
   return frame;
 }
 
 bool is_far(const MeasuredBelts& belts, const Frame& frame) {
-  return belts.machine.anchors_known ? frame.far_mm > kFarMm
-                                     : are_commands_far(belts, frame.far_mm);
+  return (belts.machine.anchors_known && frame.far_mm > kFarMm) ||
+         are_commands_far(belts, frame.far_from_commands_mm);
 }
 
 }  // namespace
@@ -109,8 +130,8 @@ std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts) {
   const Frame as_stated = frame_of(few);
   const bool is_frame = as_stated.spread_mm < kSoundMm;
   if (is_frame && !is_far(few, as_stated)) return std::nullopt;
-  std::array<Frame, kPairs.size()> frames;
-  for (std::size_t i = 0; i < kPairs.size(); ++i) frames[i] = frame_of(swapped(few, kPairs[i]));
+  std::vector<Frame> frames;
+  for (const BeltPairs& pairs : swaps()) frames.push_back(frame_of(swapped(few, pairs)));
   const auto is_better = [&](const Frame& frame) {
     if (frame.spread_mm > kSoundMm || is_far(few, frame)) return false;
     return is_frame || kBetter * frame.spread_mm < as_stated.spread_mm;
@@ -122,27 +143,36 @@ std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts) {
   };
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < frames.size(); ++i) {
+    // Where one pair mends it nobody exchanged two.
+    if (i == kSinglePairs && best) break;
     if (is_better(frames[i]) && (!best || is_nearer(frames[i], frames[*best]))) best = i;
   }
   if (!best) return std::nullopt;
-  SwappedBelts result{kPairs[*best], std::nullopt, as_stated.spread_mm, frames[*best].spread_mm};
+  SwappedBelts result{swaps()[*best], std::nullopt, as_stated.spread_mm, frames[*best].spread_mm};
+  if (*best >= kSinglePairs) return result;
   const std::size_t mirrored = *best % 2 == 0 ? *best + 1 : *best - 1;
-  if (frames[*best].far_mm == 0.0 && is_better(frames[mirrored])) result.or_else = kPairs[mirrored];
+  if (frames[*best].far_mm == 0.0 && is_better(frames[mirrored]))
+    result.or_else = swaps()[mirrored].front();
   return result;
 }
 
-std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts) {
-  // A lost digit or another frame; what a machine or a hand is off by is for the fit to name.
-  constexpr double kNowhereMm = 100.0;
+std::optional<belts::AnchorFit> frame_of_lengths(const MeasuredBelts& belts) {
   MeasuredBelts untaped = belts;
   untaped.distances.clear();
+  auto frame = belts::settle_robustly(untaped);
+  if (!frame || !frame->is_sound) return std::nullopt;
+  return frame;
+}
+
+std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
+    const belts::AnchorFit& frame) {
+  // A lost digit or another frame; what a machine or a hand is off by is for the fit to name.
+  constexpr double kNowhereMm = 100.0;
   std::vector<NowherePoint> result;
-  const auto frame = belts::settle_robustly(untaped);
-  if (!frame || !frame->is_sound) return result;
-  const model::BeltMachine machine = belts::with_anchors(belts.machine, frame->state.anchors);
+  const model::BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     int aside = 0;
-    for (const Belt belt : kBelts) aside += frame->counting[k][belt] ? 0 : 1;
+    for (const Belt belt : kBelts) aside += frame.counting[k][belt] ? 0 : 1;
     if (aside < 2) continue;
     const auto place = belts::nearest_place(
         machine, belts.points[k], model::PerBelt<bool>{true, true, true, true});
@@ -155,6 +185,130 @@ std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts) {
     if (off_mm > kNowhereMm) result.push_back({k, off_mm});
   }
   return result;
+}
+
+std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
+    const belts::AnchorFit& frame) {
+  std::vector<BeltQuestion> result;
+  const model::BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
+  const double scale_mm = std::max(frame.spread_mm, 0.5);
+  const double gross_mm =
+      std::max(input_checks::kGrossMm, input_checks::kGrossScales * scale_mm);
+  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+    for (const Belt belt : kBelts) {
+      if (frame.counting[k][belt]) continue;
+      model::PerBelt<bool> others{true, true, true, true};
+      others[belt] = false;
+      const auto place = belts::nearest_place(machine, belts.points[k], others);
+      const auto reading = model::reading_at(machine, belt, place);
+      const double read_mm = belts.points[k].lengths_mm[belt];
+      if (!reading || std::abs(reading->length_mm - read_mm) < gross_mm) continue;
+      double most = input_checks::log_density_of(reading->length_mm - read_mm, scale_mm, 1) +
+                    input_checks::kThreeTimes;
+      // The other belts tell which of the four numbers it is.
+      const double kOneOfFour = std::log(4.0);
+      std::string question;
+      for (const input_checks::NumberSlip& slip : input_checks::number_slips(read_mm, false)) {
+        const double likely =
+            input_checks::log_density_of(reading->length_mm - slip.value, scale_mm, 1) -
+            (slip.penalty - kOneOfFour);
+        if (likely <= most) continue;
+        most = likely;
+        question = slip.question;
+      }
+      if (question.empty()) continue;
+      result.push_back({k,
+                        belt,
+                        fmt::format("{} is {} off what the other belts tell: {}",
+                                    name(belt),
+                                    input_checks::length_in_words(
+                                        std::abs(reading->length_mm - read_mm)),
+                                    question)});
+    }
+  }
+  return result;
+}
+
+namespace {
+
+/// Where a tape ends, in the frame that the lengths alone make.
+std::optional<Eigen::Vector2d> end_of(const BeltEnd& end,
+                                      const MeasuredBelts& belts,
+                                      const belts::AnchorFit& frame) {
+  if (const auto* index = std::get_if<std::size_t>(&end)) {
+    if (*index >= frame.state.places.size()) return std::nullopt;
+    return Eigen::Vector2d(frame.state.places[*index].x_mm, frame.state.places[*index].y_mm);
+  }
+  if (const auto* belt = std::get_if<Belt>(&end)) {
+    const auto anchor = belts::with_anchors(belts.machine, frame.state.anchors).anchors[*belt];
+    return Eigen::Vector2d(anchor.x_mm, anchor.y_mm);
+  }
+  if (!belts.machine.anchors_known) return std::nullopt;
+  const model::FramePoint centre = model::centre_of(belts.machine);
+  const model::BedPoint at = std::get<CutHole>(end).commanded;
+  return Eigen::Vector2d(centre.x_mm + at.x_mm, centre.y_mm + at.y_mm);
+}
+
+}  // namespace
+
+std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
+    const belts::AnchorFit& frame) {
+  // A turn of the encoder is known to some per cent, and with it what a millimetre of belt is.
+  constexpr double kFarOff = 0.12;
+  constexpr double kNear = 0.06;
+  std::vector<DistanceQuestion> result;
+  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
+    const BeltDistance& distance = belts.distances[i];
+    const auto from = end_of(distance.from, belts, frame);
+    const auto to = end_of(distance.to, belts, frame);
+    if (!from || !to) continue;
+    const double by_belts_mm = (*to - *from).norm();
+    const auto off = [&](double value) { return std::abs(value / by_belts_mm - 1.0); };
+    if (by_belts_mm < input_checks::kGrossMm || off(distance.distance_mm) < kFarOff) continue;
+    const double d = distance.distance_mm;
+    std::vector<input_checks::NumberSlip> slips = {
+        {0.5 * d, fmt::format("was it taped twice over, {:.10g} mm?", 0.5 * d), 0.0},
+        {2.0 * d, fmt::format("was only half of it taped, of {:.10g} mm?", 2.0 * d), 0.0},
+        {10.0 * d, fmt::format("is it in centimetres, {:.10g} mm?", 10.0 * d), 0.0}};
+    for (input_checks::NumberSlip& slip : input_checks::number_slips(d, false))
+      slips.push_back(std::move(slip));
+    DistanceQuestion asked{i, by_belts_mm, "was it misread?"};
+    double least = std::numeric_limits<double>::infinity();
+    for (const input_checks::NumberSlip& slip : slips) {
+      const double cost = slip.penalty + off(slip.value) / kNear;
+      if (off(slip.value) > kNear || cost >= least) continue;
+      least = cost;
+      asked.question = slip.question;
+    }
+    result.push_back(std::move(asked));
+  }
+  return result;
+}
+
+std::optional<OtherUnit> suspected_unit(const MeasuredBelts& belts) {
+  std::vector<double> lengths;
+  for (const BeltPoint& point : belts.points) {
+    for (const Belt belt : kBelts) lengths.push_back(point.lengths_mm[belt]);
+  }
+  // Frames are two to five metres across, belts one to three metres long.
+  constexpr double kShortestMm = 500.0;
+  constexpr double kUsualMm = 1700.0;
+  if (lengths.empty() || median(lengths) > kShortestMm) return std::nullopt;
+  const double middle = median(lengths);
+  double usual_mm = kUsualMm;
+  if (belts.machine.anchors_known) {
+    const auto& a = belts.machine.anchors;
+    usual_mm = 0.5 * std::hypot(a.tr.x_mm - a.bl.x_mm, a.tr.y_mm - a.bl.y_mm);
+  }
+  const OtherUnit units[] = {{"inches", input_checks::kMmPerInch, middle},
+                             {"centimetres", 10.0, middle},
+                             {"metres", 1000.0, middle}};
+  return *std::min_element(std::begin(units), std::end(units), [&](const auto& a, const auto& b) {
+    const auto off = [&](const OtherUnit& unit) {
+      return std::abs(std::log(unit.factor * middle / usual_mm));
+    };
+    return off(a) < off(b);
+  });
 }
 
 }  // namespace chaintrue::grid

@@ -5,18 +5,21 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "grid/belts/measured_belts.hpp"
+#include "grid/belts/settled_frame.hpp"
 
 namespace chaintrue::grid {
 
 using BeltPair = std::pair<model::Belt, model::Belt>;
 
-/// Two belts whose lengths change places in the whole file.
+/// Belts whose lengths change places in the whole file.
 struct SwappedBelts {
-  BeltPair belts;
+  /// One pair, or two: both left belts with both right ones.
+  std::vector<BeltPair> belts;
   /// Where nothing but lengths is known, two pairs make mirror images of one frame.
   std::optional<BeltPair> or_else;
   double as_stated_mm = 0.0;  ///< what the lengths contradict each other by
@@ -26,12 +29,42 @@ struct SwappedBelts {
 /// from the anchors or the commands that the file states.
 [[nodiscard]] std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts);
 
+/// The frame that the lengths make without any tape; empty where they make none.
+[[nodiscard]] std::optional<belts::AnchorFit> frame_of_lengths(const MeasuredBelts& belts);
+
 /// A point whose lengths end nowhere together.
 struct NowherePoint {
   std::size_t point = 0;
   double off_mm = 0.0;  ///< what the best place leaves of the worst belt
 };
 /// With the anchors that the other points make.
-[[nodiscard]] std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts);
+[[nodiscard]] std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
+                                                       const belts::AnchorFit& frame);
+
+/// A reading that the other three belts contradict, and a slip of the pen that makes it agree.
+struct BeltQuestion {
+  std::size_t point = 0;
+  model::Belt belt{};
+  std::string sentence;
+};
+[[nodiscard]] std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
+                                                           const belts::AnchorFit& frame);
+
+/// A taped distance that is more than a tenth off what the lengths alone make of it.
+struct DistanceQuestion {
+  std::size_t distance = 0;
+  double by_belts_mm = 0.0;
+  std::string question;
+};
+[[nodiscard]] std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
+                                                                const belts::AnchorFit& frame);
+
+struct OtherUnit {
+  const char* word;
+  double factor;  ///< makes millimetres
+  double found;   ///< the median length, as it stands
+};
+/// Where no frame is as small as these lengths are.
+[[nodiscard]] std::optional<OtherUnit> suspected_unit(const MeasuredBelts& belts);
 
 }  // namespace chaintrue::grid

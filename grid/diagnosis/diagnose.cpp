@@ -84,7 +84,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
                                                    const DiagnosisOptions& options) {
   auto session = observations_of(measured);
   if (!session) return tl::unexpected(session.error());
-  if (const auto slip = suspected_slip(*session)) return tl::unexpected(*slip);
+  if (const auto slip = suspected_slip(measured)) return tl::unexpected(*slip);
   tell(options.progress, kComparing);
   auto analysis = analyse(*std::move(session), options);
   if (!analysis) return tl::unexpected(analysis.error());

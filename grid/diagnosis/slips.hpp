@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Slips of a whole file, which no effect resembles: columns exchanged, an axis turned round,
-/// inches.
+/// Slips of a whole file, which no effect resembles (grid/input_checks): of data that no reader of
+/// files has looked at.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Where the points are far off what the stated machine says and one such slip mends that: what to
-/// look at. Nothing where none does.
-[[nodiscard]] std::optional<DiagnosisFailure> suspected_slip(const ObservationSet& session);
+/// What to look at before any cause is looked for; nothing where nothing is suspected.
+[[nodiscard]] std::optional<DiagnosisFailure> suspected_slip(const Measured& measured);
 
 }  // namespace chaintrue::grid::diagnosis

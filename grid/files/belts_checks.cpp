@@ -10,7 +10,6 @@
 
 #include "grid/belts/belt_slips.hpp"
 #include "grid/belts/belts_fit.hpp"
-#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -23,18 +22,15 @@ std::string lengths_in_words(const BeltPoint& point) {
   return fmt::format("tl {}, tr {}, bl {}, br {}", l.tl, l.tr, l.bl, l.br);
 }
 
-void check_inches(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
-  // Frames are two metres and more across: 80 to 200 in inches.
-  constexpr double kLongestInInchesMm = 250.0;
-  std::vector<double> lengths;
-  for (const BeltPoint& point : belts.points) {
-    for (const Belt belt : kBelts) lengths.push_back(point.lengths_mm[belt]);
-  }
-  if (lengths.empty() || median(lengths) > kLongestInInchesMm) return;
+void check_unit(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
+  const auto unit = suspected_unit(belts);
+  if (!unit) return;
   problems.add(places.points,
-               fmt::format("lengths of about {:.3g}", median(lengths)),
-               "lengths in mm, as the machine prints them; these look like inches (multiply them "
-               "by 25.4)");
+               fmt::format("lengths of about {:.3g}", unit->found),
+               fmt::format("lengths in mm, as the machine prints them; these look like {} (multiply "
+                           "them by {:g})",
+                           unit->word,
+                           unit->factor));
 }
 
 void check_orders(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
@@ -123,7 +119,9 @@ void check_swap(const MeasuredBelts& belts, const BeltPlaces& places, Problems& 
   const auto pair = [](BeltPair p) {
     return fmt::format("{} and {}", name(p.first), name(p.second));
   };
-  std::string found = fmt::format("{} swapped", pair(swap->belts));
+  std::string found = fmt::format("{} swapped", pair(swap->belts.front()));
+  for (std::size_t i = 1; i < swap->belts.size(); ++i)
+    found += fmt::format(" and {} as well", pair(swap->belts[i]));
   if (swap->or_else) found += fmt::format(", or {}", pair(*swap->or_else));
   // Mirrored frames agree as well as true ones; the misfit of other permutations can be of any
   // size.
@@ -143,8 +141,26 @@ void check_swap(const MeasuredBelts& belts, const BeltPlaces& places, Problems& 
                             std::min(swap->as_stated_mm, kMostTold))));
 }
 
-void check_nowhere(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
-  for (const NowherePoint& nowhere : points_nowhere(belts)) {
+void check_readings(const MeasuredBelts& belts,
+                    const belts::AnchorFit& frame,
+                    const BeltPlaces& places,
+                    Problems& problems) {
+  for (const BeltQuestion& asked : suspected_readings(belts, frame))
+    problems.warn(places.point(asked.point, fmt::format("{}_mm", name(asked.belt))), asked.sentence);
+  for (const DistanceQuestion& asked : suspected_distances(belts, frame)) {
+    problems.add(fmt::format("/distances/{}/distance_mm", asked.distance),
+                 fmt::format("{:.10g}", belts.distances[asked.distance].distance_mm),
+                 fmt::format("about {:.0f}, as the lengths of the belts have it; {}",
+                             asked.by_belts_mm,
+                             asked.question));
+  }
+}
+
+void check_nowhere(const MeasuredBelts& belts,
+                   const belts::AnchorFit& frame,
+                   const BeltPlaces& places,
+                   Problems& problems) {
+  for (const NowherePoint& nowhere : points_nowhere(belts, frame)) {
     problems.add(places.point(nowhere.point, ""),
                  lengths_in_words(belts.points[nowhere.point]),
                  fmt::format("four lengths that end at one place; with the anchors that the other "
@@ -157,7 +173,7 @@ void check_nowhere(const MeasuredBelts& belts, const BeltPlaces& places, Problem
 }  // namespace
 
 void check_belt_points(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
-  check_inches(belts, places, problems);
+  check_unit(belts, places, problems);
   check_orders(belts, places, problems);
   check_twice(belts, places, problems);
   check_pulled(belts, places, problems);
@@ -202,7 +218,10 @@ void check_belts_together(const MeasuredBelts& belts,
   if (is_enough) {
     check_swap(belts, places, problems);
     if (problems.any()) return;
-    check_nowhere(belts, places, problems);
+    if (const auto frame = frame_of_lengths(belts)) {
+      check_nowhere(belts, *frame, places, problems);
+      check_readings(belts, *frame, places, problems);
+    }
     if (problems.any()) return;
   }
   MeasuredBelts untaped = belts;

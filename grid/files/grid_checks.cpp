@@ -10,6 +10,8 @@
 #include <cmath>
 #include <map>
 
+#include "grid/input_checks/point_slips.hpp"
+
 namespace chaintrue::grid::files {
 namespace {
 
@@ -113,13 +115,6 @@ std::optional<double> left_of(const MeasuredPoint& point) {
 std::optional<double> right_of(const MeasuredPoint& point) {
   return point.lengths ? std::optional(point.lengths->right_mm) : std::nullopt;
 }
-std::optional<double> commanded_x_of(const MeasuredPoint& point) {
-  return point.commanded ? std::optional(point.commanded->x_mm) : std::nullopt;
-}
-std::optional<double> commanded_y_of(const MeasuredPoint& point) {
-  return point.commanded ? std::optional(point.commanded->y_mm) : std::nullopt;
-}
-
 /// The largest |x|, |y| and length of all points.
 struct Extent {
   double coordinate = 0.0;
@@ -139,68 +134,55 @@ Extent extent_of(const MeasuredGrid& grid) {
 }
 
 /// A chain grows by at most a millimetre for each that the tool moves, and over a bed by 0.7 mm or
-/// more; a ratio 25.4 times larger or smaller is a change of unit. The limits are half-way, in
-/// ratios.
-bool is_inches_under(double steepness) { return steepness > 5.0; }
-bool is_inches_over(double steepness) { return steepness < 0.2; }
+/// more; 25.4 times that or the 25.4th part of it is a change of unit. The limits stand half-way,
+/// in ratios.
+bool is_unit_under(double steepness) { return steepness > 5.0; }
+bool is_unit_over(double steepness) { return steepness < 0.2; }
+/// Between 7 to 10 times, centimetres, and 18 to 25 times, inches.
+constexpr double kFewestInches = 13.0;
+const char* unit_of(double factor) { return factor < kFewestInches ? "centimetres" : "inches"; }
 
-/// Reports inches in place of mm; true if found.
-bool check_inches(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
+/// Says where another unit stands for mm; true where it does. Of grids without a machine.
+bool check_unit(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
   const Extent extent = extent_of(grid);
   if (extent.length > 0.0 && extent.length < kLongestInInches &&
       extent.coordinate < kLongestInInches) {
+    // Chains reach 2.5 to 3.7 m: 100 to 146 inches, or 250 centimetres and more.
+    constexpr double kLongestChainInches = 150.0;
     problems.add(
         places.all,
         fmt::format(
             "coordinates up to {:.6g} and lengths up to {:.6g}", extent.coordinate, extent.length),
-        "all of them in mm; these look like inches (multiply by 25.4)");
+        extent.length < kLongestChainInches
+            ? "all of them in mm; these look like inches (multiply by 25.4)"
+            : "all of them in mm; these look like centimetres (multiply by 10)");
     return true;
   }
-  const auto first =
-      slope_of(grid.points, extent.length > 0.0 ? Getter(left_of) : Getter(commanded_x_of));
-  const auto second =
-      slope_of(grid.points, extent.length > 0.0 ? Getter(right_of) : Getter(commanded_y_of));
+  const auto first = slope_of(grid.points, left_of);
+  const auto second = slope_of(grid.points, right_of);
   if (!first || !second) return false;
-  const std::string what = extent.length > 0.0 ? "lengths" : "commands";
   const double steepness = 0.5 * (first->steepness() + second->steepness());
   const std::string found =
-      fmt::format("{} that change by {:.3g} for each 1 of x_mm, y_mm", what, steepness);
-  if (is_inches_under(first->steepness()) && is_inches_under(second->steepness())) {
-    problems.add(places.all,
-                 found,
-                 fmt::format("about 1; x_mm and y_mm look like inches, the {} like mm", what));
+      fmt::format("lengths that change by {:.3g} for each 1 of x_mm, y_mm", steepness);
+  if (is_unit_under(first->steepness()) && is_unit_under(second->steepness())) {
+    problems.add(
+        places.all,
+        found,
+        fmt::format("about 1; x_mm and y_mm look like {}, the lengths like mm", unit_of(steepness)));
     return true;
   }
-  if (is_inches_over(first->steepness()) && is_inches_over(second->steepness())) {
+  if (is_unit_over(first->steepness()) && is_unit_over(second->steepness())) {
     problems.add(places.all,
                  found,
-                 fmt::format("about 1; the {} look like inches, x_mm and y_mm like mm", what));
+                 fmt::format("about 1; the lengths look like {}, x_mm and y_mm like mm",
+                             unit_of(1.0 / steepness)));
     return true;
   }
   return false;
 }
 
-/// Mean difference of L - R from that of a machine with straight chains; `sign` -1 swaps the
-/// columns.
-double mean_misfit(const MeasuredGrid& grid, double sign) {
-  double sum = 0.0;
-  double count = 0.0;
-  const auto& motors = grid.machine->motors;
-  for (const MeasuredPoint& point : grid.points) {
-    if (!point.lengths) continue;
-    const auto distance = [&point](const model::MotorPosition& motor) {
-      return std::hypot(point.mark.x_mm - motor.x_mm, point.mark.y_mm - motor.y_mm);
-    };
-    sum += std::abs(sign * (point.lengths->left_mm - point.lengths->right_mm) -
-                    (distance(motors.left) - distance(motors.right)));
-    count += 1.0;
-  }
-  return count > 0.0 ? sum / count : 0.0;
-}
-
-/// The lengths of a machine whose motors are above change with x in opposite ways and decrease
-/// towards the motors; a command changes with its own coordinate. True if x and y are exchanged,
-/// which is reported.
+/// Lengths of a machine whose motors are above change with x in opposite ways and decrease towards
+/// the motors. True if x and y are exchanged, which is reported.
 bool check_axes(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
   constexpr double kClearly = 0.3;
   const char* swapped = "x_mm to the right and y_mm up the sheet; the two columns look swapped";
@@ -209,13 +191,6 @@ bool check_axes(const MeasuredGrid& grid, const PointPlaces& places, Problems& p
   if (left && right && left->per_y > kClearly && right->per_y < -kClearly && left->per_x < 0.0 &&
       right->per_x < 0.0) {
     problems.add(places.all, "left lengths growing and right ones shrinking with y_mm", swapped);
-    return true;
-  }
-  const auto x = slope_of(grid.points, commanded_x_of);
-  const auto y = slope_of(grid.points, commanded_y_of);
-  if (x && y && std::abs(x->per_x) < kClearly && std::abs(y->per_y) < kClearly &&
-      x->per_y > kClearly && y->per_x > kClearly) {
-    problems.add(places.all, "commanded_x_mm going with y_mm, commanded_y_mm with x_mm", swapped);
     return true;
   }
   return false;
@@ -238,12 +213,6 @@ void check_sides(const MeasuredGrid& grid, const PointPlaces& places, Problems& 
           "lengths of both chains that grow towards +y",
           "lengths that shrink towards +y, where the motors are; y_mm looks counted downwards");
     }
-    return;
-  }
-  // A few points have no slope; the sides can still be distinguished by the lengths of a machine.
-  constexpr double kClearlyMm = 100.0;
-  if (grid.machine && mean_misfit(grid, 1.0) > mean_misfit(grid, -1.0) + kClearlyMm) {
-    problems.add(places.all, "lengths that fit the machine with left and right exchanged", swapped);
   }
 }
 
@@ -294,6 +263,36 @@ bool warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Pr
   return true;
 }
 
+/// Slips of the whole file, and of rows. True where there is no use in looking further.
+bool check_slips(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
+  if (!grid.machine) {
+    if (check_unit(grid, places, problems) || check_axes(grid, places, problems)) return true;
+    check_sides(grid, places, problems);
+    return false;
+  }
+  const input_checks::Findings found = input_checks::point_slips(grid);
+  if (found.whole && found.whole->is_doubtful) {
+    problems.warn(places.all,
+                  fmt::format("{}, where one would expect {}", found.whole->found, found.whole->expected));
+  } else if (found.whole) {
+    problems.add(found.whole->from_row ? places.of(*found.whole->from_row, "") : places.all,
+                 found.whole->found,
+                 found.whole->expected);
+    return true;
+  }
+  for (const input_checks::RowFinding& row : found.rows) {
+    if (row.is_impossible) {
+      const model::MarkPoint mark = grid.points[row.row].mark;
+      problems.add(places.of(row.row, ""),
+                   fmt::format("({:.10g}, {:.10g})", mark.x_mm, mark.y_mm),
+                   fmt::format("a place that the machine reaches. {}", row.sentence));
+    } else {
+      problems.warn(places.of(row.row, ""), row.sentence);
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<MeasuredPoint> measured_points(const std::vector<StatedPoint>& stated,
@@ -338,9 +337,7 @@ void check_points_together(const MeasuredGrid& grid,
                  "a machine with the controller that was commanded (\"machine\", \"machine_file\" "
                  "or --machine)");
   }
-  if (count == 0 || check_inches(grid, places, problems) || check_axes(grid, places, problems))
-    return;
-  check_sides(grid, places, problems);
+  if (count == 0 || check_slips(grid, places, problems)) return;
   const bool is_tiny = count >= kSpanFrom && warn_of_a_tiny_area(grid, places, problems);
   if (fewest_points < kSpanFrom || count < fewest_points) return;
   if (const double width = width_across_best_line(grid.points); width < kRepeatDistanceMm) {

@@ -94,6 +94,14 @@ void warn_of_pair(const Comparison& comparison,
   const double first_mm = std::abs(a.first_mm - b.first_mm);
   const double second_mm = std::abs(a.second_mm - b.second_mm);
   if (first_mm <= allowed_mm && second_mm <= allowed_mm) return;
+  // What was asked about already disagrees with everything.
+  const auto is_asked_about = [&](std::size_t row) {
+    const auto& warnings = problems.warnings();
+    return std::any_of(warnings.begin(), warnings.end(), [&](const Warning& warning) {
+      return warning.place == places.of(row, "") && warning.sentence.rfind("Mark", 0) == 0;
+    });
+  };
+  if (is_asked_about(a.index) || is_asked_about(b.index)) return;
   const bool first_is_worse = first_mm >= second_mm;
   problems.warn(places.of(b.index, ""),
                 fmt::format("measured also at {}, {:.2f} mm away; the two disagree by {:.2f} mm "

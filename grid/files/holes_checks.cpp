@@ -10,7 +10,7 @@
 #include <set>
 
 #include "grid/files/number_text.hpp"
-#include "grid/statistics.hpp"
+#include "grid/input_checks/distance_slips.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -41,44 +41,37 @@ std::string names_of(const std::vector<Hole>& holes) {
   return joined(names);
 }
 
-/// Reports inches in place of mm; true if found. A machine cuts true to a few per cent: a factor of
-/// five or more is a change of unit.
+/// Reports distances and holes that are both in inches: they fit each other, and only the bed shows
+/// it. True if found.
 bool check_inches(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
-  std::vector<double> ratios;
   double farthest_mm = 0.0;
-  for (const HoleDistance& distance : set.distances) {
-    if (distance.edge) continue;
-    ratios.push_back(length_of(set, distance) / commanded_mm(set, distance));
-  }
   for (const Hole& hole : set.holes) {
     farthest_mm =
         std::max({farthest_mm, std::abs(hole.commanded.x_mm), std::abs(hole.commanded.y_mm)});
   }
-  constexpr double kAnotherUnit = 5.0;
-  if (!ratios.empty() && median(ratios) < 1.0 / kAnotherUnit) {
-    problems.add(places.distances,
-                 fmt::format("distances {:.3g} times as long as commanded", median(ratios)),
-                 "about 1; the distances look like inches, the holes' x_mm and y_mm like mm "
-                 "(multiply the distances by 25.4)");
-    return true;
-  }
-  if (!ratios.empty() && median(ratios) > kAnotherUnit) {
-    problems.add(places.holes,
-                 fmt::format("distances {:.3g} times as long as commanded", median(ratios)),
-                 "about 1; the holes' x_mm and y_mm look like inches, the distances like mm "
-                 "(multiply the holes by 25.4)");
-    return true;
-  }
   constexpr double kFarthestInInches =
       70.0;  // half a 12-foot bed's width; in mm no set is so small
-  if (set.holes.size() >= 3 && farthest_mm < kFarthestInInches) {
-    problems.add(places.holes,
-                 fmt::format("holes within {:.4g} of the middle", farthest_mm),
-                 "holes spread over the bed, in mm; these and their distances look like inches "
-                 "(multiply by 25.4)");
-    return true;
+  if (set.holes.size() < 3 || farthest_mm >= kFarthestInInches) return false;
+  problems.add(places.holes,
+               fmt::format("holes within {:.4g} of the middle", farthest_mm),
+               "holes spread over the bed, in mm; these and their distances look like inches "
+               "(multiply by 25.4)");
+  return true;
+}
+
+/// Where a slip of the whole file was found it is reported; what is asked about single distances is
+/// returned.
+std::vector<input_checks::RowFinding> check_slips(const MeasuredHoles& set,
+                                                  const HolesPlaces& places,
+                                                  Problems& problems) {
+  input_checks::Findings found = input_checks::distance_slips(set);
+  if (found.whole) {
+    problems.add(found.whole->from_row ? places.distance(*found.whole->from_row, "distance_mm")
+                                       : places.distances,
+                 found.whole->found,
+                 found.whole->expected);
   }
-  return false;
+  return std::move(found.rows);
 }
 
 /// Reports two holes so near that the direction from one to the other is undetermined.
@@ -101,7 +94,10 @@ Pair pair_of(const HoleDistance& distance) { return std::minmax(distance.from, d
 
 /// Checks each triangle with three measured sides: the longest is no longer than the sum of the
 /// others, within the tape's error.
-void check_triangles(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
+void check_triangles(const MeasuredHoles& set,
+                     const std::vector<input_checks::RowFinding>& asked,
+                     const HolesPlaces& places,
+                     Problems& problems) {
   std::map<Pair, std::size_t> first;
   for (std::size_t i = 0; i < set.distances.size(); ++i) {
     if (!set.distances[i].edge) first.emplace(pair_of(set.distances[i]), i);
@@ -123,17 +119,23 @@ void check_triangles(const MeasuredHoles& set, const HolesPlaces& places, Proble
       }
       constexpr double kBeyondChance = 5.0;  // sigmas: one triangle in some million
       if (excess <= kBeyondChance * std::sqrt(variance)) continue;
+      std::string question;
+      for (const input_checks::RowFinding& row : asked) {
+        if (std::find(sides.begin(), sides.end(), row.row) != sides.end())
+          question += fmt::format(". {}", row.sentence);
+      }
       problems.add(
           places.distance(sides[0], "distance_mm"),
           fmt::format("{:g}", set.distances[sides[0]].distance_mm),
           fmt::format("at most {:.1f} mm: {} cannot be longer than the way over {} ({:g}) and {} "
-                      "({:g}); one of the three was misread",
+                      "({:g}); one of the three was misread{}",
                       set.distances[sides[0]].distance_mm - excess,
                       words_of(set, set.distances[sides[0]]),
                       words_of(set, set.distances[sides[1]]),
                       set.distances[sides[1]].distance_mm,
                       words_of(set, set.distances[sides[2]]),
-                      set.distances[sides[2]].distance_mm));
+                      set.distances[sides[2]].distance_mm,
+                      question));
     }
   }
 }
@@ -347,8 +349,12 @@ void check_holes_together(const MeasuredHoles& set,
                           const HolesPlaces& places,
                           Problems& problems) {
   check_apart(set, places, problems);
+  if (problems.any()) return;
+  const auto asked = check_slips(set, places, problems);
   if (problems.any() || check_inches(set, places, problems)) return;
-  check_triangles(set, places, problems);
+  check_triangles(set, asked, places, problems);
+  for (const input_checks::RowFinding& row : asked)
+    problems.warn(places.distance(row.row, "distance_mm"), row.sentence);
   check_enough(set, fewest_distances, places, problems);
   if (!problems.any()) check_hook(set, hook_is_stated, places, problems);
 }

@@ -84,7 +84,7 @@ TEST(DiagnoseBadInput, ExchangedColumnsAreSuspected) {
   for (MeasuredPoint& p : grid.points) std::swap(p.lengths->left_mm, p.lengths->right_mm);
   expect_refused(grid,
                  DiagnosisFailure::Reason::contradictory_settings,
-                 "columns look exchanged: with that mended they are within");
+                 "the columns left_mm and right_mm look swapped");
 }
 
 TEST(DiagnoseBadInput, InchesAreSuspected) {
@@ -98,7 +98,7 @@ TEST(DiagnoseBadInput, InchesAreSuspected) {
 TEST(DiagnoseBadInput, AxesTurnedRoundAreSuspected) {
   MeasuredGrid grid = session_of({}, 3);
   for (MeasuredPoint& p : grid.points) p.mark.y_mm = -p.mark.y_mm;
-  expect_refused(grid, DiagnosisFailure::Reason::contradictory_settings, "y axis looks turned");
+  expect_refused(grid, DiagnosisFailure::Reason::contradictory_settings, "y_mm looks counted downwards");
 }
 
 TEST(DiagnoseBadInput, AnotherMachineAltogether) {
@@ -109,7 +109,7 @@ TEST(DiagnoseBadInput, AnotherMachineAltogether) {
   }
   expect_refused(grid,
                  DiagnosisFailure::Reason::contradictory_settings,
-                 "no machine near the stated one fits these points");
+                 "are they of another sheet, another list or another machine?");
 }
 
 /// Every effect, at a strength that identifies it, is named with its size within four sigma.

@@ -106,7 +106,7 @@ TEST(HolesFile, ATriangleMayBeFlatWithinTheTapesError) {
 
 TEST(HolesFile, InchesAreRecognised) {
   EXPECT_THAT(problems_with("A,B,70.9\nB,C,31.5\nC,D,70.8\nD,A,31.5\nA,C,77.5\nB,D,77.5\n"),
-              ElementsAre(AllOf(HasSubstr("distances 0.039"),
+              ElementsAre(AllOf(HasSubstr("distances 1.7 m off what was commanded"),
                                 HasSubstr("the distances look like inches"))));
   EXPECT_THAT(problems_of("hole,x_mm,y_mm\nA,-35.4,15.7\nB,35.4,15.7\nC,35.4,-15.7\nD,-35.4,-15.7\n"
                           "from,to,distance_mm\n" +

@@ -37,8 +37,9 @@ struct Telling {
   const char* words;
   Shows shows = Shows::in_numbers;
   const char* where = "";
-  /// In place of simple.nc, and of what was made of it.
-  const char* program = "";
+  /// Where the use's own files leave the option nothing to do: a program (@...) in place of simple.nc
+  /// and of what was made of it, or a whole line.
+  const char* instead = "";
 };
 /// The one for this use where there is one; null where the option has none at all.
 [[nodiscard]] const Telling* telling_of(const std::string& verb,

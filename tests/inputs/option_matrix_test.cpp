@@ -26,53 +26,17 @@ using inputs::Use;
 using inputs::uses;
 using inputs::Workshop;
 
-/// Cells where the files of the workshop leave an option nothing to do, and why.
-struct NotShown {
-  const char* verb;
-  const char* option;
-  const char* where;  ///< empty: everywhere
-  const char* why;
-};
-constexpr NotShown kNotShown[] = {
-    {"diagnose", "--accept-class", "", "needs points that cannot tell a long chain from a long tape"},
-    {"fit", "--machine", "direct", "only places that were commanded go by the machine"},
-    {"fit", "--outside", "direct", "a direct surface ends where its points do"},
-    {"fit", "--outside", "mix", "the points of this mix reach to the edges of the sheet"},
-    {"fit", "--outside", "causes", "these points reach to the edges of the sheet"},
-    {"plan", "--measure", "program", "a program that drills is for places"},
-    {"gcode check", "--controller", "none", "only what another firmware reads otherwise changes"},
-    {"plan", "--machine", "after_grid", "only a CSV of commanded places asks for the machine"},
-    {"plan", "--machine", "after_holes", "only a CSV asks for the machine"},
-    {"check", "--machine", "grid", "only places that were commanded go by the machine"},
-    {"check", "--machine", "csv", "only places that were commanded go by the machine"},
-    {"check", "--machine", "mix", "only places that were commanded go by the machine"},
-    {"check", "--settings", "grid", "only places that were commanded go by the settings"},
-    {"check", "--settings", "csv", "only places that were commanded go by the settings"},
-    {"check", "--noise-dof", "", "a check takes the noise as known"},
-    {"gcode check", "--keep-rapids-whole", "", "no rapid of these programs bends beyond the tolerance"},
-    {"gcode verify", "--keep-rapids-whole", "", "no rapid of these programs bends beyond the tolerance"},
-    {"gcode verify", "--decimals", "", "only moves as short as the last digits may be missing"},
-    {"gcode verify", "--steepest-correction", "", "only a feed that is off by a hundredth is refused"},
-};
-
-bool is_not_shown(const Use& use, const std::string& option) {
-  return std::any_of(std::begin(kNotShown), std::end(kNotShown), [&](const NotShown& cell) {
-    return std::string(cell.verb) == use.verb && cell.option == option &&
-           (*cell.where == '\0' || std::string(cell.where) == use.name);
-  });
-}
-
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   const std::size_t at = text.find(what);
   return at == std::string::npos ? text : text.replace(at, what.size(), by);
 }
 
-/// The use with the program of the telling value.
-std::string line_with(const Use& use, const Telling& telling) {
+std::string line_of(const Use& use, const Telling& telling) {
+  const std::string instead = telling.instead;
+  if (!instead.empty() && instead.front() != '@') return instead;
   std::string line = use.line;
-  if (*telling.program == '\0') return line;
-  for (const char* own : {"@simple.nc", "@true.nc", "@belts_true.nc"})
-    line = replaced(line, own, telling.program);
+  if (instead.empty()) return line;
+  for (const char* own : {"@simple.nc", "@true.nc", "@belts_true.nc"}) line = replaced(line, own, instead);
   return line;
 }
 
@@ -100,7 +64,7 @@ std::vector<std::string> options_of(const Workshop& workshop, const std::string&
 std::string fault_of(const Workshop& workshop, const Use& use, const Ran& base, const std::string& option) {
   const Telling* telling = telling_of(use.verb, option, use.name);
   if (telling == nullptr) return "has no telling value in this test";
-  const std::string line = without(line_with(use, *telling), option) + " " + telling->words;
+  const std::string line = without(line_of(use, *telling), option) + " " + telling->words;
   const cli::OptionRule* rule = cli::refusal_of(use.verb, option, use.facts);
   if (rule != nullptr) {
     const Ran ran = workshop.run(line);
@@ -116,7 +80,8 @@ std::string fault_of(const Workshop& workshop, const Use& use, const Ran& base, 
                                    telling->shows == Shows::in_words
                                ? ""
                                : std::string("; ") + use.then;
-  const Ran ran = workshop.run(line + then);
+  Ran ran = workshop.run(line + then);
+  Ran before = *telling->instead == '\0' ? base : workshop.run(line_of(use, *telling) + then);
   if (ran.code == 2 || ran.code == 3) {
     // A sentence that says why it cannot, by what the file holds.
     if (ran.err.empty()) return "is refused without a sentence";
@@ -128,34 +93,28 @@ std::string fault_of(const Workshop& workshop, const Use& use, const Ran& base, 
     case Shows::in_numbers: {
       std::vector<std::string> echoes = kEchoes;
       if (std::string(use.verb) != "simulate") echoes.emplace_back("noise");
-      Ran before = *telling->program == '\0' ? base : workshop.run(line_with(use, *telling));
-      Ran after = ran;
       if (*use.then != '\0') {
         before.files.clear();
-        after.files.clear();
+        ran.files.clear();
       }
       // What is wrong with a program is said on standard error.
-      const bool says_more =
-          std::string_view(use.verb).starts_with("gcode") && before.err != after.err;
-      return numbers_of(before, echoes) == numbers_of(after, echoes) && !says_more &&
-                     !is_not_shown(use, option)
+      const bool says_more = std::string_view(use.verb).starts_with("gcode") && before.err != ran.err;
+      return numbers_of(before, echoes) == numbers_of(ran, echoes) && !says_more
                  ? "changes no number: " + line
                  : "";
     }
     case Shows::in_form:
-      return base.out == ran.out && base.files == ran.files && !is_not_shown(use, option)
-                 ? "changes nothing: " + line
-                 : "";
+      return before.out == ran.out && before.files == ran.files ? "changes nothing: " + line : "";
     case Shows::as_file:
       return std::none_of(ran.files.begin(),
                           ran.files.end(),
                           [&](const auto& file) {
-                            return !base.files.contains(file.first) && !file.second.empty();
+                            return !before.files.contains(file.first) && !file.second.empty();
                           })
                  ? "writes no file: " + line + "\n" + ran.err
                  : "";
     case Shows::in_words:
-      return base.err == ran.err && base.code == ran.code ? "says nothing: " + line : "";
+      return before.err == ran.err && before.code == ran.code ? "says nothing: " + line : "";
   }
   return "";
 }

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 #include <stdexcept>
 
 namespace chaintrue::inputs {
@@ -54,6 +55,24 @@ std::string belt_holes(const std::string& belts) {
     }
   }
   return file.dump(1);
+}
+
+/// Marks as places that the controller was sent to, 2 mm aside.
+std::string as_commands(const std::string& csv) {
+  std::istringstream rows(csv);
+  std::string text = "x_mm,y_mm,commanded_x_mm,commanded_y_mm\n";
+  std::string row;
+  std::getline(rows, row);
+  while (std::getline(rows, row)) {
+    double x = 0.0;
+    double y = 0.0;
+    char comma = 0;
+    std::istringstream(row) >> x >> comma >> y;
+    std::ostringstream line;
+    line << x << "," << y << "," << x + 2.0 << "," << y - 1.5 << "\n";
+    text += line.str();
+  }
+  return text;
 }
 
 /// The points of a grid without what says when they were visited, as CSV.
@@ -113,6 +132,7 @@ std::map<std::string, std::string> made_by_the_command() {
       {"worn.json",
        "simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
        "--effect chain_pitch_error:left:elongation=0.0016 --seed 5 -o @worn.json"},
+      // Worn alike on both sides, or a tape that is long: one class.
       {"worn_both.json",
        "simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
        "--effect chain_pitch_error:both:elongation=0.003 --seed 5 -o @worn_both.json"},
@@ -124,6 +144,25 @@ std::map<std::string, std::string> made_by_the_command() {
        "simulate --belts @anchors.json --grid 4x3 --length-noise-mm 0.6 --seed 2 -o @few_belts.json"},
       {"belts2.json",
        "simulate --belts @anchors.json --grid 5x5 --length-noise-mm 1 --seed 9 -o @belts2.json"},
+      {"worn_holes.json",
+       "simulate --machine @classic.json --holes 9 --effect chain_pitch_error:both:elongation=0.003 "
+       "--seed 5 -o @worn_holes.json"},
+      {"commanded_diagnosis.json",
+       "diagnose @commanded.csv --machine @classic.json --noise-length-mm 0.2 --noise-position-mm 0.3 "
+       "-o @commanded_diagnosis.json"},
+      {"mixed_diagnosis.json",
+       "diagnose @commanded.csv --with @holes.json --machine @classic.json --noise-length-mm 0.2 "
+       "--noise-position-mm 0.3 -o @mixed_diagnosis.json"},
+      {"rapid_true.nc",
+       "gcode compensate @rapid.nc --map @map.json --tolerance-mm 0.01 --keep-rapids-whole -o "
+       "@rapid_true.nc"},
+      {"rapid_belts_true.nc",
+       "gcode compensate @rapid.nc --map @anchors.json --tolerance-mm 0.01 --keep-rapids-whole -o "
+       "@rapid_belts_true.nc"},
+      {"short_true.nc", "gcode compensate @short.nc --map @map.json -o @short_true.nc"},
+      {"short_belts_true.nc", "gcode compensate @short.nc --map @anchors.json -o @short_belts_true.nc"},
+      {"slow_true.nc", "gcode compensate @slow.nc --map @map.json -o @slow_true.nc"},
+      {"slow_belts_true.nc", "gcode compensate @slow.nc --map @anchors.json -o @slow_belts_true.nc"},
       {"diagnosis.json", "diagnose @grid.json -o @diagnosis.json"},
       {"worn_diagnosis.json", "diagnose @worn.json -o @worn_diagnosis.json"},
       {"holes_diagnosis.json", "diagnose @holes.json -o @holes_diagnosis.json"},
@@ -150,6 +189,8 @@ Workshop::Workshop() : folder_(temporary_folder()), lines_(made_by_the_command()
   for (const auto& [name, source] : copied) fs::copy_file(fixtures + "/" + source, folder_ / name);
   write("grid.csv", as_csv(text_of("grid.json"), 100));
   write("few.csv", as_csv(text_of("few.json"), 5));
+  write("commanded.csv", as_commands(text_of("grid.csv")));
+  write("commanded_lattice.csv", as_commands(text_of("lattice.csv")));
   // Another machine, on another bed.
   Json other = Json::parse(text_of("classic.json"));
   other["bed"] = {{"width_mm", 2500.0}, {"height_mm", 1300.0}};
@@ -168,6 +209,11 @@ Workshop::Workshop() : folder_(temporary_folder()), lines_(made_by_the_command()
   write("few_marks.csv", "x_mm,y_mm\n-800,-300\n10,-280\n820,290\n30,20\n");
   write("simple.nc", "G21 G90 G17\nF600\nG0 X-900 Y400\nG1 X900 Y400\n/G1 X900 Y-400\nG1 X0 Y0\nM2\n");
   write("offset.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG41 D1\nG1 X300 Y0\nG40\nG1 X0 Y0\nM2\n");
+  // Long rapids bend; a move may be shorter than the last digits; a feed may be off by a hundredth.
+  write("rapid.nc", "G21 G90 G17\nF600\nG0 X-1100 Y550\nG0 X1100 Y-550\nG1 X0 Y0\nM2\n");
+  write("tiny.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG0 X100.03 Y0\nG1 X100.03 Y100\nM2\n");
+  write("short.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG1 X100.03 Y100\nM2\n");
+  write("slow.nc", replaced(text_of("simple.nc"), "F600", "F588"));
   // Whoever wants to know of line 6 has to come out of the loop first.
   write("loop.nc",
         "G21 G90 G17 F600\n#1=0\no1 while [#1 lt 4]\n#1=[#1+1]\no1 endwhile\nG1 X100 Y0\n"

@@ -135,7 +135,7 @@ TEST(Traps, SwappedColumnsAreSaidToBeSwapped) {
   for (auto& p : grid.points) std::swap(p.lengths->left_mm, p.lengths->right_mm);
   const auto found = grid::diagnosis::diagnose(grid);
   ASSERT_FALSE(found);
-  EXPECT_THAT(found.error().sentence, HasSubstr("columns look exchanged"));
+  EXPECT_THAT(found.error().sentence, HasSubstr("left_mm and right_mm look swapped"));
   EXPECT_THROW((void)grid::files::parse_grid(grid::files::write_grid(grid), "swapped.json"),
                grid::files::InputError);
 }

@@ -20,6 +20,7 @@
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/settings_to_type.hpp"
 #include "tools/cli/input_file.hpp"
+#include "tools/cli/map_words.hpp"
 #include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/settings_file.hpp"
@@ -45,6 +46,7 @@ struct Exported {
   std::vector<std::string> next;
   /// Of a map: it with the controller that holds the numbers.
   std::optional<grid::CompensationMap> map_after = std::nullopt;
+  bool is_refused = false;  ///< the map is not to be cut with, which was said
 };
 
 /// What the machine says otherwise than its controller.
@@ -148,7 +150,7 @@ bool is_untyped_json(const InputFile& file) {
          files::file_type_of(file.text, file.name).empty();
 }
 
-Exported export_of(const InputFile& file, const ExportCommand& command) {
+Exported export_of(const InputFile& file, const ExportCommand& command, bool forced) {
   if (is_untyped_json(file)) return of_machine(load_machine(file), {});
   require_kind(file,
                {FileKind::machine, FileKind::map, FileKind::diagnosis},
@@ -156,6 +158,7 @@ Exported export_of(const InputFile& file, const ExportCommand& command) {
                                               : "");
   if (file.kind == FileKind::map) {
     return with_map(file, [&](const grid::CompensationMap& map) {
+      if (!forced && refuses_to_cut_with(map)) return Exported{{}, "", {}, std::nullopt, true};
       return of_map(map, file.name, command);
     });
   }
@@ -192,8 +195,9 @@ std::string written_map_after(const Exported& exported, const ExportCommand& com
 
 int export_groundcontrol(Verb verb, const ExportCommand& command) {
   const InputFile file = open_input(command.input);
-  const Exported exported = export_of(file, command);
+  const Exported exported = export_of(file, command, verb.is_given("--force"));
   refuse_what_does_nothing(verb, facts_of(file));
+  if (exported.is_refused) return kCheckFailed;
   write_outputs({{command.map_after, written_map_after(exported, command)},
                  {command.output, exported.settings.text}});
   for (const std::string& remark : exported.settings.remarks) fmt::print(stderr, "{}\n", remark);

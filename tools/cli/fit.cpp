@@ -94,6 +94,16 @@ std::string too_many(const grid::Measured& measured, bool causes) {
   return {};
 }
 
+/// What the reader of maps says of this one; empty where it takes it.
+std::string refused_by_its_reader(const std::string& text) {
+  try {
+    (void)grid::files::parse_map(text, "the map");
+  } catch (const grid::files::InputError& error) {
+    return error.problems().front().message();
+  }
+  return {};
+}
+
 /// The map goes to its file, the words to standard error; a fit that failed is told.
 int finish(const FitCommand& command,
            const tl::expected<grid::CompensationMap, grid::FitFailure>& map,
@@ -105,7 +115,15 @@ int finish(const FitCommand& command,
                map.error().sentence);
     return kBadInput;
   }
-  std::vector<grid::files::OutputFile> outputs = {{command.output, grid::files::write_map(*map)}};
+  std::string text = grid::files::write_map(*map);
+  if (const std::string problem = refused_by_its_reader(text); !problem.empty()) {
+    fmt::print(stderr,
+               "{}: these points make a map that no machine has, and none is written: {}\n",
+               grid::files::name_in_messages(command.input.grid),
+               problem);
+    return kBadInput;
+  }
+  std::vector<grid::files::OutputFile> outputs = {{command.output, std::move(text)}};
   if (command.json) outputs.push_back({"-", grid::files::write_fit(*map, fit_sentence(*map))});
   write_outputs(outputs);
   const report::Detail detail =
@@ -113,6 +131,11 @@ int finish(const FitCommand& command,
   report::Document document = map_document(*map, command.output, detail);
   std::move(more.begin(), more.end(), std::back_inserter(document.sections));
   fmt::print(stderr, "{}", report::render_text(document, detail));
+  if (const std::string why = not_to_cut_with(*map); !why.empty()) {
+    fmt::print(stderr, "{}\n", why);
+    say_next({"diagnose", command.input.grid});
+    return kCheckFailed;
+  }
   const model::Machine* machine = map->machine();
   const bool typed = machine != nullptr && machine->controller.settings.motor_spacing_mm;
   if (typed) {
@@ -262,10 +285,6 @@ void add_fit(Verb app, Run& run) {
   verb.when_chosen([command, verb, &run] {
     if (command->json && command->output == "-") {
       usage_error("fit", "--json and the map cannot both go to standard output");
-    }
-    if (command->surface == "direct" && command->outside.way == "fade") {
-      usage_error("fit",
-                  "--outside fade leaves the bare machine, which a direct surface does not have");
     }
     run = [command, verb] { return run_fit(verb, *command); };
   });

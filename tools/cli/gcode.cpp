@@ -25,6 +25,7 @@ void open_map(Verb verb, GcodeOptions& options) {
     facts = options.map_file->kind == FileKind::map ? facts::map : facts::anchors;
   }
   refuse_what_does_nothing(verb, facts);
+  options.forced = verb.has_option("--force") && verb.is_given("--force");
 }
 
 Verb add(Verb parent,

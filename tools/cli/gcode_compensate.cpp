@@ -10,6 +10,7 @@
 
 #include "tools/cli/gcode_expected.hpp"
 #include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/map_words.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/report/path_report.hpp"
@@ -185,6 +186,8 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
 
 int run_gcode_compensate(const GcodeOptions& options) {
   const GcodeMachine machine(options);
+  const grid::CompensationMap* map = machine.map();
+  if (map != nullptr && !options.forced && refuses_to_cut_with(*map)) return kCheckFailed;
   return blaming(machine.on_trust(), [&] { return compensate_for(machine, options); });
 }
 

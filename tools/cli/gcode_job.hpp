@@ -48,6 +48,7 @@ struct GcodeOptions {
   bool skip_deletable = false;
   bool tools_have_no_diameter = false;
   bool no_verify = false;  ///< compensate: write without having run the output
+  bool forced = false;     ///< compensate: even with a map that is not to be cut with
   bool json = false;
 
   [[nodiscard]] gcode::Dialect dialect() const;
@@ -112,6 +113,8 @@ class GcodeMachine {
   /// believes.
   explicit GcodeMachine(const GcodeOptions& options);
   [[nodiscard]] const grid::LengthMap& target() const { return target_.target(); }
+  /// Null of four belts.
+  [[nodiscard]] const grid::CompensationMap* map() const { return target_.map(); }
   [[nodiscard]] const gcode::Corrector& corrector() const { return corrector_; }
   [[nodiscard]] const GcodeController& controller() const { return controller_; }
   [[nodiscard]] const std::string& map_hash() const { return target_.map_hash(); }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "model/calibration/setting.hpp"
 
@@ -50,6 +51,25 @@ std::vector<SettingRow> settings_rows(const grid::CompensationMap& map) {
     rows.push_back(row);
   }
   return rows;
+}
+
+std::string not_to_cut_with(const grid::CompensationMap& map) {
+  // Machines that nobody calibrated are this far off, once their sheet is laid.
+  constexpr double kMostMm = 3.0;
+  const double left_out_mm = map.contents().accuracy.leave_one_out.tool.rms_mm;
+  if (!(left_out_mm > kMostMm)) return {};
+  return fmt::format("This map is not to be cut with: what it has not seen comes out {:.1f} mm rms "
+                     "off, where {:g} mm are too much. Look at the points with the largest errors, "
+                     "at the machine's measures and at its settings in force, and measure again.",
+                     left_out_mm,
+                     kMostMm);
+}
+
+bool refuses_to_cut_with(const grid::CompensationMap& map) {
+  const std::string why = not_to_cut_with(map);
+  if (why.empty()) return false;
+  fmt::print(stderr, "{} --force goes on all the same.\n", why);
+  return true;
 }
 
 std::string fit_sentence(const grid::CompensationMap& map) {

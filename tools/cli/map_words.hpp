@@ -15,6 +15,13 @@ namespace chaintrue::cli {
 /// One sentence: how far the tool was off before, and what is left.
 [[nodiscard]] std::string fit_sentence(const grid::CompensationMap& map);
 
+/// Why nothing is to be cut with this map: left out, its own points come back more than 3 mm rms
+/// off. Empty of any other. gcode compensate and export take such a map with --force alone.
+[[nodiscard]] std::string not_to_cut_with(const grid::CompensationMap& map);
+
+/// Says so, and what takes it all the same; false where it may be cut with.
+[[nodiscard]] bool refuses_to_cut_with(const grid::CompensationMap& map);
+
 using Residual = Eigen::Vector2d grid::MapPoint::*;
 /// Over the good points.
 [[nodiscard]] grid::ErrorSummary summary_of(const grid::MapContents& contents, Residual residual);

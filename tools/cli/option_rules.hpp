@@ -2,7 +2,7 @@
 /// \file
 /// Which option acts on which kind of input: one table (option_rules.def) for all verbs. An option
 /// that would do nothing with what a verb was given is refused by the sentence that the table has
-/// for it, before any work; tests/cli/option_matrix_test.cpp tries every cell.
+/// for it, before any work; tests/inputs tries every cell.
 ///
 /// \code
 ///   refuse_what_does_nothing(verb, facts::grid | facts::several);
@@ -55,6 +55,8 @@ inline constexpr Facts drilled = 1U << 22;
 inline constexpr Facts no_map = 1U << 23;
 /// fit: on the causes that are found.
 inline constexpr Facts causes = 1U << 24;
+/// Of an option that other verbs have of the same file.
+inline constexpr Facts nothing = 0;
 inline constexpr Facts any = ~0U;
 
 }  // namespace facts
@@ -62,7 +64,7 @@ inline constexpr Facts any = ~0U;
 struct OptionRule {
   std::string_view verb;  ///< "fit", "gcode check"
   std::string_view option;
-  /// It acts where one of these holds; at least one fact always does.
+  /// It acts where one of these holds; of what a verb is given at least one always does.
   Facts acts_on;
   /// What is expected instead where none does: "to be left out of holes: ...". Empty where it acts
   /// on everything.

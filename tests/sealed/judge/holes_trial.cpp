@@ -30,9 +30,16 @@ Eigen::Vector2d reading(const TrueMachine& machine, std::span<const Hidden> effe
   return {lengths.front()[0], lengths.front()[1]};
 }
 
-/// The position at which these lengths are read: Newton's method with differences of half a
-/// millimetre.
-Vec2 place_of(const TrueMachine& machine,
+const grid::MeasuredHoles& nine_holes() {
+  static const grid::MeasuredHoles set =
+      grid::files::read_holes(std::string(CHAINTRUE_FIXTURES) + "/holes/nine_holes.json").holes;
+  return set;
+}
+
+}  // namespace
+
+// Newton's method with differences of half a millimetre.
+Vec2 place_reached(const TrueMachine& machine,
               std::span<const Hidden> effects,
               const model::ChainLengths& paid_out,
               Vec2 at) {
@@ -51,18 +58,10 @@ Vec2 place_of(const TrueMachine& machine,
     at = {at.x + move.x(), at.y + move.y()};
   }
   if (!((wanted - reading(machine, effects, at)).norm() < kFarMm)) {
-    throw std::runtime_error("hidden_holes: no place has the lengths that were paid out");
+    throw std::runtime_error("place_reached: no place has the lengths that were paid out");
   }
   return at;
 }
-
-const grid::MeasuredHoles& nine_holes() {
-  static const grid::MeasuredHoles set =
-      grid::files::read_holes(std::string(CHAINTRUE_FIXTURES) + "/holes/nine_holes.json").holes;
-  return set;
-}
-
-}  // namespace
 
 grid::MeasuredHoles hidden_holes(const std::vector<Hidden>& effects, std::uint64_t seed) {
   grid::MeasuredHoles set = nine_holes();
@@ -77,7 +76,7 @@ grid::MeasuredHoles hidden_holes(const std::vector<Hidden>& effects, std::uint64
   std::vector<Vec2> places;
   for (std::size_t i = 0; i < set.holes.size(); ++i) {
     const model::BedPoint& near = set.holes[i].commanded;
-    Vec2 place = place_of(truth, effects, distances->places()[i].lengths, {near.x_mm, near.y_mm});
+    Vec2 place = place_reached(truth, effects, distances->places()[i].lengths, {near.x_mm, near.y_mm});
     place.x += set.hole_sigma_mm * dice.normal();
     place.y += set.hole_sigma_mm * dice.normal();
     places.push_back(place);

@@ -5,11 +5,19 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "grid/observation/measured_holes.hpp"
 #include "sealed/judge/trial.hpp"
 
 namespace chaintrue::sealed {
+
+/// Where the hidden machine comes to rest when its controller has paid out these lengths, searched
+/// from a place near by. \throws std::runtime_error where no place has them.
+[[nodiscard]] generator::Vec2 place_reached(const generator::TrueMachine& machine,
+                                            std::span<const generator::Hidden> effects,
+                                            const model::ChainLengths& paid_out,
+                                            generator::Vec2 near);
 
 /// Nine holes and twenty distances (fixtures/holes/nine_holes.json, its lengths replaced); motors
 /// off by 1.5 mm and zeros by 0.5 mm, one sigma; stated 3 and 1. \throws std::runtime_error if the

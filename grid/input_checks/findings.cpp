@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/input_checks/findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace chaintrue::grid::input_checks {
+
+std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates,
+                                          const Account& plain,
+                                          std::size_t tried,
+                                          double odd_trend,
+                                          std::string found) {
+  const double needed =
+      plain.log_likelihood + kHundredTimes + std::log(static_cast<double>(std::max<std::size_t>(tried, 1)));
+  std::erase_if(candidates, [&](const Candidate& candidate) {
+    const Account& account = candidate.account;
+    return !(account.median_mm < kSoundMm) || !(account.prior_chi_square < odd_trend) ||
+           account.log_likelihood < needed;
+  });
+  if (candidates.empty()) return std::nullopt;
+  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    return a.account.log_likelihood > b.account.log_likelihood;
+  });
+  const Candidate& best = candidates.front();
+  WholeFinding finding{best.from_row, std::move(found), best.sentence, best.is_doubtful};
+  // Two accounts this near each other are both told.
+  constexpr double kAlike = 3.0;
+  for (std::size_t i = 1; i < candidates.size(); ++i) {
+    const Candidate& other = candidates[i];
+    if (best.account.log_likelihood - other.account.log_likelihood > kAlike) break;
+    if (other.sentence == best.sentence || other.from_row != best.from_row) continue;
+    finding.expected += fmt::format("; or {}", other.sentence);
+    break;
+  }
+  finding.expected += fmt::format(" (so mended they agree to {:.1f} mm)", best.account.median_mm);
+  return finding;
+}
+
+std::string length_in_words(double mm) {
+  constexpr double kMetreMm = 1000.0;
+  if (!std::isfinite(mm)) return "out of reach";
+  return mm < kMetreMm ? fmt::format("{:.0f} mm", mm) : fmt::format("{:.1f} m", mm / kMetreMm);
+}
+
+}  // namespace chaintrue::grid::input_checks

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a person may have meant who wrote one number down wrongly.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace chaintrue::grid::input_checks {
+
+inline constexpr double kMmPerInch = 25.4;
+inline constexpr double kMmPerFoot = 304.8;
+/// Where a tape is held that has lost its hook.
+inline constexpr double kTapeMarkMm = 100.0;
+
+struct NumberSlip {
+  double value = 0.0;  ///< what may have been meant
+  /// "is the minus missing?", "is it 563.5 rather than 536.5?"
+  std::string question;
+  /// Logarithm of how many values slips of this kind offer in all: what one that fits by chance
+  /// costs.
+  double penalty = 0.0;
+};
+
+/// A lost or needless minus, digits exchanged, dropped, doubled or wrong, the point at another
+/// place, the tape's 100 mm mark or a foot, inches. `is_signed` is false for lengths.
+[[nodiscard]] std::vector<NumberSlip> number_slips(double written, bool is_signed);
+
+/// The shortest decimal text of a number.
+[[nodiscard]] std::string digits_of(double value);
+
+}  // namespace chaintrue::grid::input_checks

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/input_checks/robust_trend.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "grid/statistics.hpp"
+
+namespace chaintrue::grid::input_checks {
+namespace {
+
+/// No person's readings are finer; without it readings that agree exactly have an infinite density.
+constexpr double kLeastScaleMm = 0.5;
+/// EM gains a digit in some five steps here; the decision needs two.
+constexpr int kSteps = 20;
+/// A reading that is missing is anywhere in a square, or on a line, of this length.
+constexpr double kAnywhereMm = 2000.0;
+
+double infinity() { return std::numeric_limits<double>::infinity(); }
+
+double median_of_finite(const Eigen::VectorXd& values) {
+  std::vector<double> finite;
+  for (const double value : values) {
+    if (std::isfinite(value)) finite.push_back(value);
+  }
+  return finite.empty() ? infinity() : median(std::move(finite));
+}
+
+}  // namespace
+
+double RobustTrend::median_off_mm() const { return median_of_finite(off_mm); }
+
+double log_density_of(double off_mm, double scale_mm, Eigen::Index components) {
+  return -0.5 * static_cast<double>(components + 1) * std::log1p(std::pow(off_mm / scale_mm, 2));
+}
+
+RobustTrend robust_trend(const Eigen::MatrixXd& basis,
+                         const Eigen::VectorXd& prior_sigma_mm,
+                         const Eigen::MatrixXd& readings_mm) {
+  const Eigen::Index n = readings_mm.rows();
+  const Eigen::Index components = readings_mm.cols();
+  const auto is_there = [&](Eigen::Index i) {
+    return readings_mm.row(i).allFinite() && basis.row(i).allFinite();
+  };
+  RobustTrend trend;
+  trend.coefficients = Eigen::MatrixXd::Zero(basis.cols(), components);
+  trend.off_mm = Eigen::VectorXd::Constant(n, infinity());
+  const auto take_residuals = [&] {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (is_there(i))
+        trend.off_mm[i] = (readings_mm.row(i) - basis.row(i) * trend.coefficients).norm();
+    }
+  };
+  take_residuals();
+  const double start_mm = trend.median_off_mm();
+  trend.scale_mm = std::max(kLeastScaleMm, std::isfinite(start_mm) ? start_mm : kLeastScaleMm);
+  const Eigen::MatrixXd prior = prior_sigma_mm.cwiseAbs2().cwiseInverse().asDiagonal();
+  const auto dof = static_cast<double>(components + 1);
+  for (int step = 0; step < kSteps; ++step) {
+    const double variance = trend.scale_mm * trend.scale_mm;
+    Eigen::MatrixXd normal = prior;
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(basis.cols(), components);
+    double sum = 0.0;
+    double count = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (!std::isfinite(trend.off_mm[i])) continue;
+      const double weight = dof / (1.0 + trend.off_mm[i] * trend.off_mm[i] / variance);
+      normal.noalias() += weight / variance * basis.row(i).transpose() * basis.row(i);
+      right.noalias() += weight / variance * basis.row(i).transpose() * readings_mm.row(i);
+      sum += weight * trend.off_mm[i] * trend.off_mm[i];
+      count += static_cast<double>(components);
+    }
+    if (count == 0.0) break;
+    trend.coefficients = normal.ldlt().solve(right);
+    trend.scale_mm = std::max(kLeastScaleMm, std::sqrt(sum / count));
+    take_residuals();
+  }
+  const double normaliser =
+      components == 1 ? std::log(std::numbers::pi) : std::log(2.0 * std::numbers::pi);
+  for (const double off_mm : trend.off_mm) {
+    trend.log_likelihood +=
+        std::isfinite(off_mm)
+            ? log_density_of(off_mm, trend.scale_mm, components) - normaliser -
+                  static_cast<double>(components) * std::log(trend.scale_mm)
+            : -static_cast<double>(components) * std::log(kAnywhereMm);
+  }
+  trend.prior_chi_square =
+      (prior_sigma_mm.cwiseInverse().asDiagonal() * trend.coefficients).squaredNorm();
+  trend.log_likelihood -= 0.5 * trend.prior_chi_square;
+  return trend;
+}
+
+}  // namespace chaintrue::grid::input_checks

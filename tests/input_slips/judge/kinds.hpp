@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The slips that a file is spoilt with, one of each kind at a time, and how each was answered.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/hidden/random.hpp"
+#include "input_slips/judge/session.hpp"
+
+namespace chaintrue::slips {
+
+/// What a message must have that names it.
+struct Expected {
+  std::vector<std::string> words;  ///< any one of them will do
+  std::string place;               ///< "/points/13"; empty for the file as a whole
+  bool refused = false;            ///< no map may be made
+};
+
+struct Kind {
+  const char* id;
+  Way way;
+  std::function<Expected(Session& session, generator::Dice& dice)> spoil;
+};
+
+/// Forty and a few.
+[[nodiscard]] const std::vector<Kind>& kinds();
+
+struct Outcome {
+  bool is_named = false;
+  Expected expected;
+  Told told;
+};
+[[nodiscard]] Outcome try_kind(const Kind& kind, std::uint64_t seed);
+
+/// Of a session without a slip: what was said all the same.
+[[nodiscard]] std::vector<std::string> false_alarms(Way way, std::uint64_t seed);
+
+}  // namespace chaintrue::slips
