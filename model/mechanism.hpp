@@ -90,6 +90,19 @@ struct MechanismExtent {
   }
 };
 
+/// A point of the mechanism itself at which a tape may end: an anchor, a nail.
+struct FixedPoint {
+  std::string_view name;
+  ToolPosition at;
+  Eigen::Matrix2Xd by_parameter;  ///< 2 x p
+};
+
+/// True millimetres over those of the mechanism's own frame, as a tape finds them.
+struct FrameScale {
+  double factor = 1.0;
+  Eigen::RowVectorXd by_parameter;  ///< p
+};
+
 enum class Derivatives { by_position, by_position_and_parameter };
 
 class Mechanism {
@@ -137,6 +150,12 @@ class Mechanism {
   /// Where the tool is when these are the first two: the inverse of first_lengths(), 1e-9 mm.
   [[nodiscard]] virtual tl::expected<ToolPosition, MechanismFailure> locate_by_first(
       ChainLengths lengths) const;
+  /// Where a tape may end besides the tool's positions; none by default.
+  [[nodiscard]] virtual std::vector<FixedPoint> fixed_points() const { return {}; }
+  /// One by default: its lengths are read in true millimetres.
+  [[nodiscard]] virtual FrameScale frame_scale() const {
+    return {1.0, Eigen::RowVectorXd::Zero(values().size())};
+  }
   /// Where a mark truly is that bears these numbers: its effects of the paper taken out.
   [[nodiscard]] virtual ToolPosition place_of_mark(const ToolPosition& written) const {
     return written;

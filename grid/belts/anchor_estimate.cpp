@@ -1,13 +1,195 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/belts/anchor_estimate.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "grid/belts/belts_fit.hpp"
+#include "grid/belts/first_frames.hpp"
 #include "model/belts/belt_mechanism.hpp"
 
 namespace chaintrue::grid::belts {
 
+using model::Belt;
 using model::kBelts;
 
-observation::BeltLengthReadings readings_of(const MeasuredBelts& belts, const Counting& counting) {
+namespace {
+
+/// A frame whose readings are off by more has converged on the wrong side of something, or holds gross
+/// slips: other starts are tried as well.
+constexpr double kPlausibleSpreadMm = 10.0;
+/// Readings in whole hundredths leave no less.
+constexpr double kLeastSpreadMm = 1e-3;
+
+enum class Readings { all, those_that_fit };
+
+/// Right anchors right of the left ones, upper ones above the lower ones.
+bool is_upright_frame(const AnchorVector& a) {
+  return a[4] > 0.0 && a[2] > a[0] && a[1] > 0.0 && a[3] > 0.0;
+}
+
+MeasuredBelts without_distances(const MeasuredBelts& belts) {
+  MeasuredBelts untaped = belts;
+  untaped.distances.clear();
+  return untaped;
+}
+
+/// An end for any mechanism; of a hole, where the controller means it to be and what it pays out.
+observation::TapeEnd end_of(const model::BeltMachine& machine, const BeltEnd& end) {
+  if (const auto* index = std::get_if<std::size_t>(&end)) return observation::AtPlace{*index};
+  if (const auto* belt = std::get_if<Belt>(&end))
+    return observation::AtFixedPoint{static_cast<std::size_t>(*belt)};
+  const model::FramePoint meant = model::to_frame(machine, std::get<CutHole>(end).commanded);
+  const model::ToolPosition at{meant.x_mm, meant.y_mm};
+  const auto paid_out =
+      model::make_belt_mechanism(machine)->predict(at, {}, model::Derivatives::by_position);
+  // A command that cannot be reached has no lengths, and no mechanism a position for it.
+  constexpr double kNoLength = std::numeric_limits<double>::quiet_NaN();
+  return observation::AtHole{
+      paid_out ? paid_out->lengths_mm : Eigen::VectorXd::Constant(4, kNoLength),
+      {true, true, false, false},
+      at};
+}
+
+observation::TapedDistance taped_between(const model::BeltMachine& machine,
+                                         const BeltDistance& distance) {
+  return {end_of(machine, distance.from),
+          end_of(machine, distance.to),
+          distance.distance_mm,
+          distance.sigma_mm};
+}
+
+}  // namespace
+
+void place_all(const MeasuredBelts& belts,
+               const observation::BeltLengthReadings& readings,
+               const std::shared_ptr<const model::Mechanism>& mechanism,
+               AnchorFit& fit) {
+  const model::BeltMachine machine = with_anchors(belts.machine, fit.state.anchors);
+  std::vector<bool> is_placed(belts.points.size(), false);
+  fit.state.places.resize(belts.points.size());
+  for (const auto& block : readings.blocks()) {
+    const auto line = readings.block_line(observation::View(mechanism), block, false);
+    for (std::size_t p = 0; line && p < block.places.size(); ++p) {
+      const std::size_t point = readings.readings()[block.places[p]].index;
+      fit.state.places[point] = {line->positions[p].x_mm, line->positions[p].y_mm};
+      is_placed[point] = true;
+    }
+  }
+  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+    if (!is_placed[k])
+      fit.state.places[k] = nearest_place(machine, belts.points[k], {true, true, true, true});
+  }
+}
+
+namespace {
+
+/// Belts alone.
+std::optional<AnchorFit> settled_alone(const MeasuredBelts& belts,
+                                       const AnchorVector& start,
+                                       Counting counting,
+                                       Readings which,
+                                       double most_noise_mm = kPlausibleSpreadMm) {
+  estimation::EstimationInput input = anchor_input(belts, counting, start);
+  if (which == Readings::those_that_fit)
+    input.reading_limits =
+        estimation::ReadingLimits{kBadReadingSigmas, kMostBadReadings, most_noise_mm};
+  const auto estimate = estimation::estimate(input);
+  if (!estimate) return std::nullopt;
+  const auto& readings =
+      dynamic_cast<const observation::BeltLengthReadings&>(*input.observations.front());
+  for (const estimation::ReadingEstimate& one : estimate->rejected_readings) {
+    const std::size_t point = readings.readings()[readings.place_of(one.reading.unit)].index;
+    counting[point][kBelts.at(static_cast<std::size_t>(one.reading.reading))] = false;
+  }
+  AnchorFit fit;
+  fit.state.anchors = estimate->mechanism->values().head<kAnchorUnknowns>();
+  fit.checks = checks_of(counting);
+  fit.spread_mm = fit.checks > 0 ? std::max(estimate->noise_factor, kLeastSpreadMm) : 1.0;
+  fit.is_sound = estimate->settled && is_upright_frame(fit.state.anchors);
+  fit.counting = std::move(counting);
+  return fit;
+}
+
+std::optional<AnchorFit> with_places(const MeasuredBelts& belts, std::optional<AnchorFit> fit) {
+  if (fit) {
+    place_all(belts,
+              readings_of(belts, fit->counting, fit->spread_mm),
+              mechanism_at(belts, fit->state),
+              *fit);
+  }
+  return fit;
+}
+
+/// The same with the distances, its noise as it is, and where the places are.
+std::optional<AnchorFit> with_tape(const MeasuredBelts& belts, std::optional<AnchorFit> fit) {
+  if (!fit || belts.distances.empty()) return with_places(belts, std::move(fit));
+  const auto readings = std::make_shared<const observation::BeltLengthReadings>(
+      readings_of(belts, fit->counting, fit->spread_mm));
+  estimation::EstimationInput input = anchor_input(belts, fit->counting, fit->state.anchors);
+  input.mechanism = mechanism_at(belts, fit->state);
+  input.fixed_weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(readings->units().size()));
+  input.observations = {readings};
+  input.noise.knowledge = interp::NoiseKnowledge::exact;
+  const auto estimate = estimation::estimate(input);
+  if (!estimate) return std::nullopt;
+  fit->state.anchors = estimate->mechanism->values().head<kAnchorUnknowns>();
+  fit->state.log_scale = estimate->mechanism->values()[kAnchorUnknowns];
+  fit->is_sound = estimate->settled && is_upright_frame(fit->state.anchors);
+  return with_places(belts, std::move(fit));
+}
+
+/// A point of another frame, or with digits lost, bends all others to itself, and its four readings
+/// hide one another: points are left out whole, the worst first, while that makes a frame of what was
+/// none.
+AnchorFit without_gross_points(const MeasuredBelts& belts, AnchorFit frame) {
+  // Of more points one cannot bend the frame so far that its own readings do not stand out.
+  constexpr std::size_t kMostPoints = 100;
+  constexpr double kMuchBetter = 3.0;
+  const std::size_t count = belts.points.size();
+  if (count > kMostPoints) return frame;
+  const auto most =
+      static_cast<std::size_t>(std::ceil(kMostBadReadings * static_cast<double>(count)));
+  for (std::size_t out = 0; out < most; ++out) {
+    if (frame.is_sound && frame.spread_mm < kPlausibleSpreadMm) break;
+    std::optional<AnchorFit> best;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!frame.counting[k].tl) continue;
+      Counting fewer = frame.counting;
+      fewer[k] = {false, false, false, false};
+      auto without = settled_alone(belts, frame.state.anchors, std::move(fewer), Readings::all);
+      if (!without || without->checks < 1 || !without->is_sound) continue;
+      if (!best || without->spread_mm < best->spread_mm) best = std::move(without);
+    }
+    if (!best || kMuchBetter * best->spread_mm > frame.spread_mm) break;
+    frame = *std::move(best);
+  }
+  return frame;
+}
+
+/// From the likeliest start, without a tape. Of a fit that is implausible every reading counts.
+std::optional<AnchorFit> first_fit(const MeasuredBelts& belts, Readings which) {
+  const Counting all(belts.points.size(), {true, true, true, true});
+  std::optional<AnchorFit> best;
+  for (const AnchorVector& start : first_frames(belts)) {
+    auto fit = settled_alone(belts, start, all, which);
+    if (!fit) continue;
+    if (!best ||
+        std::pair(!fit->is_sound, fit->spread_mm) < std::pair(!best->is_sound, best->spread_mm)) {
+      best = std::move(fit);
+    }
+    if (best->is_sound && best->spread_mm < kPlausibleSpreadMm) break;
+  }
+  return best;
+}
+
+}  // namespace
+
+observation::BeltLengthReadings readings_of(const MeasuredBelts& belts,
+                                            const Counting& counting,
+                                            double sigma_mm) {
   std::vector<observation::LengthsAtPlace> places;
   bool ordered = !belts.points.empty();
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
@@ -16,40 +198,101 @@ observation::BeltLengthReadings readings_of(const MeasuredBelts& belts, const Co
     place.index = k;
     place.name = std::to_string(k + 1);
     place.lengths_mm.resize(static_cast<Eigen::Index>(kBelts.size()));
-    for (const model::Belt belt : kBelts) {
+    const bool all_count = readings_counting(counting.at(k)) == 4;
+    for (const Belt belt : kBelts) {
       place.lengths_mm[static_cast<Eigen::Index>(belt)] = point.lengths_mm[belt];
-      place.counting.push_back(counting.at(k)[belt]);
+      if (!all_count) place.counting.push_back(counting[k][belt]);
       place.visit.pulled.push_back(is_pulled(point, belt));
     }
     place.visit.order = point.order.value_or(0);
     ordered = ordered && point.order.has_value();
     places.push_back(std::move(place));
   }
-  // Of the noise nothing is said beforehand.
-  return {std::move(places), ordered, {.length_mm = 1.0}, 0.0};
+  std::vector<observation::TapedDistance> distances;
+  for (const BeltDistance& distance : belts.distances)
+    distances.push_back(taped_between(belts.machine, distance));
+  return {std::move(places), ordered, {.length_mm = sigma_mm}, 0.0, std::move(distances)};
+}
+
+std::shared_ptr<const model::Mechanism> mechanism_at(const MeasuredBelts& belts,
+                                                     const FrameState& state) {
+  model::BeltMachine unknown = belts.machine;
+  unknown.anchors_known = false;
+  Eigen::VectorXd values = state.anchors;
+  if (belts.distances.empty()) return model::make_belt_mechanism(unknown)->with_values(values);
+  values.conservativeResize(kAnchorUnknowns + 1);
+  values[kAnchorUnknowns] = state.log_scale;
+  return model::make_belt_mechanism(unknown, std::nullopt, model::BeltScaleKnowledge{})
+      ->with_values(values);
+}
+
+std::optional<observation::DistanceLine> distance_at(const MeasuredBelts& belts,
+                                                     const model::Mechanism& mechanism,
+                                                     const FrameState& state,
+                                                     const BeltDistance& distance) {
+  const auto place_of = [&state](const BeltEnd& end) -> model::ToolPosition {
+    const auto* index = std::get_if<std::size_t>(&end);
+    if (index == nullptr) return {};
+    return {state.places.at(*index).x_mm, state.places.at(*index).y_mm};
+  };
+  const auto line = observation::distance_line(mechanism,
+                                               taped_between(belts.machine, distance),
+                                               {place_of(distance.from), place_of(distance.to)});
+  return line ? std::optional(*line) : std::nullopt;
 }
 
 estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
                                          const Counting& counting,
                                          const AnchorVector& start) {
+  const MeasuredBelts untaped = without_distances(belts);
   auto readings =
-      std::make_shared<const observation::BeltLengthReadings>(readings_of(belts, counting));
+      std::make_shared<const observation::BeltLengthReadings>(readings_of(untaped, counting));
   estimation::EstimationInput input;
-  model::BeltMachine unknown = belts.machine;
-  unknown.anchors_known = false;
-  input.mechanism = model::make_belt_mechanism(unknown)->with_values(start);
+  input.mechanism = mechanism_at(untaped, {start, 0.0, {}});
   input.fixed_weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(readings->units().size()));
   input.observations.push_back(std::move(readings));
   input.noise.knowledge = interp::NoiseKnowledge::unknown;
   input.noise_prior = interp::SmoothingPrior::none;
   input.surface = estimation::SurfaceUse::none;
   input.domain = {0.0, 1.0, 0.0, 1.0};  // of a surface, which there is none
+  // A tape that contradicts the belts by far converges by a tenth a pass.
+  input.most_passes = 40;
   return input;
 }
 
 tl::expected<estimation::Estimate, estimation::EstimationFailure> estimate_anchors(
     const MeasuredBelts& belts, const Counting& counting, const AnchorVector& start) {
   return estimation::estimate(anchor_input(belts, counting, start));
+}
+
+std::optional<AnchorFit> settle_from(const MeasuredBelts& belts,
+                                     const FrameState& state,
+                                     const Counting& counting) {
+  return with_tape(belts,
+                   settled_alone(without_distances(belts), state.anchors, counting, Readings::all));
+}
+
+std::optional<AnchorFit> settle(const MeasuredBelts& belts) {
+  return with_tape(belts, first_fit(without_distances(belts), Readings::all));
+}
+
+std::optional<AnchorFit> settle_robustly(const MeasuredBelts& belts) {
+  const MeasuredBelts untaped = without_distances(belts);
+  const auto is_plausible = [](const AnchorFit& fit) {
+    return fit.is_sound && fit.spread_mm <= kPlausibleSpreadMm;
+  };
+  auto fit = first_fit(untaped, Readings::those_that_fit);
+  if (!fit || is_plausible(*fit)) return with_tape(belts, std::move(fit));
+  // Gross readings make a frame implausible; where single ones do not, whole points may.
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  const auto robust = [&untaped](const AnchorFit& from) {
+    if (!from.is_sound) return from;
+    return settled_alone(untaped, from.state.anchors, from.counting, Readings::those_that_fit, kAny)
+        .value_or(from);
+  };
+  AnchorFit less = robust(*fit);
+  if (!is_plausible(less)) less = robust(without_gross_points(untaped, *fit));
+  return with_tape(belts, std::move(less));
 }
 
 }  // namespace chaintrue::grid::belts

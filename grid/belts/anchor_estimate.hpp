@@ -1,39 +1,71 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Anchors by the one estimator (grid/estimation): belt lengths at places that nobody measured as an
-/// observation, each place projected out, the noise found by restricted maximum likelihood. Private
-/// to grid/belts.
+/// observation, each place projected out. Private to grid/belts and what reads its fits.
 ///
-/// Nothing is known of anchors beforehand, so that the noise found is (1) of belts_fit.hpp.
+/// Belts alone first: nothing is known of anchors beforehand, so that the noise found is (1) of
+/// belts_fit.hpp, and single readings that do not fit are rejected. Then, where distances were taped,
+/// once more with them, the belts' noise as it was found and the scale a parameter: a tape that
+/// bends the frame must not make the belts seem less sure, and its slip not lead the search.
 ///
 /// \code
-///   const auto estimate = estimate_anchors(belts, counting, anchors_near_by);
-///   if (estimate) use(estimate->mechanism->values(), estimate->noise_factor);
+///   const auto fit = settle_robustly(belts);
+///   if (fit && fit->is_sound) use(fit->state.anchors, fit->spread_mm);
 /// \endcode
 #pragma once
 
+#include <optional>
 #include <tl/expected.hpp>
 
-#include "grid/belts/frame_solver.hpp"
+#include "grid/belts/anchor_fit.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/observation/belt_lengths.hpp"
 
 namespace chaintrue::grid::belts {
 
-/// Readings that count, with a sigma of 1 mm; units are places of which three or four count.
+/// Readings that count, and the distances; units are places of which three or four count.
 [[nodiscard]] observation::BeltLengthReadings readings_of(const MeasuredBelts& belts,
-                                                          const Counting& counting);
+                                                          const Counting& counting,
+                                                          double sigma_mm = 1.0);
 
-/// What the estimator is asked: anchors of which nothing is known but a start, every unit at full
-/// weight.
+/// Four belts at a state of which nothing is known beforehand; with a scale where there are
+/// distances.
+[[nodiscard]] std::shared_ptr<const model::Mechanism> mechanism_at(const MeasuredBelts& belts,
+                                                                   const FrameState& state);
+
+/// A distance as these belts have it, the points where the state says; empty where a hole cannot be
+/// reached.
+[[nodiscard]] std::optional<observation::DistanceLine> distance_at(
+    const MeasuredBelts& belts,
+    const model::Mechanism& mechanism,
+    const FrameState& state,
+    const BeltDistance& distance);
+
+/// Every place by its readings and distances, by all four lengths where too few count.
+void place_all(const MeasuredBelts& belts,
+               const observation::BeltLengthReadings& readings,
+               const std::shared_ptr<const model::Mechanism>& mechanism,
+               AnchorFit& fit);
+
+/// What the estimator is asked of belts alone: anchors of which nothing is known but a start, every
+/// unit at full weight. `belts` without distances.
 [[nodiscard]] estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
                                                        const Counting& counting,
                                                        const AnchorVector& start);
 
-/// From anchors that are some centimetres off, to 1e-6 of their sigmas. Its noise_factor is the
-/// spread in mm, the first five of its covariance are the anchors', mm^2; `settled` is false where
-/// 12 passes did not do.
+/// To 1e-6 of their sigmas. Its noise_factor is the spread in mm, the first five of its covariance are
+/// the anchors', mm^2.
 [[nodiscard]] tl::expected<estimation::Estimate, estimation::EstimationFailure> estimate_anchors(
     const MeasuredBelts& belts, const Counting& counting, const AnchorVector& start);
+
+/// From the likeliest start that leads to a sound frame, every reading counting; where none does the
+/// one that fits best, and empty where no start leads anywhere.
+[[nodiscard]] std::optional<AnchorFit> settle(const MeasuredBelts& belts);
+/// The same without the readings that do not fit.
+[[nodiscard]] std::optional<AnchorFit> settle_robustly(const MeasuredBelts& belts);
+/// From a state near by, with what counts given.
+[[nodiscard]] std::optional<AnchorFit> settle_from(const MeasuredBelts& belts,
+                                                   const FrameState& state,
+                                                   const Counting& counting);
 
 }  // namespace chaintrue::grid::belts

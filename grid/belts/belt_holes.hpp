@@ -3,7 +3,7 @@
 /// Holes that a router on four belts cut at commanded places, and what a tape made of them.
 ///
 /// Notation
-///   a, s   the frame (frame_solver.hpp): five coordinates of anchors, logarithm of the scale
+///   a, s   the frame (anchor_fit.hpp): five coordinates of anchors, logarithm of the scale
 ///   m_i    where the spans that the controller paid out for hole i end, by its upper two belts: the
 ///          circles about the anchors in a meet there; in the frame's own millimetres
 ///   q_i    exp(s) (m_i - c), c where the controller's commands count from: on the sheet, but for
@@ -29,7 +29,7 @@
 #include <optional>
 #include <vector>
 
-#include "grid/belts/frame_solver.hpp"
+#include "grid/belts/anchor_fit.hpp"
 #include "grid/observation/measured_holes.hpp"
 
 namespace chaintrue::grid {

@@ -8,7 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "grid/belts/settled_frame.hpp"
+#include "grid/belts/anchor_estimate.hpp"
+#include "grid/belts/first_frames.hpp"
 #include "grid/input_checks/findings.hpp"
 #include "grid/input_checks/number_slips.hpp"
 #include "grid/input_checks/robust_trend.hpp"

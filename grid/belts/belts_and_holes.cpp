@@ -10,7 +10,8 @@
 #include <limits>
 #include <utility>
 
-#include "grid/belts/taped_frame.hpp"
+#include "grid/belts/anchor_estimate.hpp"
+#include "grid/belts/holes_estimate.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/precondition.hpp"
@@ -23,9 +24,9 @@ using model::kBelts;
 
 namespace {
 
+using belts::HolesEstimate;
 using belts::kAnchorUnknowns;
 using belts::kFrameUnknowns;
-using belts::TapedFrame;
 using belts::TapedNoise;
 using belts::TapedRows;
 
@@ -38,6 +39,7 @@ tl::unexpected<BeltsFitFailure> joint_failure(BeltsFitFailure::Reason reason,
 struct State {
   belts::FrameState frame;
   TapedRows rows;
+  belts::WithoutHoles without_holes;
   TapedNoise noise;
   std::vector<bool> counting;
 };
@@ -60,7 +62,8 @@ struct Marginal {
   }
 };
 
-Marginal marginal(const TapedFrame& frame,
+Marginal marginal(const HolesEstimate& frame,
+                  const std::vector<BeltHoles>& sets,
                   const State& at,
                   const TapedNoise& noise,
                   const std::vector<bool>& counting) {
@@ -69,8 +72,8 @@ Marginal marginal(const TapedFrame& frame,
   result.off_mm = frame.about_the_belts(at.rows, at.frame);
   const Eigen::Index count = result.off_mm.size();
   const Eigen::MatrixXd v =
-      frame.covariance(at.rows, noise, counting) +
-      at.rows.by_frame * frame.covariance_without_holes(at.frame) * at.rows.by_frame.transpose();
+      belts::taped_covariance(sets, at.rows, noise, counting) +
+      at.rows.by_frame * at.without_holes.covariance * at.rows.by_frame.transpose();
   const Eigen::LLT<Eigen::MatrixXd> factor(v);
   result.inverse = factor.solve(Eigen::MatrixXd::Identity(count, count));
   result.log_likelihood = -0.5 * result.off_mm.dot(result.inverse * result.off_mm) -
@@ -118,7 +121,10 @@ struct Chosen {
   }
 };
 
-TapedNoise likeliest_noise(const TapedFrame& frame, const State& at, double dof) {
+TapedNoise likeliest_noise(const HolesEstimate& frame,
+                           const std::vector<BeltHoles>& sets,
+                           const State& at,
+                           double dof) {
   // A factor of 1.19 a step, from 0.6 to 4: with fifteen degrees of freedom one sigma is 1.2.
   constexpr double kStep = 0.175;
   constexpr int kFirst = -3;
@@ -134,7 +140,7 @@ TapedNoise likeliest_noise(const TapedFrame& frame, const State& at, double dof)
     const double factor = std::exp(kStep * step);
     const double prior = log_prior(factor, dof);
     const auto worth = [&](const TapedNoise& noise) {
-      return prior + marginal(frame, at, noise, at.counting).log_likelihood;
+      return prior + marginal(frame, sets, at, noise, at.counting).log_likelihood;
     };
     const TapedNoise none{factor, 0.0, 1.0};
     without.see(none, worth(none));
@@ -149,20 +155,23 @@ TapedNoise likeliest_noise(const TapedFrame& frame, const State& at, double dof)
 }
 
 /// Settles with the noise as it is; false where it does not.
-bool settle(const TapedFrame& frame, State& state) {
-  const auto there =
-      frame.settled(state.frame, frame.covariance(state.rows, state.noise, state.counting));
+bool settle(const HolesEstimate& frame, const std::vector<BeltHoles>& sets, State& state) {
+  const auto there = frame.converged(
+      state.frame, belts::taped_covariance(sets, state.rows, state.noise, state.counting));
   if (!there) return false;
-  auto rows = frame.rows(*there);
+  auto rows = belts::taped_rows(sets, there->anchors, there->log_scale);
   if (!rows) return false;
+  state.without_holes = frame.without_holes(*there);
   state.frame = *there;
   state.rows = *std::move(rows);
   return true;
 }
 
 /// The worst distance beyond kBadDistanceSigmas; empty where all fit.
-std::optional<std::size_t> worst_of(const TapedFrame& frame, const State& state) {
-  const Marginal now = marginal(frame, state, state.noise, state.counting);
+std::optional<std::size_t> worst_of(const HolesEstimate& frame,
+                                    const std::vector<BeltHoles>& sets,
+                                    const State& state) {
+  const Marginal now = marginal(frame, sets, state, state.noise, state.counting);
   std::optional<std::size_t> worst;
   double most = estimation::kBadDistanceSigmas;
   for (std::size_t k = 0; k < state.counting.size(); ++k) {
@@ -175,27 +184,27 @@ std::optional<std::size_t> worst_of(const TapedFrame& frame, const State& state)
   return worst;
 }
 
-std::optional<State> settled_state(const TapedFrame& frame, const std::vector<BeltHoles>& sets) {
-  auto rows = frame.rows(frame.alone().state);
+std::optional<State> settled_state(const HolesEstimate& frame, const std::vector<BeltHoles>& sets) {
+  const belts::FrameState& first = frame.alone().state;
+  auto rows = belts::taped_rows(sets, first.anchors, first.log_scale);
   if (!rows) return std::nullopt;
-  State state{frame.alone().state, *std::move(rows), {}, {}};
+  State state{first, *std::move(rows), {}, {}, {}};
   state.counting.assign(static_cast<std::size_t>(state.rows.residual_mm.size()), true);
   const double dof = noise_dof(sets);
-  if (!settle(frame, state)) return std::nullopt;
+  if (!settle(frame, sets, state)) return std::nullopt;
   const auto most = static_cast<std::size_t>(static_cast<double>(state.counting.size()) / 3.0);
   for (std::size_t aside = 0; aside <= most; ++aside) {
-    state.noise = likeliest_noise(frame, state, dof);
-    if (!settle(frame, state)) return std::nullopt;
-    const auto worst = worst_of(frame, state);
+    state.noise = likeliest_noise(frame, sets, state, dof);
+    if (!settle(frame, sets, state)) return std::nullopt;
+    const auto worst = worst_of(frame, sets, state);
     if (!worst) return state;
     state.counting[*worst] = false;
-    if (!settle(frame, state)) return std::nullopt;
+    if (!settle(frame, sets, state)) return std::nullopt;
   }
   return std::nullopt;
 }
 
 void fill_frame(const MeasuredBelts& measured,
-                const TapedFrame& frame,
                 const State& state,
                 const Eigen::MatrixXd& covariance,
                 BeltsFit& fit) {
@@ -207,7 +216,7 @@ void fill_frame(const MeasuredBelts& measured,
     coordinate.fitted_mm = state.frame.anchors[row];
     coordinate.sigma_mm = std::sqrt(covariance(row, row));
     // Belts told this share of it; the rest is the tape's.
-    const double alone = frame.covariance_without_holes(state.frame)(row, row);
+    const double alone = state.without_holes.covariance(row, row);
     for (const Belt belt : kBelts) coordinate.rests_on[belt] *= covariance(row, row) / alone;
   }
   BeltScale scale;
@@ -215,9 +224,8 @@ void fill_frame(const MeasuredBelts& measured,
   scale.sigma = scale.factor * std::sqrt(covariance(kAnchorUnknowns, kAnchorUnknowns));
   if (fit.scale) scale.residuals_mm = fit.scale->residuals_mm;
   fit.scale = std::move(scale);
-  if (measured.points.empty()) return;
-  const belts::AnchorAdjustment solver(measured, frame.alone().counting, frame.alone().spread_mm);
-  const belts::FrameEquations there = solver.equations(state.frame);
+  if (!state.without_holes.view) return;
+  const belts::FitResiduals& there = state.without_holes.view->equations();
   for (std::size_t k = 0; k < fit.places.size(); ++k) {
     fit.places[k].at = state.frame.places[k];
     for (const Belt belt : kBelts)
@@ -232,11 +240,12 @@ void fill_frame(const MeasuredBelts& measured,
 }
 
 /// Of x and, where there is one, of the displacement at its places; and the displacement itself.
-Eigen::MatrixXd posterior(const TapedFrame& frame,
+Eigen::MatrixXd posterior(const HolesEstimate& frame,
+                          const std::vector<BeltHoles>& sets,
                           const State& state,
                           std::optional<DisplacementParts>& displacement) {
   const Eigen::MatrixXd& g = state.rows.by_mark;
-  const Eigen::MatrixXd alone = frame.covariance_without_holes(state.frame);
+  const Eigen::MatrixXd alone = state.without_holes.covariance;
   const bool smooth = state.noise.size_mm > 0.0;
   const Eigen::Index moved = smooth ? g.cols() : 0;
   Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(kFrameUnknowns + moved, kFrameUnknowns + moved);
@@ -255,7 +264,7 @@ Eigen::MatrixXd posterior(const TapedFrame& frame,
     }
     by_unknown.rightCols(moved) = g;
   }
-  const Marginal now = marginal(frame, state, state.noise, state.counting);
+  const Marginal now = marginal(frame, sets, state, state.noise, state.counting);
   const Eigen::MatrixXd cross = prior * by_unknown.transpose();
   if (smooth) {
     const Eigen::VectorXd mean = cross * (now.inverse * now.off_mm);
@@ -266,23 +275,23 @@ Eigen::MatrixXd posterior(const TapedFrame& frame,
 }
 
 /// Where the edges say that the first set's sheet lies.
-std::optional<Eigen::Vector3d> sheet_by_edges(const TapedFrame& frame,
+std::optional<Eigen::Vector3d> sheet_by_edges(const std::vector<BeltHoles>& sets,
                                               const State& state,
                                               const MeasuredHoles& first) {
   const observation::SheetPrior measured = observation::sheet_measured(first);
   if (!measured.knows_x || !measured.knows_y || !measured.knows_rotation) return std::nullopt;
-  const Eigen::MatrixXd c = frame.covariance(state.rows, state.noise, state.counting);
+  const Eigen::MatrixXd c = belts::taped_covariance(sets, state.rows, state.noise, state.counting);
   const auto own = static_cast<Eigen::Index>(first.distances.size());
   const Eigen::VectorXd weighed = c.llt().solve(state.rows.residual_mm).head(own);
   const Eigen::Vector3d along = state.rows.by_sheet.topRows(own).transpose() * weighed;
   return belts::sheet_variance().cwiseProduct(along);
 }
 
-void fill_distances(const TapedFrame& frame,
+void fill_distances(const HolesEstimate& frame,
                     const std::vector<BeltHoles>& sets,
                     const State& state,
                     HolesBesideBelts& found) {
-  const Marginal now = marginal(frame, state, state.noise, state.counting);
+  const Marginal now = marginal(frame, sets, state, state.noise, state.counting);
   std::vector<double> left_out;
   Eigen::Index row = 0;
   for (std::size_t s = 0; s < sets.size(); ++s) {
@@ -347,7 +356,7 @@ tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
   }
   auto alone = by_belts(measured);
   if (!alone) return tl::unexpected(alone.error());
-  const TapedFrame frame(measured, sets, std::move(alone->second));
+  const HolesEstimate frame(measured, sets, std::move(alone->second));
   const auto state = settled_state(frame, sets);
   if (!state) {
     return joint_failure(
@@ -357,12 +366,12 @@ tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
         "and the tape's hook offset");
   }
   BeltsAndHolesFit fit{std::move(alone->first), {}};
-  fit.holes.covariance = posterior(frame, *state, fit.holes.displacement);
+  fit.holes.covariance = posterior(frame, sets, *state, fit.holes.displacement);
   fit.holes.machine = sets.front().machine;
   fit.holes.noise_factor = state->noise.factor;
-  fit.holes.sheet = sheet_by_edges(frame, *state, sets.front().set);
+  fit.holes.sheet = sheet_by_edges(sets, *state, sets.front().set);
   fill_distances(frame, sets, *state, fit.holes);
-  fill_frame(measured, frame, *state, fit.holes.covariance, fit.belts);
+  fill_frame(measured, *state, fit.holes.covariance, fit.belts);
   return fit;
 }
 

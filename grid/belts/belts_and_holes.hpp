@@ -5,7 +5,7 @@
 ///
 /// Notation
 ///   x   five coordinates of anchors and the logarithm of the scale; about x_b with covariance S_b
-///       from the belts (places eliminated, frame_solver.hpp) or, without belts, as stated
+///       from the belts (places projected out) or, without belts, as stated
 ///   r   distances less what x makes of them; r_b = r + J (x - x_b), J = d(predicted)/dx
 ///   C   covariance of the distances, (1) of belt_holes.hpp
 ///

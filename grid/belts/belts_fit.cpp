@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/belts/anchor_estimate.hpp"
+#include "grid/belts/fit_diagnostics.hpp"
 #include "grid/belts/foretelling.hpp"
 #include "grid/belts/repeated_pulls.hpp"
-#include "grid/belts/settled_frame.hpp"
 
 namespace chaintrue::grid {
 
@@ -52,7 +53,7 @@ void fill_coordinates(const MeasuredBelts& belts,
   Eigen::Matrix<double, 5, 4> squares = Eigen::Matrix<double, 5, 4>::Zero();
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     for (const Belt belt : kBelts) {
-      if (!view.solver().counts(k, belt)) continue;
+      if (!view.counts(k, belt)) continue;
       squares.col(static_cast<Eigen::Index>(belt)) += view.influence(k, belt).head<5>().cwiseAbs2();
     }
   }
@@ -112,7 +113,7 @@ void fill_scale(const MeasuredBelts& belts,
                 const belts::AnchorFit& frame,
                 const belts::FitDiagnostics& view,
                 BeltsFit& fit) {
-  if (!view.solver().fits_scale()) return;
+  if (!view.has_scale()) return;
   BeltScale scale;
   scale.factor = std::exp(frame.state.log_scale);
   scale.sigma =
@@ -170,10 +171,11 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
     const std::string pulls = repeated_pulls_in_words(belts);
     return failure(
         Reason::not_determined,
-        fmt::format("the places do not tell where the anchors are: they lie on a line, or all in one "
-                    "spot; measure at places spread over the sheet's width and height{}{}",
-                    pulls.empty() ? "" : ". ",
-                    pulls));
+        fmt::format(
+            "the places do not tell where the anchors are: they lie on a line, or all in one "
+            "spot; measure at places spread over the sheet's width and height{}{}",
+            pulls.empty() ? "" : ". ",
+            pulls));
   }
   if (!frame->is_sound) return failure(Reason::no_frame, kNoFrame);
   BeltsFit fit;

@@ -8,7 +8,7 @@
 ///   spread^2 = sum r^2 / (readings - 2 places - 5)                                          (1)
 ///
 /// is what one belt's reading is off by, whereas the machine's own message ("Find Anchors fit: rms")
-/// divides by the readings. Sigmas are (4) of frame_solver.hpp with this spread.
+/// divides by the readings. Sigmas are (1) of fit_diagnostics.hpp with this spread.
 ///
 /// A reading that does not fit the others is set aside, the worst first: the distance of its residual,
 /// seen from a fit without it, in units of the spread without it. That is Student's t; what counts is

@@ -48,8 +48,8 @@ BeltPrediction foretell_one_by_one(const MeasuredBelts& belts, const FitDiagnost
   std::vector<double> off_mm;
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     // A taped place is not left out: the tape would still hold its place.
-    if (!view.solver().is_placed(k) || view.solver().is_taped(k)) continue;
-    foretell(belts, k, view.anchors_without(k), view.solver().counting()[k], off_mm);
+    if (!view.is_placed(k) || view.is_taped(k)) continue;
+    foretell(belts, k, view.anchors_without(k), view.frame().counting[k], off_mm);
   }
   return summed(off_mm);
 }
@@ -66,7 +66,7 @@ std::optional<BeltPrediction> foretell_by_halves(const MeasuredBelts& belts,
     for (std::size_t i = half; i < order.size(); i += 2) {
       counting[order[i]] = {false, false, false, false};
     }
-    const auto fitted = settle_from(untaped, frame.state, std::move(counting));
+    const auto fitted = settle_from(untaped, frame.state, counting);
     if (!fitted || fitted->checks < 1) return std::nullopt;
     for (std::size_t i = half; i < order.size(); i += 2) {
       foretell(belts, order[i], fitted->state.anchors, frame.counting[order[i]], off_mm);

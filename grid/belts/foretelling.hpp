@@ -8,8 +8,9 @@
 #include <optional>
 #include <vector>
 
+#include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/belts_fit.hpp"
-#include "grid/belts/settled_frame.hpp"
+#include "grid/belts/fit_diagnostics.hpp"
 
 namespace chaintrue::grid::belts {
 

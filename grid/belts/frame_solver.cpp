@@ -23,11 +23,6 @@ namespace {
 /// Column of the scale's logarithm.
 constexpr Eigen::Index kScaleColumn = kAnchorUnknowns;
 
-int readings_counting(const model::PerBelt<bool>& counting) {
-  return static_cast<int>(
-      std::count_if(kBelts.begin(), kBelts.end(), [&](Belt belt) { return counting[belt]; }));
-}
-
 /// Columns of an anchor's x and y; -1: it is 0 by the choice of the frame.
 std::pair<Eigen::Index, Eigen::Index> columns_of(Belt belt) {
   switch (belt) {
@@ -107,21 +102,6 @@ bool place_hole(const model::BeltMachine& stated,
 }
 
 }  // namespace
-
-AnchorVector anchors_of(const model::BeltMachine& machine) {
-  const auto& a = machine.anchors;
-  return {a.tl.x_mm, a.tl.y_mm, a.tr.x_mm, a.tr.y_mm, a.br.x_mm};
-}
-
-model::BeltMachine with_anchors(model::BeltMachine machine, const AnchorVector& a) {
-  machine.anchors.tl.x_mm = a[0];
-  machine.anchors.tl.y_mm = a[1];
-  machine.anchors.tr.x_mm = a[2];
-  machine.anchors.tr.y_mm = a[3];
-  machine.anchors.br.x_mm = a[4];
-  machine.anchors_known = true;
-  return machine;
-}
 
 AnchorAdjustment::AnchorAdjustment(const MeasuredBelts& belts, Counting counting, double sigma_mm)
     : belts_(belts), counting_(std::move(counting)), sigma_mm_(sigma_mm) {
@@ -333,76 +313,6 @@ bool AnchorAdjustment::solve(FrameState& state) const {
     }
   }
   return false;
-}
-
-FramePoint nearest_place(const model::BeltMachine& machine,
-                         const BeltPoint& point,
-                         const model::PerBelt<bool>& counting) {
-  model::PerBelt<double> spans;
-  for (const Belt belt : kBelts) {
-    spans[belt] = model::span_of(machine, belt, point.lengths_mm[belt])
-                      .value_or(point.lengths_mm[belt] + model::reach_mm(machine));
-  }
-  const auto& a = machine.anchors;
-  const auto square_at = [&](FramePoint at) {
-    double square = 0.0;
-    for (const Belt belt : kBelts) {
-      if (!counting[belt]) continue;
-      const double off = std::hypot(at.x_mm - a[belt].x_mm, at.y_mm - a[belt].y_mm) - spans[belt];
-      square += off * off;
-    }
-    return square;
-  };
-  // Any two belts that count cross somewhere; the middle of the frame where none do.
-  FramePoint best{0.5 * a.br.x_mm, 0.5 * std::max(a.tl.y_mm, a.tr.y_mm)};
-  double least = square_at(best);
-  for (const Belt first : kBelts) {
-    for (const Belt second : kBelts) {
-      if (first == second || !counting[first] || !counting[second]) continue;
-      const auto at = model::crossing({a[first].x_mm, a[first].y_mm},
-                                      spans[first],
-                                      {a[second].x_mm, a[second].y_mm},
-                                      spans[second]);
-      if (!at || square_at(*at) >= least) continue;
-      best = *at;
-      least = square_at(best);
-    }
-  }
-  return best;
-}
-
-std::vector<FrameState> first_frames(const MeasuredBelts& belts, const Counting& counting) {
-  const auto state_at = [&](const AnchorVector& anchors) {
-    FrameState state;
-    state.anchors = anchors;
-    const model::BeltMachine machine = with_anchors(belts.machine, anchors);
-    for (std::size_t k = 0; k < belts.points.size(); ++k) {
-      state.places.push_back(nearest_place(machine, belts.points[k], counting[k]));
-    }
-    return state;
-  };
-  std::vector<FrameState> frames;
-  if (belts.machine.anchors_known) frames.push_back(state_at(anchors_of(belts.machine)));
-  // Two belts from opposite sides are together at least as long as their side of the frame.
-  double width = std::numeric_limits<double>::infinity();
-  double height = width;
-  for (const BeltPoint& point : belts.points) {
-    const auto& l = point.lengths_mm;
-    width = std::min({width, l.tl + l.tr, l.bl + l.br});
-    height = std::min({height, l.tl + l.bl, l.tr + l.br});
-  }
-  if (belts.machine.lengths == model::BeltLengths::belt) {
-    width += 2.0 * model::reach_mm(belts.machine);
-    height += 2.0 * model::reach_mm(belts.machine);
-  }
-  for (const double share : {0.9, 0.75, 0.97}) {
-    for (const double other : {share, 0.6}) {
-      const double w = share * width;
-      const double h = other * height;
-      frames.push_back(state_at({0.0, h, w, h, w}));
-    }
-  }
-  return frames;
 }
 
 }  // namespace chaintrue::grid::belts

@@ -32,26 +32,9 @@
 #include <array>
 #include <vector>
 
-#include "grid/belts/measured_belts.hpp"
+#include "grid/belts/first_frames.hpp"
 
 namespace chaintrue::grid::belts {
-
-/// Of each point and belt, whether its reading counts.
-using Counting = std::vector<model::PerBelt<bool>>;
-
-/// tl x, tl y, tr x, tr y, br x.
-inline constexpr Eigen::Index kAnchorUnknowns = 5;
-using AnchorVector = Eigen::Matrix<double, kAnchorUnknowns, 1>;
-
-/// What the unknowns are at.
-struct FrameState {
-  AnchorVector anchors = AnchorVector::Zero();
-  double log_scale = 0.0;
-  std::vector<model::FramePoint> places;
-};
-
-[[nodiscard]] AnchorVector anchors_of(const model::BeltMachine& machine);
-[[nodiscard]] model::BeltMachine with_anchors(model::BeltMachine machine, const AnchorVector& a);
 
 /// The equations about a state.
 struct FrameEquations {
@@ -128,21 +111,5 @@ class AnchorAdjustment {
   std::vector<Eigen::Index> place_column_;  ///< into the frame's unknowns; -1: eliminated
   std::vector<bool> is_placed_;
 };
-
-/// The row of a point's belt among all.
-[[nodiscard]] inline Eigen::Index row_of(std::size_t point, model::Belt belt) {
-  return 4 * static_cast<Eigen::Index>(point) + static_cast<Eigen::Index>(belt);
-}
-
-/// Where the four spans of a point come nearest to one another, from where those of the lower
-/// anchors, or of the upper, cross.
-[[nodiscard]] model::FramePoint nearest_place(const model::BeltMachine& machine,
-                                              const BeltPoint& point,
-                                              const model::PerBelt<bool>& counting);
-
-/// Frames to begin at, the likeliest first: the one that is known, and rectangles of the size that
-/// the lengths leave.
-[[nodiscard]] std::vector<FrameState> first_frames(const MeasuredBelts& belts,
-                                                   const Counting& counting);
 
 }  // namespace chaintrue::grid::belts

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "grid/belts/settled_frame.hpp"
+#include "grid/belts/fit_diagnostics.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -68,22 +68,19 @@ belts::AnchorFit frame_of(const BeltsFit& fit) {
   return frame;
 }
 
-/// One sigma of the scale beside this distance; infinity where it is not determined.
-double sigma_beside(const MeasuredBelts& belts,
-                    const belts::AnchorFit& frame,
-                    BeltDistance& distance) {
-  // What it is expected to be changes no sigma: read from its residual, and then put in.
-  MeasuredBelts taped = belts;
-  taped.distances.push_back(distance);
-  const belts::AnchorAdjustment solver(taped, frame.counting, frame.spread_mm);
-  const belts::FrameEquations at = solver.equations(frame.state);
-  if (!std::isfinite(at.cost)) return std::numeric_limits<double>::infinity();
-  const auto last = at.distance_residual.size() - 1;
-  distance.distance_mm = -at.distance_residual(last) * distance.sigma_mm;
-  taped.distances.back() = distance;
-  const belts::FitDiagnostics view(taped, frame);
-  const double variance = view.covariance()(belts::kAnchorUnknowns, belts::kAnchorUnknowns);
-  return variance > 0.0 ? std::sqrt(variance) : std::numeric_limits<double>::infinity();
+/// One sigma of the scale with this distance as well; infinity where it is not determined.
+double sigma_with(const MeasuredBelts& belts,
+                  const belts::FitDiagnostics& view,
+                  BeltDistance& distance) {
+  const auto expected = view.expected(belts, distance);
+  if (!expected || !(expected->mm > 0.0)) return std::numeric_limits<double>::infinity();
+  distance.distance_mm = expected->mm;
+  const double noise = distance.sigma_mm * distance.sigma_mm + expected->variance_mm2;
+  // The first distance tells the scale alone.
+  if (!view.has_scale()) return std::sqrt(noise) / expected->mm;
+  const double known = view.covariance()(belts::kAnchorUnknowns, belts::kAnchorUnknowns);
+  const double left = known - expected->with_scale * expected->with_scale / noise;
+  return left > 0.0 ? std::sqrt(left) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -99,11 +96,11 @@ std::optional<DistanceForScale> distance_for_scale(const MeasuredBelts& belts,
   };
   add_pairs({model::kBelts.begin(), model::kBelts.end()});
   add_pairs(ends_of(belts, fit));
-  const belts::AnchorFit frame = frame_of(fit);
+  const belts::FitDiagnostics view(belts, frame_of(fit));
   std::optional<DistanceForScale> best;
   for (const auto& [from, to] : pairs) {
     BeltDistance distance{from, to, 0.0, kTapedDistanceMm};
-    const double sigma = sigma_beside(belts, frame, distance);
+    const double sigma = sigma_with(belts, view, distance);
     // A hundredth better is no reason for a hole where two anchors do.
     constexpr double kBetter = 0.99;
     if (std::isfinite(sigma) && (!best || sigma < kBetter * best->sigma))

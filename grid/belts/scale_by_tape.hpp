@@ -4,7 +4,7 @@
 /// holes that the machine cuts, or two points of the file.
 ///
 /// Tried are all pairs of anchors and all pairs of the outermost places in eight directions, each in
-/// a fit beside the belts with the distances that are there already (frame_solver.hpp). A long
+/// a fit alongside the belts with the distances that are there already. A long
 /// distance tells more; one between anchors that six places leave uncertain tells less than a shorter
 /// one between places.
 ///

@@ -19,7 +19,9 @@
 #include <optional>
 #include <vector>
 
-#include "grid/belts/settled_frame.hpp"
+#include "grid/belts/anchor_estimate.hpp"
+#include "grid/belts/fit_diagnostics.hpp"
+#include "grid/belts/frame_solver.hpp"
 #include "grid/diagnosis/cause_id.hpp"
 #include "model/belts/effects/belt_effect.hpp"
 

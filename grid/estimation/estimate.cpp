@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "grid/estimation/joint_problem.hpp"
 #include "grid/estimation/left_out.hpp"
@@ -45,7 +46,7 @@ class Estimator {
  public:
   explicit Estimator(const EstimationInput& input)
       : input_(input),
-        problem_(std::make_unique<JointProblem>(input, input.surface == SurfaceUse::smoothed)),
+        problem_(std::make_unique<JointProblem>(input_, input_.surface == SurfaceUse::smoothed)),
         state_(problem_->stated()) {}
 
   tl::expected<Estimate, EstimationFailure> run();
@@ -57,7 +58,18 @@ class Estimator {
   [[nodiscard]] Fit solve(const Eigen::VectorXd& weights,
                           Smoothing smoothing,
                           bool correct_covariance) const;
+  tl::expected<void, EstimationFailure> approach();
   tl::expected<void, EstimationFailure> settle();
+  void begin_weights();
+  /// A reading with its unit among the problem's.
+  struct Shift {
+    observation::UnitReading at;
+    double sigmas = 0.0;
+  };
+  [[nodiscard]] std::optional<Shift> worst_reading() const;
+  [[nodiscard]] std::optional<Shift> best_rejected() const;
+  [[nodiscard]] bool settle_without(RejectedReadings rejected);
+  void reject_readings();
   [[nodiscard]] double step_to(const State& next, const Settling& settling) const;
   [[nodiscard]] bool update_weights(int pass);
   [[nodiscard]] std::optional<std::size_t> worst_alone() const;
@@ -67,7 +79,7 @@ class Estimator {
   tl::expected<void, EstimationFailure> fill_observations(Estimate& estimate) const;
   void fill_covariances(Estimate& estimate) const;
 
-  const EstimationInput& input_;
+  EstimationInput input_;
   std::unique_ptr<JointProblem> problem_;
   State state_;
   Eigen::VectorXd weights_;
@@ -75,6 +87,7 @@ class Estimator {
   interp::PenalisedFit fit_;
   std::vector<std::vector<model::MarkPoint>> as_stated_;
   bool settled_ = false;
+  bool is_linearised_ = false;  ///< the problem is about the state
   double surface_log_evidence_ = 0.0;
 };
 
@@ -106,9 +119,12 @@ double Estimator::step_to(const State& next, const Settling& settling) const {
   const Unknowns& unknowns = problem_->unknowns();
   for (Eigen::Index i = 0; i < unknowns.settings(); ++i) {
     if (unknowns.sigma(i) <= kKnownSigma) continue;
-    // Of what nothing was known beforehand the readings' own sigma is the measure.
-    const double sigma =
-        std::isfinite(unknowns.sigma(i)) ? unknowns.sigma(i) : std::sqrt(fit_.covariance(i, i));
+    // Of what nothing was known beforehand the readings' own sigma is the measure; of readings
+    // without noise a micrometre.
+    constexpr double kLeastSigma = 1e-3;
+    const double sigma = std::isfinite(unknowns.sigma(i))
+                             ? unknowns.sigma(i)
+                             : std::max(std::sqrt(fit_.covariance(i, i)), kLeastSigma);
     step = std::max(step, std::abs(next.settings[i] - state_.settings[i]) / sigma);
   }
   for (const Side side : model::kSides) {
@@ -142,11 +158,11 @@ std::optional<std::size_t> Estimator::worst_alone() const {
 
 /// True where the weights changed enough to fit again.
 bool Estimator::update_weights(int pass) {
+  if (input_.fixed_weights) return false;
   LeftOut left_out(*problem_, fit_, weights_);
   left_out.prepare_units();
   for (Eigen::Index u = 0; u < distances_.size(); ++u)
     distances_[u] = left_out.distance(static_cast<std::size_t>(u));
-  if (input_.fixed_weights) return false;
   double change = 0.0;
   Eigen::VectorXd next = weights_;
   for (std::size_t u = 0; u < problem_->units().size(); ++u) {
@@ -168,6 +184,159 @@ bool Estimator::update_weights(int pass) {
   return change > kSettledWeight;
 }
 
+void Estimator::begin_weights() {
+  if (weights_.size() > 0) return;
+  const auto units = static_cast<Eigen::Index>(problem_->units().size());
+  weights_ = input_.fixed_weights.value_or(Eigen::VectorXd::Ones(units));
+  distances_ = Eigen::VectorXd::Zero(units);
+}
+
+/// Settings of which nothing is known beforehand may begin far off: steps that are damped until they
+/// lower the sum of squares (K. Madsen, H. Nielsen, O. Tingleff, Methods for Non-Linear Least Squares
+/// Problems (2004), section 3.2), down to where the passes converge by themselves.
+tl::expected<void, EstimationFailure> Estimator::approach() {
+  constexpr int kMostSteps = 100;
+  constexpr double kLargestDamping = 1e12;
+  // Of the sum of squares: a step that lowers it by less is a small part of a sigma. The second is for
+  // readings without noise.
+  constexpr double kNear = 1e-6;
+  constexpr double kNearNothing = 1e-12;
+  const Unknowns& layout = problem_->layout();
+  bool is_known = true;
+  for (Eigen::Index i = 0; i < layout.settings(); ++i)
+    is_known = is_known && std::isfinite(layout.sigma(i));
+  const bool has_settings_alone =
+      input_.surface == SurfaceUse::none && layout.total() == layout.settings();
+  if (is_known || !has_settings_alone) return {};
+  if (auto done = problem_->linearise(state_); !done) return done;
+  begin_weights();
+  const auto square_at = [](const interp::PenalisedProblem& problem, const Eigen::VectorXd& x) {
+    const Eigen::VectorXd off = x - problem.prior_mean;
+    return (problem.response - problem.design * x).squaredNorm() +
+           off.dot(problem.prior_precision * off);
+  };
+  interp::PenalisedProblem now = problem_->weighted(weights_);
+  double square = square_at(now, state_.settings);
+  double damping = 1e-4;
+  is_linearised_ = true;
+  for (int step = 0; step < kMostSteps && damping <= kLargestDamping; ++step) {
+    Eigen::MatrixXd normal = now.gram + now.prior_precision;
+    const Eigen::VectorXd downhill =
+        now.moment + now.prior_precision * now.prior_mean - normal * state_.settings;
+    normal.diagonal() += damping * now.gram.diagonal();
+    State next = state_;
+    next.settings += normal.ldlt().solve(downhill);
+    is_linearised_ = next.settings.allFinite() && problem_->linearise(next).has_value();
+    if (is_linearised_) {
+      interp::PenalisedProblem there = problem_->weighted(weights_);
+      const double left = square_at(there, next.settings);
+      is_linearised_ = left <= square;
+      if (is_linearised_) {
+        const bool is_near = square - left <= kNear * square + kNearNothing;
+        state_ = std::move(next);
+        now = std::move(there);
+        square = left;
+        damping = std::max(damping / 100.0, 1e-15);
+        if (is_near) break;
+        continue;
+      }
+    }
+    damping *= 4.0;
+  }
+  return {};
+}
+
+std::optional<Estimator::Shift> Estimator::worst_reading() const {
+  std::optional<Shift> worst;
+  const Eigen::VectorXd residual = problem_->response() - problem_->design() * fit_.coefficients;
+  const FittedRows rows{problem_->design(), residual, fit_, problem_->dof(fit_)};
+  for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+    const SystemUnit& unit = problem_->units()[u];
+    const std::vector<Eigen::Index>& rejected = problem_->rejected(u);
+    for (Eigen::Index i = 0; i < unit.by_reading.cols(); ++i) {
+      if (std::find(rejected.begin(), rejected.end(), i) != rejected.end()) continue;
+      const double sigmas = shift_of(rows, unit, rejected, i).sigmas;
+      // Readings that share one check are out by the same: the first of them.
+      constexpr double kSame = 1e-6;
+      if (!worst || sigmas > (1.0 + kSame) * worst->sigmas) worst = Shift{{u, i}, sigmas};
+    }
+  }
+  return worst;
+}
+
+/// The rejected reading that fits best.
+std::optional<Estimator::Shift> Estimator::best_rejected() const {
+  std::optional<Shift> best;
+  const Eigen::VectorXd residual = problem_->response() - problem_->design() * fit_.coefficients;
+  const FittedRows rows{problem_->design(), residual, fit_, problem_->dof(fit_)};
+  for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+    for (const Eigen::Index i : problem_->rejected(u)) {
+      const double sigmas = shift_of(rows, problem_->units()[u], problem_->rejected(u), i).sigmas;
+      if (sigmas > 0.0 && (!best || sigmas < best->sigmas)) best = Shift{{u, i}, sigmas};
+    }
+  }
+  return best;
+}
+
+/// Fits again with these readings rejected; false, and nothing changed, where that has no answer.
+bool Estimator::settle_without(RejectedReadings rejected) {
+  std::vector<std::vector<observation::UnitReading>> of_observation(input_.observations.size());
+  for (std::size_t u = 0; u < rejected.size(); ++u) {
+    const SystemUnit& unit = problem_->units()[u];
+    for (const Eigen::Index i : rejected[u])
+      of_observation[unit.observation].push_back({unit.unit, i});
+  }
+  const observation::Observations before = input_.observations;
+  auto fit = fit_;
+  auto state = state_;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (auto other = before[k]->about_others(of_observation[k]))
+      input_.observations[k] = std::move(other);
+  }
+  auto problem =
+      std::exchange(problem_, std::make_unique<JointProblem>(input_, false, std::move(rejected)));
+  is_linearised_ = false;
+  if (settle()) return true;
+  problem_ = std::move(problem);
+  input_.observations = before;
+  fit_ = std::move(fit);
+  state_ = std::move(state);
+  return false;
+}
+
+void Estimator::reject_readings() {
+  const ReadingLimits& limits = *input_.reading_limits;
+  if (std::sqrt(fit_.sigma2) > limits.most_noise) return;
+  Eigen::Index readings = 0;
+  for (const SystemUnit& unit : problem_->units()) readings += unit.by_reading.cols();
+  const auto most = static_cast<std::size_t>(limits.most_share * static_cast<double>(readings));
+  const auto of_now = [this] {
+    RejectedReadings rejected = problem_->rejected();
+    rejected.resize(problem_->units().size());
+    return rejected;
+  };
+  for (std::size_t out = 0; out < most && problem_->dof(fit_) > 1.0; ++out) {
+    const auto worst = worst_reading();
+    if (!worst || worst->sigmas < limits.rejected_beyond) break;
+    RejectedReadings more = of_now();
+    more[worst->at.unit].push_back(worst->at.reading);
+    if (!settle_without(std::move(more))) break;
+  }
+  // What was rejected while a worse one was still in may fit after all.
+  for (std::size_t back = 0; back < most; ++back) {
+    const auto best = best_rejected();
+    if (!best || best->sigmas >= limits.rejected_beyond) break;
+    const RejectedReadings now = of_now();
+    RejectedReadings fewer = now;
+    std::erase(fewer[best->at.unit], best->at.reading);
+    if (!settle_without(std::move(fewer))) break;
+    const auto worst = worst_reading();
+    if (!worst || worst->sigmas < limits.rejected_beyond) continue;
+    if (!settle_without(now)) break;
+    break;
+  }
+}
+
 tl::expected<void, EstimationFailure> Estimator::settle() {
   Settling settling = settling_of(input_, problem_->places_move());
   if (input_.most_passes > 0) settling.most_passes = input_.most_passes;
@@ -181,12 +350,11 @@ tl::expected<void, EstimationFailure> Estimator::settle() {
     const bool last = pass + 1 == settling.most_passes;
     const bool perhaps_last = settled_ || last || !problem_->has_surface();
     if (perhaps_last) smoothing = Smoothing::choose;
-    if (auto done = problem_->linearise(state_); !done) return tl::unexpected(done.error());
-    if (weights_.size() == 0) {
-      const auto units = static_cast<Eigen::Index>(problem_->units().size());
-      weights_ = input_.fixed_weights.value_or(Eigen::VectorXd::Ones(units));
-      distances_ = Eigen::VectorXd::Zero(units);
+    if (!is_linearised_) {
+      if (auto done = problem_->linearise(state_); !done) return tl::unexpected(done.error());
     }
+    is_linearised_ = false;
+    begin_weights();
     if (as_stated_.empty()) {
       for (std::size_t k = 0; k < input_.observations.size(); ++k)
         as_stated_.push_back(problem_->marks(k));
@@ -246,13 +414,24 @@ void Estimator::fill_units(Estimate& estimate) const {
     const auto at = static_cast<Eigen::Index>(u);
     const auto back = unit.whitening.inverse();
     const Eigen::MatrixXd rows = problem_->design().middleRows(unit.first_row, unit.rows);
-    UnitEstimate own{unit.observation, unit.unit, weights_[at], distances_[at], {}, {}, {}, {}};
+    const double distance = input_.fixed_weights ? left_out.distance(u) : distances_[at];
+    UnitEstimate own{unit.observation, unit.unit, weights_[at], distance, {}, {}, {}, {}};
     own.residual =
         back * (problem_->response().segment(unit.first_row, unit.rows) - rows * fit_.coefficients);
     const LeftOut::Seen seen = left_out.seen(u);
     own.left_out = back * seen.residual;
     own.left_out_covariance = back * seen.covariance * back.transpose();
     estimate.units.push_back(std::move(own));
+  }
+  const Eigen::VectorXd residual = problem_->response() - problem_->design() * fit_.coefficients;
+  const FittedRows rows{problem_->design(), residual, fit_, problem_->dof(fit_)};
+  for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+    const SystemUnit& unit = problem_->units()[u];
+    for (const Eigen::Index i : problem_->rejected(u)) {
+      const ReadingShift shift = shift_of(rows, unit, problem_->rejected(u), i);
+      estimate.rejected_readings.push_back(
+          {unit.observation, {unit.unit, i}, shift.off_mm, shift.sigmas});
+    }
   }
   for (const UnitGroup& group : input_.held_out_together) {
     const auto residuals = left_out.residuals(group);
@@ -318,6 +497,7 @@ tl::expected<Estimate, EstimationFailure> Estimator::result() const {
       fit_.edf,
       {},
       {},
+      {},
       settled_,
       std::move(found)};
   fill_covariances(estimate);
@@ -327,7 +507,9 @@ tl::expected<Estimate, EstimationFailure> Estimator::result() const {
 }
 
 tl::expected<Estimate, EstimationFailure> Estimator::run() {
+  if (auto done = approach(); !done) return tl::unexpected(done.error());
   if (auto done = settle(); !done) return tl::unexpected(done.error());
+  if (input_.reading_limits) reject_readings();
   if (input_.surface == SurfaceUse::on_evidence) {
     if (auto done = choose_surface(); !done) return tl::unexpected(done.error());
   }

@@ -39,6 +39,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -89,6 +90,15 @@ enum class SurfaceUse {
 /// Units whose left-out residuals are wanted with all of them left out together.
 using UnitGroup = std::vector<std::size_t>;
 
+/// When a single reading of a unit that does not slip as one is rejected (reading_shifts.hpp), the
+/// worst first; those that fit once a worse one is gone count again.
+struct ReadingLimits {
+  double rejected_beyond = 4.5;  ///< normal deviate
+  double most_share = 0.12;      ///< of all readings: beyond it the rest does not judge itself
+  /// None is rejected where the noise found is larger: the fit is none.
+  double most_noise = std::numeric_limits<double>::infinity();
+};
+
 struct EstimationInput {
   model::Machine machine;  ///< as stated
   /// In place of two chains of `machine`: its values are where the passes begin. A mechanism of other
@@ -111,6 +121,8 @@ struct EstimationInput {
   std::optional<MachineKnowledge> knowledge;
   /// Of each unit, 0: set aside; no reweighting then, and settings settle to 1e-6 sigmas.
   std::optional<Eigen::VectorXd> fixed_weights;
+  /// Single readings are searched for slips; with fixed_weights alone.
+  std::optional<ReadingLimits> reading_limits;
   std::vector<UnitGroup> held_out_together;
   int most_passes = 0;  ///< 0: as many as such readings need
   /// Is told of `step` at each pass.
@@ -129,6 +141,14 @@ struct UnitEstimate {
   Eigen::MatrixXd left_out_covariance;  ///< of that, the unit's own noise in it
   Eigen::VectorXd left_out_with_group;  ///< empty where no group has the unit
   [[nodiscard]] bool is_rejected() const { return weight == 0.0; }
+};
+
+/// A reading that was rejected by itself; the rest of its unit counts.
+struct ReadingEstimate {
+  std::size_t observation = 0;
+  observation::UnitReading reading;  ///< its unit into the observation's
+  double off_mm = 0.0;               ///< read less what all others make of it
+  double sigmas = 0.0;
 };
 
 struct PlaceEstimate {
@@ -163,6 +183,7 @@ struct Estimate {
   double effective_parameters = 0.0;
   std::vector<UnitEstimate> units;  ///< of readings that somebody may slip at
   std::vector<ObservationEstimate> observations;
+  std::vector<ReadingEstimate> rejected_readings;
   /// False where settings or weights still moved after the last pass.
   bool settled = true;
   /// With the values found; of two chains that of `machine`. Its parameters are the first of

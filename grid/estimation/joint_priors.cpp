@@ -12,8 +12,6 @@ namespace chaintrue::grid::estimation {
 using model::Side;
 using observation::Observation;
 
-namespace {}
-
 void JointProblem::add_rows(interp::PenalisedProblem& problem,
                             const Eigen::VectorXd& weights) const {
   if (local_) {
@@ -28,6 +26,13 @@ void JointProblem::add_rows(interp::PenalisedProblem& problem,
     if (weight == 0.0) continue;
     const double root = std::sqrt(weight);
     const SystemUnit& unit = units_[u];
+    if (!rejected(u).empty()) {
+      const Eigen::MatrixXd left = root * without_readings(unit, rejected(u)).transpose();
+      design.middleRows(rows, left.rows()) = left * design_.middleRows(unit.first_row, unit.rows);
+      response.segment(rows, left.rows()) = left * response_.segment(unit.first_row, unit.rows);
+      rows += left.rows();
+      continue;
+    }
     design.middleRows(rows, unit.rows) = root * design_.middleRows(unit.first_row, unit.rows);
     response.segment(rows, unit.rows) = root * response_.segment(unit.first_row, unit.rows);
     rows += unit.rows;

@@ -63,8 +63,11 @@ double length_of(model::ChainLengths lengths, Side side) { return lengths[side];
 
 }  // namespace
 
-JointProblem::JointProblem(const EstimationInput& input, bool has_surface)
+JointProblem::JointProblem(const EstimationInput& input,
+                           bool has_surface,
+                           RejectedReadings rejected)
     : input_(input),
+      rejected_(std::move(rejected)),
       set_(observation_set(input.machine, input.observations, input.mechanism)),
       layout_(set_, {}),
       has_surface_(has_surface),
@@ -76,6 +79,19 @@ JointProblem::JointProblem(const EstimationInput& input, bool has_surface)
   }
   for (const auto& observation : input.observations)
     places_move_ = places_move_ || !is_linear_in_correction(*observation);
+}
+
+const std::vector<Eigen::Index>& JointProblem::rejected(std::size_t unit) const {
+  static const std::vector<Eigen::Index> kNone;
+  return rejected_.empty() ? kNone : rejected_.at(unit);
+}
+
+double JointProblem::dof(const interp::PenalisedFit& fit) const {
+  Eigen::Index rows = 0;
+  for (std::size_t u = 0; u < units_.size(); ++u) {
+    rows += rejected(u).empty() ? units_[u].rows : without_readings(units_[u], rejected(u)).cols();
+  }
+  return static_cast<double>(rows) - fit.edf;
 }
 
 EstimationFailure JointProblem::unreachable(std::size_t observation,

@@ -13,6 +13,7 @@
 #include "grid/estimation/linearised_system.hpp"
 #include "grid/estimation/local_design.hpp"
 #include "grid/estimation/observed_subspace.hpp"
+#include "grid/estimation/reading_shifts.hpp"
 #include "grid/estimation/surface_correction.hpp"
 #include "grid/estimation/unknowns.hpp"
 
@@ -26,8 +27,8 @@ struct State {
 
 class JointProblem {
  public:
-  /// `input` outlives the problem.
-  JointProblem(const EstimationInput& input, bool has_surface);
+  /// `input` outlives the problem. `rejected` has an entry for each unit, or none.
+  JointProblem(const EstimationInput& input, bool has_surface, RejectedReadings rejected = {});
 
   [[nodiscard]] State stated() const;
   /// In words.
@@ -43,6 +44,8 @@ class JointProblem {
   [[nodiscard]] State state_of(const interp::PenalisedFit& fit) const;
 
   [[nodiscard]] const Unknowns& unknowns() const { return *unknowns_; }
+  /// The same before anything was linearised, without a surface's.
+  [[nodiscard]] const Unknowns& layout() const { return layout_; }
   [[nodiscard]] bool has_surface() const { return has_surface_; }
   /// Some places follow from the machine: they move with what is estimated.
   [[nodiscard]] bool places_move() const { return places_move_; }
@@ -50,6 +53,11 @@ class JointProblem {
   [[nodiscard]] const std::vector<SystemUnit>& units() const { return units_; }
   [[nodiscard]] const Eigen::MatrixXd& design() const { return design_; }
   [[nodiscard]] const Eigen::VectorXd& response() const { return response_; }
+  /// Of a unit; none of one that slips as one.
+  [[nodiscard]] const std::vector<Eigen::Index>& rejected(std::size_t unit) const;
+  [[nodiscard]] const RejectedReadings& rejected() const { return rejected_; }
+  /// Rows that count, less what the fit took.
+  [[nodiscard]] double dof(const interp::PenalisedFit& fit) const;
   /// The same of many readings under a surface; null: the dense one costs no more.
   [[nodiscard]] const LocalDesign* local() const { return local_ ? &*local_ : nullptr; }
   /// Marks of an observation's places, a free sheet laid as its frame is defined.
@@ -86,6 +94,7 @@ class JointProblem {
   void add_surface_prior(interp::PenalisedProblem& problem, const Eigen::VectorXd& weights) const;
 
   const EstimationInput& input_;
+  RejectedReadings rejected_;
   ObservationSet set_;
   Unknowns layout_;  ///< without a surface's columns, which the places decide
   bool has_surface_;

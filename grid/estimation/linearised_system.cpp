@@ -48,6 +48,7 @@ class Assembly {
           w * line.by_nuisance.middleRows(rows.first_row, rows.rows);
       for (const observation::PlaceColumns& place : line.units[u].places)
         unit.places.push_back({part.first_place + place.place, w * place.by_chain});
+      if (line.units[u].by_reading.size() > 0) unit.by_reading = w * line.units[u].by_reading;
       take(std::move(unit), observation.may_slip());
     }
   }

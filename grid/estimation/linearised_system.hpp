@@ -50,6 +50,8 @@ struct SystemUnit {
   bool reads_chains = false;  ///< the rows are the chains at its only place
   /// W_u D_i, `place` into the system's places.
   std::vector<observation::PlaceColumns> places{};
+  /// What a millimetre of each reading adds to the rows, whitened; empty: the unit slips as one.
+  Eigen::MatrixXd by_reading{};
 
   /// From the readings' units to those of noise, and back: the rows of this unit, at most two.
   [[nodiscard]] Eigen::Vector2d whitened(const Eigen::VectorXd& all) const;

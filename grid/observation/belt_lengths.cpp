@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
+#include <numeric>
 
 #include "grid/precondition.hpp"
 
@@ -13,6 +15,9 @@ namespace chaintrue::grid::observation {
 const Kind belt_lengths{"belt_lengths", "point", "points", "point", false};
 
 namespace {
+
+/// Rows of a block that several places share stand in units of so many.
+constexpr Eigen::Index kBlockUnitRows = 2;
 
 std::vector<LengthsAtPlace> sorted_readings(std::vector<LengthsAtPlace> places) {
   std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) {
@@ -23,17 +28,23 @@ std::vector<LengthsAtPlace> sorted_readings(std::vector<LengthsAtPlace> places) 
   return places;
 }
 
-std::vector<Eigen::Index> counting_rows(const LengthsAtPlace& place) {
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < place.lengths_mm.size(); ++i) {
-    if (place.counting.empty() || place.counting.at(static_cast<std::size_t>(i))) rows.push_back(i);
-  }
-  return rows;
+bool counts(const LengthsAtPlace& place, Eigen::Index length) {
+  return place.counting.empty() || place.counting.at(static_cast<std::size_t>(length));
 }
 
-Eigen::Index rows_of(const LengthsAtPlace& place) {
-  const auto counting = static_cast<Eigen::Index>(counting_rows(place).size());
-  return place.known ? counting : std::max<Eigen::Index>(counting - 2, 0);
+Eigen::Index counting_lengths(const LengthsAtPlace& place) {
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < place.lengths_mm.size(); ++i) count += counts(place, i) ? 1 : 0;
+  return count;
+}
+
+/// Lengths that the position is found from; empty: all.
+std::vector<bool> deciding_lengths(const LengthsAtPlace& place) {
+  if (place.rejected.empty()) return place.counting;
+  std::vector<bool> deciding;
+  for (Eigen::Index i = 0; i < place.lengths_mm.size(); ++i)
+    deciding.push_back(counts(place, i) && !place.rejected.at(static_cast<std::size_t>(i)));
+  return deciding;
 }
 
 }  // namespace
@@ -41,8 +52,10 @@ Eigen::Index rows_of(const LengthsAtPlace& place) {
 BeltLengthReadings::BeltLengthReadings(std::vector<LengthsAtPlace> places,
                                        bool ordered,
                                        BeltNoise noise,
-                                       double noise_dof)
+                                       double noise_dof,
+                                       std::vector<TapedDistance> distances)
     : readings_(sorted_readings(std::move(places))),
+      distances_(std::move(distances)),
       ordered_(ordered),
       noise_(noise),
       noise_dof_(noise_dof) {
@@ -51,89 +64,339 @@ BeltLengthReadings::BeltLengthReadings(std::vector<LengthsAtPlace> places,
                        noise_.length_mm,
                        noise_.position_mm);
   }
-  std::vector<double> measured;
-  for (std::size_t i = 0; i < readings_.size(); ++i) {
-    const LengthsAtPlace& own = readings_[i];
+  for (const LengthsAtPlace& own : readings_) {
     Place place;
     place.index = own.index;
     place.name = own.name;
     place.order = own.visit.order;
     if (own.known) place.mark = {own.known->x_mm, own.known->y_mm};
     places_.push_back(std::move(place));
-    const Eigen::Index rows = rows_of(own);
-    if (rows == 0) continue;
-    units_.push_back({static_cast<Eigen::Index>(measured.size()), rows, own.index});
-    place_of_unit_.push_back(i);
-    if (own.known) {
-      for (const Eigen::Index row : counting_rows(own)) measured.push_back(own.lengths_mm[row]);
-    } else {
-      measured.insert(measured.end(), static_cast<std::size_t>(rows), 0.0);
-    }
   }
+  join_places();
+  std::vector<double> measured;
+  for (const Block& block : blocks_) number_rows(block, measured);
   measured_ = Eigen::Map<const Eigen::VectorXd>(measured.data(),
                                                 static_cast<Eigen::Index>(measured.size()));
 }
 
+/// Blocks: places with the distances between them, joined until no distance leads out of one.
+void BeltLengthReadings::join_places() {
+  std::vector<std::size_t> root(readings_.size());
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto root_of = [&root](std::size_t place) {
+    while (root[place] != place) place = root[place] = root[root[place]];
+    return place;
+  };
+  const auto is_found = [this](std::size_t place) {
+    return readings_[place].known || counting_lengths(readings_[place]) >= 2;
+  };
+  constexpr auto none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> number_of(readings_.size(), none);
+  for (std::size_t i = 0; i < readings_.size() && !distances_.empty(); ++i) {
+    if (number_of.size() <= readings_[i].index) number_of.resize(readings_[i].index + 1, none);
+    number_of[readings_[i].index] = i;
+  }
+  std::vector<std::optional<std::size_t>> block_place;  // of each distance; none: of no place
+  std::vector<bool> is_left_out;
+  for (TapedDistance& distance : distances_) {
+    std::optional<std::size_t> at;
+    bool left_out = false;
+    for (TapeEnd* end : {&distance.from, &distance.to}) {
+      auto* place = std::get_if<AtPlace>(end);
+      if (place == nullptr) continue;
+      place->index = number_of.at(place->index);
+      left_out = left_out || place->index == none || !is_found(place->index);
+      if (left_out) continue;
+      if (readings_[place->index].known)
+        throw precondition("a distance to point {}, whose position is known",
+                           readings_[place->index].name);
+      if (at) root[root_of(place->index)] = root_of(*at);
+      at = place->index;
+    }
+    block_place.push_back(at);
+    is_left_out.push_back(left_out);
+  }
+  block_of_.assign(readings_.size(), none);
+  std::vector<std::size_t> block_of_root(readings_.size(), none);
+  for (std::size_t i = 0; i < readings_.size(); ++i) {
+    if (!is_found(i)) continue;
+    std::size_t& block = block_of_root[root_of(i)];
+    if (block == none) {
+      block = blocks_.size();
+      blocks_.emplace_back();
+    }
+    blocks_[block].places.push_back(i);
+    block_of_[i] = block;
+  }
+  for (std::size_t k = 0; k < distances_.size(); ++k) {
+    if (is_left_out[k]) continue;
+    if (block_place[k]) {
+      blocks_[block_of_[*block_place[k]]].distances.push_back(k);
+    } else {
+      blocks_.push_back({{}, {k}});
+    }
+  }
+}
+
+void BeltLengthReadings::number_rows(const Block& block, std::vector<double>& measured) {
+  first_unit_.push_back(units_.size());
+  Eigen::Index rows = 0;
+  Eigen::Index most = kBlockUnitRows;
+  for (const std::size_t place : block.places) {
+    const LengthsAtPlace& own = readings_[place];
+    rows += counting_lengths(own) - (own.known ? 0 : 2);
+  }
+  if (block.places.size() == 1 && block.distances.empty()) most = std::max<Eigen::Index>(rows, 1);
+  rows += static_cast<Eigen::Index>(block.distances.size());
+  const std::size_t place = block.places.empty() ? readings_.size() : block.places.front();
+  const bool is_known = !block.places.empty() && readings_[place].known.has_value();
+  for (Eigen::Index row = 0; row < rows; row += most) {
+    units_.push_back({static_cast<Eigen::Index>(measured.size()),
+                      std::min(most, rows - row),
+                      place < readings_.size() ? readings_[place].index : block.distances.front()});
+    place_of_unit_.push_back(place);
+    if (is_known) {
+      const LengthsAtPlace& own = readings_[place];
+      for (Eigen::Index i = 0; i < own.lengths_mm.size(); ++i) {
+        if (counts(own, i)) measured.push_back(own.lengths_mm[i]);
+      }
+    } else {
+      measured.insert(measured.end(), static_cast<std::size_t>(units_.back().rows), 0.0);
+    }
+  }
+}
+
+double BeltLengthReadings::distance_weight(std::size_t distance) const {
+  const double ratio = noise_.length_mm / distances_[distance].sigma_mm;
+  return ratio * ratio;
+}
+
+/// Where a distance's ends stand among a block's places.
+std::array<std::optional<std::size_t>, 2> BeltLengthReadings::slots_of(const Block& block,
+                                                                       std::size_t distance) const {
+  const auto slot_of = [&](const TapeEnd& end) -> std::optional<std::size_t> {
+    const auto* place = std::get_if<AtPlace>(&end);
+    if (place == nullptr) return std::nullopt;
+    const auto at = std::lower_bound(block.places.begin(), block.places.end(), place->index);
+    return static_cast<std::size_t>(at - block.places.begin());
+  };
+  return {slot_of(distances_[distance].from), slot_of(distances_[distance].to)};
+}
+
+tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
+    const View& view,
+    const Block& block,
+    std::vector<model::ToolPosition> positions,
+    bool with_parameters) const {
+  const auto wanted = with_parameters ? model::Derivatives::by_position_and_parameter
+                                      : model::Derivatives::by_position;
+  const auto lengths = static_cast<Eigen::Index>(view.mechanism->lengths().size());
+  const auto places = static_cast<Eigen::Index>(block.places.size());
+  const Eigen::Index rows = lengths * places + static_cast<Eigen::Index>(block.distances.size());
+  const Eigen::Index parameters = with_parameters ? view.mechanism->values().size() : 0;
+  BlockLine line{std::move(positions),
+                 Eigen::VectorXd(rows),
+                 Eigen::MatrixXd::Zero(rows, 2 * places),
+                 Eigen::MatrixXd::Zero(rows, parameters),
+                 Eigen::VectorXd(rows)};
+  for (Eigen::Index p = 0; p < places; ++p) {
+    const std::size_t place = block.places[static_cast<std::size_t>(p)];
+    const LengthsAtPlace& own = readings_[place];
+    const auto at =
+        view.mechanism->predict(line.positions[static_cast<std::size_t>(p)], own.visit, wanted);
+    if (!at) return tl::unexpected(Unreachable{place, at.error()});
+    const auto here = Eigen::seqN(lengths * p, lengths);
+    line.residual_mm(here) = own.lengths_mm - at->lengths_mm;
+    line.by_position.block(lengths * p, 2 * p, lengths, 2) = at->by_position;
+    if (with_parameters) line.by_parameter.middleRows(lengths * p, lengths) = at->by_parameter;
+    for (Eigen::Index i = 0; i < lengths; ++i)
+      line.weight[lengths * p + i] = counts(own, i) ? 1.0 : 0.0;
+  }
+  Eigen::Index row = lengths * places;
+  for (const std::size_t k : block.distances) {
+    const auto slots = slots_of(block, k);
+    std::array<model::ToolPosition, 2> ends;
+    for (std::size_t e = 0; e < 2; ++e) {
+      if (slots[e]) ends[e] = line.positions[*slots[e]];
+    }
+    const auto own = distance_line(*view.mechanism, distances_[k], ends);
+    if (!own) {
+      return tl::unexpected(
+          Unreachable{block.places.empty() ? 0 : block.places.front(), own.error()});
+    }
+    line.residual_mm[row] = distances_[k].distance_mm - own->predicted_mm;
+    for (std::size_t e = 0; e < 2; ++e) {
+      if (slots[e])
+        line.by_position.block<1, 2>(row, 2 * static_cast<Eigen::Index>(*slots[e])) +=
+            own->by_end[e];
+    }
+    if (with_parameters) line.by_parameter.row(row) = own->by_parameter;
+    line.weight[row++] = distance_weight(k);
+  }
+  return line;
+}
+
+/// Of places that distances join: by Gauss and Newton from where lengths alone put each.
+tl::expected<void, Unreachable> BeltLengthReadings::find_positions(const View& view,
+                                                                   const Block& block,
+                                                                   BlockLine& line) const {
+  // Distances that agree to some millimetres converge as lengths do, by 1e-3 a step.
+  constexpr int kMostSteps = 100;
+  constexpr double kConvergedMm = 1e-9;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Eigen::MatrixXd weighed = line.weight.asDiagonal() * line.by_position;
+    const Eigen::VectorXd move = (weighed.transpose() * line.by_position)
+                                     .ldlt()
+                                     .solve(weighed.transpose() * line.residual_mm);
+    if (!move.allFinite()) break;
+    std::vector<model::ToolPosition> next = line.positions;
+    for (std::size_t p = 0; p < next.size(); ++p) {
+      next[p].x_mm += move[2 * static_cast<Eigen::Index>(p)];
+      next[p].y_mm += move[2 * static_cast<Eigen::Index>(p) + 1];
+    }
+    auto there = line_at(view, block, std::move(next), line.by_parameter.cols() > 0);
+    if (!there) return tl::unexpected(there.error());
+    line = *std::move(there);
+    if (move.norm() < kConvergedMm) return {};
+  }
+  return tl::unexpected(Unreachable{block.places.front(),
+                                    {"not_converged", "no position was found for these lengths"}});
+}
+
+tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& view,
+                                                                    const Block& block,
+                                                                    bool with_parameters) const {
+  std::vector<model::ToolPosition> positions;
+  for (const std::size_t place : block.places) {
+    const LengthsAtPlace& own = readings_[place];
+    if (own.known) {
+      positions.push_back(*own.known);
+      continue;
+    }
+    // From where all lengths together put it, from the middle where they put it nowhere.
+    const std::vector<bool> deciding = deciding_lengths(own);
+    auto position = view.mechanism->locate(own.lengths_mm, own.visit);
+    if (!position || !deciding.empty()) {
+      position = model::locate_by_newton(*view.mechanism,
+                                         own.lengths_mm,
+                                         own.visit,
+                                         position ? *position : view.mechanism->extent().centre(),
+                                         deciding);
+    }
+    if (!position) return tl::unexpected(Unreachable{place, position.error()});
+    positions.push_back(*position);
+  }
+  auto line = line_at(view, block, std::move(positions), with_parameters);
+  if (!line || block.distances.empty() || block.places.empty()) return line;
+  if (auto found = find_positions(view, block, *line); !found) return tl::unexpected(found.error());
+  return line;
+}
+
 tl::expected<model::ToolPosition, model::MechanismFailure> BeltLengthReadings::position_of(
     const View& view, std::size_t place) const {
-  const LengthsAtPlace& own = readings_.at(place);
-  if (own.known) return *own.known;
-  // From where all lengths together put it, from the middle where they put it nowhere.
-  const auto by_all = view.mechanism->locate(own.lengths_mm, own.visit);
-  if (by_all && own.counting.empty()) return *by_all;
-  return model::locate_by_newton(*view.mechanism,
-                                 own.lengths_mm,
-                                 own.visit,
-                                 by_all ? *by_all : view.mechanism->extent().centre(),
-                                 own.counting);
+  const Block alone{{place}, {}};
+  const bool is_joined = block_of_.at(place) < blocks_.size();
+  const Block& block = is_joined ? blocks_[block_of_[place]] : alone;
+  const auto line = block_line(view, block, false);
+  if (!line) return tl::unexpected(line.error().reason);
+  const auto at = std::find(block.places.begin(), block.places.end(), place);
+  return line->positions[static_cast<std::size_t>(at - block.places.begin())];
+}
+
+/// The same of four lengths that all count at one place, which most places are: without a matrix
+/// whose size is not known beforehand.
+BeltLengthReadings::BlockRows BeltLengthReadings::rows_of_four(const BlockLine& line) const {
+  const Eigen::Matrix<double, 4, 2> by_position = line.by_position;
+  const Eigen::Matrix4d q = by_position.householderQr().householderQ();
+  const Eigen::Matrix<double, 2, 4> checks = q.rightCols<2>().transpose();
+  const double variance = noise_.length_mm * noise_.length_mm;
+  return {-checks * line.residual_mm,
+          checks * line.by_parameter,
+          variance * Eigen::Matrix2d::Identity(),
+          checks};
+}
+
+tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::rows_of(
+    const View& view, const Block& block, bool with_parameters) const {
+  const auto line = block_line(view, block, with_parameters);
+  if (!line) return tl::unexpected(line.error());
+  const bool is_alone = block.places.size() == 1 && block.distances.empty();
+  if (is_alone && !readings_[block.places.front()].known && line->weight.size() == 4 &&
+      line->weight.minCoeff() == 1.0)
+    return rows_of_four(*line);
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < line->weight.size(); ++i) {
+    if (line->weight[i] > 0.0) rows.push_back(i);
+  }
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  const double variance = noise_.length_mm * noise_.length_mm;
+  const Eigen::VectorXd root = line->weight(rows).cwiseSqrt();
+  const Eigen::MatrixXd by_position = root.asDiagonal() * line->by_position(rows, Eigen::all);
+  const Eigen::MatrixXd by_parameter = root.asDiagonal() * line->by_parameter(rows, Eigen::all);
+  if (!block.places.empty() && readings_[block.places.front()].known) {
+    const LengthsAtPlace& own = readings_[block.places.front()];
+    return BlockRows{
+        own.lengths_mm(rows) - line->residual_mm(rows),
+        by_parameter,
+        variance * Eigen::MatrixXd::Identity(count, count) +
+            noise_.position_mm * noise_.position_mm * by_position * by_position.transpose(),
+        {}};
+  }
+  const Eigen::VectorXd residual = root.cwiseProduct(line->residual_mm(rows));
+  const Eigen::Index left = count - by_position.cols();
+  BlockRows result;
+  if (is_alone) {
+    const Eigen::MatrixXd q = by_position.householderQr().householderQ();
+    const Eigen::MatrixXd checks = q.rightCols(left).transpose();  // Q'
+    result = {-checks * residual, checks * by_parameter, {}, {}};
+    result.by_reading = Eigen::MatrixXd::Zero(left, line->weight.size());
+    result.by_reading(Eigen::all, rows) = checks;
+  } else if (block.places.empty()) {
+    result = {-residual, by_parameter, {}, {}};
+  } else {
+    const auto q = by_position.householderQr();
+    const Eigen::VectorXd turned = q.householderQ().adjoint() * residual;
+    const Eigen::MatrixXd slopes = q.householderQ().adjoint() * by_parameter;
+    result = {-turned.tail(left), slopes.bottomRows(left), {}, {}};
+  }
+  result.covariance = variance * Eigen::MatrixXd::Identity(left, left);
+  return result;
 }
 
 tl::expected<BeltLengthReadings::UnitLine, Unreachable> BeltLengthReadings::line_of(
     const View& view, std::size_t unit, bool with_parameters) const {
-  const std::size_t place = place_of_unit_[unit];
+  const std::size_t place = place_of_unit_.at(unit);
+  if (place >= readings_.size() || !blocks_[block_of_[place]].distances.empty())
+    throw precondition("unit {} is of places that a tape joins", unit);
+  const Block& block = blocks_[block_of_[place]];
+  auto rows = rows_of(view, block, with_parameters);
+  if (!rows) return tl::unexpected(rows.error());
+  const auto line = block_line(view, block, false);
+  if (!line) return tl::unexpected(line.error());
   const LengthsAtPlace& own = readings_[place];
-  const auto position = position_of(view, place);
-  if (!position) return tl::unexpected(Unreachable{place, position.error()});
-  const auto at =
-      view.mechanism->predict(*position,
-                              own.visit,
-                              with_parameters ? model::Derivatives::by_position_and_parameter
-                                              : model::Derivatives::by_position);
-  if (!at) return tl::unexpected(Unreachable{place, at.error()});
-  const std::vector<Eigen::Index> rows = counting_rows(own);
-  const auto count = static_cast<Eigen::Index>(rows.size());
-  const Eigen::MatrixXd by_position = at->by_position(rows, Eigen::all);
-  const Eigen::MatrixXd by_parameter = at->by_parameter(rows, Eigen::all);
-  const double variance = noise_.length_mm * noise_.length_mm;
-  Eigen::MatrixXd by_length =
-      Eigen::MatrixXd::Zero(with_parameters ? count : 0, at->lengths_mm.size());
-  for (Eigen::Index i = 0; i < by_length.rows(); ++i)
-    by_length(i, rows[static_cast<std::size_t>(i)]) = 1.0;
+  Eigen::MatrixXd by_length = std::move(rows->by_reading);
   if (own.known) {
-    return UnitLine{
-        at->lengths_mm(rows),
-        by_parameter,
-        variance * Eigen::MatrixXd::Identity(count, count) +
-            noise_.position_mm * noise_.position_mm * by_position * by_position.transpose(),
-        by_length,
-        at->lengths_mm};
+    by_length = Eigen::MatrixXd::Zero(rows->predicted.size(), own.lengths_mm.size());
+    Eigen::Index row = 0;
+    for (Eigen::Index i = 0; i < own.lengths_mm.size(); ++i)
+      if (counts(own, i)) by_length(row++, i) = 1.0;
   }
-  const Eigen::MatrixXd q = by_position.householderQr().householderQ();
-  const Eigen::MatrixXd checks = q.rightCols(count - 2).transpose();  // Q'
-  const Eigen::VectorXd missing = own.lengths_mm(rows) - at->lengths_mm(rows);
-  return UnitLine{-checks * missing,
-                  checks * by_parameter,
-                  variance * Eigen::MatrixXd::Identity(count - 2, count - 2),
-                  with_parameters ? Eigen::MatrixXd(checks * by_length) : by_length,
-                  at->lengths_mm};
+  return UnitLine{std::move(rows->predicted),
+                  std::move(rows->by_parameter),
+                  std::move(rows->covariance),
+                  std::move(by_length),
+                  own.lengths_mm - line->residual_mm};
 }
 
 tl::expected<Eigen::VectorXd, Unreachable> BeltLengthReadings::predicted(const View& view) const {
   Eigen::VectorXd all(rows());
-  for (std::size_t u = 0; u < units_.size(); ++u) {
-    const auto line = line_of(view, u, false);
-    if (!line) return tl::unexpected(line.error());
-    all.segment(units_[u].first_row, units_[u].rows) = line->predicted;
+  Eigen::Index row = 0;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if (first_unit_[b] == end_unit(b)) continue;
+    const auto own = rows_of(view, blocks_[b], false);
+    if (!own) return tl::unexpected(own.error());
+    all.segment(row, own->predicted.size()) = own->predicted;
+    row += own->predicted.size();
   }
   return all;
 }
@@ -145,15 +408,34 @@ tl::expected<Linearisation, Unreachable> BeltLengthReadings::linearise(
   result.predicted.resize(rows());
   result.by_setting = Eigen::MatrixXd::Zero(rows(), parameters + (columns.sheet ? 3 : 0));
   result.by_nuisance.resize(rows(), 0);
-  for (std::size_t u = 0; u < units_.size(); ++u) {
-    auto line = line_of(view, u, columns.parameters);
-    if (!line) return tl::unexpected(line.error());
-    const Unit& unit = units_[u];
-    result.predicted.segment(unit.first_row, unit.rows) = line->predicted;
-    result.by_setting.block(unit.first_row, 0, unit.rows, parameters) = line->by_parameter;
-    result.units.push_back({std::move(line->covariance), {}});
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const std::size_t end = end_unit(b);
+    if (first_unit_[b] == end) continue;
+    auto own = rows_of(view, blocks_[b], columns.parameters);
+    if (!own) return tl::unexpected(own.error());
+    const Eigen::Index first = units_[first_unit_[b]].first_row;
+    result.predicted.segment(first, own->predicted.size()) = own->predicted;
+    result.by_setting.block(first, 0, own->predicted.size(), parameters) = own->by_parameter;
+    for (std::size_t u = first_unit_[b]; u < end; ++u) {
+      const Eigen::Index at = units_[u].first_row - first;
+      result.units.push_back(
+          {own->covariance.block(at, at, units_[u].rows, units_[u].rows), {}, own->by_reading});
+    }
   }
   return result;
+}
+
+std::shared_ptr<const Observation> BeltLengthReadings::about_others(
+    const std::vector<UnitReading>& rejected) const {
+  auto other = std::make_shared<BeltLengthReadings>(*this);
+  for (LengthsAtPlace& place : other->readings_) place.rejected.clear();
+  for (const UnitReading& one : rejected) {
+    LengthsAtPlace& place = other->readings_.at(place_of_unit_.at(one.unit));
+    if (place.rejected.empty())
+      place.rejected.assign(static_cast<std::size_t>(place.lengths_mm.size()), false);
+    place.rejected.at(static_cast<std::size_t>(one.reading)) = true;
+  }
+  return other;
 }
 
 std::string BeltLengthReadings::untestable(const model::effects::Effect& effect,
@@ -163,7 +445,9 @@ std::string BeltLengthReadings::untestable(const model::effects::Effect& effect,
 }
 
 std::string BeltLengthReadings::name_of(std::size_t unit) const {
-  return "point " + places_.at(place_of_unit_.at(unit)).name;
+  const std::size_t place = place_of_unit_.at(unit);
+  if (place < places_.size()) return "point " + places_[place].name;
+  return fmt::format("distance {}", units_.at(unit).index + 1);
 }
 
 }  // namespace chaintrue::grid::observation

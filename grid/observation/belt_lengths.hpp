@@ -16,7 +16,13 @@
 /// What two lengths say is spent on the position; m - 2 rows remain and check the rest. A is the
 /// derivative but for dQ, which is multiplied by what the lengths miss at q and is left out: the
 /// least squares are the same, and passes converge as fast. Where fewer than three lengths count a
-/// place has no rows and is no unit.
+/// place has no rows and is no unit. A single reading may slip: what it adds to the rows is its column
+/// of Q'.
+///
+/// Places that taped distances join are a block: positions, lengths and distances of a block are
+/// found, and projected out, together. Its rows are one below the other in units of two, the
+/// distances brought to the lengths' sigma. A distance that ends at no place is a unit of its own; one
+/// that ends where fewer than two lengths count says nothing and is left out.
 ///
 /// Source: G. Golub and V. Pereyra, The differentiation of pseudo-inverses and nonlinear least squares
 /// problems whose variables separate, SIAM J. Numer. Anal. 10 (1973) 413; L. Kaufman, BIT 15 (1975)
@@ -29,11 +35,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "grid/observation/observation.hpp"
+#include "grid/observation/taped_ends.hpp"
 
 namespace chaintrue::grid::observation {
 
@@ -45,6 +53,8 @@ struct LengthsAtPlace {
   model::MechanismVisit visit;
   /// Where the tool was, in the mechanism's frame; empty: nobody measured it.
   std::optional<model::ToolPosition> known = std::nullopt;
+  /// Lengths that count and that the position is found without; empty: none.
+  std::vector<bool> rejected = {};
 };
 
 /// One sigma of a length, and of a known position on each axis.
@@ -53,14 +63,31 @@ struct BeltNoise {
   double position_mm = 0.0;
 };
 
+/// Lengths and distances whose positions are found together, about a view.
+struct BlockLine {
+  std::vector<model::ToolPosition> positions;
+  Eigen::VectorXd residual_mm;   ///< all lengths place by place, then the distances
+  Eigen::MatrixXd by_position;   ///< times 2 a place
+  Eigen::MatrixXd by_parameter;  ///< times p, or 0
+  Eigen::VectorXd weight;        ///< over that of a length; 0: does not count
+};
+
 class BeltLengthReadings final : public Observation {
  public:
-  /// Sorts the places: by visit where the order is known, else by lengths.
-  /// \throws std::invalid_argument for a sigma that is not positive.
+  /// Sorts the places: by visit where the order is known, else by lengths. Distances name places by
+  /// LengthsAtPlace::index. \throws std::invalid_argument for a sigma that is not positive.
   BeltLengthReadings(std::vector<LengthsAtPlace> places,
                      bool ordered,
                      BeltNoise noise,
-                     double noise_dof);
+                     double noise_dof,
+                     std::vector<TapedDistance> distances = {});
+
+  /// Places that are found together, into places(), and the distances that join them. Of one place
+  /// there are none.
+  struct Block {
+    std::vector<std::size_t> places;
+    std::vector<std::size_t> distances;
+  };
 
   [[nodiscard]] const Kind& kind() const override { return belt_lengths; }
   [[nodiscard]] bool ordered() const override { return ordered_; }
@@ -73,29 +100,73 @@ class BeltLengthReadings final : public Observation {
   [[nodiscard]] std::string untestable(const model::effects::Effect& effect,
                                        model::effects::EffectSide side) const override;
   [[nodiscard]] std::string name_of(std::size_t unit) const override;
+  [[nodiscard]] std::shared_ptr<const Observation> about_others(
+      const std::vector<UnitReading>& rejected) const override;
+
+  /// Every place of which two lengths count, and every distance that ends at no place, once.
+  [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
+  [[nodiscard]] const std::vector<TapedDistance>& distances() const { return distances_; }
+  [[nodiscard]] tl::expected<BlockLine, Unreachable> block_line(const View& view,
+                                                                const Block& block,
+                                                                bool with_parameters) const;
+
+  /// A unit of one place about a view: its part of predicted(), A and C, and what a millimetre more of
+  /// each length at its place does to its rows.
+  struct UnitLine {
+    Eigen::VectorXd predicted;
+    Eigen::MatrixXd by_parameter;
+    Eigen::MatrixXd covariance;
+    Eigen::MatrixXd by_length;   ///< rows x lengths
+    Eigen::VectorXd lengths_mm;  ///< f at the place, all lengths
+  };
+  /// \throws std::invalid_argument for a unit of a block that a tape joins.
+  [[nodiscard]] tl::expected<UnitLine, Unreachable> line_of(const View& view,
+                                                            std::size_t unit,
+                                                            bool with_parameters) const;
 
   /// Where a view puts the tool at a place: where it is known to be, or q of (1).
   [[nodiscard]] tl::expected<model::ToolPosition, model::MechanismFailure> position_of(
       const View& view, std::size_t place) const;
   /// In the order of places().
   [[nodiscard]] const std::vector<LengthsAtPlace>& readings() const { return readings_; }
-  /// The unit's place.
+  /// The unit's place; of a block of several its first.
   [[nodiscard]] std::size_t place_of(std::size_t unit) const { return place_of_unit_.at(unit); }
-  /// A unit about a view: its part of predicted(), A and C, and what a mm more of each length at its
-  /// place does to its rows.
-  struct UnitLine {
+
+ private:
+  /// Rows about a view: f, A and C of one block's units together.
+  struct BlockRows {
     Eigen::VectorXd predicted;
     Eigen::MatrixXd by_parameter;
     Eigen::MatrixXd covariance;
-    Eigen::MatrixXd by_length;   ///< rows x lengths; no rows without `with_parameters`
-    Eigen::VectorXd lengths_mm;  ///< f at the place, all lengths
+    Eigen::MatrixXd by_reading;
   };
-  [[nodiscard]] tl::expected<UnitLine, Unreachable> line_of(const View& view,
-                                                            std::size_t unit,
-                                                            bool with_parameters) const;
+  [[nodiscard]] tl::expected<BlockRows, Unreachable> rows_of(const View& view,
+                                                             const Block& block,
+                                                             bool with_parameters) const;
+  [[nodiscard]] BlockRows rows_of_four(const BlockLine& line) const;
+  void join_places();
+  /// Where the units of the next block begin.
+  [[nodiscard]] std::size_t end_unit(std::size_t block) const {
+    return block + 1 < blocks_.size() ? first_unit_[block + 1] : units_.size();
+  }
+  void number_rows(const Block& block, std::vector<double>& measured);
+  [[nodiscard]] double distance_weight(std::size_t distance) const;
+  [[nodiscard]] std::array<std::optional<std::size_t>, 2> slots_of(const Block& block,
+                                                                   std::size_t distance) const;
+  [[nodiscard]] tl::expected<void, Unreachable> find_positions(const View& view,
+                                                               const Block& block,
+                                                               BlockLine& line) const;
+  [[nodiscard]] tl::expected<BlockLine, Unreachable> line_at(
+      const View& view,
+      const Block& block,
+      std::vector<model::ToolPosition> positions,
+      bool with_parameters) const;
 
- private:
   std::vector<LengthsAtPlace> readings_;
+  std::vector<TapedDistance> distances_;
+  std::vector<Block> blocks_;
+  std::vector<std::size_t> first_unit_;  ///< of each block
+  std::vector<std::size_t> block_of_;    ///< of each place; blocks_.size(): of none
   std::vector<std::size_t> place_of_unit_;
   bool ordered_;
   BeltNoise noise_;

@@ -143,6 +143,9 @@ struct PlaceColumns {
 struct UnitState {
   Eigen::MatrixXd covariance;  ///< C_u
   std::vector<PlaceColumns> places;
+  /// Where single readings of a unit may slip: what a millimetre of each adds to its rows, rows x
+  /// readings; a column of nothing for a reading that does not count. Empty: the unit slips as one.
+  Eigen::MatrixXd by_reading = {};
 };
 
 /// (1) about one view.
@@ -159,6 +162,13 @@ struct Linearisation {
 struct Unreachable {
   std::size_t place = 0;
   model::MechanismFailure reason{};
+};
+
+/// A single reading of a unit.
+struct UnitReading {
+  std::size_t unit = 0;
+  Eigen::Index reading = 0;  ///< a column of UnitState::by_reading
+  friend bool operator==(const UnitReading&, const UnitReading&) = default;
 };
 
 /// Readings of one kind, taken in one session with one sheet. Immutable, thread safe. The order of
@@ -187,6 +197,13 @@ class Observation {
   [[nodiscard]] virtual double noise_dof() const = 0;
   /// A slip may spoil a unit; not so what was measured with care, once, and is stated with a sigma.
   [[nodiscard]] virtual bool may_slip() const = 0;
+
+  /// The same rows, with these readings left out of what is linearised about: a position that is
+  /// found from the others alone. Null of a kind whose units slip as one.
+  [[nodiscard]] virtual std::shared_ptr<const Observation> about_others(
+      const std::vector<UnitReading>& /*rejected*/) const {
+    return nullptr;
+  }
 
   /// f, visit by visit where the order is known.
   [[nodiscard]] virtual tl::expected<Eigen::VectorXd, Unreachable> predicted(

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 namespace chaintrue::model {
@@ -31,8 +32,12 @@ constexpr std::array<std::string_view, 4> kLengths = {"tl", "tr", "bl", "br"};
 constexpr MechanismFailure kAnchorsNotKnown{"anchors_not_known",
                                             "nobody has said where the anchors are"};
 
+/// The scale's place among the parameters.
+constexpr auto kScale = static_cast<Eigen::Index>(kCoordinates.size());
+
 std::vector<MechanismParameter> stated_parameters(const BeltMachine& machine,
-                                                  std::optional<double> sigma_mm) {
+                                                  std::optional<double> sigma_mm,
+                                                  std::optional<BeltScaleKnowledge> scale) {
   std::vector<MechanismParameter> parameters;
   for (const Coordinate& own : kCoordinates) {
     MechanismParameter parameter{own.name, "mm", std::nullopt, std::nullopt};
@@ -42,6 +47,7 @@ std::vector<MechanismParameter> stated_parameters(const BeltMachine& machine,
     }
     parameters.push_back(parameter);
   }
+  if (scale) parameters.push_back({"log_scale", "", 0.0, scale->sigma});
   return parameters;
 }
 
@@ -73,12 +79,15 @@ MechanismFailure mechanism_failure(BeltFailure failure) {
 }
 
 std::shared_ptr<const BeltMechanism> make_belt_mechanism(const BeltMachine& machine,
-                                                         std::optional<double> anchor_sigma_mm) {
-  return std::make_shared<const BeltMechanism>(machine, anchor_sigma_mm);
+                                                         std::optional<double> anchor_sigma_mm,
+                                                         std::optional<BeltScaleKnowledge> scale) {
+  return std::make_shared<const BeltMechanism>(machine, anchor_sigma_mm, scale);
 }
 
-BeltMechanism::BeltMechanism(const BeltMachine& machine, std::optional<double> anchor_sigma_mm)
-    : BeltMechanism(machine, stated_parameters(machine, anchor_sigma_mm), {}) {
+BeltMechanism::BeltMechanism(const BeltMachine& machine,
+                             std::optional<double> anchor_sigma_mm,
+                             std::optional<BeltScaleKnowledge> scale)
+    : BeltMechanism(machine, stated_parameters(machine, anchor_sigma_mm, scale), {}) {
   require_sound(machine);
 }
 
@@ -87,7 +96,7 @@ BeltMechanism::BeltMechanism(BeltMachine machine,
                              std::vector<AppliedEffect> applied)
     : machine_(std::move(machine)),
       parameters_(std::move(parameters)),
-      values_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kCoordinates.size()))),
+      values_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters_.size()))),
       applied_(std::move(applied)),
       resolved_(belts::resolve_belt_effects(applied_)) {
   for (std::size_t i = 0; machine_.anchors_known && i < kCoordinates.size(); ++i) {
@@ -110,15 +119,41 @@ MechanismExtent BeltMechanism::extent() const {
 std::shared_ptr<const Mechanism> BeltMechanism::with_values(const Eigen::VectorXd& values) const {
   if (values.size() != values_.size() || !values.allFinite()) {
     throw std::invalid_argument(fmt::format(
-        "{} values of {} anchor coordinates, or not finite", values.size(), values_.size()));
+        "{} values of {} parameters of four belts, or not finite", values.size(), values_.size()));
   }
   BeltMachine changed = machine_;
   for (std::size_t i = 0; i < kCoordinates.size(); ++i)
     changed.anchors[kCoordinates[i].belt].*kCoordinates[i].member =
         values[static_cast<Eigen::Index>(i)];
   changed.anchors_known = true;
-  return std::shared_ptr<const Mechanism>(
+  std::shared_ptr<BeltMechanism> result(
       new BeltMechanism(std::move(changed), parameters_, applied_));
+  result->values_ = values;
+  return result;
+}
+
+std::vector<FixedPoint> BeltMechanism::fixed_points() const {
+  std::vector<FixedPoint> points;
+  for (const Belt belt : kBelts) {
+    const Anchor& anchor = machine_.anchors[belt];
+    FixedPoint point{kLengths.at(static_cast<std::size_t>(belt)),
+                     {anchor.x_mm, anchor.y_mm},
+                     Eigen::Matrix2Xd::Zero(2, values_.size())};
+    for (std::size_t i = 0; i < kCoordinates.size(); ++i) {
+      if (kCoordinates[i].belt == belt)
+        point.by_parameter(kCoordinates[i].axis, static_cast<Eigen::Index>(i)) = 1.0;
+    }
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+FrameScale BeltMechanism::frame_scale() const {
+  FrameScale scale{1.0, Eigen::RowVectorXd::Zero(values_.size())};
+  if (values_.size() <= kScale) return scale;
+  scale.factor = std::exp(values_[kScale]);
+  scale.by_parameter[kScale] = scale.factor;
+  return scale;
 }
 
 std::span<const effects::Effect* const> BeltMechanism::effects() const {
@@ -148,7 +183,9 @@ std::shared_ptr<const Mechanism> BeltMechanism::with_effects(
   }
   std::vector<AppliedEffect> all = applied_;
   all.insert(all.end(), applied.begin(), applied.end());
-  return std::shared_ptr<const Mechanism>(new BeltMechanism(machine_, parameters_, std::move(all)));
+  std::shared_ptr<BeltMechanism> result(new BeltMechanism(machine_, parameters_, std::move(all)));
+  result->values_ = values_;
+  return result;
 }
 
 tl::expected<LengthsPrediction, MechanismFailure> BeltMechanism::predict(
@@ -159,9 +196,13 @@ tl::expected<LengthsPrediction, MechanismFailure> BeltMechanism::predict(
   result.by_position.resize(4, 2);
   for (const Belt belt : kBelts) {
     const auto row = static_cast<Eigen::Index>(belt);
+    const FramePoint place{position.x_mm, position.y_mm};
     const bool pulled = !visit.pulled.empty() && visit.pulled.at(static_cast<std::size_t>(row));
-    const auto reading = belts::read_belt_with_slope(
-        machine_, resolved_, {belt, pulled, visit.order}, {position.x_mm, position.y_mm});
+    // The same without effects, in a third of the time.
+    const auto reading =
+        resolved_.empty()
+            ? reading_at(machine_, belt, place)
+            : belts::read_belt_with_slope(machine_, resolved_, {belt, pulled, visit.order}, place);
     if (!reading) return tl::unexpected(mechanism_failure(reading.error()));
     result.lengths_mm[row] = reading->length_mm;
     result.by_position.row(row) = reading->by_place;

@@ -18,13 +18,21 @@
 
 namespace chaintrue::model {
 
+/// What is known beforehand of the logarithm of the scale, the last parameter where there is one: a
+/// taped distance is exp(log_scale) times what belts and anchors make of it. Belts alone tell
+/// nothing of it.
+struct BeltScaleKnowledge {
+  std::optional<double> sigma;  ///< about 0; empty: nothing
+};
+
 class BeltMechanism final : public Mechanism {
  public:
   /// `anchor_sigma_mm` is the standard deviation of the stated anchors; if it is absent, or the
   /// anchors are not known, they have no prior. \throws std::invalid_argument for a machine with
-  /// problems.
+  /// problems. Without `scale` the scale is 1 and no parameter.
   explicit BeltMechanism(const BeltMachine& machine,
-                         std::optional<double> anchor_sigma_mm = std::nullopt);
+                         std::optional<double> anchor_sigma_mm = std::nullopt,
+                         std::optional<BeltScaleKnowledge> scale = std::nullopt);
 
   [[nodiscard]] std::string_view kind() const override { return "belts"; }
   [[nodiscard]] std::span<const std::string_view> lengths() const override;
@@ -57,6 +65,10 @@ class BeltMechanism final : public Mechanism {
   /// cannot move: it shows as the others moving.
   [[nodiscard]] std::vector<MechanismChange> possible_changes() const override;
 
+  /// The anchors, in the order of the lengths.
+  [[nodiscard]] std::vector<FixedPoint> fixed_points() const override;
+  [[nodiscard]] FrameScale frame_scale() const override;
+
   /// The machine with the values of the parameters.
   [[nodiscard]] const BeltMachine& machine() const { return machine_; }
   [[nodiscard]] const std::vector<belts::ResolvedBeltEffect>& resolved_effects() const {
@@ -81,7 +93,9 @@ inline constexpr double kBeltZeroShiftMm = 5.0;
 inline constexpr double kAnchorShiftMm = 5.0;
 
 [[nodiscard]] std::shared_ptr<const BeltMechanism> make_belt_mechanism(
-    const BeltMachine& machine, std::optional<double> anchor_sigma_mm = std::nullopt);
+    const BeltMachine& machine,
+    std::optional<double> anchor_sigma_mm = std::nullopt,
+    std::optional<BeltScaleKnowledge> scale = std::nullopt);
 
 [[nodiscard]] std::string_view name(BeltFailure failure);
 [[nodiscard]] MechanismFailure mechanism_failure(BeltFailure failure);

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "grid/belts/frame_solver.hpp"
+#include "grid/belts/anchor_fit.hpp"
 #include "grid/belts/measured_belts.hpp"
 
 namespace chaintrue::grid {

@@ -91,6 +91,17 @@ class ToyMechanism final : public Mechanism {
     if (lengths_mm.size() != 3) throw std::invalid_argument("three strings");
     return locate_by_newton(*this, lengths_mm, visit, extent().centre());
   }
+  /// The nails.
+  [[nodiscard]] std::vector<FixedPoint> fixed_points() const override {
+    std::vector<FixedPoint> nails;
+    for (const Eigen::Index i : {0, 1}) {
+      nails.push_back({lengths()[static_cast<std::size_t>(i)],
+                       {values_[i], 0.0},
+                       Eigen::Matrix2Xd::Zero(2, 2)});
+      nails.back().by_parameter(0, i) = 1.0;
+    }
+    return nails;
+  }
 
  private:
   static constexpr effects::EffectParameter kKnotSize[] = {{.name = "knot_mm",

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Anchors and places as a fit has them, and how a machine's anchors stand in a vector. Private to grid/belts and what reads its fits.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "grid/belts/measured_belts.hpp"
+
+namespace chaintrue::grid::belts {
+
+/// Of each point and belt, whether its reading counts.
+using Counting = std::vector<model::PerBelt<bool>>;
+
+/// tl x, tl y, tr x, tr y, br x.
+inline constexpr Eigen::Index kAnchorUnknowns = 5;
+using AnchorVector = Eigen::Matrix<double, kAnchorUnknowns, 1>;
+
+/// What the unknowns are at.
+struct FrameState {
+  AnchorVector anchors = AnchorVector::Zero();
+  double log_scale = 0.0;
+  std::vector<model::FramePoint> places;
+};
+
+struct AnchorFit {
+  FrameState state;
+  Counting counting;
+  double spread_mm = 0.0;
+  Eigen::Index checks = 0;
+  /// Converged, with right anchors right of the left ones and upper above lower ones.
+  bool is_sound = false;
+};
+
+[[nodiscard]] AnchorVector anchors_of(const model::BeltMachine& machine);
+[[nodiscard]] model::BeltMachine with_anchors(model::BeltMachine machine, const AnchorVector& a);
+
+/// The row of a point's belt among all.
+[[nodiscard]] inline Eigen::Index row_of(std::size_t point, model::Belt belt) {
+  return 4 * static_cast<Eigen::Index>(point) + static_cast<Eigen::Index>(belt);
+}
+[[nodiscard]] inline int readings_counting(const model::PerBelt<bool>& counting) {
+  return counting.tl + counting.tr + counting.bl + counting.br;
+}
+/// Readings that count, less two a place and five.
+[[nodiscard]] Eigen::Index checks_of(const Counting& counting);
+
+}  // namespace chaintrue::grid::belts

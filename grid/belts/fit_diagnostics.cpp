@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/belts/fit_diagnostics.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "grid/belts/anchor_estimate.hpp"
+#include "grid/estimation/reading_shifts.hpp"
+#include "model/belts/belt_kinematics.hpp"
+
+namespace chaintrue::grid::belts {
+
+using model::Belt;
+using model::kBelts;
+
+Eigen::MatrixXd FitDiagnostics::Block::precision() const {
+  const Eigen::MatrixXd weighed = line.by_parameter.transpose() * line.weight.asDiagonal();
+  return weighed * (line.by_parameter - line.by_position * by_unknown);
+}
+
+Eigen::VectorXd FitDiagnostics::Block::gradient() const {
+  const Eigen::VectorXd weighed = line.weight.cwiseProduct(line.residual_mm);
+  return (line.by_parameter - line.by_position * by_unknown).transpose() * weighed;
+}
+
+FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& frame)
+    : frame_(frame), mechanism_(mechanism_at(belts, frame.state)), slots_(belts.points.size()) {
+  const auto readings = readings_of(belts, frame_.counting, frame_.spread_mm);
+  const observation::View view(mechanism_);
+  const Eigen::Index unknowns = mechanism_->values().size();
+  const auto rows = 4 * static_cast<Eigen::Index>(belts.points.size());
+  equations_.residual = Eigen::VectorXd::Zero(rows);
+  equations_.by_place = Eigen::MatrixX2d::Zero(rows, 2);
+  precision_ = Eigen::MatrixXd::Zero(unknowns, unknowns);
+  for (const auto& own : readings.blocks()) {
+    auto line = readings.block_line(view, own, true);
+    if (!line) {
+      precision_.setConstant(std::numeric_limits<double>::quiet_NaN());
+      continue;
+    }
+    line->weight /= frame_.spread_mm * frame_.spread_mm;
+    Block block{*std::move(line), {}, {}, !own.distances.empty()};
+    const Eigen::MatrixXd weighed =
+        block.line.by_position.transpose() * block.line.weight.asDiagonal();
+    const Eigen::Index positions = block.line.by_position.cols();
+    block.inverse = (weighed * block.line.by_position)
+                        .llt()
+                        .solve(Eigen::MatrixXd::Identity(positions, positions));
+    block.by_unknown = block.inverse * (weighed * block.line.by_parameter);
+    precision_ += block.precision();
+    for (std::size_t p = 0; p < own.places.size(); ++p) {
+      const std::size_t point = readings.readings()[own.places[p]].index;
+      const auto slot = static_cast<Eigen::Index>(p);
+      slots_[point] = Slot{blocks_.size(), slot};
+      equations_.residual.segment<4>(row_of(point, Belt::tl)) =
+          block.line.residual_mm.segment<4>(4 * slot);
+      equations_.by_place.middleRows<4>(row_of(point, Belt::tl)) =
+          block.line.by_position.block<4, 2>(4 * slot, 2 * slot);
+    }
+    blocks_.push_back(std::move(block));
+  }
+  covariance_ = precision_.ldlt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
+  add_unplaced(belts);
+  equations_.distance_residual.resize(static_cast<Eigen::Index>(belts.distances.size()));
+  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
+    const auto at = distance_at(belts, *mechanism_, frame_.state, belts.distances[i]);
+    equations_.distance_residual[static_cast<Eigen::Index>(i)] =
+        at ? (belts.distances[i].distance_mm - at->predicted_mm) / belts.distances[i].sigma_mm
+           : std::numeric_limits<double>::infinity();
+  }
+}
+
+/// Of points that too few readings place: about where they lie in the fit.
+void FitDiagnostics::add_unplaced(const MeasuredBelts& belts) {
+  const model::BeltMachine machine = with_anchors(belts.machine, frame_.state.anchors);
+  for (std::size_t k = 0; k < slots_.size(); ++k) {
+    if (slots_[k]) continue;
+    for (const Belt belt : kBelts) {
+      const auto reading = model::reading_at(machine, belt, frame_.state.places[k]);
+      if (!reading) continue;
+      equations_.residual[row_of(k, belt)] = belts.points[k].lengths_mm[belt] - reading->length_mm;
+      equations_.by_place.row(row_of(k, belt)) = reading->by_place;
+    }
+  }
+}
+
+std::optional<FitDiagnostics::Expected> FitDiagnostics::expected(
+    const MeasuredBelts& belts, const BeltDistance& distance) const {
+  const auto line = distance_at(belts, *mechanism_, frame_.state, distance);
+  if (!line) return std::nullopt;
+  Eigen::VectorXd by_unknown = line->by_parameter.transpose();
+  std::vector<std::pair<Slot, Eigen::RowVector2d>> ends;
+  for (std::size_t e = 0; e < 2; ++e) {
+    const auto* point = std::get_if<std::size_t>(e == 0 ? &distance.from : &distance.to);
+    if (point == nullptr) continue;
+    if (!slots_[*point]) return std::nullopt;
+    ends.emplace_back(*slots_[*point], line->by_end[e]);
+    by_unknown -= blocks_[ends.back().first.block]
+                      .by_unknown.middleRows<2>(2 * ends.back().first.place)
+                      .transpose() *
+                  line->by_end[e].transpose();
+  }
+  const Eigen::VectorXd with_all = covariance_ * by_unknown;
+  Expected result{line->predicted_mm, by_unknown.dot(with_all), 0.0};
+  for (const auto& [slot, by_end] : ends) {
+    for (const auto& [other, by_other] : ends) {
+      if (slot.block != other.block) continue;
+      result.variance_mm2 +=
+          by_end * blocks_[slot.block].inverse.block<2, 2>(2 * slot.place, 2 * other.place) *
+          by_other.transpose();
+    }
+  }
+  if (has_scale()) result.with_scale = with_all[kAnchorUnknowns];
+  return result;
+}
+
+bool FitDiagnostics::is_taped(std::size_t point) const {
+  return slots_[point] && blocks_[slots_[point]->block].is_taped;
+}
+
+FitDiagnostics::ReadingRow FitDiagnostics::row_at(const Slot& slot, Belt belt) const {
+  const Block& block = blocks_[slot.block];
+  const Eigen::Index row = 4 * slot.place + static_cast<Eigen::Index>(belt);
+  ReadingRow result{block.line.by_position.row(row), block.line.by_parameter.row(row).transpose()};
+  result.by_unknown -= block.by_unknown.transpose() * result.by_position.transpose();
+  return result;
+}
+
+Eigen::Matrix2d FitDiagnostics::place_covariance_mm2(std::size_t point) const {
+  if (!slots_[point]) return Eigen::Matrix2d::Zero();
+  const Block& block = blocks_[slots_[point]->block];
+  const Eigen::Index at = 2 * slots_[point]->place;
+  const Eigen::Matrix2Xd gain = block.by_unknown.middleRows<2>(at);
+  return block.inverse.block<2, 2>(at, at) + gain * covariance_ * gain.transpose();
+}
+
+Eigen::VectorXd FitDiagnostics::influence(std::size_t point, Belt belt) const {
+  const double weight = 1.0 / (frame_.spread_mm * frame_.spread_mm);
+  return weight * (covariance_ * row_at(slots_[point].value(), belt).by_unknown);
+}
+
+BeltResidual FitDiagnostics::residual(std::size_t point, Belt belt) const {
+  BeltResidual result;
+  const double r = equations_.residual[row_of(point, belt)];
+  result.off_mm = r;
+  result.counts = counts(point, belt);
+  result.beside_mm = r;
+  if (!slots_[point]) return result;
+  const double s2 = frame_.spread_mm * frame_.spread_mm;
+  const ReadingRow row = row_at(*slots_[point], belt);
+  const double own_share =
+      row.by_position * blocks_[slots_[point]->block].inverse * row.by_position.transpose();
+  const double h = (own_share + row.by_unknown.dot(covariance_ * row.by_unknown)) / s2;
+  const auto n = static_cast<double>(frame_.checks);
+  if (!result.counts) {
+    if (n >= 1.0)
+      result.sigmas = estimation::normal_deviate(r / (frame_.spread_mm * std::sqrt(1.0 + h)), n);
+    return result;
+  }
+  if (1.0 - h < estimation::kOwnWord || n < 2.0) return result;
+  result.beside_mm = r / (1.0 - h);
+  result.sigmas = estimation::deleted_deviate(r, 1.0 - h, s2, n);
+  return result;
+}
+
+AnchorVector FitDiagnostics::anchors_without(std::size_t point) const {
+  const Block& block = blocks_[slots_[point].value().block];
+  const Eigen::VectorXd change = (precision_ - block.precision()).ldlt().solve(-block.gradient());
+  return frame_.state.anchors + change.head<kAnchorUnknowns>();
+}
+
+}  // namespace chaintrue::grid::belts

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What is known about a fit of anchors: covariances, residuals, readings and places left out. Private
+/// to grid/belts and what reads its fits.
+///
+/// Notation, of a block of places that are found together (belt_lengths.hpp)
+///   a       anchors, with a tape the logarithm of the scale                       p
+///   p_b     positions of the block
+///   r, w    what was read less predicted, and 1 / sigma^2, 0 of what does not count
+///   J, A    d(predicted)/d(p_b), d(predicted)/d(a)
+///   V = J' w J,   G = V^-1 J' w A
+///
+///   cov a = (sum_b A' w A - A' w J G)^-1,   cov p_b = V^-1 + G cov(a) G'                     (1)
+///
+/// Of a reading with rows j and x = a - j G,  h = w (j V^-1 j' + x cov(a) x'):
+///
+///   deleted = r / (1 - h)                read less what all others make of it               (2)
+///   t       = r / (s_out sqrt(1 - h)),   s_out^2 = (s^2 n - r^2 / (1 - h)) / (n - 1)        (3)
+///
+/// with n checks and spread s. Of one that is rejected deleted = r, and s^2 (1 + h) is its variance.
+///
+/// Source: B. Triggs et al., Bundle Adjustment - A Modern Synthesis (2000), section 6, for (1).
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "grid/belts/anchor_fit.hpp"
+#include "grid/belts/belts_fit.hpp"
+#include "grid/observation/belt_lengths.hpp"
+
+namespace chaintrue::grid::belts {
+
+/// Residuals of all readings, those that do not count too, and how places move them.
+struct FitResiduals {
+  Eigen::VectorXd residual;           ///< 4 N, mm
+  Eigen::MatrixX2d by_place;          ///< 4 N x 2
+  Eigen::VectorXd distance_residual;  ///< in sigmas
+};
+
+class FitDiagnostics {
+ public:
+  FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& frame);
+
+  [[nodiscard]] const FitResiduals& equations() const { return equations_; }
+  [[nodiscard]] double sigma_mm() const { return frame_.spread_mm; }
+  [[nodiscard]] const AnchorFit& frame() const { return frame_; }
+  /// Of a. Not finite, or with a negative diagonal, where it is not determined.
+  [[nodiscard]] const Eigen::MatrixXd& covariance() const { return covariance_; }
+  /// cov(a)^-1.
+  [[nodiscard]] const Eigen::MatrixXd& precision() const { return precision_; }
+  [[nodiscard]] bool has_scale() const { return covariance_.cols() > kAnchorUnknowns; }
+  [[nodiscard]] bool counts(std::size_t point, model::Belt belt) const {
+    return is_placed(point) && frame_.counting[point][belt];
+  }
+  /// At least two of its readings count.
+  [[nodiscard]] bool is_placed(std::size_t point) const { return slots_[point].has_value(); }
+  /// A tape ends there.
+  [[nodiscard]] bool is_taped(std::size_t point) const;
+  [[nodiscard]] Eigen::Matrix2d place_covariance_mm2(std::size_t point) const;
+  /// w cov(a) x': how a answers to a reading.
+  [[nodiscard]] Eigen::VectorXd influence(std::size_t point, model::Belt belt) const;
+  [[nodiscard]] BeltResidual residual(std::size_t point, model::Belt belt) const;
+  /// What the fit makes of a distance, and how well it knows it.
+  struct Expected {
+    double mm = 0.0;
+    double variance_mm2 = 0.0;
+    double with_scale = 0.0;  ///< covariance with the scale's logarithm, where there is one
+  };
+  /// Empty where too few readings place an end of it.
+  [[nodiscard]] std::optional<Expected> expected(const MeasuredBelts& belts,
+                                                 const BeltDistance& distance) const;
+  /// The anchors without any reading of a point that no tape holds, to first order.
+  [[nodiscard]] AnchorVector anchors_without(std::size_t point) const;
+
+ private:
+  struct Block {
+    observation::BlockLine line;
+    Eigen::MatrixXd inverse;     ///< V^-1
+    Eigen::MatrixXd by_unknown;  ///< G
+    bool is_taped = false;
+    /// A' w A - A' w J G, and the gradient A' w r - G' J' w r.
+    [[nodiscard]] Eigen::MatrixXd precision() const;
+    [[nodiscard]] Eigen::VectorXd gradient() const;
+  };
+  /// Where a point stands in its block.
+  struct Slot {
+    std::size_t block = 0;
+    Eigen::Index place = 0;
+  };
+  /// j and x of a reading.
+  struct ReadingRow {
+    Eigen::RowVectorXd by_position;
+    Eigen::VectorXd by_unknown;
+  };
+  [[nodiscard]] ReadingRow row_at(const Slot& slot, model::Belt belt) const;
+  void add_unplaced(const MeasuredBelts& belts);
+
+  AnchorFit frame_;
+  std::shared_ptr<const model::Mechanism> mechanism_;
+  std::vector<Block> blocks_;
+  std::vector<std::optional<Slot>> slots_;
+  FitResiduals equations_;
+  Eigen::MatrixXd precision_;
+  Eigen::MatrixXd covariance_;
+};
+
+}  // namespace chaintrue::grid::belts

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/belts/holes_estimate.hpp"
+
+#include <Eigen/Cholesky>
+
+#include "grid/belts/anchor_estimate.hpp"
+#include "grid/belts/belts_and_holes.hpp"
+#include "model/belts/belt_mechanism.hpp"
+
+namespace chaintrue::grid::belts {
+namespace {
+
+Eigen::VectorXd frame_vector(const FrameState& state) {
+  Eigen::VectorXd x(kFrameUnknowns);
+  x << state.anchors, state.log_scale;
+  return x;
+}
+
+}  // namespace
+
+Eigen::MatrixXd taped_covariance(const std::vector<BeltHoles>& sets,
+                                 const TapedRows& rows,
+                                 const TapedNoise& noise,
+                                 const std::vector<bool>& counting) {
+  const Eigen::Index count = rows.residual_mm.size();
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
+  Eigen::Index row = 0;
+  Eigen::Index hole = 0;
+  for (const BeltHoles& set : sets) {
+    const auto own = static_cast<Eigen::Index>(set.set.distances.size());
+    const auto holes = static_cast<Eigen::Index>(set.set.holes.size());
+    HoleRows part;
+    part.residual_mm = rows.residual_mm.segment(row, own);
+    part.by_mark = rows.by_mark.block(row, 2 * hole, own, 2 * holes);
+    part.by_size = rows.by_size.middleRows(row, own);
+    part.by_sheet = rows.by_sheet.middleRows(row, own);
+    covariance.block(row, row, own, own) = hole_covariance(set, part, noise.factor);
+    row += own;
+    hole += holes;
+  }
+  if (noise.size_mm > 0.0) {
+    const Eigen::MatrixXd kernel = displacement_kernel(rows.marks, rows.marks, noise.reach_mm);
+    for (const Eigen::Index axis : {0, 1}) {
+      const Eigen::MatrixXd by_axis =
+          rows.by_mark(Eigen::all, Eigen::seq(axis, Eigen::last, Eigen::fix<2>));
+      covariance += noise.size_mm * noise.size_mm * by_axis * kernel * by_axis.transpose();
+    }
+  }
+  for (Eigen::Index k = 0; k < count; ++k) {
+    if (!counting[static_cast<std::size_t>(k)]) covariance(k, k) += kRejectedMm2;
+  }
+  return covariance;
+}
+
+HolesEstimate::HolesEstimate(const MeasuredBelts& belts,
+                             const std::vector<BeltHoles>& sets,
+                             AnchorFit alone)
+    : belts_(belts), sets_(sets), alone_(std::move(alone)) {}
+
+WithoutHoles HolesEstimate::without_holes(const FrameState& state) const {
+  Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(kFrameUnknowns, kFrameUnknowns);
+  precision(kAnchorUnknowns, kAnchorUnknowns) = 1.0 / (kBeltScaleSigma * kBeltScaleSigma);
+  WithoutHoles result;
+  if (belts_.points.empty()) {
+    precision.diagonal().head<kAnchorUnknowns>().setConstant(1.0 /
+                                                             (kStatedAnchorMm * kStatedAnchorMm));
+  } else {
+    AnchorFit there = alone_;
+    there.state = state;
+    result.view.emplace(belts_, there);
+    const Eigen::MatrixXd& own = result.view->precision();
+    precision.topLeftCorner(own.rows(), own.cols()) += own;
+  }
+  result.covariance =
+      precision.ldlt().solve(Eigen::MatrixXd::Identity(kFrameUnknowns, kFrameUnknowns));
+  return result;
+}
+
+Eigen::VectorXd HolesEstimate::about_the_belts(const TapedRows& rows,
+                                               const FrameState& state) const {
+  return rows.residual_mm + rows.by_frame * (frame_vector(state) - frame_vector(alone_.state));
+}
+
+std::optional<FrameState> HolesEstimate::converged(const FrameState& state,
+                                                   const Eigen::MatrixXd& covariance) const {
+  const bool has_points = !belts_.points.empty();
+  estimation::EstimationInput input = anchor_input(belts_, alone_.counting, state.anchors);
+  input.noise.knowledge = interp::NoiseKnowledge::exact;
+  input.observations.clear();
+  const auto readings = std::make_shared<const observation::BeltLengthReadings>(
+      readings_of(belts_, alone_.counting, has_points ? alone_.spread_mm : 1.0));
+  if (has_points) input.observations.push_back(readings);
+  input.observations.push_back(std::make_shared<const HoleDistances>(sets_, covariance));
+  Eigen::Index units = 0;
+  for (const auto& own : input.observations)
+    units += static_cast<Eigen::Index>(own->units().size());
+  input.fixed_weights = Eigen::VectorXd::Ones(units);
+  model::BeltMachine machine = belts_.machine;
+  machine.anchors_known = !has_points;
+  input.mechanism = model::make_belt_mechanism(
+                        machine, kStatedAnchorMm, model::BeltScaleKnowledge{kBeltScaleSigma})
+                        ->with_values(frame_vector(state));
+  const auto estimate = estimation::estimate(input);
+  if (!estimate || !estimate->settled) return std::nullopt;
+  AnchorFit fit;
+  fit.state.anchors = estimate->mechanism->values().head<kAnchorUnknowns>();
+  fit.state.log_scale = estimate->mechanism->values()[kAnchorUnknowns];
+  if (has_points) place_all(belts_, *readings, estimate->mechanism, fit);
+  return fit.state;
+}
+
+}  // namespace chaintrue::grid::belts

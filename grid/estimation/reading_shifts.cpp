@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/estimation/reading_shifts.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+namespace chaintrue::grid::estimation {
+namespace {
+
+/// Of a direction's square: what is less is rounding.
+constexpr double kNoDirection = 1e-12;
+
+}  // namespace
+
+double normal_deviate(double t, double dof) {
+  return (8.0 * dof + 1.0) / (8.0 * dof + 3.0) * std::sqrt(dof * std::log1p(t * t / dof));
+}
+
+double deleted_deviate(double r, double kept, double s2, double dof) {
+  const double left = std::max(s2 * dof - r * r / kept, 1e-12 * s2) / (dof - 1.0);
+  return normal_deviate(r / std::sqrt(left * kept), dof - 1.0);
+}
+
+Eigen::MatrixXd without_readings(const SystemUnit& unit,
+                                 const std::vector<Eigen::Index>& rejected) {
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(unit.rows, unit.rows);
+  if (rejected.empty()) return basis;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> taken(unit.by_reading(Eigen::all, rejected));
+  basis = taken.householderQ() * basis;
+  return basis.rightCols(unit.rows - taken.rank());
+}
+
+ReadingShift shift_of(const FittedRows& rows,
+                      const SystemUnit& unit,
+                      const std::vector<Eigen::Index>& rejected,
+                      Eigen::Index reading) {
+  std::vector<Eigen::Index> others = rejected;
+  const bool counts = std::erase(others, reading) == 0;
+  const Eigen::MatrixXd basis = without_readings(unit, others);
+  const Eigen::VectorXd d = basis.transpose() * unit.by_reading.col(reading);
+  const double own = d.squaredNorm();
+  ReadingShift shift;
+  if (own <= kNoDirection * unit.by_reading.col(reading).squaredNorm()) return shift;
+  const Eigen::VectorXd along = basis * d;
+  const double r = along.dot(rows.residual.segment(unit.first_row, unit.rows));
+  const Eigen::VectorXd by_unknown =
+      rows.design.middleRows(unit.first_row, unit.rows).transpose() * along;
+  const double spread = by_unknown.dot(rows.fit.covariance * by_unknown);
+  const double s2 = rows.fit.sigma2;
+  const double n = rows.dof;
+  if (!counts) {
+    shift.off_mm = r / own;
+    if (n >= 1.0) shift.sigmas = normal_deviate(r / std::sqrt(s2 * own + spread), n);
+    return shift;
+  }
+  const double kept = own - spread / s2;
+  // The share is of a whole reading: what it adds to the rows is less than its own sigma by what its
+  // place takes.
+  const double whole = unit.whitening.matrix().row(0).squaredNorm();
+  if (kept < kOwnWord * whole || n < 2.0) return shift;
+  shift.off_mm = r / kept;
+  shift.sigmas = deleted_deviate(r, kept, s2, n);
+  return shift;
+}
+
+}  // namespace chaintrue::grid::estimation

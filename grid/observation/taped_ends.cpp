@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/observation/taped_ends.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace chaintrue::grid::observation {
+namespace {
+
+struct PlacedEnd {
+  Eigen::Vector2d at;
+  Eigen::Matrix2Xd by_parameter;
+};
+
+using MaybePlaced = tl::expected<PlacedEnd, model::MechanismFailure>;
+
+constexpr model::MechanismFailure kNoHole{
+    "no_hole", "the lengths that were paid out for a hole end nowhere together"};
+
+MaybePlaced hole_at(const model::Mechanism& mechanism, const AtHole& hole) {
+  const auto at =
+      model::locate_by_newton(mechanism, hole.lengths_mm, {}, hole.meant, hole.deciding);
+  if (!at) return tl::unexpected(at.error());
+  const auto there = mechanism.predict(*at, {});
+  if (!there) return tl::unexpected(there.error());
+  // Lengths that end nowhere together have a nearest position, and no hole.
+  constexpr double kTogetherMm = 1e-6;
+  for (std::size_t i = 0; i < hole.deciding.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (hole.deciding[i] &&
+        !(std::abs(hole.lengths_mm[row] - there->lengths_mm[row]) < kTogetherMm))
+      return tl::unexpected(kNoHole);
+  }
+  Eigen::Matrix2d by_position;
+  Eigen::Matrix2Xd by_parameter(2, mechanism.values().size());
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < hole.deciding.size() && row < 2; ++i) {
+    if (!hole.deciding[i]) continue;
+    by_position.row(row) = there->by_position.row(static_cast<Eigen::Index>(i));
+    by_parameter.row(row++) = there->by_parameter.row(static_cast<Eigen::Index>(i));
+  }
+  return PlacedEnd{{at->x_mm, at->y_mm}, -by_position.inverse() * by_parameter};
+}
+
+MaybePlaced placed(const model::Mechanism& mechanism,
+                   const TapeEnd& end,
+                   const model::ToolPosition& place) {
+  const Eigen::Index parameters = mechanism.values().size();
+  if (const auto* hole = std::get_if<AtHole>(&end)) return hole_at(mechanism, *hole);
+  if (const auto* fixed = std::get_if<AtFixedPoint>(&end)) {
+    const model::FixedPoint point = mechanism.fixed_points().at(fixed->index);
+    return PlacedEnd{{point.at.x_mm, point.at.y_mm}, point.by_parameter};
+  }
+  return PlacedEnd{{place.x_mm, place.y_mm}, Eigen::Matrix2Xd::Zero(2, parameters)};
+}
+
+}  // namespace
+
+tl::expected<DistanceLine, model::MechanismFailure> distance_line(
+    const model::Mechanism& mechanism,
+    const TapedDistance& distance,
+    const std::array<model::ToolPosition, 2>& places) {
+  const auto from = placed(mechanism, distance.from, places[0]);
+  if (!from) return tl::unexpected(from.error());
+  const auto to = placed(mechanism, distance.to, places[1]);
+  if (!to) return tl::unexpected(to.error());
+  const model::FrameScale scale = mechanism.frame_scale();
+  const Eigen::Vector2d way = to->at - from->at;
+  const Eigen::RowVector2d along = scale.factor * way.normalized().transpose();
+  return DistanceLine{
+      scale.factor * way.norm(),
+      {-along, along},
+      along * (to->by_parameter - from->by_parameter) + way.norm() * scale.by_parameter};
+}
+
+}  // namespace chaintrue::grid::observation

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Distances that a person taped between positions of a mechanism's tool: where it stood, points of
+/// the mechanism itself, and holes that it cut.
+///
+///   a, b   ends, in the mechanism's frame
+///   s      true millimetres over those of the frame
+///
+///   d = s |b - a|                                                                            (1)
+///
+/// A hole lies where the lengths that decide where the tool goes, as the controller paid them out,
+/// put it: f(q) = l, dq/dtheta = -J^-1 df/dtheta.
+///
+/// \code
+///   const TapedDistance distance{AtPlace{4}, AtFixedPoint{0}, 1834.0, 1.0};
+///   const auto line = distance_line(mechanism, distance, {position_of_place_4, {}});
+///   if (line) residual = distance.distance_mm - line->predicted_mm;
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <tl/expected.hpp>
+#include <variant>
+
+#include "model/mechanism.hpp"
+
+namespace chaintrue::grid::observation {
+
+/// A place at which lengths were read, by its number in the file.
+struct AtPlace {
+  std::size_t index = 0;
+};
+/// One of Mechanism::fixed_points().
+struct AtFixedPoint {
+  std::size_t index = 0;
+};
+struct AtHole {
+  Eigen::VectorXd lengths_mm;  ///< paid out
+  std::vector<bool> deciding;  ///< two lengths that say where the tool goes
+  model::ToolPosition meant;   ///< where the controller means it to go
+};
+using TapeEnd = std::variant<AtPlace, AtFixedPoint, AtHole>;
+
+struct TapedDistance {
+  TapeEnd from;
+  TapeEnd to;
+  double distance_mm = 0.0;
+  double sigma_mm = 1.0;  ///< of the tape, and of what its ends stand for
+};
+
+/// (1) and its derivatives: by the positions of its ends, where they are places, and by theta.
+struct DistanceLine {
+  double predicted_mm = 0.0;
+  std::array<Eigen::RowVector2d, 2> by_end;
+  Eigen::RowVectorXd by_parameter;
+};
+
+/// `places` are the positions of its ends, of which those that are no places are not looked at.
+[[nodiscard]] tl::expected<DistanceLine, model::MechanismFailure> distance_line(
+    const model::Mechanism& mechanism,
+    const TapedDistance& distance,
+    const std::array<model::ToolPosition, 2>& places);
+
+}  // namespace chaintrue::grid::observation

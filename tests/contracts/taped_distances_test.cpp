@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Laws of distances that were taped between positions of any mechanism: four belts with a scale, and
+/// a toy that no product code knows.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "grid/observation/belt_lengths.hpp"
+#include "model/belts/belt_mechanism.hpp"
+#include "tests/contracts/toy_mechanism.hpp"
+
+namespace chaintrue::grid::observation {
+namespace {
+
+using MechanismPtr = std::shared_ptr<const model::Mechanism>;
+
+MechanismPtr belts() {
+  model::BeltMachine machine;
+  machine.anchors_known = true;
+  machine.lengths = model::BeltLengths::belt_and_arm;
+  machine.anchors = {
+      {-27.6, 2064.9, 100.0}, {2924.3, 2066.5, 56.0}, {0.0, 0.0, 34.0}, {2953.2, 0.0, 78.0}};
+  const auto made = model::make_belt_mechanism(machine, 20.0, model::BeltScaleKnowledge{0.02});
+  Eigen::VectorXd values = made->values();
+  values[5] = 0.004;
+  return made->with_values(values);
+}
+
+MechanismPtr toy() { return std::make_shared<const model::ToyMechanism>(-1000.0, 1200.0); }
+
+/// Some way into the extent.
+model::ToolPosition within(const model::Mechanism& mechanism, double x, double y) {
+  const model::MechanismExtent e = mechanism.extent();
+  return {e.x_min_mm + x * (e.x_max_mm - e.x_min_mm), e.y_min_mm + y * (e.y_max_mm - e.y_min_mm)};
+}
+
+AtHole hole(const model::Mechanism& mechanism, double x, double y) {
+  const model::ToolPosition meant = within(mechanism, x, y);
+  std::vector<bool> deciding(mechanism.lengths().size(), false);
+  deciding[0] = deciding[1] = true;
+  return {mechanism.predict(meant, {})->lengths_mm, deciding, meant};
+}
+
+/// Between every two kinds of ends.
+std::vector<TapedDistance> distances(const model::Mechanism& mechanism) {
+  const std::vector<TapeEnd> from = {AtPlace{0}, AtFixedPoint{0}, hole(mechanism, 0.2, 0.3)};
+  const std::vector<TapeEnd> to = {AtPlace{1}, AtFixedPoint{1}, hole(mechanism, 0.8, 0.7)};
+  std::vector<TapedDistance> all;
+  for (const TapeEnd& a : from) {
+    for (const TapeEnd& b : to) all.push_back({a, b, 0.0, 1.0});
+  }
+  return all;
+}
+
+TEST(TapedDistances, DerivativesAreThoseOfDifferences) {
+  for (const MechanismPtr& mechanism : {belts(), toy()}) {
+    SCOPED_TRACE(mechanism->kind());
+    const std::array<model::ToolPosition, 2> places = {within(*mechanism, 0.3, 0.4),
+                                                       within(*mechanism, 0.7, 0.6)};
+    for (const TapedDistance& distance : distances(*mechanism)) {
+      const auto line = distance_line(*mechanism, distance, places);
+      ASSERT_TRUE(line);
+      const auto at = [&](const model::Mechanism& other,
+                          const std::array<model::ToolPosition, 2>& ends) {
+        return distance_line(other, distance, ends).value().predicted_mm;
+      };
+      for (Eigen::Index p = 0; p < mechanism->values().size(); ++p) {
+        const bool is_scale = mechanism->parameters()[static_cast<std::size_t>(p)].unit.empty();
+        const double step = is_scale ? 1e-6 : 0.01;
+        const Eigen::VectorXd move = step * Eigen::VectorXd::Unit(mechanism->values().size(), p);
+        const double slope = (at(*mechanism->with_values(mechanism->values() + move), places) -
+                              at(*mechanism->with_values(mechanism->values() - move), places)) /
+                             (2.0 * step);
+        // A position of a hole is found to 1e-9 mm, over the step; the scale's by metres of way.
+        EXPECT_NEAR(line->by_parameter[p], slope, is_scale ? 1e-2 : 1e-6);
+      }
+      for (std::size_t e = 0; e < 2; ++e) {
+        const bool is_place = std::holds_alternative<AtPlace>(e == 0 ? distance.from : distance.to);
+        for (const int axis : {0, 1}) {
+          constexpr double kStep = 0.01;
+          auto up = places;
+          auto down = places;
+          (axis == 0 ? up[e].x_mm : up[e].y_mm) += kStep;
+          (axis == 0 ? down[e].x_mm : down[e].y_mm) -= kStep;
+          const double slope = (at(*mechanism, up) - at(*mechanism, down)) / (2.0 * kStep);
+          // Third derivatives of metres, and rounding.
+          if (is_place) {
+            EXPECT_NEAR(line->by_end[e][axis], slope, 1e-8);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(TapedDistances, OneThatCannotBeReachedHasAName) {
+  const MechanismPtr mechanism = belts();
+  AtHole nowhere = hole(*mechanism, 0.5, 0.5);
+  nowhere.lengths_mm.head<2>().setConstant(200.0);
+  const auto line = distance_line(*mechanism, {nowhere, AtFixedPoint{0}, 100.0, 1.0}, {});
+  ASSERT_FALSE(line);
+  EXPECT_FALSE(line.error().name.empty());
+}
+
+/// Four belts at three places, two of which a tape joins.
+struct Taped {
+  MechanismPtr mechanism = belts();
+  std::vector<LengthsAtPlace> places;
+  std::vector<TapedDistance> distances;
+};
+
+Taped taped() {
+  Taped set;
+  std::vector<model::ToolPosition> at;
+  for (const auto& [x, y] : {std::pair(0.2, 0.3), std::pair(0.6, 0.5), std::pair(0.8, 0.8)}) {
+    at.push_back(within(*set.mechanism, x, y));
+    LengthsAtPlace place;
+    place.index = set.places.size();
+    place.name = std::to_string(set.places.size() + 1);
+    place.lengths_mm = set.mechanism->predict(at.back(), {})->lengths_mm;
+    set.places.push_back(std::move(place));
+  }
+  TapedDistance distance{AtPlace{0}, AtPlace{2}, 0.0, 0.5};
+  distance.distance_mm =
+      distance_line(*set.mechanism, distance, {at[0], at[2]}).value().predicted_mm;
+  set.distances.push_back(distance);
+  return set;
+}
+
+TEST(TapedDistances, JoinPlacesToABlockWithARowMoreThanTheyLeaveAlone) {
+  const Taped set = taped();
+  const BeltLengthReadings alone(set.places, false, {.length_mm = 0.5}, 15.0);
+  const BeltLengthReadings with(set.places, false, {.length_mm = 0.5}, 15.0, set.distances);
+  EXPECT_EQ(alone.rows(), 6);
+  EXPECT_EQ(with.rows(), 7);
+  ASSERT_EQ(with.blocks().size(), 2U);
+  const auto line = with.linearise(View(set.mechanism), columns_of(with));
+  ASSERT_TRUE(line);
+  // What was read is what is predicted: lengths and distance agree, to what positions are found to.
+  EXPECT_LT((with.measured() - line->predicted).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+TEST(TapedDistances, AnEndAtWhichTooFewLengthsCountSaysNothing) {
+  Taped set = taped();
+  set.places[2].counting = {true, false, false, false};
+  const BeltLengthReadings with(set.places, false, {.length_mm = 0.5}, 15.0, set.distances);
+  EXPECT_EQ(with.rows(), 4);
+}
+
+TEST(TapedDistances, ToAPositionThatIsKnownThrows) {
+  Taped set = taped();
+  set.places[2].known = within(*set.mechanism, 0.8, 0.8);
+  EXPECT_THROW(BeltLengthReadings(set.places, false, {.length_mm = 0.5}, 15.0, set.distances),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::observation
