@@ -9,12 +9,17 @@ option(CHAINTRUE_UNITY_BUILD "Compile several sources of a library at a time" ON
 set(chaintrue_common_headers
   <algorithm> <array> <charconv> <cmath> <filesystem> <functional> <map> <memory> <optional> <set> <span> <string>
   <string_view> <tuple> <variant> <vector>
-  <Eigen/Cholesky> <Eigen/Core> <Eigen/LU> <Eigen/QR> <fmt/format.h> <tl/expected.hpp>)
+  <Eigen/Cholesky> <Eigen/Core> <Eigen/LU> <Eigen/QR> <fmt/format.h> <tl/expected.hpp>
+  ${PROJECT_SOURCE_DIR}/tools/cmake/eigen_instances.hpp)
 
 # chaintrue_precompile(NAME library header...): a library that contains only its precompiled
-# headers.
+# headers, and chaintrue_common the code of eigen_instances.hpp.
 function(chaintrue_precompile name libraries)
-  file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "namespace {}\n")
+  set(content "namespace {}\n")
+  if(name STREQUAL "chaintrue_common")
+    set(content "CHAINTRUE_EIGEN_INSTANCES(template)\n")
+  endif()
+  file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "${content}")
   add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   target_link_libraries(${name} PRIVATE ${libraries} chaintrue_flags)
   target_precompile_headers(${name} PRIVATE ${ARGN})
@@ -25,6 +30,14 @@ endfunction()
 function(chaintrue_use_precompiled target library)
   if(CHAINTRUE_PRECOMPILED_HEADERS)
     target_precompile_headers(${target} REUSE_FROM ${library})
+  endif()
+endfunction()
+
+# chaintrue_hold_instances(target): a library that uses no other library of the project contains the
+# code of eigen_instances.hpp, for itself and for whatever links it.
+function(chaintrue_hold_instances target)
+  if(CHAINTRUE_PRECOMPILED_HEADERS)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:chaintrue_common>)
   endif()
 endfunction()
 
