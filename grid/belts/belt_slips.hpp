@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "grid/belts/anchor_fit.hpp"
 #include "grid/belts/measured_belts.hpp"
-#include "grid/belts/settled_frame.hpp"
 
 namespace chaintrue::grid {
 
