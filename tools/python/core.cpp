@@ -158,9 +158,9 @@ grid::MeasuredGrid grid_of(const Pairs& marks,
 /// On the causes that are found.
 grid::CompensationMap fit_on_causes(const grid::Measured& measured, bool accept_class) {
   const py::gil_scoped_release others_may_work;
-  return value_or_throw(
-             grid::diagnosis::fit_with_causes(measured, {.accept_class = accept_class}))
-      .fit.map;
+  grid::diagnosis::CausesFitOptions options;
+  options.accept_class = accept_class;
+  return value_or_throw(grid::diagnosis::fit_with_causes(measured, options)).fit.map;
 }
 
 grid::CompensationMap fit_points(const grid::MeasuredGrid& grid, bool direct) {
