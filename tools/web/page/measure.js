@@ -3,6 +3,7 @@
 import {CHECK_FAILED, DONE, problemOf, runVerb, sentenceList, sentencesOf} from "./command.js";
 import {bytesOf, download, h, textOf} from "./dom.js";
 import {reportFrame} from "./frame.js";
+import {settingsWords} from "./numbers.js";
 import {Readings} from "./readings.js";
 import {Sheet} from "./sheet.js";
 
@@ -119,7 +120,7 @@ async function judge(page, readings, said) {
     return;
   }
   const isCheck = path === NEW_POINTS;
-  const words = isCheck ? ["check", "map.json", path, "--machine", "machine.json"]
+  const words = isCheck ? ["check", "map.json", path, "--machine", "machine.json", ...settingsWords(page.store.folder)]
     : ["fit", path, "--machine", "machine.json", "-o", "map.json", "--force", "--verbose"];
   const result = await runVerb(page, words, {quiet: true, supersede: "judge"});
   if (!result || page.store.folder[path] !== text) return;

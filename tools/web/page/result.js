@@ -4,6 +4,7 @@ import {DONE, printed, runVerb, sentenceList, sentencesAbout, sentencesOf} from 
 import {bytesOf, download, h, textOf} from "./dom.js";
 import {reportFrame} from "./frame.js";
 import {chooseWay, fittedList, NEW_POINTS} from "./measure.js";
+import {Numbers} from "./numbers.js";
 import {Sheet} from "./sheet.js";
 
 export function resultStep(page) {
@@ -11,7 +12,7 @@ export function resultStep(page) {
   const noise = new NoiseFields(page);
   const causes = h("div");
   const next = h("div");
-  const numbers = h("div");
+  const numbers = new Numbers(page);
   const none = h("p", {class: "hint"}, "There is no map yet: type readings in first.");
   const all = h("div", {hidden: true},
     h("section", {}, h("h2", {}, "How true it cuts"), map),
@@ -22,8 +23,7 @@ export function resultStep(page) {
       causes, next),
     h("section", {}, h("h2", {}, "Better numbers"),
       h("p", {}, "Typed into the controller once, they take off what settings can. Or compensate each program, which is truer."),
-      h("p", {class: "buttons"}, h("button", {type: "button", onclick: () => exportNumbers(page, numbers)}, "Show the numbers to type in")),
-      numbers),
+      numbers.element),
     h("section", {}, h("h2", {}, "Later: does it still hold?"),
       h("p", {}, "Chains stretch and zeros slip. A few new points, set where they tell most, say whether the map is still valid."),
       h("p", {class: "buttons"}, h("button", {type: "button", onclick: () => planCheck(page)}, "Set new points"))));
@@ -46,8 +46,9 @@ export function resultStep(page) {
       all.hidden = !folder["map.json"];
       if (view.step !== "result") return;
       noise.update(page.store);
+      numbers.update(page.store);
       follow("map.json", map, () => {
-        numbers.replaceChildren();
+        numbers.clear();
         report(page, "map.json", "map.html", "The map", map);
       });
       follow("diagnosis.html", causes, (bytes) => causes.append(reportFrame("The diagnosis", "diagnosis.html", bytes,
@@ -145,10 +146,4 @@ const listOf = (page) => Sheet.of(textOf(page.store.folder[fittedList(page.store
 async function planCheck(page) {
   await chooseWay(page, NEW_POINTS);
   if (page.store.folder[NEW_POINTS]) page.store.show({step: "measure"});
-}
-
-async function exportNumbers(page, box) {
-  const result = await runVerb(page, ["export", "groundcontrol", "map.json"]);
-  if (!result) return;
-  box.replaceChildren(result.stdout !== "" ? printed(result.stdout, "Numbers to type in") : "", sentenceList(sentencesOf(result)));
 }

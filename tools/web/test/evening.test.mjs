@@ -49,6 +49,8 @@ for (const browser of browsers) {
         await visit.click("Show the numbers to type in");
         assert.match(await visit.text("#step-result pre", "motorspacingx"), /rotationradius/);
         await cutAPart(visit);
+        await typeNumbersIn(visit);
+        await cutWithThem(visit);
         await compareFolder(visit);
         assert.deepEqual(visit.problems, []);
       } finally {
@@ -95,6 +97,28 @@ async function cutAPart(visit) {
   visit.program = await visit.downloaded("bracket.true.nc");
 }
 
+/** Which of the two ways was taken outlives a reload, and what was compensated for the old numbers is put away. */
+async function typeNumbersIn(visit) {
+  await visit.click("Map and causes");
+  await visit.click("I have typed them in");
+  await visit.click("Cut");
+  await visit.text("#step-cut .said", "compensate it again");
+  assert.equal(await visit.page.$("#step-cut iframe"), null);
+  await visit.reload();
+  await visit.click("Map and causes");
+  await visit.text("#step-result .said", "These numbers are in the controller");
+  assert.match(await visit.text("#step-result pre", "motorspacingx"), /rotationradius/);
+}
+
+async function cutWithThem(visit) {
+  await visit.click("Cut");
+  await visit.text("#step-cut .hint", "with the numbers that you typed in");
+  await visit.click("Compensate bracket.nc");
+  await visit.text("#step-cut .said", "settings.ini holds other settings than the map was measured with");
+  await visit.click("Verify it once more");
+  await visit.text("#step-cut .said", "holds: the tool strays at most");
+}
+
 /** The page's downloads are the command's output, and equal those of the native command. */
 async function compareFolder(visit) {
   await visit.click("Download");
@@ -105,6 +129,9 @@ async function compareFolder(visit) {
   const cut = runNative(["gcode", "compensate", "bracket.nc", "--map", "map.json", "-o", "bracket.true.nc", "--force"], folder);
   assert.equal(cut.code, 0, cut.stderr);
   assert.equal(text(visit.program), readFileSync(join(folder, "bracket.true.nc"), "utf8"), "the program, byte for byte");
+  const typed = runNative(["gcode", "compensate", "bracket.nc", "--map", "map.json", "--settings", "settings.ini", "-o", "typed.nc"], folder);
+  assert.equal(typed.code, 0, typed.stderr);
+  assert.equal(text(files["bracket.true.nc"]), readFileSync(join(folder, "typed.nc"), "utf8"), "the one for the numbers typed in");
   const fit = runNative(["fit", "marks.csv", "--machine", "machine.json", "-o", "map.json", "--force"], folder);
   assert.equal(fit.code, 0, fit.stderr);
   assertAlike(JSON.parse(text(files["map.json"])), JSON.parse(readFileSync(join(folder, "map.json"), "utf8")), "map.json");
