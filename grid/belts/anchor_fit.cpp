@@ -2,6 +2,7 @@
 #include "grid/belts/anchor_fit.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace chaintrue::grid::belts {
 
@@ -18,6 +19,21 @@ model::BeltMachine with_anchors(model::BeltMachine machine, const AnchorVector& 
   machine.anchors.br.x_mm = a[4];
   machine.anchors_known = true;
   return machine;
+}
+
+bool are_on_a_line(const std::vector<model::FramePoint>& places) {
+  constexpr double kLineMm = 50.0;
+  Eigen::Matrix2Xd at(2, static_cast<Eigen::Index>(places.size()));
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    at.col(static_cast<Eigen::Index>(k)) << places[k].x_mm, places[k].y_mm;
+  }
+  at.colwise() -= at.rowwise().mean().eval();
+  const Eigen::Matrix2d square = at * at.transpose();
+  // Eigenvector of the smaller eigenvalue of a symmetric 2 x 2 matrix.
+  const double angle = 0.5 * std::atan2(2.0 * square(0, 1), square(0, 0) - square(1, 1));
+  const Eigen::RowVector2d across(-std::sin(angle), std::cos(angle));
+  const Eigen::RowVectorXd widths = across * at;
+  return widths.maxCoeff() - widths.minCoeff() < kLineMm;
 }
 
 Eigen::Index checks_of(const Counting& counting) {

@@ -43,6 +43,8 @@ struct AnchorFit {
 [[nodiscard]] inline int readings_counting(const model::PerBelt<bool>& counting) {
   return counting.tl + counting.tr + counting.bl + counting.br;
 }
+/// In a strip no wider than 50 mm: the anchors could lie on either side of it. \pre one place.
+[[nodiscard]] bool are_on_a_line(const std::vector<model::FramePoint>& places);
 /// Readings that count, less two a place and five.
 [[nodiscard]] Eigen::Index checks_of(const Counting& counting);
 

@@ -106,7 +106,8 @@ bool are_commands_far(const MeasuredBelts& belts, double far_mm) {
 Frame frame_of(const MeasuredBelts& belts) {
   Frame frame;
   const auto settled = belts::settle(belts);
-  if (!settled || !settled->is_sound) return frame;
+  // Of places on a line some anchors agree with any lengths.
+  if (!settled || !settled->is_sound || belts::are_on_a_line(settled->state.places)) return frame;
   frame.spread_mm = settled->spread_mm;
   frame.far_from_commands_mm = far_from_commands(belts, settled->state.places);
   if (belts.machine.anchors_known) {

@@ -24,24 +24,6 @@ constexpr double kLostAnchorMm = 100.0;
 /// itself gives up at 5 mm of its own kind.
 constexpr double kNoFrameMm = 50.0;
 
-/// Places in a strip no wider are on a line: the anchors could lie on either side of it.
-constexpr double kLineMm = 50.0;
-
-/// How far the places reach across their own longest direction.
-double across_mm(const std::vector<model::FramePoint>& places) {
-  Eigen::Matrix2Xd at(2, static_cast<Eigen::Index>(places.size()));
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    at.col(static_cast<Eigen::Index>(k)) << places[k].x_mm, places[k].y_mm;
-  }
-  at.colwise() -= at.rowwise().mean().eval();
-  const Eigen::Matrix2d square = at * at.transpose();
-  // Eigenvector of the smaller eigenvalue of a symmetric 2 x 2 matrix.
-  const double angle = 0.5 * std::atan2(2.0 * square(0, 1), square(0, 0) - square(1, 1));
-  const Eigen::RowVector2d across(-std::sin(angle), std::cos(angle));
-  const Eigen::RowVectorXd widths = across * at;
-  return widths.maxCoeff() - widths.minCoeff();
-}
-
 constexpr std::array<std::string_view, 5> kCoordinateNames = {
     "tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"};
 
@@ -167,7 +149,7 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
   const Eigen::VectorXd variance = view.covariance().diagonal().head<5>();
   if (!view.covariance().allFinite() || variance.minCoeff() <= 0.0 ||
       variance.maxCoeff() > kLostAnchorMm * kLostAnchorMm ||
-      across_mm(frame->state.places) < kLineMm) {
+      belts::are_on_a_line(frame->state.places)) {
     const std::string pulls = repeated_pulls_in_words(belts);
     return failure(
         Reason::not_determined,

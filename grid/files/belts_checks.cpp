@@ -214,6 +214,8 @@ void check_belts_together(const MeasuredBelts& belts,
                           const BeltPlaces& places,
                           BeltsUse use,
                           Problems& problems) {
+  // No fit takes more: what reads them refuses them at once.
+  if (belts.points.size() > kMostBeltPoints) return;
   const bool is_enough = belts.points.size() >= kFewestBeltPoints;
   if (is_enough) {
     check_swap(belts, places, problems);

@@ -198,9 +198,9 @@ tl::expected<LengthsPrediction, MechanismFailure> BeltMechanism::predict(
     const auto row = static_cast<Eigen::Index>(belt);
     const FramePoint place{position.x_mm, position.y_mm};
     const bool pulled = !visit.pulled.empty() && visit.pulled.at(static_cast<std::size_t>(row));
-    // The same without effects, in a third of the time.
+    // The same without effects, in a third of the time; of printed spans but for rounding.
     const auto reading =
-        resolved_.empty()
+        resolved_.empty() && machine_.lengths != BeltLengths::span
             ? reading_at(machine_, belt, place)
             : belts::read_belt_with_slope(machine_, resolved_, {belt, pulled, visit.order}, place);
     if (!reading) return tl::unexpected(mechanism_failure(reading.error()));

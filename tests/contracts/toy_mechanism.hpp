@@ -97,7 +97,7 @@ class ToyMechanism final : public Mechanism {
     for (const Eigen::Index i : {0, 1}) {
       nails.push_back({lengths()[static_cast<std::size_t>(i)],
                        {values_[i], 0.0},
-                       Eigen::Matrix2Xd::Zero(2, 2)});
+                       Eigen::Matrix2Xd::Zero(2, 3)});
       nails.back().by_parameter(0, i) = 1.0;
     }
     return nails;

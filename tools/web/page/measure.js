@@ -60,6 +60,7 @@ export function measureStep(page) {
   }
 
   let shown = null;
+  let onCauses = false;
   return {
     element,
     update() {
@@ -75,8 +76,9 @@ export function measureStep(page) {
       odd.hidden = sheet !== null || !bytes;
       readings.element.hidden = sheet === null;
       if (sheet) readings.draw(sheet, bed, view.unit);
-      if (shown === bytes && shown !== null) return;
+      if (shown === bytes && shown !== null && onCauses === Boolean(view.causes)) return;
       shown = bytes;
+      onCauses = Boolean(view.causes);
       if (sheet) fitSoon();
       else said.replaceChildren();
     },
@@ -121,7 +123,8 @@ async function judge(page, readings, said) {
   }
   const isCheck = path === NEW_POINTS;
   const words = isCheck ? ["check", "map.json", path, "--machine", "machine.json", ...settingsWords(page.store.folder)]
-    : ["fit", path, "--machine", "machine.json", "-o", "map.json", "--force", "--verbose"];
+    : ["fit", path, "--machine", "machine.json", "-o", "map.json", "--force", "--verbose",
+      ...(page.store.view.causes ? ["--causes"] : [])];
   const result = await runVerb(page, words, {quiet: true, supersede: "judge"});
   if (!result || page.store.folder[path] !== text) return;
   const sentences = sentencesOf(result);

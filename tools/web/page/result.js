@@ -13,6 +13,7 @@ export function resultStep(page) {
   const causes = h("div");
   const next = h("div");
   const numbers = new Numbers(page);
+  const built = h("input", {type: "checkbox", id: "causes", onchange: () => buildOn(page, built.checked)});
   const none = h("p", {class: "hint"}, "There is no map yet: type readings in first.");
   const all = h("div", {hidden: true},
     h("section", {}, h("h2", {}, "How true it cuts"), map),
@@ -20,7 +21,8 @@ export function resultStep(page) {
       h("p", {}, "Which of the known causes explains the readings, how sure that is, and what to do."),
       noise.element,
       h("p", {class: "buttons"}, h("button", {type: "button", class: "main", onclick: () => diagnose(page, noise.words())}, "Find the cause")),
-      causes, next),
+      causes, next,
+      h("p", {class: "choices"}, built, h("label", {for: "causes"}, "Build the map on the causes that are sure and make it better"))),
     h("section", {}, h("h2", {}, "Better numbers"),
       h("p", {}, "Typed into the controller once, they take off what settings can. Or compensate each program, which is truer."),
       numbers.element),
@@ -46,6 +48,7 @@ export function resultStep(page) {
       all.hidden = !folder["map.json"];
       if (view.step !== "result") return;
       noise.update(page.store);
+      built.checked = Boolean(view.causes);
       numbers.update(page.store);
       follow("map.json", map, () => {
         numbers.clear();
@@ -92,6 +95,12 @@ class NoiseFields {
 function usual(folder, option) {
   const readme = folder["README.txt"] ? textOf(folder["README.txt"]) : "";
   return new RegExp(`chaintrue diagnose .*${option} (\\S+)`).exec(readme)?.[1] ?? "";
+}
+
+/** The measure step fits the readings again. */
+function buildOn(page, causes) {
+  const {view} = page.store;
+  page.store.show({causes, sheet: fittedList(view)});
 }
 
 async function report(page, from, to, title, box) {
