@@ -113,8 +113,7 @@ double rms_of_all_mm(const MeasuredBelts& belts, const FrameBeside& beside) {
   const auto fitted = settle_beside(belts, beside.causes, from);
   const FrameBeside& at = fitted ? *fitted : beside;
   const MeasuredBelts freed = without_effects(belts, at.causes, at.frame.state);
-  const belts::AnchorAdjustment solver(freed, at.frame.counting, at.frame.spread_mm);
-  const Eigen::VectorXd left = solver.equations(at.frame.state).residual;
+  const Eigen::VectorXd left = belts::reading_lines(freed, at.frame.state).residual_mm;
   return std::sqrt(left.squaredNorm() / static_cast<double>(left.size()));
 }
 

@@ -235,26 +235,22 @@ RegressorSystem system_of(const MeasuredBelts& belts,
   constexpr std::size_t kBeyondTheBest = 8;
   const std::size_t count = belts.points.size();
   const auto rows = 2 * static_cast<Eigen::Index>(count);
-  const belts::AnchorAdjustment solver(belts, state.frame.counting, sigma_mm);
-  const belts::FrameEquations at = solver.equations(state.frame.state);
+  const belts::ReadingLines lines = belts::reading_lines(belts, state.frame.state);
   RegressorSystem system;
   system.e.resize(rows);
   system.by_setting.resize(rows, belts::kAnchorUnknowns);
-  Eigen::MatrixXd by_anchor(4, belts::kAnchorUnknowns);
   bool ordered = false;
   for (std::size_t k = 0; k < count; ++k) {
     const Eigen::Index row = 2 * static_cast<Eigen::Index>(k);
-    for (const Belt belt : kBelts) {
-      by_anchor.row(static_cast<Eigen::Index>(belt)) =
-          solver.frame_row(at, k, belt).head<belts::kAnchorUnknowns>();
-    }
+    const Eigen::Index reading = belts::row_of(k, Belt::tl);
     const BeltPoint& point = belts.points[k];
     const model::FramePoint where = state.frame.state.places[k];
     LengthEntry entry{where.x_mm, where.y_mm, static_cast<double>(point.order.value_or(0)), {}};
-    entry.by_length = checks_of(at, k, {true, true, true, true}).transpose() / sigma_mm;
+    entry.by_length = checks_of(lines, k, {true, true, true, true}).transpose() / sigma_mm;
     system.e.segment<2>(row) =
-        entry.by_length * at.residual.segment<4>(belts::row_of(k, Belt::tl));
-    system.by_setting.middleRows<2>(row) = entry.by_length * by_anchor;
+        entry.by_length * lines.residual_mm.segment<4>(reading);
+    system.by_setting.middleRows<2>(row) =
+        entry.by_length * lines.by_anchor.middleRows<4>(reading);
     for (Eigen::Index belt = 0; belt < 4; ++belt)
       system.groups.push_back({row, 2, Eigen::Vector2d(entry.by_length.col(belt))});
     system.units.push_back(
