@@ -15,6 +15,29 @@ namespace chaintrue::grid::belts {
 using model::Belt;
 using model::kBelts;
 
+ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state) {
+  const auto rows = 4 * static_cast<Eigen::Index>(belts.points.size());
+  ReadingLines lines;
+  lines.residual_mm.setZero(rows);
+  lines.by_place.setZero(rows, 2);
+  lines.by_anchor.setZero(rows, kAnchorUnknowns);
+  const model::BeltMachine machine = with_anchors(belts.machine, state.anchors);
+  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+    for (const Belt belt : kBelts) {
+      const auto reading = model::reading_at(machine, belt, state.places[k]);
+      if (!reading) continue;
+      const Eigen::Index row = row_of(k, belt);
+      lines.residual_mm[row] = belts.points[k].lengths_mm[belt] - reading->length_mm;
+      lines.by_place.row(row) = reading->by_place;
+      // A length depends on the place less the anchor; bl, and the y of br, are 0 in this frame.
+      if (belt == Belt::tl) lines.by_anchor.row(row).segment<2>(0) = -reading->by_place;
+      if (belt == Belt::tr) lines.by_anchor.row(row).segment<2>(2) = -reading->by_place;
+      if (belt == Belt::br) lines.by_anchor(row, 4) = -reading->by_place.x();
+    }
+  }
+  return lines;
+}
+
 Eigen::MatrixXd FitDiagnostics::Block::precision() const {
   const Eigen::MatrixXd weighed = line.by_parameter.transpose() * line.weight.asDiagonal();
   return weighed * (line.by_parameter - line.by_position * by_unknown);
@@ -74,15 +97,12 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
 
 /// Of points that too few readings place: about where they lie in the fit.
 void FitDiagnostics::add_unplaced(const MeasuredBelts& belts) {
-  const model::BeltMachine machine = with_anchors(belts.machine, frame_.state.anchors);
+  const ReadingLines lines = reading_lines(belts, frame_.state);
   for (std::size_t k = 0; k < slots_.size(); ++k) {
     if (slots_[k]) continue;
-    for (const Belt belt : kBelts) {
-      const auto reading = model::reading_at(machine, belt, frame_.state.places[k]);
-      if (!reading) continue;
-      equations_.residual[row_of(k, belt)] = belts.points[k].lengths_mm[belt] - reading->length_mm;
-      equations_.by_place.row(row_of(k, belt)) = reading->by_place;
-    }
+    const Eigen::Index row = row_of(k, Belt::tl);
+    equations_.residual.segment<4>(row) = lines.residual_mm.segment<4>(row);
+    equations_.by_place.middleRows<4>(row) = lines.by_place.middleRows<4>(row);
   }
 }
 

@@ -32,6 +32,14 @@
 
 namespace chaintrue::grid::belts {
 
+/// All readings about a state, 4 N rows; those of a belt that cannot be there are 0.
+struct ReadingLines {
+  Eigen::VectorXd residual_mm;  ///< read less predicted
+  Eigen::MatrixX2d by_place;    ///< d(predicted)/d(place)
+  Eigen::Matrix<double, Eigen::Dynamic, kAnchorUnknowns> by_anchor;
+};
+[[nodiscard]] ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state);
+
 /// Residuals of all readings, those that do not count too, and how places move them.
 struct FitResiduals {
   Eigen::VectorXd residual;           ///< 4 N, mm

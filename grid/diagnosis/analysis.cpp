@@ -152,8 +152,11 @@ Decision decide_for_leaders(const RegressorSystem& system,
 }
 
 void decide_for(bool seen, Analysis& a) {
-  const std::vector<bool> none(a.session.units.size(), false);
-  a.decision = decide_for_leaders(a.system, a.comparison, none, seen);
+  a.decision = decide_for_leaders(a.system, a.comparison, nothing_rejected(a.system), seen);
+  estimate_decided(a);
+}
+
+void estimate_decided(Analysis& a) {
   const MarginalisedSystem& marginalised =
       a.comparison.marginalised_systems[a.decision.marginalised];
   a.noise = discrepancy_noise(
@@ -161,16 +164,30 @@ void decide_for(bool seen, Analysis& a) {
   a.estimate = estimate(a.system, marginalised, a.decision.regressors, a.noise.get());
 }
 
-void test_significance(Analysis& a) {
-  const MarginalisedSystem& marginalised =
-      a.comparison.marginalised_systems[a.comparison.best().marginalised];
-  const SingleScore score(
-      a.system, marginalised, a.options.steps.anchor_noise ? a.session.noise_dof : 1e-3);
-  // Enough draws for a family-wise 1 in 100; fewer where one draw is long.
-  const int draws = a.session.units.size() > 150 ? 2000 : 4000;
-  a.null = draw_null(score, marginalised.e.size(), draws, a.options.seed);
-  a.score = score.by_cause(marginalised.e).maxCoeff();
+void test_significance(const RegressorSystem& causes, NoiseSize noise, Analysis& a) {
+  const MarginalisedSystem marginalised =
+      marginalise(causes,
+                  a.comparison.marginalised_systems[a.comparison.best().marginalised].outliers,
+                  a.options.steps);
+  const bool is_stated = noise == NoiseSize::stated;
+  // The length of the residuals is given, so that nothing is known of the noise besides.
+  constexpr double kNothingStated = 1e-3;
+  const SingleScore score(causes,
+                          marginalised,
+                          is_stated && a.options.steps.anchor_noise ? causes.noise_dof
+                                                                    : kNothingStated);
+  // Enough draws for a family-wise 1 in 100, and in 300; fewer where one draw is long.
+  constexpr std::size_t kManyUnits = 150;
+  const int draws = causes.units.size() > kManyUnits ? 2000 : 4000;
+  a.null = is_stated ? draw_null(score, marginalised.e.size(), draws, a.options.seed)
+                     : draw_null_of_length(score, marginalised, draws, a.options.seed);
+  const Eigen::VectorXd by_cause = score.by_cause(marginalised.e);
+  a.score = by_cause.maxCoeff();
   a.family_wise_p = a.null.p_value(a.score);
+  a.tested.clear();
+  if (is_stated) return;
+  for (std::size_t k = 0; k < score.causes().size(); ++k)
+    a.tested.emplace_back(score.causes()[k], by_cause(static_cast<Eigen::Index>(k)));
 }
 
 namespace {
@@ -213,7 +230,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
     known = std::move(relinearised.refinements);
     a.state = std::move(relinearised.state);
   }
-  test_significance(a);
+  test_significance(a.system, NoiseSize::stated, a);
   if (a.family_wise_p >= kFalseAlarm && !options.told) decide_for(false, a);
   return a;
 }

@@ -25,7 +25,7 @@ struct Analysis {
   NullDistribution null;
   double score = 0.0;          ///< of the strongest single effect, log Bayes factor against nothing
   double family_wise_p = 1.0;  ///< chance that noise alone scores as high
-  /// Score of each cause where the test has rows of its own (belts_significance.hpp); else empty.
+  /// Score of each cause where the test has rows of its own (test_significance); else empty.
   std::vector<std::pair<CauseId, double>> tested;
   Decision decision;
   /// Of the discrepancy that the decision leaves; null where it leaves none.
@@ -42,14 +42,23 @@ struct Analysis {
 /// Decision and estimate from the comparison at hand. `seen`: the strongest effect is beyond what
 /// noise does.
 void decide_for(bool seen, Analysis& analysis);
+/// Noise and estimate of the decision at hand.
+void estimate_decided(Analysis& analysis);
 
 /// Whether a cause could show at some size that it may have, the settings free.
 [[nodiscard]] bool can_be_seen(const RegressorSystem& system,
                                const MarginalisedSystem& marginalised,
                                const CauseId& cause);
 
-/// Sets `null`, `score` and `family_wise_p` from the comparison.
-void test_significance(Analysis& analysis);
+/// How often noise alone lets some cause look as strong as the strongest does: sets `null`, `score`,
+/// `family_wise_p` and `tested`, without what the best model rejects.
+///
+/// `causes` holds the regressors that are tried, about what does not hang on the readings' noise. Where
+/// nothing is stated of the noise, what is left of it lies in every direction alike, however large it
+/// is, so that the strongest score has one distribution for all residuals of one length (E. Lehmann and
+/// J. Romano, Testing Statistical Hypotheses (2005), section 5.2: an unknown scale is conditioned out).
+enum class NoiseSize { stated, unknown };
+void test_significance(const RegressorSystem& causes, NoiseSize noise, Analysis& analysis);
 
 /// Fails in words where the machine cannot be where it was measured.
 [[nodiscard]] tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,

@@ -5,16 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "grid/diagnosis/belts_comparison.hpp"
-#include "grid/diagnosis/belts_pattern.hpp"
-#include "grid/diagnosis/belts_significance.hpp"
 #include "grid/diagnosis/regressors.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
-
-using model::Belt;
-using model::kBelts;
 
 namespace {
 
@@ -30,21 +24,19 @@ constexpr double kSpokenFor = 3.0;
 /// Linearised about nothing, about what was found, and about what that leaves.
 constexpr int kPasses = 3;
 
-/// Nothing, each cause alone at its best place, and what was found before.
-std::vector<std::vector<int>> hypotheses_of(const BeltsAnalysis& a) {
-  const RegressorSystem& system = a.linear.system;
-  const std::vector<bool> none(system.units.size(), false);
-  const MarginalisedSystem marginalised = marginalise(system, none, a.analysis.options.steps);
-  const NoiseDensity noise(system.noise_dof, static_cast<Eigen::Index>(marginalised.kept.size()));
-  const SingleScores scores = single_scores(system, marginalised, noise, marginalised.e, false);
-  std::vector<std::vector<int>> hypotheses = {{}};
-  for (const int best : scores.best_regressor) {
-    if (best >= 0) hypotheses.push_back({best});
-  }
+/// Regressors of a cause that are weighed, and what sets in at about one visit: an anchor that slips in
+/// a way between those that are tried looks like a skip of another belt as well.
+constexpr SearchLimits kSearch{.of_a_cause = 3, .one_event_visits = 4.0};
+/// With more rows a pattern costs seconds: one kernel, at the end alone.
+constexpr Eigen::Index kManyRows = 500;
+constexpr std::size_t kKernelOfMany = 1;
+
+/// Of the system the regressors at the values that were found before.
+std::vector<int> found_before(const BeltsAnalysis& a) {
   std::vector<int> found;
   for (const BeltCause& own : a.state.causes) {
-    for (std::size_t k = 0; k < system.regressors.size(); ++k) {
-      const Regressor& d = system.regressors[k];
+    for (std::size_t k = 0; k < a.analysis.system.regressors.size(); ++k) {
+      const Regressor& d = a.analysis.system.regressors[k];
       if (d.cause == own.cause && d.values == own.values) {
         found.push_back(static_cast<int>(k));
         break;
@@ -52,8 +44,7 @@ std::vector<std::vector<int>> hypotheses_of(const BeltsAnalysis& a) {
     }
   }
   std::sort(found.begin(), found.end());
-  if (found.size() > 1) hypotheses.push_back(std::move(found));
-  return hypotheses;
+  return found;
 }
 
 /// Noise of belts is not stated, so none is larger than that.
@@ -104,8 +95,8 @@ double spoken_for(const Analysis& a, const CauseClass& members) {
     const Regressor& own = a.system.regressors[static_cast<std::size_t>(model.regressors.front())];
     if (std::find(members.begin(), members.end(), own.cause) == members.end()) continue;
     with.push_back(model.log_weight);
-    beforehand = log_prior(a.system.regressors, model.regressors, true) -
-                 log_prior(a.system.regressors, {}, true);
+    beforehand =
+        log_prior(a.system, model.regressors, true) - log_prior(a.system, {}, true);
   }
   if (with.empty()) return 0.0;
   if (without.empty()) return std::numeric_limits<double>::infinity();
@@ -125,49 +116,45 @@ void take_expected_back(BeltsAnalysis& a) {
 /// Decision, and the estimate of its causes: beside the pattern that it holds, if any.
 void decide(bool seen, BeltsAnalysis& a) {
   Analysis& own = a.analysis;
-  const std::vector<bool> none(own.system.units.size(), false);
-  own.decision = decide_for_leaders(own.system, own.comparison, none, seen);
+  own.decision =
+      decide_for_leaders(own.system, own.comparison, nothing_rejected(own.system), seen);
   if (!seen) take_names_back(own.comparison, own.decision);
   take_expected_back(a);
-  own.estimate = estimate(own.system,
-                          own.comparison.marginalised_systems[own.decision.marginalised],
-                          own.decision.regressors,
-                          -1);
-  integrate_pattern(a);
+  estimate_decided(own);
 }
 
-void compare(Look look, BeltsAnalysis& a) {
-  a.pattern_length_mm.reset();
-  const std::vector<bool> none(a.linear.system.units.size(), false);
-  const auto sets = outlier_sets(a.linear.system,
-                                 reading_groups(a.linear),
-                                 reading_limits(a.linear),
-                                 none,
-                                 hypotheses_of(a),
-                                 a.analysis.options.steps);
-  a.suspects = suspects_of(sets);
-  turn_to(a.suspects, a.sigma_mm, a.linear);
+void compare(bool last, BeltsAnalysis& a) {
   Analysis& own = a.analysis;
-  own.system = a.linear.system;
-  std::vector<std::vector<bool>> units;
-  const auto add = [&units](std::vector<bool> set) {
-    if (std::find(units.begin(), units.end(), set) == units.end()) units.push_back(std::move(set));
-  };
-  for (const auto& set : sets) add(units_of(set, a.suspects));
-  add(std::vector<bool>(own.system.units.size(), false));
-  compare_belts(units, look, a);
-  if (look == Look::whole) test_significance_of_belts(a);
-  decide(look == Look::first || own.family_wise_p < kFalseAlarmOfBelts, a);
+  ComparisonOptions options{.steps = own.options.steps, .told = own.options.told};
+  options.search = kSearch;
+  // Until the last every other strength with the best set of outliers says enough.
+  options.search.sets_beside = last ? 2 : 1;
+  options.search.strength_step = last ? 1 : 2;
+  if (const auto found = found_before(a); found.size() > 1) options.hypotheses.push_back(found);
+  if (own.system.e.size() > kManyRows) {
+    options.kernels = {kKernelOfMany};
+    options.discrepancies = last;
+    options.search.sets_beside = 1;
+    options.search.strength_step = 2;
+  }
+  own.comparison = compare_models(own.system, nothing_rejected(own.system), options);
+  if (last) {
+    test_significance(
+        system_of(a.belts, {a.alone, {}}, own.candidates.testable, a.sigma_mm),
+        NoiseSize::unknown,
+        own);
+  }
+  decide(!last || own.family_wise_p < kFalseAlarmOfBelts, a);
 }
 
 /// Causes that nothing in these readings could show.
 void drop_hidden(BeltsAnalysis& a) {
   Analysis& own = a.analysis;
-  const std::vector<bool> none(a.linear.system.units.size(), false);
-  const MarginalisedSystem marginalised = marginalise(a.linear.system, none, own.options.steps);
+  const MarginalisedSystem marginalised =
+      marginalise(own.system, nothing_rejected(own.system), own.options.steps);
   std::vector<CauseId> visible;
   for (const CauseId& cause : own.candidates.testable) {
-    if (can_be_seen(a.linear.system, marginalised, cause)) {
+    if (can_be_seen(own.system, marginalised, cause)) {
       visible.push_back(cause);
     } else {
       NotTestable& hidden = own.candidates.not_testable.emplace_back();
@@ -179,7 +166,7 @@ void drop_hidden(BeltsAnalysis& a) {
   }
   if (visible.size() == own.candidates.testable.size()) return;
   own.candidates.testable = std::move(visible);
-  a.linear = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
+  own.system = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
 }
 
 /// Anchors, places and sizes as the decision has them. The state stays where that settles nowhere.
@@ -195,14 +182,8 @@ void move_state(BeltsAnalysis& a) {
 }  // namespace
 
 belts::Counting decided_counting(const BeltsAnalysis& a) {
-  const auto bad = readings_of(
-      a.analysis.comparison.marginalised_systems[a.analysis.decision.marginalised].outliers,
-      a.suspects);
-  belts::Counting counting(bad.size());
-  for (std::size_t k = 0; k < bad.size(); ++k) {
-    for (const Belt belt : kBelts) counting[k][belt] = !bad[k][belt];
-  }
-  return counting;
+  return counting_of(
+      a.analysis.comparison.marginalised_systems[a.analysis.decision.marginalised].outliers);
 }
 
 std::vector<BeltCause> decided_causes(const Analysis& a) {
@@ -235,16 +216,16 @@ tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts
   own.candidates.testable = std::move(all.testable);
   for (auto& [cause, reason] : all.not_testable)
     own.candidates.not_testable.push_back({cause, std::move(reason)});
-  a.linear = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
-  own.session.noise_dof = a.linear.system.noise_dof;
-  own.session.units.resize(a.linear.system.units.size());
+  own.system = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
+  own.session.noise_dof = own.system.noise_dof;
+  own.session.units.resize(own.system.units.size());
   drop_hidden(a);
   for (int pass = 0; pass < kPasses; ++pass) {
-    compare(pass + 1 == kPasses ? Look::whole : Look::first, a);
+    compare(pass + 1 == kPasses, a);
     if (pass + 1 == kPasses) break;
     move_state(a);
     a.sigma_mm *= std::sqrt(own.estimate.noise_square);
-    a.linear = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
+    own.system = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
   }
   leave_noise_open(own.decision);
   return a;

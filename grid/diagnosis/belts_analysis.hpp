@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The steps from the lengths of four belts to a decision: anchors alone, linearise, set readings
-/// aside, compare models, linearise anew about what was found, compare again. Private to
-/// grid/diagnosis.
+/// The steps from the lengths of four belts to a decision: anchors alone, linearise, compare models,
+/// linearise anew about what was found, compare again. Private to grid/diagnosis.
 #pragma once
 
 #include <tl/expected.hpp>
 
 #include "grid/diagnosis/analysis.hpp"
-#include "grid/diagnosis/belts_outliers.hpp"
 #include "grid/diagnosis/belts_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -17,14 +15,8 @@ struct BeltsAnalysis {
   MeasuredBelts belts;        ///< without distances: they say nothing of a cause
   belts::AnchorFit alone;     ///< anchors and places, no cause at work
   BeltsState state;
-  BeltsSystem linear;
-  Suspects suspects;      ///< to which it is turned
   double sigma_mm = 0.0;  ///< of one belt's reading, as it is whitened
   Analysis analysis;      ///< system, comparison and decision; its session has no parts
-  /// Of a pattern that no cause makes, where the decision holds one: what it takes of a check.
-  std::optional<double> pattern_length_mm;
-  double pattern_rms_mm = 0.0;
-  double pattern_share = 0.0;  ///< of the square of what anchors and causes leave
 };
 
 /// Precondition: fit_belts() takes these belts.

@@ -92,24 +92,20 @@ bool moved(const Eigen::VectorXd& change,
 Eigen::VectorXd least_squares(const MeasuredBelts& freed,
                               const belts::AnchorFit& frame,
                               const Eigen::MatrixXd& columns) {
-  const belts::AnchorAdjustment solver(freed, frame.counting, frame.spread_mm);
-  const belts::FrameEquations at = solver.equations(frame.state);
+  const belts::ReadingLines lines = belts::reading_lines(freed, frame.state);
   const Eigen::Index unknowns = belts::kAnchorUnknowns + columns.cols();
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(unknowns);
   Eigen::MatrixXd design(4, unknowns);
   for (std::size_t k = 0; k < freed.points.size(); ++k) {
-    const Eigen::MatrixXd q = checks_of(at, k, frame.counting[k]);
+    const Eigen::MatrixXd q = checks_of(lines, k, frame.counting[k]);
     if (q.cols() == 0) continue;
-    for (const Belt belt : kBelts) {
-      const auto row = static_cast<Eigen::Index>(belt);
-      design.row(row).head<belts::kAnchorUnknowns>() =
-          solver.frame_row(at, k, belt).head<belts::kAnchorUnknowns>();
-      design.row(row).tail(columns.cols()) = columns.row(belts::row_of(k, belt));
-    }
+    const Eigen::Index row = belts::row_of(k, Belt::tl);
+    design.leftCols<belts::kAnchorUnknowns>() = lines.by_anchor.middleRows<4>(row);
+    design.rightCols(columns.cols()) = columns.middleRows<4>(row);
     const Eigen::MatrixXd own = q.transpose() * design;
     normal += own.transpose() * own;
-    gradient += own.transpose() * (q.transpose() * at.residual.segment<4>(belts::row_of(k, Belt::tl)));
+    gradient += own.transpose() * (q.transpose() * lines.residual_mm.segment<4>(row));
   }
   return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(normal).solve(gradient);
 }
@@ -154,7 +150,7 @@ MeasuredBelts without_effects(const MeasuredBelts& belts,
   return freed;
 }
 
-Eigen::MatrixXd checks_of(const belts::FrameEquations& at,
+Eigen::MatrixXd checks_of(const belts::ReadingLines& lines,
                           std::size_t point,
                           const model::PerBelt<bool>& counting) {
   std::vector<Eigen::Index> rows;
@@ -164,7 +160,7 @@ Eigen::MatrixXd checks_of(const belts::FrameEquations& at,
   const auto count = static_cast<Eigen::Index>(rows.size());
   if (count < 3) return Eigen::MatrixXd(4, 0);
   const Eigen::MatrixXd by_place =
-      at.by_place.middleRows<4>(belts::row_of(point, Belt::tl))(rows, Eigen::all);
+      lines.by_place.middleRows<4>(belts::row_of(point, Belt::tl))(rows, Eigen::all);
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(by_place);
   const Eigen::MatrixXd whole = qr.householderQ() * Eigen::MatrixXd::Identity(count, count);
   Eigen::MatrixXd q = Eigen::MatrixXd::Zero(4, count - 2);

@@ -4,7 +4,9 @@
 /// that are freed of what the causes add there, and the causes' sizes beside it, until both settle.
 /// Private to grid/diagnosis.
 ///
-/// Notation, in addition to grid/belts/frame_solver.hpp
+/// Notation
+///   r_k, J_a, J_p  of the readings of place k: read less predicted, and d(predicted) by anchors and
+///        by the place (reading_lines)
 ///   g_j  d(read)/d(size of cause j), a secant about the size at hand
 ///   Q_k  of the readings of place k that count: an orthonormal basis of what no place makes,
 ///        Q_k' J_p = 0. A place whose four readings count has two such directions, its two checks
@@ -21,7 +23,6 @@
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
-#include "grid/belts/frame_solver.hpp"
 #include "grid/diagnosis/cause_id.hpp"
 #include "model/belts/effects/belt_effect.hpp"
 
@@ -48,7 +49,7 @@ struct BeltCause {
                                             const belts::FrameState& state);
 
 /// Q of a place: 4 x (readings that count less 2), rows of readings that do not count 0.
-[[nodiscard]] Eigen::MatrixXd checks_of(const belts::FrameEquations& at,
+[[nodiscard]] Eigen::MatrixXd checks_of(const belts::ReadingLines& lines,
                                         std::size_t point,
                                         const model::PerBelt<bool>& counting);
 

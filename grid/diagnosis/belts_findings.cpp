@@ -113,8 +113,7 @@ double rms_of_all_mm(const MeasuredBelts& belts, const FrameBeside& beside) {
   const auto fitted = settle_beside(belts, beside.causes, from);
   const FrameBeside& at = fitted ? *fitted : beside;
   const MeasuredBelts freed = without_effects(belts, at.causes, at.frame.state);
-  const belts::AnchorAdjustment solver(freed, at.frame.counting, at.frame.spread_mm);
-  const Eigen::VectorXd left = solver.equations(at.frame.state).residual;
+  const Eigen::VectorXd left = belts::reading_lines(freed, at.frame.state).residual_mm;
   return std::sqrt(left.squaredNorm() / static_cast<double>(left.size()));
 }
 
@@ -197,14 +196,18 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
 }
 
 Unexplained unexplained(const BeltsAnalysis& a) {
+  const Analysis& own = a.analysis;
   Unexplained result;
-  result.probability = std::clamp(a.analysis.decision.discrepancy, 0.0, 1.0);
-  if (!a.pattern_length_mm) return result;
-  const auto checks = static_cast<double>(a.analysis.system.e.size());
-  result.signal_to_noise = a.pattern_rms_mm / a.sigma_mm * std::sqrt(checks);
-  result.rms_mm = a.pattern_rms_mm;
-  result.share = a.pattern_share;
-  result.length_mm = *a.pattern_length_mm;
+  result.probability = std::clamp(own.decision.discrepancy, 0.0, 1.0);
+  if (own.noise == nullptr) return result;
+  const KeptRows& kept = own.comparison.marginalised_systems[own.decision.marginalised].kept;
+  const Eigen::VectorXd all = kept(own.estimate.left);
+  const Eigen::VectorXd taken = all - kept(own.estimate.left_beside_discrepancy);
+  result.rms_mm = a.sigma_mm * std::sqrt(taken.squaredNorm() / static_cast<double>(taken.size()));
+  result.signal_to_noise =
+      result.rms_mm / a.sigma_mm * std::sqrt(static_cast<double>(own.system.e.size()));
+  result.share = std::min(1.0, taken.squaredNorm() / std::max(all.squaredNorm(), 1e-300));
+  result.length_mm = own.noise->process.kernel.fields.front().length;
   return result;
 }
 

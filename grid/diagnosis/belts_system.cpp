@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/diagnosis/discrepancy.hpp"
 #include "grid/diagnosis/secants.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -42,15 +43,26 @@ constexpr Teeth kTeeth[] = {{1.0, 0.25},
                             {22.0, 0.1},
                             {-22.0, 0.1}};
 
-/// How often a cause acts, against the others. Belts that are pulled stretch: the four frames whose
-/// owners published more than a start all do, and with this share it is as likely as that nothing is
-/// wrong. What sets in during a session is rare,
-/// and an anchor that slips by just a tooth along its belt is rarer than a belt that skips.
-double share_of(const CauseId& cause) {
-  const std::string_view id = cause.effect->id;
-  if (id == "belt_stretch") return 40.0;
-  if (id == "tooth_skip") return 0.3;
-  return id == "anchor_moved" ? 0.01 : 1.0;
+/// Belts that are pulled stretch: the four frames whose owners published more than a start all do.
+bool is_expected(std::string_view effect) { return effect == "belt_stretch"; }
+
+/// How often an effect acts, against the others. What sets in during a session is rare, and an anchor
+/// that slips by just a tooth along its belt is rarer than a belt that skips.
+double share_of(std::string_view effect) {
+  if (effect == "tooth_skip") return 0.3;
+  return effect == "anchor_moved" ? 0.01 : 1.0;
+}
+
+/// Of the published frames none shows anything besides stretch: one other cause is a third as likely as
+/// of chains, a sixth of nothing. Nearly all of them leave a smooth pattern as well, so that a pattern
+/// makes another cause no likelier.
+CausePrior prior_of_belts() {
+  constexpr double kRarerThanChains = 3.0;
+  CausePrior prior{.shares = 0.0, .odds_given_discrepancy = 1.0};
+  for (const model::belts::BeltEffect* effect : model::belts::belt_effects()) {
+    if (!is_expected(effect->id)) prior.shares += kRarerThanChains * share_of(effect->id);
+  }
+  return prior;
 }
 
 /// The visits in order, without the first few and the last few.
@@ -82,7 +94,7 @@ std::vector<int> about(const std::vector<int>& visits, int visit) {
 
 class Columns {
  public:
-  Columns(const MeasuredBelts& belts, const BeltsState& state, BeltsSystem& system)
+  Columns(const MeasuredBelts& belts, const BeltsState& state, RegressorSystem& system)
       : belts_(belts), state_(state), system_(system), visits_(visits_to_set_in(belts)) {}
 
   void add(const CauseId& cause) {
@@ -94,7 +106,7 @@ class Columns {
       if (own.cause == cause) found = &own;
     }
     if (found != nullptr) values = found->values;
-    const double side = share_of(cause) / static_cast<double>(cause.effect->sides.size());
+    const double side = effect_share(cause.effect->id) / static_cast<double>(cause.effect->sides.size());
     if (parameters.size() == 1) return add_one({cause, values}, found != nullptr, side);
     std::vector<int> visits = thinned(visits_);
     if (found != nullptr) {
@@ -117,14 +129,13 @@ class Columns {
     }
   }
 
-  void finish() {
-    const auto count = static_cast<Eigen::Index>(columns_.size());
-    system_.by_cause_mm.resize(4 * static_cast<Eigen::Index>(belts_.points.size()), count);
-    for (Eigen::Index k = 0; k < count; ++k)
-      system_.by_cause_mm.col(k) = columns_[static_cast<std::size_t>(k)];
+ private:
+  /// Of what is expected what makes it alone as likely as nothing (CausePrior).
+  [[nodiscard]] double effect_share(std::string_view effect) const {
+    if (!is_expected(effect)) return share_of(effect);
+    return system_.prior.shares * kPriorOfNothing / kPriorOfOne;
   }
 
- private:
   void add_ways(BeltCause own, const BeltCause* found, double share) {
     if (found != nullptr) {
       own.values[1] = found->values[1];
@@ -137,32 +148,41 @@ class Columns {
   }
 
   void add_one(const BeltCause& own, bool refined, double share) {
-    Eigen::VectorXd column = added_by(belts_, {own}, state_.frame.state);
+    const Eigen::VectorXd column = column_of(belts_, state_, system_, own);
     if (!(column.norm() > 0.0)) return;
     Regressor regressor;
     regressor.cause = own.cause;
     regressor.values = own.values;
     regressor.log_prior = std::log(share);
     regressor.refined = refined;
+    regressor.expected = is_expected(own.cause.effect->id);
     if (own.cause.effect->parameters.front().integer) {
       regressor.fixed = true;
       regressor.lowest = regressor.highest = 1.0;
     } else {
       BeltCause smaller = own;
       smaller.values.front() *= refined ? kNearby : 0.5;
-      const Eigen::VectorXd other = added_by(belts_, {smaller}, state_.frame.state);
+      const Eigen::VectorXd other = column_of(belts_, state_, system_, smaller);
       regressor.power = refined ? power_about(column, other) : power_of(column, other);
       limit(regressor);
+      regressor.coefficient_sigma = sigma_of(regressor);
     }
-    system_.system.regressors.push_back(std::move(regressor));
-    columns_.push_back(std::move(column));
+    system_.regressors.push_back(std::move(regressor));
+    system_.g.add(column);
+  }
+
+  /// Of the coefficient, from the spread of the size: a belt's zero that only shows from 40 mm on is
+  /// no likelier for it.
+  [[nodiscard]] static double sigma_of(const Regressor& regressor) {
+    const double ratio = regressor.cause.effect->parameters.front().prior_sigma /
+                         std::max(std::abs(regressor.values.front()), 1e-12);
+    return std::pow(ratio, regressor.power);
   }
 
   const MeasuredBelts& belts_;
   const BeltsState& state_;
-  BeltsSystem& system_;
+  RegressorSystem& system_;
   std::vector<int> visits_;
-  std::vector<Eigen::VectorXd> columns_;
 };
 
 }  // namespace
@@ -205,67 +225,76 @@ BeltsCandidates candidates(const MeasuredBelts& belts) {
   return result;
 }
 
-Eigen::MatrixXd checked(const std::vector<Eigen::Matrix<double, 4, 2>>& checks,
-                        const Eigen::MatrixXd& readings) {
-  Eigen::MatrixXd rows(readings.rows() / 2, readings.cols());
-  for (std::size_t k = 0; k < checks.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(k);
-    rows.middleRows<2>(2 * at).noalias() = checks[k].transpose() * readings.middleRows<4>(4 * at);
-  }
-  return rows;
-}
-
-BeltsSystem system_of(const MeasuredBelts& belts,
-                      const BeltsState& state,
-                      const std::vector<CauseId>& causes,
-                      double sigma_mm) {
-  BeltsSystem result;
+RegressorSystem system_of(const MeasuredBelts& belts,
+                          const BeltsState& state,
+                          const std::vector<CauseId>& causes,
+                          double sigma_mm) {
+  // Two rows more than anchors, or nothing is left to judge by.
+  constexpr Eigen::Index kFewestChecks = 3;
+  // Two bad readings of a place, and of places beside each other, can mask one another.
+  constexpr std::size_t kBeyondTheBest = 8;
   const std::size_t count = belts.points.size();
-  const belts::AnchorAdjustment solver(belts, state.frame.counting, sigma_mm);
-  const belts::FrameEquations at = solver.equations(state.frame.state);
-  result.residual_mm = at.residual;
-  result.by_anchor.resize(at.residual.size(), belts::kAnchorUnknowns);
+  const auto rows = 2 * static_cast<Eigen::Index>(count);
+  const belts::ReadingLines lines = belts::reading_lines(belts, state.frame.state);
+  RegressorSystem system;
+  system.e.resize(rows);
+  system.by_setting.resize(rows, belts::kAnchorUnknowns);
+  bool ordered = false;
   for (std::size_t k = 0; k < count; ++k) {
-    for (const Belt belt : kBelts) {
-      result.by_anchor.row(belts::row_of(k, belt)) =
-          solver.frame_row(at, k, belt).head<belts::kAnchorUnknowns>();
-    }
-    result.checks.emplace_back(checks_of(at, k, {true, true, true, true}));
+    const Eigen::Index row = 2 * static_cast<Eigen::Index>(k);
+    const Eigen::Index reading = belts::row_of(k, Belt::tl);
+    const BeltPoint& point = belts.points[k];
+    const model::FramePoint where = state.frame.state.places[k];
+    LengthEntry entry{where.x_mm, where.y_mm, static_cast<double>(point.order.value_or(0)), {}};
+    entry.by_length = checks_of(lines, k, {true, true, true, true}).transpose() / sigma_mm;
+    system.e.segment<2>(row) =
+        entry.by_length * lines.residual_mm.segment<4>(reading);
+    system.by_setting.middleRows<2>(row) =
+        entry.by_length * lines.by_anchor.middleRows<4>(reading);
+    for (Eigen::Index belt = 0; belt < 4; ++belt)
+      system.groups.push_back({row, 2, Eigen::Vector2d(entry.by_length.col(belt))});
+    system.units.push_back(
+        {.first_row = row,
+         .rows = 2,
+         .whitening = estimation::UnitWhitening::projected(Eigen::MatrixXd::Identity(2, 2), sigma_mm)});
+    system.unit_of_row.insert(system.unit_of_row.end(), 2, static_cast<int>(k));
+    system.entries.push_back(std::move(entry));
+    ordered = ordered || point.order.has_value();
   }
-  Columns columns(belts, state, result);
-  for (const CauseId& cause : causes) columns.add(cause);
-  columns.finish();
-  RegressorSystem& system = result.system;
   system.setting = Eigen::VectorXd::Zero(belts::kAnchorUnknowns);
   system.expected_change = system.setting;
   system.sigma = Eigen::VectorXd::Constant(belts::kAnchorUnknowns, kAnchorSigmaMm);
   system.noise_dof = kNoiseDof;
-  system.fewest_units = 2 * kFewestBeltPoints;
-  for (std::size_t u = 0; u < 2 * count; ++u) {
-    SystemUnit unit;
-    unit.first_row = static_cast<Eigen::Index>(u);
-    unit.whitening = estimation::UnitWhitening::projected(Eigen::MatrixXd::Identity(1, 1), sigma_mm);
-    system.units.push_back(std::move(unit));
-    system.unit_of_row.push_back(static_cast<int>(u));
-  }
-  turn_to(Suspects(count), sigma_mm, result);
-  return result;
+  system.limits = {.fewest_rows = belts::kAnchorUnknowns + kFewestChecks,
+                   .beyond_the_best = kBeyondTheBest};
+  system.prior = prior_of_belts();
+  system.discrepancies = &length_discrepancies(ordered);
+  system.g = RegressorColumns(rows);
+  Columns columns(belts, state, system);
+  for (const CauseId& cause : causes) columns.add(cause);
+  return system;
 }
 
-void turn_to(const Suspects& suspects, double sigma_mm, BeltsSystem& result) {
-  for (std::size_t k = 0; k < suspects.size(); ++k) {
-    if (!suspects[k]) continue;
-    Eigen::Matrix<double, 4, 2>& q = result.checks[k];
-    Eigen::Vector2d along = q.row(static_cast<Eigen::Index>(*suspects[k])).transpose();
-    along.normalize();
-    Eigen::Matrix2d turn;
-    turn << along, Eigen::Vector2d(-along.y(), along.x());
-    q = (q * turn).eval();
+Eigen::VectorXd column_of(const MeasuredBelts& belts,
+                          const BeltsState& state,
+                          const RegressorSystem& system,
+                          const BeltCause& cause) {
+  const Eigen::VectorXd added = added_by(belts, {cause}, state.frame.state);
+  Eigen::VectorXd column(system.e.size());
+  for (std::size_t k = 0; k < system.entries.size(); ++k) {
+    column.segment<2>(2 * static_cast<Eigen::Index>(k)) =
+        system.entries[k].by_length * added.segment<4>(belts::row_of(k, Belt::tl));
   }
-  RegressorSystem& system = result.system;
-  system.e = checked(result.checks, result.residual_mm) / sigma_mm;
-  system.by_setting = checked(result.checks, result.by_anchor) / sigma_mm;
-  system.g = Eigen::MatrixXd(checked(result.checks, result.by_cause_mm) / sigma_mm);
+  return column;
+}
+
+belts::Counting counting_of(const std::vector<bool>& rejected) {
+  belts::Counting counting(rejected.size() / 4);
+  for (std::size_t k = 0; k < counting.size(); ++k) {
+    for (const Belt belt : kBelts)
+      counting[k][belt] = !rejected[4 * k + static_cast<std::size_t>(belt)];
+  }
+  return counting;
 }
 
 }  // namespace chaintrue::grid::diagnosis

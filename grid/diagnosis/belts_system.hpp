@@ -4,27 +4,19 @@
 /// Private to grid/diagnosis.
 ///
 /// Each place whose coordinates nobody knows leaves two checks of its four readings (belts_beside.hpp),
-/// and each check is a unit. A single reading e_b of belt b spoils the direction Q' e_b of its place's
-/// two: where one is under suspicion the first check is turned into that direction, so that the reading
-/// is set aside with the first unit of its place, and the whole place with both.
-///
-///   row 2 k      u' Q_k' (...),   u = Q_k' e_b / |Q_k' e_b|
-///   row 2 k + 1  across it
+/// which are a unit of two rows Q' (...). A single reading e_b of belt b spoils the direction Q' e_b of
+/// them, an outlier group each; two readings of a place take both.
 ///
 /// The five anchor coordinates are the settings, of which nothing is stated. Noise is sigma for each
 /// reading of each belt.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "grid/diagnosis/belts_beside.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
-
-/// Of each place the belt whose reading may be set aside alone.
-using Suspects = std::vector<std::optional<model::Belt>>;
 
 /// About which everything is linear: the anchors and places with some causes at work, and these.
 struct BeltsState {
@@ -39,24 +31,19 @@ struct BeltsCandidates {
 };
 [[nodiscard]] BeltsCandidates candidates(const MeasuredBelts& belts);
 
-/// What the readings of each place are as four lengths of a system: its two checks, rows 2 k and
-/// 2 k + 1, of columns of 4 N rows.
-[[nodiscard]] Eigen::MatrixXd checked(const std::vector<Eigen::Matrix<double, 4, 2>>& checks,
-                                      const Eigen::MatrixXd& readings);
-
-struct BeltsSystem {
-  RegressorSystem system;
-  std::vector<Eigen::Matrix<double, 4, 2>> checks;  ///< Q_k, the first column u as above
-  Eigen::VectorXd residual_mm;                      ///< 4 N, read less what the state makes of it
-  Eigen::MatrixXd by_anchor;                        ///< 4 N x 5
-  Eigen::MatrixXd by_cause_mm;                      ///< 4 N x a column a regressor
-};
 /// With a regressor for each of `causes` at every place where it may set in.
-[[nodiscard]] BeltsSystem system_of(const MeasuredBelts& belts,
-                                    const BeltsState& state,
-                                    const std::vector<CauseId>& causes,
-                                    double sigma_mm);
-/// Turns the checks to where each place's suspect is, the regressors with them.
-void turn_to(const Suspects& suspects, double sigma_mm, BeltsSystem& system);
+[[nodiscard]] RegressorSystem system_of(const MeasuredBelts& belts,
+                                        const BeltsState& state,
+                                        const std::vector<CauseId>& causes,
+                                        double sigma_mm);
+
+/// What causes add to the checks of a system of these belts about this state, whitened.
+[[nodiscard]] Eigen::VectorXd column_of(const MeasuredBelts& belts,
+                                        const BeltsState& state,
+                                        const RegressorSystem& system,
+                                        const BeltCause& cause);
+
+/// Of each reading, whether these flags of a system's outlier groups leave it.
+[[nodiscard]] belts::Counting counting_of(const std::vector<bool>& rejected);
 
 }  // namespace chaintrue::grid::diagnosis

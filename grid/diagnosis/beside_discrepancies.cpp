@@ -37,8 +37,8 @@ class Scout {
 
   /// `beside` of the columns that this scout knows.
   [[nodiscard]] Scouted look_at(const DiscrepancyBasis::Beside& beside, int discrepancy) const {
-    const auto d = beside.diagonal(strength_of(discrepancy));
-    const double share = log_share_of_discrepancy(discrepancy) - 0.5 * d.log_det;
+    const auto d = beside.diagonal(family().strength_of(discrepancy));
+    const double share = family().log_share_of(discrepancy) - 0.5 * d.log_det;
     Scouted result{
         discrepancy, prior_of_nothing_ + share + collector_.noise().log_density(d.ee), {}};
     std::vector<std::pair<double, int>> all;
@@ -60,6 +60,8 @@ class Scout {
   }
 
  private:
+  [[nodiscard]] const DiscrepancyFamily& family() const { return *system_.discrepancies; }
+
   /// log evidence of one regressor but for determinants that all share, its bounds let go.
   [[nodiscard]] double single(const DiscrepancyBasis::Beside::Diagonal& d, Eigen::Index k) const {
     const Regressor& own =
@@ -79,7 +81,7 @@ class Scout {
   [[nodiscard]] double together(const DiscrepancyBasis::Beside& beside,
                                 int discrepancy,
                                 const std::vector<int>& set) const {
-    const NormalEquations equations = beside.equations(strength_of(discrepancy), set);
+    const NormalEquations equations = beside.equations(family().strength_of(discrepancy), set);
     ColumnSet all;
     for (std::size_t k = 0; k < set.size(); ++k) all.push_back(static_cast<Eigen::Index>(k));
     return set_evidence(equations, system_.regressors, all, collector_.noise()).log_evidence +
@@ -100,10 +102,12 @@ class BesideSearch {
   BesideSearch(const RegressorSystem& system,
                NormalEquations equations,
                int discrepancy,
+               const SearchLimits& limits,
                ModelCollector& collector)
       : system_(system),
         equations_(std::move(equations)),
         discrepancy_(discrepancy),
+        limits_(limits),
         collector_(collector) {}
 
   void run(const std::vector<int>& singles, const std::vector<std::vector<int>>& leading) {
@@ -140,7 +144,7 @@ class BesideSearch {
     for (const WeighedSet& one : alone) {
       const Eigen::Index own = one.set.front();
       const bool fits = std::all_of(parent.begin(), parent.end(), [&](Eigen::Index p) {
-        return compatible(regressor(p), regressor(own));
+        return compatible(regressor(p), regressor(own), limits_);
       });
       if (!fits) continue;
       ColumnSet set = parent;
@@ -158,6 +162,7 @@ class BesideSearch {
   const RegressorSystem& system_;
   NormalEquations equations_;
   int discrepancy_;
+  const SearchLimits& limits_;
   ModelCollector& collector_;
   std::map<ColumnSet, double> known_;
   std::array<std::vector<WeighedSet>, kMostCauses + 1> grown_;
@@ -241,6 +246,30 @@ std::vector<int> worth_searching(std::vector<Scouted> scouted) {
   return result;
 }
 
+/// A beam of its own beside every discrepancy.
+std::vector<double> search_all_by_beam(const RegressorSystem& system,
+                                       DiscrepancyBasis& basis,
+                                       const SearchLimits& limits,
+                                       const NormalEquations& plain,
+                                       const std::vector<std::size_t>& kernels,
+                                       ModelCollector& collector) {
+  const DiscrepancyFamily& family = *system.discrepancies;
+  const std::size_t strengths = family.strengths.size();
+  for (const std::size_t kernel : kernels) {
+    const DiscrepancyBasis::Beside beside = basis.beside(kernel, plain);
+    for (std::size_t s = limits.strength_step - 1; s < strengths; s += limits.strength_step) {
+      const auto discrepancy = static_cast<int>(kernel * strengths + s);
+      search_by_beam(system,
+                     beside.equations(family.strength_of(discrepancy), plain.columns),
+                     discrepancy,
+                     limits,
+                     collector);
+    }
+  }
+  // All are tried with every set of outliers: none leads.
+  return std::vector<double>(kernels.size(), 0.0);
+}
+
 }  // namespace
 
 std::vector<double> search_beside_discrepancies(const RegressorSystem& system,
@@ -251,10 +280,13 @@ std::vector<double> search_beside_discrepancies(const RegressorSystem& system,
                                                 const std::vector<std::size_t>& kernels,
                                                 ModelCollector& collector) {
   DiscrepancyBasis basis(system, marginalised, kernels);
+  if (options.search.of_a_cause > 0)
+    return search_all_by_beam(system, basis, options.search, plain, kernels, collector);
   const NormalEquations few =
-      normal_equations(marginalised, columns_to_scout(system, plain, leading));
+      normal_equations(system, marginalised, columns_to_scout(system, plain, leading));
   const Scout first_look(system, few, leading, collector);
-  const auto strengths = static_cast<int>(std::size(kDiscrepancyStrengths));
+  const DiscrepancyFamily& family = *system.discrepancies;
+  const auto strengths = static_cast<int>(family.strengths.size());
   std::vector<Scouted> scouted;
   std::vector<double> of_kernel;
   for (const std::size_t kernel : kernels) {
@@ -270,7 +302,7 @@ std::vector<double> search_beside_discrepancies(const RegressorSystem& system,
   const Scout closer_look(system, plain, leading, collector);
   std::map<std::size_t, DiscrepancyBasis::Beside> all_columns;
   for (const int discrepancy : worth_searching(std::move(scouted))) {
-    const std::size_t kernel = kernel_of(discrepancy);
+    const std::size_t kernel = family.kernel_of(discrepancy);
     if (!all_columns.contains(kernel)) all_columns.emplace(kernel, basis.beside(kernel, plain));
     const DiscrepancyBasis::Beside& beside = all_columns.at(kernel);
     const std::vector<int> singles =
@@ -280,7 +312,11 @@ std::vector<double> search_beside_discrepancies(const RegressorSystem& system,
     for (const auto& set : leading) used.insert(used.end(), set.begin(), set.end());
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    BesideSearch(system, beside.equations(strength_of(discrepancy), used), discrepancy, collector)
+    BesideSearch(system,
+                 beside.equations(family.strength_of(discrepancy), used),
+                 discrepancy,
+                 options.search,
+                 collector)
         .run(singles, leading);
   }
   return of_kernel;

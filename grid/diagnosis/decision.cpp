@@ -375,11 +375,11 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
   };
   const Eigen::Index settings = system.by_setting.cols() - system.nuisances;
   const Eigen::MatrixXd basis = range_of_settings(
-      system, seen(system.by_setting.leftCols(settings)(marginalised.kept, Eigen::all)));
+      system, seen(marginalised.kept.of(system.by_setting.leftCols(settings))));
   std::vector<CauseClass> classes;
   std::vector<Representative> first;
   for (const auto& [cause, column] : leading_regressors(system, marginalised)) {
-    Representative own{seen(system.g.column(marginalised.kept, column)),
+    Representative own{seen(marginalised.kept(system.g.col(column))),
                        marginalised.g.col(column),
                        system.regressors[static_cast<std::size_t>(column)].fixed};
     const double whole = own.free.norm();

@@ -12,8 +12,6 @@ double cauchy_weight(double strength) {
   return strength / (1.0 + std::pow(strength / kDiscrepancyScale, 2));
 }
 
-double strength_number(std::size_t index) { return kDiscrepancyStrengths[index]; }
-
 /// Directions of entry, an eighth of half a turn apart: any ratio is within 11 degrees of one, and
 /// loses at most 4 % of its square to the other component.
 constexpr int kDirections = 8;
@@ -109,11 +107,30 @@ class Kernels {
   std::vector<DiscrepancyKernel> all_;
 };
 
-/// A unit with the places of its system.
+/// A unit with the places of its system, or with its own lengths.
 struct PlacedUnit {
   const SystemUnit& unit;
   const std::vector<DiscrepancyPlace>& places;
+  const LengthEntry* entry = nullptr;
 };
+
+PlacedUnit placed(const RegressorSystem& system,
+                  const std::vector<DiscrepancyPlace>& places,
+                  std::size_t unit) {
+  return {system.units[unit], places, system.entries.empty() ? nullptr : &system.entries[unit]};
+}
+
+/// k of each length at two places.
+double between_lengths(const DiscrepancyKernel& kernel, const LengthEntry& a, const LengthEntry& b) {
+  double sum = 0.0;
+  for (const DiscrepancyField& field : kernel.fields) {
+    const bool of_place = field.of == FieldOf::place;
+    const FieldArgument at = of_place ? FieldArgument{a.x_mm, a.y_mm} : FieldArgument{a.visit};
+    const FieldArgument there = of_place ? FieldArgument{b.x_mm, b.y_mm} : FieldArgument{b.visit};
+    sum += field_covariance(field, at, there);
+  }
+  return sum / static_cast<double>(kernel.fields.size());
+}
 
 std::vector<DiscrepancyPlace> places_of(const RegressorSystem& system) {
   std::vector<DiscrepancyPlace> places;
@@ -125,6 +142,12 @@ Eigen::Matrix2d between_units(const DiscrepancyKernel& kernel,
                               const PlacedUnit& a,
                               const PlacedUnit& b) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  if (a.entry != nullptr && b.entry != nullptr) {
+    sum.topLeftCorner(a.unit.rows, b.unit.rows) =
+        between_lengths(kernel, *a.entry, *b.entry) * a.entry->by_length *
+        b.entry->by_length.transpose();
+    return sum;
+  }
   for (const observation::PlaceColumns& i : a.unit.places) {
     for (const observation::PlaceColumns& j : b.unit.places) {
       sum.topLeftCorner(a.unit.rows, b.unit.rows) +=
@@ -148,32 +171,41 @@ std::string_view name(FieldOf of) {
                                          "tension_right",
                                          "",
                                          "",
-                                         ""};
+                                         "",
+                                         "visit"};
   return kNames[static_cast<std::size_t>(of)];
 }
 
-const std::vector<DiscrepancyKernel>& discrepancy_kernels() {
-  static const Kernels kKernels;
-  return kKernels.all();
+const DiscrepancyFamily& chain_discrepancies() {
+  static const DiscrepancyFamily kFamily{Kernels().all(), kDiscrepancyStrengths};
+  return kFamily;
 }
 
-int discrepancy_count() {
-  return static_cast<int>(discrepancy_kernels().size() * std::size(kDiscrepancyStrengths));
+const DiscrepancyFamily& length_discrepancies(bool ordered) {
+  // In sigmas: from what is hardly seen to what real frames of four belts leave, four times over.
+  static constexpr std::array kStrengths = {6.0, 12.0, 24.0, 48.0};
+  // From twice the usual distance of two places to a quarter of a frame; over the visits of a row.
+  static const auto kernel = [](double place_mm, double visits, double prior) {
+    DiscrepancyKernel own{{{FieldOf::place, place_mm, FieldEntry::lengths}}, prior};
+    if (visits > 0.0) own.fields.push_back({FieldOf::visit, visits, FieldEntry::lengths});
+    return own;
+  };
+  static const DiscrepancyFamily kOrdered{{kernel(150.0, 0.0, 0.2),
+                                           kernel(300.0, 0.0, 0.2),
+                                           kernel(600.0, 0.0, 0.2),
+                                           kernel(300.0, 6.0, 0.2),
+                                           kernel(600.0, 6.0, 0.2)},
+                                          kStrengths};
+  static const DiscrepancyFamily kUnordered{
+      {kernel(150.0, 0.0, 0.2), kernel(300.0, 0.0, 0.4), kernel(600.0, 0.0, 0.4)}, kStrengths};
+  return ordered ? kOrdered : kUnordered;
 }
 
-std::size_t kernel_of(int discrepancy) {
-  return static_cast<std::size_t>(discrepancy) / std::size(kDiscrepancyStrengths);
-}
-
-double strength_of(int discrepancy) {
-  return strength_number(static_cast<std::size_t>(discrepancy) % std::size(kDiscrepancyStrengths));
-}
-
-double log_share_of_discrepancy(int discrepancy) {
+double DiscrepancyFamily::log_share_of(int discrepancy) const {
   double sum = 0.0;
-  for (const double strength : kDiscrepancyStrengths) sum += cauchy_weight(strength);
+  for (const double strength : strengths) sum += cauchy_weight(strength);
   return std::log(cauchy_weight(strength_of(discrepancy)) / sum) +
-         std::log(discrepancy_kernels()[kernel_of(discrepancy)].prior);
+         std::log(kernels[kernel_of(discrepancy)].prior);
 }
 
 DiscrepancyPlace discrepancy_place(const SystemPlace& place) {
@@ -254,38 +286,50 @@ Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
 
 Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to,
                                        const RegressorSystem& from,
-                                       const std::vector<Eigen::Index>& kept,
+                                       const KeptRows& kept,
                                        const DiscrepancyKernel& kernel) {
   const std::vector<DiscrepancyPlace> there = places_of(to);
   const std::vector<DiscrepancyPlace> here = places_of(from);
-  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(to.e.size(), static_cast<Eigen::Index>(kept.size()));
-  for (const auto& [column, number] : units_in(from, kept)) {
-    const SystemUnit& seen = from.units[number];
-    for (const SystemUnit& own : to.units) {
-      c.block(own.first_row, column, own.rows, seen.rows) =
-          between_units(kernel, {own, there}, {seen, here}).topLeftCorner(own.rows, seen.rows);
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(to.e.size(), kept.size());
+  for (const KeptRows::Unit& seen : kept.units()) {
+    const PlacedUnit other = placed(from, here, seen.unit);
+    for (std::size_t u = 0; u < to.units.size(); ++u) {
+      const SystemUnit& own = to.units[u];
+      const Eigen::Matrix2d block = between_units(kernel, placed(to, there, u), other);
+      const auto columns = block.topLeftCorner(own.rows, other.unit.rows);
+      auto to_fill = c.block(own.first_row, seen.at, own.rows, seen.rows);
+      if (seen.across) {
+        to_fill = columns * seen.across->transpose();
+      } else {
+        to_fill = columns;
+      }
     }
   }
   return c;
 }
 
 Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system,
-                                       const std::vector<Eigen::Index>& kept,
+                                       const KeptRows& kept,
                                        const DiscrepancyKernel& kernel) {
   const std::vector<DiscrepancyPlace> places = places_of(system);
-  const auto units = units_in(system, kept);
-  const auto n = static_cast<Eigen::Index>(kept.size());
-  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
+  const std::vector<KeptRows::Unit>& units = kept.units();
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(kept.size(), kept.size());
   for (std::size_t a = 0; a < units.size(); ++a) {
-    const SystemUnit& own = system.units[units[a].second];
+    const PlacedUnit own = placed(system, places, units[a].unit);
     for (std::size_t b = 0; b <= a; ++b) {
-      const SystemUnit& other = system.units[units[b].second];
-      const Eigen::Matrix2d block = between_units(kernel, {own, places}, {other, places});
-      const Eigen::Index row = units[a].first;
-      const Eigen::Index column = units[b].first;
-      c.block(row, column, own.rows, other.rows) = block.topLeftCorner(own.rows, other.rows);
-      c.block(column, row, other.rows, own.rows) =
-          block.transpose().topLeftCorner(other.rows, own.rows);
+      const PlacedUnit other = placed(system, places, units[b].unit);
+      const Eigen::Matrix2d whole = between_units(kernel, own, other);
+      const auto put = [&](const auto& block) {
+        c.block(units[a].at, units[b].at, units[a].rows, units[b].rows) = block;
+        c.block(units[b].at, units[a].at, units[b].rows, units[a].rows) = block.transpose();
+      };
+      const auto all = whole.topLeftCorner(own.unit.rows, other.unit.rows);
+      if (!units[a].across && !units[b].across) {
+        put(all);
+      } else {
+        const Eigen::MatrixXd part = KeptRows::of_unit(units[a], all);
+        put(Eigen::MatrixXd(KeptRows::of_unit(units[b], part.transpose()).transpose()));
+      }
     }
   }
   return c;

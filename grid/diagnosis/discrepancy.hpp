@@ -13,16 +13,22 @@
 ///   T  identity where it enters the chains, J = d(L, R)/d(mark) where it moves the tool
 ///   D  d d' with d = (cos, sin) of the direction of entry, or the identity where it has none; of
 ///      the border d = (1, 1), and either component has a t and a weight of its own
+///
+/// Of a mechanism that has other lengths than two chains each length is disturbed by itself, alike in
+/// variance: T and D are identities over its lengths (LengthEntry).
+///
 ///   F  fields of the kernel; of several lengths where something displaced has a trend as well
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "grid/diagnosis/constants.hpp"
+#include "grid/diagnosis/kept_rows.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -42,13 +48,18 @@ enum class FieldOf {
   /// mm, from the border of the bed: what drops over it moves the tool outwards, by one function of
   /// the distance from the side for x and from the top or bottom for y.
   border,
+  visit,  ///< number of the visit
 };
 /// Coordinates that a place has by itself.
 inline constexpr std::size_t kFieldCoordinates = static_cast<std::size_t>(FieldOf::place);
 /// As `follows` has it: x, y, length_left, ...; of the place nothing.
 [[nodiscard]] std::string_view name(FieldOf of);
 
-enum class FieldEntry { chains, tool };
+enum class FieldEntry {
+  chains,
+  tool,
+  lengths,  ///< each length of the mechanism by a function of its own; of place or visit
+};
 
 struct DiscrepancyField {
   FieldOf of = FieldOf::place;
@@ -62,20 +73,37 @@ struct DiscrepancyField {
 struct DiscrepancyKernel {
   std::vector<DiscrepancyField> fields;  ///< alike in variance
   double prior = 0.0;                    ///< share among all kernels
+  /// Whether its fields disturb each length of the mechanism by itself.
+  [[nodiscard]] bool of_lengths() const {
+    return !fields.empty() && fields.front().entry == FieldEntry::lengths;
+  }
 };
 
-/// All that are tried; their priors sum to one.
-[[nodiscard]] const std::vector<DiscrepancyKernel>& discrepancy_kernels();
+/// The discrepancies that are tried with a mechanism: each kernel at each strength, numbered
+/// kernel * strengths + strength.
+struct DiscrepancyFamily {
+  std::vector<DiscrepancyKernel> kernels;  ///< priors sum to one
+  /// In units of noise, how long a discrepancy is expected to be in the rows once the settings have
+  /// taken their share.
+  std::span<const double> strengths;
 
-/// A discrepancy is a kernel at a strength: kernel * strengths + strength.
-[[nodiscard]] int discrepancy_count();
-[[nodiscard]] std::size_t kernel_of(int discrepancy);
-[[nodiscard]] double strength_of(int discrepancy);
-
-/// Of a discrepancy among all: its kernel's share, and of its strengths what a half-Cauchy of scale
-/// 10 has, so that a huge discrepancy is rarer than one that is just seen (A. Gelman, Bayesian
-/// Analysis 1 (2006), 515, section 4.3).
-[[nodiscard]] double log_share_of_discrepancy(int discrepancy);
+  [[nodiscard]] int count() const {
+    return static_cast<int>(kernels.size() * strengths.size());
+  }
+  [[nodiscard]] std::size_t kernel_of(int discrepancy) const {
+    return static_cast<std::size_t>(discrepancy) / strengths.size();
+  }
+  [[nodiscard]] double strength_of(int discrepancy) const {
+    return strengths[static_cast<std::size_t>(discrepancy) % strengths.size()];
+  }
+  /// Its kernel's share, and of its strengths what a half-Cauchy of scale 10 has, so that a huge
+  /// discrepancy is rarer than one that is just seen (A. Gelman, Bayesian Analysis 1 (2006), 515,
+  /// section 4.3).
+  [[nodiscard]] double log_share_of(int discrepancy) const;
+};
+/// Of any other mechanism: a smooth function of the place for each of its lengths, and, where the
+/// visits' order is known, one that changes with these as well.
+[[nodiscard]] const DiscrepancyFamily& length_discrepancies(bool ordered);
 
 struct Discrepancy {
   DiscrepancyKernel kernel;
@@ -122,12 +150,12 @@ struct FieldArgument {
 /// that see no place stay 0.
 [[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to,
                                                      const RegressorSystem& from,
-                                                     const std::vector<Eigen::Index>& kept,
+                                                     const KeptRows& kept,
                                                      const DiscrepancyKernel& kernel);
 
 /// Covariance of these whitened rows, for s = 1.
 [[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system,
-                                                     const std::vector<Eigen::Index>& kept,
+                                                     const KeptRows& kept,
                                                      const DiscrepancyKernel& kernel);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -14,21 +14,16 @@ namespace {
 /// A hundredth of its sigma, which is seldom beyond a millimetre.
 constexpr double kLeftOfField = 1e-4;
 
-/// F, a line an argument.
-Eigen::MatrixXd low_rank_field(const DiscrepancyField& field,
-                               const std::vector<FieldArgument>& arguments) {
-  const auto n = static_cast<Eigen::Index>(arguments.size());
-  const auto covariance = [&](Eigen::Index i, Eigen::Index j) {
-    return field_covariance(
-        field, arguments[static_cast<std::size_t>(i)], arguments[static_cast<std::size_t>(j)]);
-  };
+/// F with F F' ~= a covariance, n x r, what is left of its diagonal below `least`.
+template <class Covariance>
+Eigen::MatrixXd low_rank(Eigen::Index n, double least, const Covariance& covariance) {
   Eigen::MatrixXd factor(n, 0);
   Eigen::VectorXd left(n);
   for (Eigen::Index i = 0; i < n; ++i) left(i) = covariance(i, i);
   for (Eigen::Index rank = 0; rank < n; ++rank) {
     Eigen::Index pivot = 0;
     const double most = left.maxCoeff(&pivot);
-    if (most < kLeftOfField) break;
+    if (most < least) break;
     Eigen::VectorXd column(n);
     for (Eigen::Index i = 0; i < n; ++i) column(i) = covariance(i, pivot);
     column -= factor * factor.row(pivot).transpose();
@@ -38,6 +33,32 @@ Eigen::MatrixXd low_rank_field(const DiscrepancyField& field,
     left -= column.cwiseAbs2();
   }
   return factor;
+}
+
+/// F, a line an argument.
+Eigen::MatrixXd low_rank_field(const DiscrepancyField& field,
+                               const std::vector<FieldArgument>& arguments) {
+  return low_rank(static_cast<Eigen::Index>(arguments.size()),
+                  kLeftOfField,
+                  [&](Eigen::Index i, Eigen::Index j) {
+                    return field_covariance(field,
+                                            arguments[static_cast<std::size_t>(i)],
+                                            arguments[static_cast<std::size_t>(j)]);
+                  });
+}
+
+/// B of a kernel of lengths.
+Eigen::MatrixXd low_rank_lengths(const RegressorSystem& system,
+                                 const MarginalisedSystem& marginalised,
+                                 const DiscrepancyKernel& kernel) {
+  const Eigen::MatrixXd half =
+      marginalised.root.solve(discrepancy_covariance(system, marginalised.kept, kernel));
+  const Eigen::MatrixXd k = marginalised.root.solve(half.transpose());
+  const double most = k.size() > 0 ? k.diagonal().maxCoeff() : 0.0;
+  if (!(most > 0.0)) return Eigen::MatrixXd(k.rows(), 0);
+  return low_rank(k.rows(), kLeftOfField * most, [&](Eigen::Index i, Eigen::Index j) {
+    return k(i, j);
+  });
 }
 
 /// Of every place, first component first; only of the border the second has arguments of its own.
@@ -65,11 +86,12 @@ Components components_of(const RegressorSystem& system,
   const Eigen::MatrixXd factor = low_rank_field(field, arguments_of(field, places));
   // Where the second component's arguments begin.
   const Eigen::Index second = factor.rows() - static_cast<Eigen::Index>(places.size());
-  const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
+  const Eigen::Index n = marginalised.kept.size();
   Components result{Eigen::MatrixXd::Zero(n, factor.cols()),
                     Eigen::MatrixXd::Zero(n, factor.cols())};
-  for (const auto& [row, number] : units_in(system, marginalised.kept)) {
-    const SystemUnit& unit = system.units[number];
+  for (const KeptRows::Unit& kept : marginalised.kept.units()) {
+    const SystemUnit& unit = system.units[kept.unit];
+    const Eigen::Index row = kept.at;
     for (const observation::PlaceColumns& seen : unit.places) {
       const auto entry = (seen.by_chain * field_entry(field, places[seen.place])).eval();
       const auto at = static_cast<Eigen::Index>(seen.place);
@@ -119,6 +141,17 @@ class DiscrepancyBasis::Fields {
     for (const SystemPlace& place : system.places) places_.push_back(discrepancy_place(place));
   }
 
+  Products& of(const DiscrepancyKernel& kernel) {
+    Products& p = all_.emplace_back();
+    p.field = kernel.fields.front();
+    p.parts.first = low_rank_lengths(system_, marginalised_, kernel);
+    p.parts.second.setZero(p.parts.first.rows(), p.parts.first.cols());
+    p.gram11 = p.parts.first.transpose() * p.parts.first;
+    p.gram12.setZero(p.gram11.rows(), p.gram11.cols());
+    p.gram22 = p.gram12;
+    return p;
+  }
+
   Products& of(DiscrepancyField field) {
     field.direction_rad.reset();
     const auto known =
@@ -166,13 +199,15 @@ DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system,
                                    const std::vector<std::size_t>& kernels)
     : marginalised_(marginalised),
       fields_(std::make_unique<Fields>(system, marginalised)),
-      kernels_(discrepancy_kernels().size()) {
+      kernels_(system.discrepancies->kernels.size()) {
   marginalised.discrepancy_trace.resize(kernels_.size(), 0.0);
   for (const std::size_t number : kernels) {
-    const DiscrepancyKernel& kernel = discrepancy_kernels()[number];
+    const DiscrepancyKernel& kernel = system.discrepancies->kernels[number];
     Kernel& own = kernels_[number];
+    if (kernel.of_lengths()) own.blocks.push_back({&fields_->of(kernel), 1.0, 0.0});
     const double share = 1.0 / std::sqrt(static_cast<double>(kernel.fields.size()));
     for (const DiscrepancyField& field : kernel.fields) {
+      if (kernel.of_lengths()) break;
       Products* const products = &fields_->of(field);
       if (const auto direction = entry_direction(field)) {
         own.blocks.push_back({products, share * direction->x(), share * direction->y()});
@@ -260,7 +295,7 @@ DiscrepancyBasis::Beside::Diagonal DiscrepancyBasis::Beside::diagonal(double str
   Diagonal result;
   result.ee = plain_->ee - e.squaredNorm();
   result.ge = plain_->ge - g * e.transpose();
-  result.gg = plain_->prior_square - g.rowwise().squaredNorm();
+  result.gg = plain_->gg.diagonal() - g.rowwise().squaredNorm();
   result.log_det = plain_->log_det + own.log_det;
   return result;
 }

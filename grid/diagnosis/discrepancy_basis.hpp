@@ -5,7 +5,8 @@
 ///
 /// Notation
 ///   F      field over the places, low rank: k ~= F F', what is left of its diagonal below 1e-4
-///   B      R^-1 W T F of a marginalised system, N x r; a direction of entry mixes two of these
+///   B      R^-1 W T F of a marginalised system, N x r; a direction of entry mixes two of these. Of a
+///          kernel of lengths the factor of R^-1 K R^-1 itself, what is left below 1e-4 of its largest
 ///   E      residual and columns of the marginalised system
 ///   Q J Q' B'B, J tridiagonal: with that a strength costs no more than its columns
 ///
@@ -27,7 +28,7 @@ namespace chaintrue::grid::diagnosis {
 
 class DiscrepancyBasis {
  public:
-  /// Of these kernels (numbers in discrepancy_kernels()). Notes their traces in the marginalised
+  /// Of these kernels (numbers in the system's family). Notes their traces in the marginalised
   /// system. Both references must outlive this.
   DiscrepancyBasis(const RegressorSystem& system,
                    MarginalisedSystem& marginalised,

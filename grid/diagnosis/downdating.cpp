@@ -90,10 +90,10 @@ std::vector<Eigen::Index> rows_of(const RegressorSystem& system,
   std::vector<Eigen::Index> result;
   for (const std::size_t number : units) {
     const SystemUnit& unit = system.units[number];
-    const auto at =
-        std::lower_bound(marginalised.kept.begin(), marginalised.kept.end(), unit.first_row);
-    if (at == marginalised.kept.end() || *at != unit.first_row) continue;
-    const auto first = static_cast<Eigen::Index>(at - marginalised.kept.begin());
+    const std::vector<Eigen::Index>& kept = marginalised.kept.rows();
+    const auto at = std::lower_bound(kept.begin(), kept.end(), unit.first_row);
+    if (at == kept.end() || *at != unit.first_row) continue;
+    const auto first = static_cast<Eigen::Index>(at - kept.begin());
     for (Eigen::Index k = 0; k < unit.rows; ++k) result.push_back(first + k);
   }
   return result;
@@ -143,14 +143,14 @@ void Downdating::add_factorisation(std::size_t number,
   }
   std::sort(columns.begin(), columns.end());
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-  const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
+  const Eigen::Index n = marginalised.kept.size();
   factorised.inverse = marginalised.root.inverse();
   Eigen::MatrixXd e(n, static_cast<Eigen::Index>(columns.size()) + 1);
   e.col(0) = marginalised.e;
   e.rightCols(e.cols() - 1) = marginalised.g.dense(columns);
   double log_det = marginalised.log_det;
   if (discrepancy >= 0) {
-    const Discrepancy process = discrepancy_of(marginalised, discrepancy);
+    const Discrepancy process = discrepancy_of(a_.system, marginalised, discrepancy);
     Eigen::MatrixXd k =
         discrepancy_covariance(a_.system, marginalised.kept, process.kernel);
     k = marginalised.root.solve(k);

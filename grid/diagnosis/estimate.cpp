@@ -46,7 +46,15 @@ Solution solve(const Unknowns& unknowns,
 void take_discrepancy_out(const RegressorSystem& system,
                           const MarginalisedSystem& marginalised,
                           Estimate& estimate) {
-  estimate.left_beside_discrepancy(marginalised.kept) = estimate.discrepancy_weights;
+  if (estimate.discrepancy.kernel.of_lengths()) {
+    const double square = estimate.discrepancy.sigma_mm * estimate.discrepancy.sigma_mm;
+    estimate.left_beside_discrepancy -=
+        square * (discrepancy_covariance(
+                      system, system, marginalised.kept, estimate.discrepancy.kernel) *
+                  estimate.discrepancy_weights);
+    return;
+  }
+  estimate.left_beside_discrepancy(marginalised.kept.rows()) = estimate.discrepancy_weights;
   for (std::size_t u = 0; u < system.units.size(); ++u) {
     if (!marginalised.outliers[u]) continue;
     const SystemUnit& unit = system.units[u];
@@ -75,7 +83,7 @@ std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(const RegressorSystem&
                                                           int discrepancy) {
   if (discrepancy < 0) return nullptr;
   auto noise = std::make_shared<DiscrepancyNoise>();
-  noise->process = discrepancy_of(marginalised, discrepancy);
+  noise->process = discrepancy_of(system, marginalised, discrepancy);
   const double square = noise->process.sigma_mm * noise->process.sigma_mm;
   Eigen::MatrixXd c =
       square * discrepancy_covariance(system, marginalised.kept, noise->process.kernel);
@@ -107,19 +115,19 @@ Estimate estimate(const RegressorSystem& system,
   while (true) {
     const auto free = static_cast<Eigen::Index>(result.free.size());
     Unknowns unknowns{
-        Eigen::MatrixXd(static_cast<Eigen::Index>(marginalised.kept.size()), settings + free),
+        Eigen::MatrixXd(marginalised.kept.size(), settings + free),
         Eigen::VectorXd::Zero(settings + free),
         Eigen::VectorXd(settings + free)};
-    unknowns.design.leftCols(settings) = system.by_setting(marginalised.kept, Eigen::all);
+    unknowns.design.leftCols(settings) = marginalised.kept.of(system.by_setting);
     unknowns.mean.head(settings) = system.expected_change;
     unknowns.sigma.head(settings) = system.sigma;
     for (Eigen::Index k = 0; k < free; ++k) {
       const int column = regressors[result.free[static_cast<std::size_t>(k)]];
-      unknowns.design.col(settings + k) = system.g.column(marginalised.kept, column);
+      unknowns.design.col(settings + k) = marginalised.kept(system.g.col(column));
       unknowns.sigma(settings + k) =
-          kWideSignalToNoise / std::max(marginalised.g.col(column).norm(), 1e-12);
+          wide_coefficient_sigma(system, marginalised, column);
     }
-    solution = solve(unknowns, data(marginalised.kept), noise != nullptr ? &noise->llt : nullptr);
+    solution = solve(unknowns, marginalised.kept(data), noise != nullptr ? &noise->llt : nullptr);
     std::size_t outside = result.free.size();
     for (std::size_t k = 0; k < result.free.size(); ++k) {
       const Regressor& d = system.regressors[static_cast<std::size_t>(regressors[result.free[k]])];
@@ -145,7 +153,7 @@ Estimate estimate(const RegressorSystem& system,
   }
   result.left = left;
   result.left_beside_discrepancy = left;
-  const Eigen::VectorXd kept = left(marginalised.kept);
+  const Eigen::VectorXd kept = marginalised.kept(left);
   double quadratic = kept.squaredNorm();
   if (noise != nullptr) {
     result.discrepancy = noise->process;
@@ -156,7 +164,7 @@ Estimate estimate(const RegressorSystem& system,
   const Eigen::VectorXd off =
       (result.setting_change - system.expected_change).cwiseQuotient(system.sigma);
   const NoiseDensity density(system.noise_dof,
-                             static_cast<Eigen::Index>(marginalised.kept.size()));
+                             marginalised.kept.size());
   result.noise_square = density.noise_square(quadratic + off.squaredNorm());
   result.covariance = solution.covariance * result.noise_square;
   result.setting_covariance = result.covariance.topLeftCorner(settings, settings);
@@ -181,9 +189,9 @@ Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
                                const DiscrepancyPlace& place) {
   Eigen::Vector2d mm = Eigen::Vector2d::Zero();
   if (estimate.discrepancy_weights.size() == 0) return mm;
-  for (const auto& [at, number] : units_in(system, marginalised.kept)) {
-    const SystemUnit& unit = system.units[number];
-    const auto weights = estimate.discrepancy_weights.segment(at, unit.rows);
+  for (const KeptRows::Unit& kept : marginalised.kept.units()) {
+    const SystemUnit& unit = system.units[kept.unit];
+    const auto weights = estimate.discrepancy_weights.segment(kept.at, unit.rows);
     for (const observation::PlaceColumns& seen : unit.places) {
       mm += discrepancy_block(estimate.discrepancy.kernel,
                               place,

@@ -71,8 +71,20 @@ double log_price_of_outlier(Eigen::Index rows) {
 
 double log_price_of_outliers(const RegressorSystem& system, const std::vector<bool>& outliers) {
   std::array<double, 2> rejected{};
-  for (std::size_t u = 0; u < outliers.size(); ++u) {
-    if (outliers[u]) rejected[static_cast<std::size_t>(system.units[u].rows - 1)] += 1.0;
+  if (system.groups.empty()) {
+    for (std::size_t u = 0; u < outliers.size(); ++u) {
+      if (outliers[u]) rejected[static_cast<std::size_t>(system.units[u].rows - 1)] += 1.0;
+    }
+  } else {
+    // Each direction is a slip of its own, and a unit has no more of them than rows.
+    std::vector<Eigen::Index> of_unit(system.units.size(), 0);
+    for (std::size_t k = 0; k < outliers.size(); ++k) {
+      const OutlierGroup& group = system.groups[k];
+      const int unit = system.unit_of_row[static_cast<std::size_t>(group.first_row)];
+      Eigen::Index& own = of_unit[static_cast<std::size_t>(unit)];
+      if (outliers[k]) own = std::min(own + (group.direction ? 1 : group.rows), group.rows);
+    }
+    for (const Eigen::Index directions : of_unit) rejected[0] += static_cast<double>(directions);
   }
   return rejected[0] * log_price_of_outlier(1) + rejected[1] * log_price_of_outlier(2);
 }
@@ -82,13 +94,10 @@ MarginalisedSystem marginalise(const RegressorSystem& system,
                                const Steps& steps) {
   MarginalisedSystem marginalised;
   marginalised.outliers = outliers;
-  for (Eigen::Index row = 0; row < system.e.size(); ++row) {
-    const int unit = system.unit_of_row[static_cast<std::size_t>(row)];
-    if (unit < 0 || !outliers[static_cast<std::size_t>(unit)]) marginalised.kept.push_back(row);
-  }
+  marginalised.kept = KeptRows(system, outliers);
   marginalised.log_outliers = log_price_of_outliers(system, outliers);
-  const Eigen::MatrixXd a = system.by_setting(marginalised.kept, Eigen::all);
-  Eigen::VectorXd e = system.e(marginalised.kept);
+  const Eigen::MatrixXd a = marginalised.kept.of(system.by_setting);
+  Eigen::VectorXd e = marginalised.kept(system.e);
   if (steps.project_settings) {
     marginalised.root = CovarianceRoot(a * system.sigma.asDiagonal());
     e -= a * system.expected_change;
@@ -98,37 +107,45 @@ MarginalisedSystem marginalise(const RegressorSystem& system,
   marginalised.log_det = marginalised.root.log_det();
   marginalised.e = marginalised.root.solve(e);
   marginalised.g = system.g.mapped([&](const auto& columns) {
-    return marginalised.root.solve(columns(marginalised.kept, Eigen::all));
+    return marginalised.root.solve(marginalised.kept.of(columns));
   });
   return marginalised;
 }
 
 Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const RegressorSystem& system,
-                                           const std::vector<Eigen::Index>& kept) {
+                                           const KeptRows& kept) {
   if (system.nuisances == 0) return {};
   const Eigen::MatrixXd scaled =
-      nuisance_columns(system)(kept, Eigen::all) * system.sigma.tail(system.nuisances).asDiagonal();
+      kept.of(nuisance_columns(system)) * system.sigma.tail(system.nuisances).asDiagonal();
   Eigen::MatrixXd covariance = scaled * scaled.transpose();
   covariance.diagonal().array() += 1.0;
   return Eigen::LLT<Eigen::MatrixXd>(covariance);
 }
 
 double square_in_noise(const RegressorSystem& system,
-                       const std::vector<Eigen::Index>& kept,
+                       const KeptRows& kept,
                        const Eigen::VectorXd& column) {
-  Eigen::VectorXd own = column(kept);
+  Eigen::VectorXd own = kept(column);
   if (system.nuisances > 0) nuisance_noise(system, kept).matrixL().solveInPlace(own);
   return own.squaredNorm();
 }
 
 double length_in_noise(const RegressorSystem& system,
-                       const std::vector<Eigen::Index>& kept,
+                       const KeptRows& kept,
                        const Eigen::VectorXd& column) {
   return std::sqrt(square_in_noise(system, kept, column));
 }
 
 Eigen::VectorXd reduced(const MarginalisedSystem& marginalised, const Eigen::VectorXd& column) {
-  return marginalised.root.solve(column(marginalised.kept));
+  return marginalised.root.solve(marginalised.kept(column));
+}
+
+double wide_coefficient_sigma(const RegressorSystem& system,
+                              const MarginalisedSystem& marginalised,
+                              int regressor) {
+  const double usual = system.regressors[static_cast<std::size_t>(regressor)].coefficient_sigma;
+  if (usual > 0.0) return usual * kWideSignalToNoise / kUsualSignalToNoise;
+  return kWideSignalToNoise / std::max(marginalised.g.col(regressor).norm(), 1e-12);
 }
 
 Eigen::Index NormalEquations::position(int column) const {
@@ -136,7 +153,9 @@ Eigen::Index NormalEquations::position(int column) const {
   return static_cast<Eigen::Index>(found - columns.begin());
 }
 
-NormalEquations normal_equations(const MarginalisedSystem& marginalised, std::vector<int> columns) {
+NormalEquations normal_equations(const RegressorSystem& system,
+                                 const MarginalisedSystem& marginalised,
+                                 std::vector<int> columns) {
   NormalEquations equations;
   std::sort(columns.begin(), columns.end());
   equations.columns = std::move(columns);
@@ -145,14 +164,32 @@ NormalEquations normal_equations(const MarginalisedSystem& marginalised, std::ve
   equations.ge = g.transpose() * marginalised.e;
   equations.gg = g.transpose() * g;
   equations.prior_square = equations.gg.diagonal();
+  for (std::size_t i = 0; i < equations.columns.size(); ++i) {
+    const double sigma =
+        system.regressors[static_cast<std::size_t>(equations.columns[i])].coefficient_sigma;
+    if (sigma > 0.0)
+      equations.prior_square(static_cast<Eigen::Index>(i)) = std::pow(kUsualSignalToNoise / sigma, 2);
+  }
   equations.log_det = marginalised.log_det;
   return equations;
 }
 
-Discrepancy discrepancy_of(const MarginalisedSystem& marginalised, int discrepancy) {
-  const std::size_t kernel = kernel_of(discrepancy);
-  return {discrepancy_kernels()[kernel],
-          strength_of(discrepancy) / std::sqrt(marginalised.discrepancy_trace.at(kernel))};
+Discrepancy discrepancy_of(const RegressorSystem& system,
+                           const MarginalisedSystem& marginalised,
+                           int discrepancy) {
+  const DiscrepancyFamily& family = *system.discrepancies;
+  const std::size_t number = family.kernel_of(discrepancy);
+  const DiscrepancyKernel& kernel = family.kernels[number];
+  double trace = number < marginalised.discrepancy_trace.size()
+                     ? marginalised.discrepancy_trace[number]
+                     : 0.0;
+  if (!(trace > 0.0)) {
+    // A kernel that was tried with other readings rejected.
+    const Eigen::MatrixXd half =
+        marginalised.root.solve(discrepancy_covariance(system, marginalised.kept, kernel));
+    trace = marginalised.root.solve(half.transpose()).trace();
+  }
+  return {kernel, family.strength_of(discrepancy) / std::sqrt(std::max(trace, 1e-300))};
 }
 
 namespace {

@@ -32,6 +32,7 @@
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/covariance_root.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
+#include "grid/diagnosis/kept_rows.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -56,8 +57,8 @@ class NoiseDensity {
 
 /// The system with the settings integrated out and some points set aside.
 struct MarginalisedSystem {
-  std::vector<bool> outliers;      ///< a flag a unit
-  std::vector<Eigen::Index> kept;  ///< N rows, ascending
+  std::vector<bool> outliers;      ///< a flag an outlier group
+  KeptRows kept;                   ///< N rows
   CovarianceRoot root;             ///< N x N, R of V = R R
   Eigen::VectorXd e;               ///< N, R^-1 times the residual
   RegressorColumns g;              ///< N x a column a regressor, R^-1 times it
@@ -68,7 +69,7 @@ struct MarginalisedSystem {
 };
 /// Prior and density of one unit of so many rows set aside, as a natural logarithm.
 [[nodiscard]] double log_price_of_outlier(Eigen::Index rows);
-/// Of all these units.
+/// Of all these groups; of directions each by itself.
 [[nodiscard]] double log_price_of_outliers(const RegressorSystem& system,
                                            const std::vector<bool>& outliers);
 [[nodiscard]] MarginalisedSystem marginalise(const RegressorSystem& system,
@@ -77,17 +78,21 @@ struct MarginalisedSystem {
 /// Square root of the kept rows' covariance with the nuisances unknown but for their sigmas: the
 /// noise as a person sees it. Empty where there are none.
 [[nodiscard]] Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const RegressorSystem& system,
-                                                         const std::vector<Eigen::Index>& kept);
+                                                         const KeptRows& kept);
 /// Square, and length, of a column's kept rows in units of that noise.
 [[nodiscard]] double square_in_noise(const RegressorSystem& system,
-                                     const std::vector<Eigen::Index>& kept,
+                                     const KeptRows& kept,
                                      const Eigen::VectorXd& column);
 [[nodiscard]] double length_in_noise(const RegressorSystem& system,
-                                     const std::vector<Eigen::Index>& kept,
+                                     const KeptRows& kept,
                                      const Eigen::VectorXd& column);
 /// R^-1 of a column of all rows.
 [[nodiscard]] Eigen::VectorXd reduced(const MarginalisedSystem& marginalised,
                                       const Eigen::VectorXd& column);
+/// One sigma of a regressor's coefficient under the wide prior of its size.
+[[nodiscard]] double wide_coefficient_sigma(const RegressorSystem& system,
+                                            const MarginalisedSystem& marginalised,
+                                            int regressor);
 
 /// |cosine| of two whitened signatures; 0 where one of them is nothing.
 template <class One, class Other>
@@ -104,15 +109,20 @@ struct NormalEquations {
   double ee = 0.0;           ///< e'e
   Eigen::VectorXd ge;        ///< m, g'e
   Eigen::MatrixXd gg;        ///< m x m, g'g
-  Eigen::VectorXd prior_square;  ///< m, g'g without a discrepancy: what the prior of a size is in
+  /// m: what the prior of a size is in. g'g without a discrepancy, or where the size is what is known
+  /// beforehand (Regressor::coefficient_sigma) the square at which that is kUsualSignalToNoise.
+  Eigen::VectorXd prior_square;
   double log_det = 0.0;      ///< of everything that is not noise's scale: V and the discrepancy
   [[nodiscard]] Eigen::Index position(int column) const;
 };
-[[nodiscard]] NormalEquations normal_equations(const MarginalisedSystem& marginalised,
+[[nodiscard]] NormalEquations normal_equations(const RegressorSystem& system,
+                                               const MarginalisedSystem& marginalised,
                                                std::vector<int> columns);
 
-/// Kernel and size of a discrepancy, in a marginalised system whose traces are noted.
-[[nodiscard]] Discrepancy discrepancy_of(const MarginalisedSystem& marginalised, int discrepancy);
+/// Kernel and size of a discrepancy, in a marginalised system.
+[[nodiscard]] Discrepancy discrepancy_of(const RegressorSystem& system,
+                                         const MarginalisedSystem& marginalised,
+                                         int discrepancy);
 
 /// What a set of regressors makes of the data.
 struct SetEvidence {

@@ -98,17 +98,17 @@ double fitted_place_sigma(const Analysis& a,
   const RegressorSystem& system = a.system;
   const Eigen::Index settings = system.setting.size();
   const auto free = static_cast<Eigen::Index>(fitted.free.size());
-  Eigen::MatrixXd design(static_cast<Eigen::Index>(marginalised.kept.size()), settings + free + 1);
+  Eigen::MatrixXd design(marginalised.kept.size(), settings + free + 1);
   Eigen::VectorXd sigma(settings + free + 1);
-  const Eigen::MatrixXd by_setting = system.by_setting + coefficient * slope_by_settings(a, own);
-  design.leftCols(settings) = by_setting(marginalised.kept, Eigen::all);
+  design.leftCols(settings) =
+      marginalised.kept.of(system.by_setting + coefficient * slope_by_settings(a, own));
   sigma.head(settings) = system.sigma;
   for (Eigen::Index k = 0; k < free; ++k) {
     const int other = fitted.regressors[fitted.free[static_cast<std::size_t>(k)]];
-    design.col(settings + k) = system.g.column(marginalised.kept, other);
-    sigma(settings + k) = kWideSignalToNoise / std::max(marginalised.g.col(other).norm(), 1e-12);
+    design.col(settings + k) = marginalised.kept(system.g.col(other));
+    sigma(settings + k) = wide_coefficient_sigma(system, marginalised, other);
   }
-  design.col(settings + free) = coefficient * (*slope)(marginalised.kept);
+  design.col(settings + free) = coefficient * marginalised.kept(*slope);
   // Beforehand any value between the bounds is as likely.
   sigma(settings + free) =
       std::min(place.upper - place.lower, 2.0 * std::numbers::pi) / std::sqrt(12.0);

@@ -104,11 +104,11 @@ Delivered delivered(const Analysis& a, const std::vector<std::size_t>& units) {
     const Eigen::MatrixXd by_sheet = stated->by_setting.middleCols(kOfMachine, sheet);
     const auto& kept = marginalised_system(a).kept;
     const Eigen::VectorXd sigma = stated->sigma.segment(kOfMachine, sheet);
-    const Eigen::MatrixXd scaled = by_sheet(kept, Eigen::all) * sigma.asDiagonal();
+    const Eigen::MatrixXd scaled = kept.of(by_sheet) * sigma.asDiagonal();
     Eigen::MatrixXd normal = scaled.transpose() * scaled;
     normal.diagonal().array() += 1.0;
     const Eigen::VectorXd x =
-        normal.llt().solve(scaled.transpose() * Eigen::VectorXd(as_stated(kept)));
+        normal.llt().solve(scaled.transpose() * kept(as_stated));
     placed -= by_sheet * sigma.cwiseProduct(x);
   }
   for (const std::size_t u : units) {

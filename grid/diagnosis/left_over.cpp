@@ -21,9 +21,9 @@ constexpr double kTimeOverPlace = 0.3;
 /// e'K e / e'e against what a fit leaves of noise: is there more in common between neighbours than
 /// chance has?
 double p_of_structure(const Analysis& a) {
-  const std::vector<Eigen::Index>& kept = marginalised_system(a).kept;
-  Eigen::MatrixXd e(static_cast<Eigen::Index>(kept.size()), kLeftOverDraws + 1);
-  e.col(0) = left_of_machine(a.system, a.estimate, a.estimate.left)(kept);
+  const KeptRows& kept = marginalised_system(a).kept;
+  Eigen::MatrixXd e(kept.size(), kLeftOverDraws + 1);
+  e.col(0) = kept(left_of_machine(a.system, a.estimate, a.estimate.left));
   constexpr std::uint64_t kStream = 63;
   e.rightCols(kLeftOverDraws) = left_of_noise(a, Nuisances::put_back, kLeftOverDraws, kStream);
   Eigen::MatrixXd k = discrepancy_covariance(a.system, kept, {{{FieldOf::place, kSmoothMm}}, 1.0});

@@ -2,13 +2,22 @@
 #include "grid/diagnosis/model_collector.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace chaintrue::grid::diagnosis {
 
-bool compatible(const Regressor& a, const Regressor& b) {
+bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limits) {
+  const auto sets_in = [](const Regressor& r) {
+    return r.cause.effect->parameters.size() > 1 && r.cause.effect->parameters.back().integer;
+  };
+  if (limits.one_event_visits > 0.0 && sets_in(a) && sets_in(b) &&
+      std::abs(a.values.back() - b.values.back()) <= limits.one_event_visits) {
+    return false;
+  }
   if (a.cause.effect != b.cause.effect) return true;
   using model::effects::EffectSide;
   const auto joint = [](EffectSide s) {
@@ -26,7 +35,7 @@ ModelCollector::ModelCollector(const RegressorSystem& system,
       number_(number),
       options_(options),
       noise_(options.steps.anchor_noise ? system.noise_dof : 1e-3,
-             static_cast<Eigen::Index>(marginalised.kept.size())),
+             marginalised.kept.size()),
       best_(-std::numeric_limits<double>::infinity()) {}
 
 double ModelCollector::consider(const ColumnSet& set,
@@ -54,14 +63,50 @@ double ModelCollector::consider(const ColumnSet& set,
 }
 
 double ModelCollector::log_prior_of(const std::vector<int>& regressors, int discrepancy) const {
-  double value = log_prior(system_.regressors, regressors, discrepancy >= 0);
-  if (discrepancy >= 0) value += log_share_of_discrepancy(discrepancy);
+  double value = log_prior(system_, regressors, discrepancy >= 0);
+  if (discrepancy >= 0) value += system_.discrepancies->log_share_of(discrepancy);
   if (!options_.steps.average_location) {
     for (const int k : regressors) {
       value -= system_.regressors[static_cast<std::size_t>(k)].log_prior;
     }
   }
   return value;
+}
+
+void search_by_beam(const RegressorSystem& system,
+                    const NormalEquations& equations,
+                    int discrepancy,
+                    const SearchLimits& limits,
+                    ModelCollector& collector) {
+  // Sets of none, one, two and three that are extended.
+  constexpr std::array<std::size_t, kMostCauses> kExtended = {1, 12, 6, 4};
+  const auto regressor = [&](Eigen::Index i) -> const Regressor& {
+    return system
+        .regressors[static_cast<std::size_t>(equations.columns[static_cast<std::size_t>(i)])];
+  };
+  collector.consider({}, discrepancy, equations);
+  std::vector<WeighedSet> parents = {{0.0, {}}};
+  for (std::size_t size = 1; size <= kMostCauses; ++size) {
+    std::vector<WeighedSet> children;
+    std::set<ColumnSet> seen;
+    for (const WeighedSet& parent : parents) {
+      for (Eigen::Index i = 0; i < equations.ge.size(); ++i) {
+        const bool fits =
+            std::all_of(parent.set.begin(), parent.set.end(), [&](Eigen::Index other) {
+              return compatible(regressor(i), regressor(other), limits);
+            });
+        if (!fits) continue;
+        ColumnSet set = parent.set;
+        set.insert(std::lower_bound(set.begin(), set.end(), i), i);
+        if (!seen.insert(set).second) continue;
+        const double weight = collector.consider(set, discrepancy, equations);
+        if (std::isfinite(weight)) children.push_back({weight, std::move(set)});
+      }
+    }
+    std::stable_sort(children.begin(), children.end(), heavier);
+    if (size < kMostCauses && children.size() > kExtended.at(size)) children.resize(kExtended.at(size));
+    parents = std::move(children);
+  }
 }
 
 std::vector<CandidateModel> ModelCollector::take() { return std::exchange(models_, {}); }

@@ -22,7 +22,7 @@ struct WeighedSet {
 
 /// May two regressors act together: one cause acts at one place, and an effect that acts on both
 /// chains alike not also on one of them.
-[[nodiscard]] bool compatible(const Regressor& a, const Regressor& b);
+[[nodiscard]] bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limits);
 
 class ModelCollector {
  public:
@@ -51,5 +51,13 @@ class ModelCollector {
   std::vector<CandidateModel> models_;
   double best_;
 };
+
+/// Sets of up to kMostCauses columns grown from nothing by a beam, each weighed beside one discrepancy
+/// or none; what was weighed goes to the collector.
+void search_by_beam(const RegressorSystem& system,
+                    const NormalEquations& equations,
+                    int discrepancy,
+                    const SearchLimits& limits,
+                    ModelCollector& collector);
 
 }  // namespace chaintrue::grid::diagnosis

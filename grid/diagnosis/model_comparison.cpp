@@ -12,20 +12,18 @@
 #include "grid/diagnosis/set_search.hpp"
 #include "grid/precondition.hpp"
 #include "grid/statistics.hpp"
-#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-double prior_of_count(std::size_t causes, bool beside_discrepancy) {
+/// `odds`: times those of causes against none; all priors still add up.
+double prior_of_count(std::size_t causes, double odds) {
   const std::array<double, kMostCauses + 1> prior = {
       kPriorOfNothing, kPriorOfOne, kPriorOfTwo, kPriorOfThree, kPriorOfFour};
-  // Beside a pattern the odds of causes against none are others; all priors still add up.
-  if (!beside_discrepancy) return prior.at(causes);
+  if (odds == 1.0) return prior.at(causes);
   const double some = kPriorOfOne + kPriorOfTwo + kPriorOfThree + kPriorOfFour;
-  const double factor = causes > 0 ? kCauseOddsBesideDiscrepancy : 1.0;
-  return factor * prior.at(causes) * (kPriorOfNothing + some) /
-         (kPriorOfNothing + kCauseOddsBesideDiscrepancy * some);
+  const double factor = causes > 0 ? odds : 1.0;
+  return factor * prior.at(causes) * (kPriorOfNothing + some) / (kPriorOfNothing + odds * some);
 }
 
 /// Nothing, and each cause alone at its best place.
@@ -33,13 +31,14 @@ std::vector<std::vector<int>> first_hypotheses(const RegressorSystem& system,
                                                const std::vector<bool>& excluded,
                                                const ComparisonOptions& options) {
   const MarginalisedSystem marginalised = marginalise(system, excluded, options.steps);
-  const NoiseDensity noise(system.noise_dof, static_cast<Eigen::Index>(marginalised.kept.size()));
+  const NoiseDensity noise(system.noise_dof, marginalised.kept.size());
   const SingleScores scores = single_scores(system, marginalised, noise, marginalised.e, false);
   std::vector<std::vector<int>> hypotheses = {{}};
   for (std::size_t k = 0; k < scores.causes.size(); ++k) {
     if (options.told && !(scores.causes[k] == *options.told)) continue;
     if (scores.best_regressor[k] >= 0) hypotheses.push_back({scores.best_regressor[k]});
   }
+  hypotheses.insert(hypotheses.end(), options.hypotheses.begin(), options.hypotheses.end());
   return hypotheses;
 }
 
@@ -58,18 +57,20 @@ double ModelComparison::probability(const CandidateModel& model) const {
   return std::exp(model.log_weight - log_total);
 }
 
-double log_prior(const std::vector<Regressor>& regressors,
-                 const std::vector<int>& set,
-                 bool discrepancy) {
-  const auto effects = static_cast<double>(model::effects::catalogue().size());
+double log_prior(const RegressorSystem& system, const std::vector<int>& set, bool discrepancy) {
   std::size_t lasting = 0;
   double value = discrepancy ? std::log(kDiscrepancyPrior) : 0.0;
   for (const int k : set) {
-    const Regressor& d = regressors[static_cast<std::size_t>(k)];
-    value += d.log_prior - std::log(effects);
-    if (!d.slip) ++lasting;
+    const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
+    value += d.log_prior - std::log(system.prior.shares);
+    if (d.expected) {
+      value += std::log(kPriorOfOne / kPriorOfNothing);
+    } else if (!d.slip) {
+      ++lasting;
+    }
   }
-  return value + std::log(prior_of_count(lasting, discrepancy)) +
+  const double odds = discrepancy ? system.prior.odds_given_discrepancy : 1.0;
+  return value + std::log(prior_of_count(lasting, odds)) +
          std::lgamma(1.0 + static_cast<double>(lasting));
 }
 
@@ -126,6 +127,8 @@ namespace {
 std::vector<std::vector<bool>> sets_without_links(const RegressorSystem& system,
                                                   const std::vector<bool>& excluded,
                                                   const ModelComparison& comparison) {
+  // A direction that is rejected is no whole reading that is off by links.
+  if (!system.groups.empty()) return {};
   const CandidateModel& best = comparison.best();
   const MarginalisedSystem& marginalised = comparison.marginalised_systems[best.marginalised];
   const Estimate fitted = estimate(system, marginalised, best.regressors, -1);
@@ -166,8 +169,8 @@ void finish(ModelComparison& comparison) {
 
 namespace {
 
-std::vector<std::size_t> all_kernels() {
-  std::vector<std::size_t> all(discrepancy_kernels().size());
+std::vector<std::size_t> all_kernels(const RegressorSystem& system) {
+  std::vector<std::size_t> all(system.discrepancies->kernels.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
 }
@@ -205,6 +208,10 @@ class Comparer {
       best = std::max(best, searches.back().best());
     }
     if (options_.discrepancies) {
+      if (options_.search.of_a_cause > 0) {
+        look_beside_likeliest(searches);
+        searches.clear();
+      }
       for (SetSearch& search : searches) {
         // What looks like outliers without a discrepancy may be part of one.
         const bool all = search.outliers() == excluded_;
@@ -221,11 +228,22 @@ class Comparer {
     std::move(models.begin(), models.end(), std::back_inserter(comparison_.models));
   }
 
+  void look_beside_likeliest(std::vector<SetSearch>& searches) {
+    std::vector<std::size_t> order(searches.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return searches[a].best() > searches[b].best();
+    });
+    order.resize(std::min(order.size(), options_.search.sets_beside));
+    for (const std::size_t k : order) look_beside(searches[k]);
+  }
+
   void look_beside(SetSearch& search) {
     const bool first = comparison_.kernels.empty();
-    const std::vector<std::size_t> kernels = !first ? leading_kernels(comparison_)
+    const bool all_again = options_.search.of_a_cause > 0;
+    const std::vector<std::size_t> kernels = !first && !all_again ? leading_kernels(comparison_)
                                              : !options_.kernels.empty() ? options_.kernels
-                                                                         : all_kernels();
+                                                                         : all_kernels(system_);
     std::vector<double> weight;
     take(search.run_beside_discrepancies(kernels, weight));
     if (first) comparison_.kernels = by_weight(kernels, weight);

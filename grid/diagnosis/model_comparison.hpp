@@ -37,13 +37,31 @@ struct ModelComparison {
   [[nodiscard]] double probability(const CandidateModel& model) const;
 };
 
+/// How far sets of causes are searched, by what a mechanism's regressors are like.
+struct SearchLimits {
+  /// Regressors of each cause that are weighed, the best of its places: alone, and once one of what
+  /// leads has taken its share; sets of them are grown by a beam from nothing, beside every discrepancy
+  /// anew. 0: all regressors, and of whole numbers the best; sets that lead without a discrepancy are
+  /// tried beside the likeliest of these too.
+  std::size_t of_a_cause = 0;
+  /// With a beam: sets of outliers that are tried beside discrepancies, the likeliest, and every so
+  /// many of the strengths, the last among them.
+  std::size_t sets_beside = 1;
+  std::size_t strength_step = 1;
+  /// What sets in within so many visits is one event, whatever it is called. 0: nothing is.
+  double one_event_visits = 0.0;
+};
+
 struct ComparisonOptions {
   Steps steps;
   bool discrepancies = true;
-  /// Kernels of the discrepancy to try (numbers in discrepancy_kernels()); empty: all.
+  /// Kernels of the discrepancy to try (numbers in the system's family); empty: all.
   std::vector<std::size_t> kernels{};
   /// Nothing but this cause acts.
   std::optional<CauseId> told{};
+  SearchLimits search{};
+  /// Sets of regressors that look for outliers besides nothing and each cause alone.
+  std::vector<std::vector<int>> hypotheses{};
 };
 
 /// Points already known not to count (held out) are `excluded`.
@@ -59,7 +77,7 @@ struct ComparisonOptions {
 inline constexpr std::size_t kMostCauses = 4;
 
 /// Prior of a set of regressors, of its outliers not.
-[[nodiscard]] double log_prior(const std::vector<Regressor>& regressors,
+[[nodiscard]] double log_prior(const RegressorSystem& system,
                                const std::vector<int>& set,
                                bool discrepancy);
 

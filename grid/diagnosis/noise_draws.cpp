@@ -13,15 +13,15 @@ namespace {
 /// X in units of what each unknown may be beforehand.
 Eigen::MatrixXd design_of(const Analysis& a) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
-  const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
+  const Eigen::Index n = marginalised.kept.size();
   const Eigen::Index settings = a.system.by_setting.cols();
   const auto causes = static_cast<Eigen::Index>(a.estimate.free.size());
   Eigen::MatrixXd design(n, settings + causes);
   design.leftCols(settings) =
-      a.system.by_setting(marginalised.kept, Eigen::all) * a.system.sigma.asDiagonal();
+      marginalised.kept.of(a.system.by_setting) * a.system.sigma.asDiagonal();
   for (Eigen::Index k = 0; k < causes; ++k) {
     const int column = a.estimate.regressors[a.estimate.free[static_cast<std::size_t>(k)]];
-    design.col(settings + k) = a.system.g.column(marginalised.kept, column) * kWideSignalToNoise /
+    design.col(settings + k) = marginalised.kept(a.system.g.col(column)) * kWideSignalToNoise /
                                std::max(marginalised.g.col(column).norm(), 1e-12);
   }
   return design;

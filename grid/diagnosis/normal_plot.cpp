@@ -18,7 +18,7 @@ constexpr Eigen::Index kFewestRows = 2 * static_cast<Eigen::Index>(kFewestPoints
 /// Rows of the marginalised system that are units' rows: readings of the machine are none of the
 /// plot's.
 Eigen::Index rows_of_units(const Analysis& a) {
-  const std::vector<Eigen::Index>& kept = marginalised_system(a).kept;
+  const std::vector<Eigen::Index>& kept = marginalised_system(a).kept.rows();
   const auto end = std::lower_bound(kept.begin(), kept.end(), a.system.observed_rows());
   return static_cast<Eigen::Index>(end - kept.begin());
 }
@@ -66,7 +66,7 @@ std::optional<NormalPlot> normal_plot(const Analysis& a) {
   const Eigen::VectorXd& left =
       a.decision.discrepancy_left ? a.estimate.left_beside_discrepancy : a.estimate.left;
   NormalPlot plot;
-  plot.values = shape_of(Eigen::VectorXd(left(marginalised.kept)).head(rows));
+  plot.values = shape_of(marginalised.kept(left).head(rows));
   constexpr std::uint64_t kStream = 64;
   const Eigen::MatrixXd noise = left_of_noise(a, Nuisances::taken_out, kPlotDraws, kStream);
   std::vector<std::vector<double>> curves;

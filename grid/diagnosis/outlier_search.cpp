@@ -181,11 +181,16 @@ std::vector<FreeGroup> free_groups(const MarginalisedSystem& marginalised,
   std::vector<FreeGroup> free;
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const OutlierGroup& group = groups[k];
-    const auto at =
-        std::lower_bound(marginalised.kept.begin(), marginalised.kept.end(), group.first_row);
-    if (at == marginalised.kept.end() || *at != group.first_row) continue;
+    const std::vector<Eigen::Index>& kept = marginalised.kept.rows();
+    const auto at = std::lower_bound(kept.begin(), kept.end(), group.first_row);
+    // Of a unit of which one direction is gone nothing but the other is left to judge it by.
+    const auto last = at + (group.rows - 1);
+    if (kept.end() - at < group.rows || *at != group.first_row ||
+        *last != group.first_row + group.rows - 1) {
+      continue;
+    }
     FreeGroup own{
-        k, static_cast<Eigen::Index>(at - marginalised.kept.begin()), group.rows, group.direction};
+        k, static_cast<Eigen::Index>(at - kept.begin()), group.rows, group.direction};
     if (own.direction) own.direction->normalize();
     free.push_back(std::move(own));
   }
@@ -251,7 +256,7 @@ FoundSet search(MeanShifts shifts,
                 double log_prior) {
   const auto count = static_cast<double>(free.size());
   const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostOutlierShare * count)));
-  auto n = static_cast<Eigen::Index>(marginalised.kept.size());
+  Eigen::Index n = marginalised.kept.size();
   std::array<double, 2> rejected{};
   const auto weight = [&] {
     return NoiseDensity(system.noise_dof, n).log_density(shifts.quadratic()) -
@@ -306,7 +311,7 @@ std::vector<std::vector<bool>> outlier_sets(const RegressorSystem& system,
                           free,
                           limits,
                           beforehand,
-                          log_prior(system.regressors, set, false));
+                          log_prior(system, set, false));
     const auto same = std::find_if(
         found.begin(), found.end(), [&](const FoundSet& f) { return f.outliers == one.outliers; });
     if (same == found.end()) {
@@ -333,8 +338,8 @@ std::vector<std::vector<bool>> outlier_sets(const RegressorSystem& system,
                                             const std::vector<std::vector<int>>& hypotheses,
                                             const Steps& steps) {
   return outlier_sets(system,
-                      unit_groups(system),
-                      {.fewest_groups = system.fewest_units},
+                      system.groups.empty() ? unit_groups(system) : system.groups,
+                      system.limits,
                       excluded,
                       hypotheses,
                       steps);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "grid/diagnosis/leading.hpp"
 #include "grid/diagnosis/normal.hpp"
@@ -61,6 +60,20 @@ std::vector<Group> groups_of(const Analysis& a) {
   return result;
 }
 
+/// S with S S' = a positive semidefinite matrix of whitened rows, but for a hundredth of the noise.
+Eigen::MatrixXd square_root(const Eigen::MatrixXd& matrix) {
+  constexpr double kNegligible = 1e-4;
+  const Eigen::LDLT<Eigen::MatrixXd> ldlt(matrix);
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
+    if (ldlt.vectorD()(k) > kNegligible) columns.push_back(k);
+  }
+  const Eigen::MatrixXd lower = ldlt.matrixL();
+  const Eigen::MatrixXd result =
+      lower(Eigen::all, columns) * ldlt.vectorD()(columns).cwiseSqrt().asDiagonal();
+  return ldlt.transpositionsP().transpose() * result;
+}
+
 /// Adds the discrepancy of the estimate to what is expected of the rows of `system`, by kriging: K
 /// of the rows to come with those measured, C of these with their noise, X their design.
 ///   mean + K C^-1 (what is left),  design - K C^-1 X,  and K** - K C^-1 K' of its own
@@ -71,7 +84,7 @@ Eigen::MatrixXd add_discrepancy(const Analysis& a,
                                 const Estimate& fitted,
                                 Eigen::VectorXd& mean,
                                 Eigen::MatrixXd& design) {
-  const std::vector<Eigen::Index>& kept = marginalised_system(a).kept;
+  const KeptRows& kept = marginalised_system(a).kept;
   const DiscrepancyKernel& kernel = fitted.discrepancy.kernel;
   const double square = fitted.discrepancy.sigma_mm * fitted.discrepancy.sigma_mm;
   const Eigen::MatrixXd k = square * discrepancy_covariance(system, a.system, kept, kernel);
@@ -80,23 +93,22 @@ Eigen::MatrixXd add_discrepancy(const Analysis& a,
   const Eigen::LLT<Eigen::MatrixXd> llt(c);
   Eigen::MatrixXd x(c.rows(), design.cols());
   const Eigen::Index settings = fitted.setting_change.size();
-  x.leftCols(settings) = a.system.by_setting(kept, Eigen::all);
+  x.leftCols(settings) = kept.of(a.system.by_setting);
   for (std::size_t i = 0; i < fitted.free.size(); ++i) {
     x.col(settings + static_cast<Eigen::Index>(i)) =
-        a.system.g.column(kept, fitted.regressors[fitted.free[i]]);
+        kept(a.system.g.col(fitted.regressors[fitted.free[i]]));
   }
   mean += k * fitted.discrepancy_weights;
   design -= k * llt.solve(x);
-  std::vector<Eigen::Index> rows(static_cast<std::size_t>(system.e.size()));
-  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
-  const Eigen::MatrixXd own = square * discrepancy_covariance(system, system, rows, kernel);
+  const Eigen::MatrixXd own =
+      square * discrepancy_covariance(system, system, KeptRows::all(system), kernel);
   return square_root(own - k * llt.solve(k.transpose()));
 }
 
 /// What an alternative expects of every candidate.
 void predict(const Analysis& a,
-             const ObservationSet& next,
              const RegressorSystem& system,
+             const ColumnOf& column_of_cause,
              Alternative& h) {
   const Estimate fitted =
       estimate(a.system, marginalised_system(a), h.regressors, h.discrepancy);
@@ -110,7 +122,7 @@ void predict(const Analysis& a,
   Eigen::Index column = settings;
   for (std::size_t k = 0; k < fitted.regressors.size(); ++k) {
     const Regressor& d = a.system.regressors[static_cast<std::size_t>(fitted.regressors[k])];
-    const auto g = signature(next, a.state, system, d.cause, d.values);
+    const auto g = column_of_cause(d);
     const Eigen::VectorXd column_of =
         g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(system.by_setting.rows()));
     h.mean += column_of * fitted.coefficient(static_cast<Eigen::Index>(k));
@@ -191,24 +203,19 @@ std::vector<Alternative> leading_alternatives(const Analysis& a) {
   return result;
 }
 
-Eigen::MatrixXd square_root(const Eigen::MatrixXd& matrix) {
-  constexpr double kNegligible = 1e-4;
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(matrix);
-  std::vector<Eigen::Index> columns;
-  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
-    if (ldlt.vectorD()(k) > kNegligible) columns.push_back(k);
-  }
-  const Eigen::MatrixXd lower = ldlt.matrixL();
-  const Eigen::MatrixXd result =
-      lower(Eigen::all, columns) * ldlt.vectorD()(columns).cwiseSqrt().asDiagonal();
-  return ldlt.transpositionsP().transpose() * result;
-}
-
 std::optional<std::vector<Alternative>> alternatives_about(const Analysis& a, const ObservationSet& next) {
   const auto system = linearise(next, a.state, {});
   if (!system) return std::nullopt;
+  return alternatives_about(a, *system, [&](const Regressor& d) {
+    return signature(next, a.state, *system, d.cause, d.values);
+  });
+}
+
+std::vector<Alternative> alternatives_about(const Analysis& a,
+                                            const RegressorSystem& next,
+                                            const ColumnOf& column) {
   std::vector<Alternative> alternatives = leading_alternatives(a);
-  for (Alternative& one : alternatives) predict(a, next, *system, one);
+  for (Alternative& one : alternatives) predict(a, next, column, one);
   return alternatives;
 }
 

@@ -26,6 +26,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -50,10 +51,15 @@ struct Alternative {
 [[nodiscard]] std::optional<std::vector<Alternative>> alternatives_about(const Analysis& analysis,
                                                                          const ObservationSet& next);
 
-/// The same before anything is foretold: without means and spreads.
+/// The same of rows that are given as a system, of which `column` makes what a regressor adds there;
+/// nothing where such a machine cannot be.
+using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const Regressor&)>;
+[[nodiscard]] std::vector<Alternative> alternatives_about(const Analysis& analysis,
+                                                          const RegressorSystem& next,
+                                                          const ColumnOf& column);
+
+/// The same before anything is predicted: without means and spreads.
 [[nodiscard]] std::vector<Alternative> leading_alternatives(const Analysis& analysis);
-/// S with S S' = a positive semidefinite matrix of whitened rows, but for a hundredth of the noise.
-[[nodiscard]] Eigen::MatrixXd square_root(const Eigen::MatrixXd& matrix);
 
 struct ExpectedDiscrimination {
   double confusion = 0.0;

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "model/effects/catalogue.hpp"
+
 namespace chaintrue::grid::diagnosis {
 namespace {
 
@@ -53,8 +55,10 @@ tl::expected<RegressorSystem, observation::Unreachable> linearise(const Observat
   system.setting = setting_values(set, state);
   system.expected_change = set.stated_value - system.setting;
   system.sigma = set.stated_sigma;
+  // Of each effect the shares of its sides, places and numbers add up to one.
+  system.prior.shares = static_cast<double>(model::effects::catalogue().size());
   system.noise_dof = set.noise_dof;
-  system.fewest_units = set.fewest_units;
+  system.limits.fewest_groups = set.fewest_units;
   if (!steps.whiten) {
     const std::vector<double> sigma = common_sigmas(system, set.parts.size());
     for (auto* units : {&system.units, &system.certain}) {

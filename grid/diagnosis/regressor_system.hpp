@@ -15,9 +15,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
+#include <optional>
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/regressor_columns.hpp"
 #include "grid/diagnosis/observations.hpp"
 #include "grid/estimation/linearised_system.hpp"
@@ -36,8 +39,12 @@ struct Regressor {
   bool fixed = false;
   /// It acts at one visit alone.
   bool slip = false;
+  /// What machines in order do as often as not: it counts as no cause beforehand (CausePrior).
+  bool expected = false;
   /// The secant was taken at a size that was found: its coefficient can be held against its bounds.
   bool refined = false;
+  /// One sigma of the coefficient beforehand; 0: of its strength as evidence.hpp has it.
+  double coefficient_sigma = 0.0;
   /// What the coefficient may be.
   double lowest = 0.0;
   double highest = 0.0;
@@ -47,6 +54,48 @@ struct Regressor {
   double log_prior = 0.0;
 };
 
+/// Readings that one slip spoils together, as a direction of one or two consecutive rows. Groups of
+/// the same rows follow one another.
+struct OutlierGroup {
+  Eigen::Index first_row = 0;
+  Eigen::Index rows = 1;
+  /// Among two rows, of any length but zero; absent: all rows.
+  std::optional<Eigen::Vector2d> direction{};
+};
+
+/// Where a search for outliers ends, besides kMostOutlierShare of the groups.
+struct OutlierLimits {
+  std::size_t fewest_groups = 0;  ///< so many stay
+  Eigen::Index fewest_rows = 0;   ///< so many stay
+  /// Of groups beyond the best set so far: several bad ones can hide one another.
+  std::size_t beyond_the_best = std::numeric_limits<std::size_t>::max();
+};
+
+/// How the lengths of a mechanism at a place move a unit's rows.
+struct LengthEntry {
+  double x_mm = 0.0;  ///< where the tool was
+  double y_mm = 0.0;
+  double visit = 0.0;         ///< its number; 0 where the order is not known
+  Eigen::MatrixXd by_length;  ///< rows x lengths, whitened
+};
+
+struct DiscrepancyFamily;
+[[nodiscard]] const DiscrepancyFamily& chain_discrepancies();
+
+/// How likely causes are beforehand, by the catalogue of the mechanism that they act on.
+///
+/// Each of n causes together has a share of kPriorOfOne, kPriorOfTwo, ... by exp(log_prior) / shares.
+/// What is expected is none of the n: every such set is as likely with it as without it, so that it
+/// alone is as likely as nothing, and all else has the odds that it would have had.
+struct CausePrior {
+  /// Where it is the sum of exp(log_prior) over all that the catalogue holds and is not expected, one
+  /// cause together has kPriorOfOne; larger where causes are rarer. No other mechanism's catalogue has a
+  /// say in it.
+  double shares = 1.0;
+  /// Times the odds that causes act where there is a smooth pattern that nobody listed.
+  double odds_given_discrepancy = kCauseOddsBesideDiscrepancy;
+};
+
 /// A linearised system with its regressors, and what is known of its unknowns beforehand.
 struct RegressorSystem : estimation::LinearisedSystem {
   RegressorColumns g;  ///< n x a column a regressor
@@ -54,9 +103,21 @@ struct RegressorSystem : estimation::LinearisedSystem {
   Eigen::VectorXd setting;          ///< q, value in the state
   Eigen::VectorXd expected_change;  ///< q, stated less that
   Eigen::VectorXd sigma;            ///< q, one sigma as stated
+  CausePrior prior;
   double noise_dof = 15.0;          ///< how well the noise is known, degrees of freedom
-  std::size_t fewest_units = 0;     ///< with fewer left, none is set aside
+  /// What one slip spoils; empty: each unit is a group.
+  std::vector<OutlierGroup> groups;
+  OutlierLimits limits;
+  /// A unit each, of mechanisms whose lengths are not those of two chains; else empty.
+  std::vector<LengthEntry> entries;
+  const DiscrepancyFamily* discrepancies = &chain_discrepancies();
 };
+
+/// A flag for each outlier group, none set.
+[[nodiscard]] inline std::vector<bool> nothing_rejected(const RegressorSystem& system) {
+  return std::vector<bool>(system.groups.empty() ? system.units.size() : system.groups.size(),
+                           false);
+}
 
 /// Without regressors. Fails with the first place that the machine cannot reach.
 [[nodiscard]] tl::expected<RegressorSystem, observation::Unreachable> linearise(

@@ -13,7 +13,78 @@
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
-namespace {}  // namespace
+namespace {
+
+constexpr double kLeastSquare = 1e-8;
+/// Of what leads so many causes are taken out in turn.
+constexpr std::size_t kTakenOut = 3;
+
+/// What a column takes from e'e by itself, given its square and its inner product with e.
+double taken_alone(const Regressor& regressor, double c, double square) {
+  return regressor.fixed ? 2.0 * c - square : c * c / square;
+}
+
+/// Adds of each cause the places that explain most of `e`, so many.
+void add_best(const RegressorSystem& system,
+              const Eigen::MatrixXd& g,
+              const Eigen::VectorXd& e,
+              std::size_t of_a_cause,
+              std::set<int>& chosen) {
+  const Eigen::VectorXd c = g.transpose() * e;
+  const Eigen::VectorXd square = g.colwise().squaredNorm();
+  std::vector<std::pair<double, int>> scores;
+  const auto take = [&] {
+    std::stable_sort(scores.begin(), scores.end(), [](const auto& x, const auto& y) {
+      return x.first > y.first;
+    });
+    for (std::size_t k = 0; k < std::min(scores.size(), of_a_cause); ++k)
+      chosen.insert(scores[k].second);
+    scores.clear();
+  };
+  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+    const Regressor& own = system.regressors[k];
+    if (k > 0 && !(own.cause == system.regressors[k - 1].cause)) take();
+    const auto at = static_cast<Eigen::Index>(k);
+    if (!(square(at) > kLeastSquare)) continue;
+    scores.emplace_back(taken_alone(own, c(at), square(at)), static_cast<int>(k));
+  }
+  take();
+}
+
+/// The best of each cause's places, once the settings have taken their share, and once one of what
+/// leads has taken its own.
+std::vector<int> best_of_each_cause(const RegressorSystem& system,
+                                    const MarginalisedSystem& marginalised,
+                                    const ComparisonOptions& options,
+                                    std::size_t of_a_cause) {
+  std::set<int> chosen;
+  const Eigen::MatrixXd all = marginalised.g.dense();
+  add_best(system, all, marginalised.e, of_a_cause, chosen);
+  std::vector<std::pair<double, int>> leading;
+  for (const int k : chosen) {
+    if (system.regressors[static_cast<std::size_t>(k)].fixed) continue;
+    const auto g = all.col(k);
+    leading.emplace_back(std::abs(g.dot(marginalised.e)) / g.norm(), k);
+  }
+  std::sort(leading.rbegin(), leading.rend());
+  std::vector<CauseId> taken;
+  for (const auto& [score, k] : leading) {
+    const CauseId& cause = system.regressors[static_cast<std::size_t>(k)].cause;
+    if (taken.size() == kTakenOut) break;
+    if (std::find(taken.begin(), taken.end(), cause) != taken.end()) continue;
+    taken.push_back(cause);
+    const Eigen::VectorXd own = all.col(k).normalized();
+    const Eigen::MatrixXd g = all - own * (own.transpose() * all);
+    add_best(system, g, marginalised.e - own * own.dot(marginalised.e), of_a_cause, chosen);
+  }
+  std::erase_if(chosen, [&](int k) {
+    const CauseId& cause = system.regressors[static_cast<std::size_t>(k)].cause;
+    return options.told && !(cause == *options.told);
+  });
+  return {chosen.begin(), chosen.end()};
+}
+
+}  // namespace
 
 class SetSearch::Search {
  public:
@@ -27,7 +98,15 @@ class SetSearch::Search {
         collector_(system, marginalised, number, options) {}
 
   std::vector<CandidateModel> run() {
-    equations_ = normal_equations(marginalised_, columns());
+    const std::size_t few = options_.search.of_a_cause;
+    equations_ = normal_equations(
+        system_,
+        marginalised_,
+        few == 0 ? columns() : best_of_each_cause(system_, marginalised_, options_, few));
+    if (few > 0) {
+      search_by_beam(system_, equations_, -1, options_.search, collector_);
+      return collector_.take();
+    }
     consider({});
     singles();
     if (!options_.told) {
@@ -127,7 +206,14 @@ class SetSearch::Search {
     double cb = equations_.ge(j);
     const double ab = equations_.gg(i, j);
     double occam = 0.0;
-    const double precision = 1.0 / (kWideSignalToNoise * kWideSignalToNoise);
+    const double kWide = kWideSignalToNoise * kWideSignalToNoise;
+    const auto precision = [&](Eigen::Index k) {
+      return equations_.prior_square(k) / equations_.gg(k, k) / kWide;
+    };
+    // One sigma of the strength, in this metric.
+    const auto usual = [&](Eigen::Index k) {
+      return kUsualSignalToNoise * std::sqrt(equations_.gg(k, k) / equations_.prior_square(k));
+    };
     if (a.fixed && b.fixed) {
       q += aa + bb + 2.0 * (ab - ca - cb);
     } else if (a.fixed || b.fixed) {
@@ -135,16 +221,18 @@ class SetSearch::Search {
       const double cf = a.fixed ? ca : cb;
       const double oo = a.fixed ? bb : aa;
       const double co = (a.fixed ? cb : ca) - ab;
-      q += ff - 2.0 * cf - co * co / (oo * (1.0 + precision));
-      occam = std::log(kUsualSignalToNoise);
+      const Eigen::Index free = a.fixed ? j : i;
+      q += ff - 2.0 * cf - co * co / (oo * (1.0 + precision(free)));
+      occam = std::log(usual(free));
     } else {
       ca /= std::sqrt(aa);
       cb /= std::sqrt(bb);
       const double collinearity = ab / std::sqrt(aa * bb);
-      const double one = 1.0 + precision;
-      const double det = one * one - collinearity * collinearity;
-      q -= (one * (ca * ca + cb * cb) - 2.0 * collinearity * ca * cb) / det;
-      occam = 2.0 * std::log(kUsualSignalToNoise) + 0.5 * std::log(det);
+      const double one_a = 1.0 + precision(i);
+      const double one_b = 1.0 + precision(j);
+      const double det = one_a * one_b - collinearity * collinearity;
+      q -= (one_b * ca * ca + one_a * cb * cb - 2.0 * collinearity * ca * cb) / det;
+      occam = std::log(usual(i)) + std::log(usual(j)) + 0.5 * std::log(det);
     }
     const auto n = static_cast<double>(marginalised_.kept.size());
     return -0.5 * (n + system_.noise_dof) * std::log(system_.noise_dof + std::max(q, 0.0)) - occam +
@@ -157,7 +245,7 @@ class SetSearch::Search {
     double best = kMinusInfinity;
     for (Eigen::Index i = 0; i < count; ++i) {
       for (Eigen::Index j = 0; j < i; ++j) {
-        if (!compatible(regressor(i), regressor(j))) continue;
+        if (!compatible(regressor(i), regressor(j), options_.search)) continue;
         const double weight = quick_weight(i, j);
         if (weight < best - kPairsWithin) continue;
         best = std::max(best, weight);
@@ -198,7 +286,9 @@ class SetSearch::Search {
     std::vector<std::pair<double, Eigen::Index>> order;
     for (Eigen::Index i = 0; i < left.size(); ++i) {
       bool fits = true;
-      for (const Eigen::Index p : parent) fits = fits && compatible(regressor(i), regressor(p));
+      for (const Eigen::Index p : parent) {
+        fits = fits && compatible(regressor(i), regressor(p), options_.search);
+      }
       if (!fits) continue;
       const Eigen::VectorXd x = equations_.gg(parent, i);
       const double square = equations_.gg(i, i) - x.dot(ldlt.solve(x));
@@ -222,8 +312,6 @@ class SetSearch::Search {
     return system_
         .regressors[static_cast<std::size_t>(equations_.columns[static_cast<std::size_t>(i)])];
   }
-
-  static constexpr double kLeastSquare = 1e-8;
 
   const RegressorSystem& system_;
   MarginalisedSystem& marginalised_;

@@ -7,50 +7,37 @@
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/gain.hpp"
 #include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/outlier_search.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
-#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr double kSlip = 6.0;  // sigmas: a point so far off does not place the sheet
-
-/// Residuals with the placement of the sheet, and nothing else, fitted: whitened rows of points.
+/// Residuals with the placement of the sheet, and nothing else, fitted to the points that count:
+/// whitened rows of points.
 class Placed {
  public:
-  explicit Placed(const RegressorSystem& system) : system_(system) {
+  explicit Placed(const RegressorSystem& system) : sheet_(system) {
     const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
-    by_sheet_ = system.by_setting.rightCols(system.setting.size() - machine);
-    sigma_ = system.sigma.tail(system.sigma.size() - machine);
+    const Eigen::Index sheet = system.setting.size() - machine;
+    sheet_.by_setting = system.by_setting.rightCols(sheet).eval();
+    sheet_.setting = Eigen::VectorXd::Zero(sheet);
+    sheet_.expected_change = Eigen::VectorXd::Zero(sheet);
+    sheet_.sigma = system.sigma.tail(sheet).eval();
+    sheet_.g = RegressorColumns(system.e.size());
+    sheet_.regressors.clear();
   }
 
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& left) const {
-    if (by_sheet_.cols() == 0) return left;
-    Eigen::VectorXd weight = Eigen::VectorXd::Ones(left.size());
-    Eigen::VectorXd result = left;
-    for (int pass = 0; pass < 3; ++pass) {
-      const Eigen::MatrixXd scaled = by_sheet_ * sigma_.asDiagonal();
-      Eigen::MatrixXd normal = scaled.transpose() * weight.asDiagonal() * scaled;
-      normal.diagonal().array() += 1.0;
-      const Eigen::VectorXd x = normal.llt().solve(scaled.transpose() * weight.cwiseProduct(left));
-      result = left - scaled * x;
-      std::vector<double> size;
-      for (const SystemUnit& unit : system_.units) size.push_back(unit.segment(result).norm());
-      // The median length of two standard normals is 1.18.
-      const double s = std::max(1.0, median(size) / 1.18);
-      for (std::size_t i = 0; i < size.size(); ++i) {
-        const SystemUnit& unit = system_.units[i];
-        weight.segment(unit.first_row, unit.rows)
-            .setConstant(size[i] > kSlip * s ? 0.0 : 1.0);
-      }
-    }
-    return result;
+    if (sheet_.by_setting.cols() == 0) return left;
+    RegressorSystem system = sheet_;
+    system.e = left;
+    const auto outliers = outlier_sets(system, nothing_rejected(system), {{}}, {}).front();
+    return estimate(system, marginalise(system, outliers, {}), {}, -1).left;
   }
 
  private:
-  const RegressorSystem& system_;
-  Eigen::MatrixXd by_sheet_;
-  Eigen::VectorXd sigma_;
+  RegressorSystem sheet_;  ///< the sheet's settings are all that is free
 };
 
 /// What a model of the first session leaves of the second, its sheet not yet placed.

@@ -75,7 +75,7 @@ Said said_of(const Analysis& a) {
   Said said;
   for (const CandidateModel& model : a.comparison.models) {
     if (model.discrepancy < 0) continue;
-    const DiscrepancyKernel& kernel = discrepancy_kernels()[kernel_of(model.discrepancy)];
+    const DiscrepancyKernel& kernel = a.system.discrepancies->kernels[a.system.discrepancies->kernel_of(model.discrepancy)];
     const double p = a.comparison.probability(model);
     said.of[argument_of(kernel)] += p;
     said.enters[entry_of(kernel)] += p;

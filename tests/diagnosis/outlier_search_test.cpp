@@ -46,7 +46,7 @@ RegressorSystem random_system(synthetic::Random& random) {
   system.setting = Eigen::VectorXd::Zero(3);
   system.expected_change = Eigen::VectorXd::Constant(3, 0.2);
   system.sigma = Eigen::VectorXd::Constant(3, 1.5);
-  system.fewest_units = 8;
+  system.limits.fewest_groups = 8;
   Regressor regressor;
   regressor.cause = {model::effects::find_effect("chain_stretch"),
                      model::effects::EffectSide::none};
@@ -155,9 +155,9 @@ Places random_places(synthetic::Random& random) {
   RegressorSystem& system = places.system;
   system.units.clear();
   system.unit_of_row.clear();
-  for (Eigen::Index row = 0; row < rows; ++row) {
-    system.units.push_back({.first_row = row, .rows = 1});
-    system.unit_of_row.push_back(static_cast<int>(row));
+  for (std::size_t k = 0; k < kPlaces; ++k) {
+    system.units.push_back({.first_row = static_cast<Eigen::Index>(2 * k), .rows = 2});
+    system.unit_of_row.insert(system.unit_of_row.end(), 2, static_cast<int>(k));
   }
   const Eigen::VectorXd g = system.g.col(0).head(rows);
   system.g = RegressorColumns(g);
@@ -170,6 +170,8 @@ Places random_places(synthetic::Random& random) {
                                Eigen::Vector2d(random.normal(), random.normal())});
     }
   }
+  system.groups = places.groups;
+  system.limits = {};
   return places;
 }
 
@@ -254,8 +256,16 @@ TEST(OutlierSearch, DirectionsAreThoseOfTheWholeCovariance) {
         best = outliers;
       }
     }
-    const std::vector<bool> none(system.units.size(), false);
-    EXPECT_EQ(outlier_sets(system, places.groups, {}, none, {{}}, {}).front(), best);
+    EXPECT_EQ(outlier_sets(system, nothing_rejected(system), {{}}, {}).front(), best);
+    // What is left without them is what the comparison weighs causes in; to rounding.
+    const Weighed w = weighed_without(best);
+    const MarginalisedSystem left = marginalise(system, best, {});
+    EXPECT_EQ(left.kept.size(), w.rows);
+    EXPECT_NEAR(left.e.squaredNorm(), w.quadratic, 1e-9 * (1.0 + w.quadratic));
+    EXPECT_NEAR(left.log_det, w.log_det, 1e-9 * (1.0 + std::abs(w.log_det)));
+    EXPECT_NEAR(left.log_outliers,
+                static_cast<double>(system.e.size() - w.rows) * log_price_of_outlier(1),
+                1e-9);
   }
 }
 

@@ -49,30 +49,33 @@ Analysis analysis_of(const MeasuredGrid& grid) {
 }
 
 TEST(Discrepancy, PriorsOfKernelsAddUpToOne) {
-  double sum = 0.0;
-  for (const DiscrepancyKernel& kernel : discrepancy_kernels()) sum += kernel.prior;
-  EXPECT_NEAR(sum, 1.0, 1e-12);  // rounding
-  double shares = 0.0;
-  for (int k = 0; k < discrepancy_count(); ++k) shares += std::exp(log_share_of_discrepancy(k));
-  EXPECT_NEAR(shares, 1.0, 1e-12);  // rounding
+  for (const DiscrepancyFamily* family :
+       {&chain_discrepancies(), &length_discrepancies(true), &length_discrepancies(false)}) {
+    double sum = 0.0;
+    for (const DiscrepancyKernel& kernel : family->kernels) sum += kernel.prior;
+    EXPECT_NEAR(sum, 1.0, 1e-12);  // rounding
+    double shares = 0.0;
+    for (int k = 0; k < family->count(); ++k) shares += std::exp(family->log_share_of(k));
+    EXPECT_NEAR(shares, 1.0, 1e-12);  // rounding
+  }
 }
 
 TEST(Discrepancy, LowRankIsTheDenseCovariance) {
   const Analysis a = analysis_of(session_of({kLongLeft}, 3));
   MarginalisedSystem marginalised = marginalised_system(a);
-  std::vector<std::size_t> kernels(discrepancy_kernels().size());
+  std::vector<std::size_t> kernels(a.system.discrepancies->kernels.size());
   std::iota(kernels.begin(), kernels.end(), std::size_t{0});
   DiscrepancyBasis basis(a.system, marginalised, kernels);
-  const NormalEquations plain = normal_equations(marginalised, {0, 3, 5});
+  const NormalEquations plain = normal_equations(a.system, marginalised, {0, 3, 5});
   const auto strengths = static_cast<int>(std::size(kDiscrepancyStrengths));
   // One of each group: of the position and along both axes, of chains and of the tool, of a
   // coordinate.
   for (std::size_t kernel = 0; kernel < kernels.size(); kernel += 11) {
     const int discrepancy = static_cast<int>(kernel) * strengths + 1;
-    const double strength = strength_of(discrepancy);
+    const double strength = a.system.discrepancies->strength_of(discrepancy);
     SCOPED_TRACE(kernel);
     const auto own = basis.beside(kernel, plain).equations(strength, plain.columns);
-    const Discrepancy process = discrepancy_of(marginalised, discrepancy);
+    const Discrepancy process = discrepancy_of(a.system, marginalised, discrepancy);
     Eigen::MatrixXd v = discrepancy_covariance(a.system, marginalised.kept, process.kernel);
     v = marginalised.root.solve(v);
     v = marginalised.root.solve(v.transpose()) * (process.sigma_mm * process.sigma_mm);
@@ -146,7 +149,7 @@ TEST(Remainder, ExpectsOfMeasuredRowsWhatTheFitMakesOfThem) {
     const Estimate fitted =
         estimate(a.system, marginalised_system(a), one.regressors, one.discrepancy);
     const Eigen::VectorXd expected = a.system.e - fitted.left_beside_discrepancy;
-    for (const Eigen::Index row : marginalised_system(a).kept) {
+    for (const Eigen::Index row : marginalised_system(a).kept.rows()) {
       EXPECT_NEAR(one.mean(row), expected(row), 1e-6);  // a millionth of the noise
     }
   }

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The rows of a system that are left once some outlier groups are rejected: all rows of a unit, none,
+/// or, where one direction of a unit's two rows is rejected, the row across it.
+///
+///   kept = P all,   P = 1 in the rows of a unit that is kept, a' (a across the direction) in one row
+///
+/// \code
+///   const KeptRows kept(system, rejected);
+///   const Eigen::VectorXd e = kept(system.e);
+///   const Eigen::MatrixXd a = kept(system.by_setting);
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace chaintrue::grid::diagnosis {
+
+struct RegressorSystem;
+
+class KeptRows {
+ public:
+  /// A unit with rows among those kept.
+  struct Unit {
+    Eigen::Index at = 0;  ///< position of its first row
+    Eigen::Index rows = 0;
+    std::size_t unit = 0;
+    std::optional<Eigen::RowVector2d> across{};  ///< what is kept of two rows; absent: all rows
+  };
+
+  KeptRows() = default;
+  /// `rejected`: a flag an outlier group of the system (outlier_group.hpp).
+  KeptRows(const RegressorSystem& system, const std::vector<bool>& rejected);
+  [[nodiscard]] static KeptRows all(const RegressorSystem& system);
+
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(rows_.size()); }
+  /// Numbers in the system, ascending; of a row across a direction that of its unit's first.
+  [[nodiscard]] const std::vector<Eigen::Index>& rows() const { return rows_; }
+  [[nodiscard]] const std::vector<Unit>& units() const { return units_; }
+
+  [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& all) const;
+  template <class Matrix>
+  [[nodiscard]] Eigen::MatrixXd of(const Matrix& all) const {
+    Eigen::MatrixXd kept = all(rows_, Eigen::all);
+    for (const Unit& unit : units_) {
+      if (unit.across) kept.row(unit.at) = *unit.across * all.middleRows(rows_[index(unit.at)], 2);
+    }
+    return kept;
+  }
+  /// What is kept of a block of a unit's rows.
+  [[nodiscard]] static Eigen::MatrixXd of_unit(const Unit& unit, const Eigen::MatrixXd& block) {
+    return unit.across ? Eigen::MatrixXd(*unit.across * block) : block;
+  }
+
+ private:
+  static std::size_t index(Eigen::Index row) { return static_cast<std::size_t>(row); }
+  std::vector<Eigen::Index> rows_;
+  std::vector<Unit> units_;
+};
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is expected of causes before anything is read: the shares of one catalogue add up to that of one
+// cause against nothing, and no other catalogue has a say in it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "grid/diagnosis/belts_system.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
+#include "grid/synthetic/simulated_belts.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// A flat frame, whose belts are pulled in turn: every effect of belts can show.
+RegressorSystem system_of_flat_frame() {
+  model::BeltMachine machine;
+  machine.orientation = model::Orientation::flat;
+  machine.anchors = {
+      {-20.0, 2050.0, 100.0}, {2910.0, 2070.0, 56.0}, {0.0, 0.0, 34.0}, {2950.0, 0.0, 78.0}};
+  machine.anchors_known = true;
+  synthetic::BeltsSpec spec;
+  spec.columns = spec.rows = 5;
+  spec.width_share = 0.6;
+  spec.height_share = 0.5;
+  spec.noise_mm = 0.3;
+  spec.seed = 4;
+  const MeasuredBelts belts = synthetic::simulate_belts(machine, machine, spec).value();
+  const auto alone = belts::settle_robustly(belts);
+  EXPECT_TRUE(alone);
+  return system_of(belts, {*alone, {}}, candidates(belts).testable, 0.3);
+}
+
+double prior_of(const RegressorSystem& system, const std::vector<int>& set, bool pattern = false) {
+  return std::exp(log_prior(system, set, pattern));
+}
+
+TEST(Prior, OneCauseOfBeltsHasItsShareWhateverChainsAreListed) {
+  const RegressorSystem system = system_of_flat_frame();
+  // By effect, what its sides that can show have; the others would have as much each.
+  std::map<std::string, double> share;
+  std::map<std::string, std::map<model::effects::EffectSide, bool>> sides;
+  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+    const Regressor& own = system.regressors[k];
+    const std::string effect(own.cause.effect->id);
+    share[effect] += prior_of(system, {static_cast<int>(k)});
+    sides[effect][own.cause.side] = true;
+  }
+  double one = 0.0;
+  for (const Regressor& own : system.regressors) {
+    const std::string effect(own.cause.effect->id);
+    if (own.expected || share[effect] == 0.0) continue;
+    one += share[effect] * static_cast<double>(own.cause.effect->sides.size()) /
+           static_cast<double>(sides[effect].size());
+    share[effect] = 0.0;
+  }
+  // A sixth of nothing, as belts_system.cpp states it. Rounding, of a thousand addends.
+  EXPECT_NEAR(one, kPriorOfNothing / 6.0, 1e-9);
+}
+
+TEST(Prior, WhatIsExpectedIsAsLikelyAsNot) {
+  const RegressorSystem system = system_of_flat_frame();
+  std::vector<int> expected, other;
+  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+    const int number = static_cast<int>(k);
+    if (system.regressors[k].expected) {
+      expected.push_back(number);
+    } else if (other.empty()) {
+      other.push_back(number);
+    }
+  }
+  ASSERT_EQ(expected.size(), 1u) << "belts stretch, all alike";
+  ASSERT_FALSE(other.empty());
+  EXPECT_EQ(system.regressors[static_cast<std::size_t>(expected.front())].cause.effect->id,
+            "belt_stretch");
+  // Rounding of logarithms.
+  EXPECT_NEAR(prior_of(system, expected) / prior_of(system, {}), 1.0, 1e-12);
+  EXPECT_NEAR(prior_of(system, {expected.front(), other.front()}) / prior_of(system, other),
+              1.0,
+              1e-12);
+}
+
+TEST(Prior, APatternMakesNoCauseOfBeltsLikelier) {
+  const RegressorSystem system = system_of_flat_frame();
+  for (int k = 0; k < static_cast<int>(system.regressors.size()); k += 40) {
+    const double odds = prior_of(system, {k}) / prior_of(system, {});
+    // Rounding of logarithms.
+    EXPECT_NEAR(prior_of(system, {k}, true) / prior_of(system, {}, true), odds, 1e-12 * odds) << k;
+  }
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis
