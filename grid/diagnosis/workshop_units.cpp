@@ -19,6 +19,7 @@ struct Unit {
   std::string_view words;  ///< {} the number
   /// Of a negative value, {} its absolute value; empty where `words` bear a sign.
   std::string_view negative{};
+  std::string_view one{};  ///< of 1 and -1, where a noun is counted
 };
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
@@ -39,7 +40,7 @@ constexpr std::array kUnits = {
          "sets in at {} degrees above the horizontal"},
     Unit{"phase_rad", kDegrees, "phase {} degrees"},
     Unit{"rate_mm_per_visit", 1.0, "{} mm a visit"},
-    Unit{"links", 1.0, "{} links"},
+    Unit{"links", 1.0, "{} links", "", "{} link"},
     Unit{"first_visit", 1.0, "from visit {} on"},
     Unit{"visit", 1.0, "at visit {}"},
     Unit{"amplitude_mm", 1.0, "{} mm"},
@@ -59,7 +60,7 @@ constexpr std::array kBeltUnits = {
     BeltUnit{"belt_zero", {"offset_mm", 1.0, "{} mm too much read", "{} mm too little read"}},
     BeltUnit{"anchor_height", {"offset_mm", 1.0, "{} mm higher", "{} mm lower"}},
     BeltUnit{"", {"give_mm", 1.0, "{} mm when pulled"}},
-    BeltUnit{"", {"teeth", 1.0, "{} teeth"}},
+    BeltUnit{"", {"teeth", 1.0, "{} teeth", "", "{} tooth"}},
     BeltUnit{"", {"direction_rad", kDegrees, "{} degrees from x towards y"}},
 };
 
@@ -89,7 +90,9 @@ std::string worded(const Unit& unit, const ParameterEstimate& estimate) {
   const std::string number =
       whole ? fmt::format("{:g}", value)
             : with_sigma(unit.factor * value, unit.factor * estimate.sigma);
-  return fmt::format(fmt::runtime(reversed ? unit.negative : unit.words), number);
+  const bool is_one = !unit.one.empty() && std::abs(value) == 1.0;
+  return fmt::format(fmt::runtime(reversed ? unit.negative : is_one ? unit.one : unit.words),
+                     number);
 }
 
 }  // namespace

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "grid/files/groundcontrol_settings.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/files/other_unit.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/kinematics.hpp"
@@ -109,14 +112,21 @@ class IniReader {
 /// The numbers of the file by key.
 using Numbers = std::map<std::string, std::optional<double>>;
 
-/// Every length of the router is between 10 and 250: true of a file in inches, never of one in mm.
-bool is_in_inches(const IniTable& table) {
-  for (const char* key : {"bedwidth", "bedheight", "motorspacingx"}) {
+/// The unit of a file in which the router is too small for mm.
+std::optional<OtherUnit> other_unit_of(const IniTable& table) {
+  const auto value_of = [&](const char* key) {
     const IniEntry* entry = table.find(kSections, key);
-    const auto value = entry != nullptr ? number_of(entry->text) : std::nullopt;
-    if (!value || *value < 10.0 || *value > 250.0) return false;
+    return entry != nullptr ? number_of(entry->text) : std::nullopt;
+  };
+  // A bed is at least 200 mm high; motors stand half a metre beside the widest in centimetres.
+  constexpr double kShortest = 10.0;
+  const std::pair<const char*, double> most[] = {
+      {"bedwidth", kWidestOfOtherUnit}, {"bedheight", 200.0}, {"motorspacingx", 500.0}};
+  for (const auto& [key, longest] : most) {
+    const auto value = value_of(key);
+    if (!value || *value < kShortest || *value > longest) return std::nullopt;
   }
-  return true;
+  return other_unit(*value_of("bedwidth"));
 }
 
 void place_motors(const Numbers& numbers, Machine& machine) {
@@ -227,10 +237,12 @@ Machine machine_of(const Numbers& numbers, bool has_brackets, bool over_top) {
 
 ReadMachine machine_of_settings(const IniTable& table, Tolerances tolerances, Problems& problems) {
   IniReader reader(table, problems);
-  if (is_in_inches(table)) {
+  if (const auto unit = other_unit_of(table)) {
     problems.add(reader.place_of_key("bedwidth"),
                  fmt::format("bedwidth = {}", table.find(kSections, "bedwidth")->text),
-                 "all lengths in mm; those of this file look like inches (multiply by 25.4)");
+                 fmt::format("all lengths in mm; those of this file look like {} (multiply by {:g})",
+                             unit->word,
+                             unit->mm));
     problems.throw_if_any();
   }
   const auto kinematics = reader.word("kinematicstype", {"Triangular", "Quadrilateral"});

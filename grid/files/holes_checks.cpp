@@ -41,21 +41,26 @@ std::string names_of(const std::vector<Hole>& holes) {
   return joined(names);
 }
 
-/// Reports distances and holes that are both in inches: they fit each other, and only the bed shows
-/// it. True if found.
-bool check_inches(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
+/// Reports distances and holes that are both in inches or centimetres: they fit each other, and only
+/// the bed shows it. True if found.
+bool check_other_unit(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
   double farthest_mm = 0.0;
   for (const Hole& hole : set.holes) {
     farthest_mm =
         std::max({farthest_mm, std::abs(hole.commanded.x_mm), std::abs(hole.commanded.y_mm)});
   }
-  constexpr double kFarthestInInches =
-      70.0;  // half a 12-foot bed's width; in mm no set is so small
-  if (set.holes.size() < 3 || farthest_mm >= kFarthestInInches) return false;
+  // Holes of a set go out to half of the bed's half width and more, which is 1 / 51 to 1 / 25 of it
+  // in inches, 1 / 20 to 1 / 10 in centimetres. A set in mm that keeps within an eighth tells nothing.
+  constexpr double kOfInches = 0.045;
+  constexpr double kOfCentimetres = 0.125;
+  const double half_width_mm = 0.5 * (set.machine ? set.machine->bed : model::Bed{}).width_mm;
+  const double share = farthest_mm / half_width_mm;
+  if (set.holes.size() < 3 || share >= kOfCentimetres) return false;
   problems.add(places.holes,
                fmt::format("holes within {:.4g} of the middle", farthest_mm),
-               "holes spread over the bed, in mm; these and their distances look like inches "
-               "(multiply by 25.4)");
+               fmt::format("holes spread over the bed, in mm; these and their distances look like {}",
+                           share < kOfInches ? "inches (multiply by 25.4)"
+                                             : "centimetres (multiply by 10)"));
   return true;
 }
 
@@ -351,7 +356,7 @@ void check_holes_together(const MeasuredHoles& set,
   check_apart(set, places, problems);
   if (problems.any()) return;
   const auto asked = check_slips(set, places, problems);
-  if (problems.any() || check_inches(set, places, problems)) return;
+  if (problems.any() || check_other_unit(set, places, problems)) return;
   check_triangles(set, asked, places, problems);
   for (const input_checks::RowFinding& row : asked)
     problems.warn(places.distance(row.row, "distance_mm"), row.sentence);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grid/files/machine_record.hpp"
+#include "grid/files/other_unit.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
 #include "grid/files/whole_file.hpp"
@@ -182,15 +183,17 @@ std::optional<Json> write_controller(const Machine& machine) {
   return controller_record().write(machine.controller);
 }
 
-/// No hanging router has a bed and motors below this in mm; in inches all have.
-bool is_in_inches(const Machine& machine) {
-  constexpr double kLongestInInches = 250.0;
-  constexpr double kShortestInInches = 10.0;
-  const auto in_inches = [](double length) {
-    return std::abs(length) <= kLongestInInches && std::abs(length) >= kShortestInInches;
+/// No hanging router has a bed and motors below this in mm; in inches and centimetres all have.
+bool is_in_other_unit(const Machine& machine) {
+  constexpr double kLongest = 250.0;
+  constexpr double kShortest = 10.0;
+  const auto is_small = [](double length, double longest) {
+    return std::abs(length) <= longest && std::abs(length) >= kShortest;
   };
-  return in_inches(machine.bed.width_mm) && in_inches(machine.bed.height_mm) &&
-         in_inches(machine.motors.left.x_mm) && in_inches(machine.motors.right.x_mm);
+  return is_small(machine.bed.width_mm, kWidestOfOtherUnit) &&
+         is_small(machine.bed.height_mm, kLongest) &&
+         is_small(machine.motors.left.x_mm, kLongest) &&
+         is_small(machine.motors.right.x_mm, kLongest);
 }
 
 void check_machine(const Cursor& at, Machine& machine) {
@@ -206,17 +209,18 @@ void check_machine(const Cursor& at, Machine& machine) {
             assumed.chain_zero_mm,
             assumed.ring_radius_mm));
   }
-  if (is_in_inches(machine)) {
-    constexpr double kMillimetresPerInch = 25.4;
+  if (is_in_other_unit(machine)) {
+    const OtherUnit unit = other_unit(machine.bed.width_mm);
     const auto size = [](double width, double height) {
       return fmt::format("{:.6g} x {:.6g}", width, height);
     };
     at.problems().add(
         at.pointer(),
         fmt::format("a bed of {}", size(machine.bed.width_mm, machine.bed.height_mm)),
-        fmt::format("all lengths in mm; these look like inches (times 25.4 the bed is {} mm)",
-                    size(machine.bed.width_mm * kMillimetresPerInch,
-                         machine.bed.height_mm * kMillimetresPerInch)));
+        fmt::format("all lengths in mm; these look like {} (times {:g} the bed is {} mm)",
+                    unit.word,
+                    unit.mm,
+                    size(machine.bed.width_mm * unit.mm, machine.bed.height_mm * unit.mm)));
     return;
   }
   for (const model::MachineProblem& problem : model::problems_of(machine)) {

@@ -11,6 +11,7 @@
 #include "grid/map/check_parts.hpp"
 #include "grid/map/map_at.hpp"
 #include "grid/observation/chain_lengths.hpp"
+#include "grid/observation/tape_zero.hpp"
 #include "model/chains/chain_mechanism.hpp"
 
 namespace chaintrue::grid {
@@ -160,7 +161,7 @@ class Gathered {
   void add_size_and_hook(const MeasuredHoles& set,
                          const observation::DistanceGeometry& geometry,
                          Eigen::Index before) {
-    const double hook_sigma_mm = set.tape.hook_sigma_mm.value_or(0.0);
+    const double hook_sigma_mm = tape_zero_sigma_mm(set.tape);
     for (Eigen::Index k = 0; k < geometry.by_size.rows(); ++k) {
       for (Eigen::Index axis = 0; axis < 2; ++axis) {
         const double by_size = set.sheet.size_sigma_mm * geometry.by_size(k, axis);

@@ -7,13 +7,15 @@
 #include <cmath>
 #include <map>
 
+#include "grid/observation/tape_zero.hpp"
+
 namespace chaintrue::grid {
 namespace {
 
 using model::MarkPoint;
 
-/// A hook is spoken of from here on.
-constexpr double kHookSigmas = 2.0;
+/// A tape's zero offset is spoken of from here on: one sound file of 370 has as much.
+constexpr double kTapeZeroSigmas = 3.0;
 
 ErrorSummary summary_of(const std::vector<FittedDistance>& distances, bool with_set_aside) {
   ErrorSummary summary;
@@ -58,6 +60,18 @@ void note_set_aside(const MeasuredHoles& set,
   }
 }
 
+std::string tape_zero_sentence(const FoundHook& zero) {
+  return fmt::format(
+      "Every tape distance reads {:.1f} +- {:.1f} mm too {}, which is taken off: {}",
+      std::abs(zero.mm),
+      zero.sigma_mm,
+      zero.mm > 0.0 ? "long" : "short",
+      zero.mm > 0.0 ? "is the hook or the bit's width in it? Measure from centre to centre, or "
+                      "state it (--hook-offset-mm)."
+                    : "was it measured between the near edges of the holes, or is the hook's offset "
+                      "too large?");
+}
+
 }  // namespace
 
 FittedDistances fitted_distances(const observation::TapeDistances& distances,
@@ -87,9 +101,9 @@ FittedDistances fitted_distances(const observation::TapeDistances& distances,
                          {place.mark.x_mm + shift[2 * i], place.mark.y_mm + shift[2 * i + 1]}});
   }
   // After the sheet's size (tape_distances.hpp).
-  constexpr Eigen::Index kHook = 2;
-  if (set.tape.hook_sigma_mm.value_or(0.0) > 0.0)
-    fit.hook = FoundHook{own.nuisance[kHook], own.nuisance_sigma[kHook]};
+  constexpr Eigen::Index kTapeZero = 2;
+  if (tape_zero_sigma_mm(set.tape) > 0.0)
+    fit.hook = FoundHook{own.nuisance[kTapeZero], own.nuisance_sigma[kTapeZero]};
   fit.left_out_all = summary_of(fit.distances, true);
   fit.left_out_good = summary_of(fit.distances, false);
   return fit;
@@ -127,14 +141,8 @@ std::vector<std::string> distance_notes(const MeasuredHoles& set, const FittedDi
                     "ones: was the tape's hook offset left out or taken off twice?",
                     std::abs(*hook),
                     *hook > 0.0 ? "longer" : "shorter"));
-  }
-  if (fit.hook && std::abs(fit.hook->mm) >= kHookSigmas * fit.hook->sigma_mm) {
-    notes.push_back(
-        fmt::format("The readings seem to be {:.2f} +- {:.2f} mm too {}, all alike: look how the "
-                    "tape was held to the holes.",
-                    std::abs(fit.hook->mm),
-                    fit.hook->sigma_mm,
-                    fit.hook->mm > 0.0 ? "long" : "short"));
+  } else if (fit.hook && std::abs(fit.hook->mm) >= kTapeZeroSigmas * fit.hook->sigma_mm) {
+    notes.push_back(tape_zero_sentence(*fit.hook));
   }
   return notes;
 }

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "grid/observation/tape_zero.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/chains/chain_mechanism.hpp"
 #include "model/controllers/payout.hpp"
@@ -46,7 +47,7 @@ EdgeRow edge_row(const MeasuredHoles& set, SheetEdge edge) {
 
 Eigen::MatrixXd hook_covariance(const MeasuredHoles& set) {
   const auto count = static_cast<Eigen::Index>(set.distances.size());
-  return Eigen::MatrixXd::Constant(count, count, std::pow(set.tape.hook_sigma_mm.value_or(0.0), 2));
+  return Eigen::MatrixXd::Constant(count, count, std::pow(tape_zero_sigma_mm(set.tape), 2));
 }
 
 /// A set in an order that the file's does not change.
@@ -233,12 +234,10 @@ tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::of(const Measur
 }
 
 void TapeDistances::state_nuisances() {
-  const Eigen::Index hooks = set_.tape.hook_sigma_mm ? 1 : 0;
   const Eigen::Index of_holes = 2 * static_cast<Eigen::Index>(set_.holes.size());
-  nuisance_sigma_.resize(2 + hooks + of_holes);
+  nuisance_sigma_.resize(3 + of_holes);
   nuisance_sigma_.head(2).setConstant(std::max(set_.sheet.size_sigma_mm, kKnownNuisanceMm));
-  nuisance_sigma_.segment(2, hooks).setConstant(
-      std::max(set_.tape.hook_sigma_mm.value_or(0.0), kKnownNuisanceMm));
+  nuisance_sigma_[2] = std::max(tape_zero_sigma_mm(set_.tape), kKnownNuisanceMm);
   nuisance_sigma_.tail(of_holes).setConstant(std::max(set_.hole_sigma_mm, kKnownNuisanceMm));
 }
 
@@ -301,8 +300,7 @@ tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& vi
   const double factor = tape_factor(view.chains().machine());
   const DistanceGeometry geometry = distance_geometry(set_, marks_of(*states));
   const Eigen::MatrixXd by_mark = factor * geometry.by_mark;
-  const Eigen::MatrixXd by_hook =
-      Eigen::MatrixXd::Ones(rows(), set_.tape.hook_sigma_mm ? 1 : 0);
+  const Eigen::VectorXd by_hook = Eigen::VectorXd::Ones(rows());
   Linearisation line;
   line.predicted = factor * geometry.predicted_mm;
   line.by_setting = Eigen::MatrixXd::Zero(rows(), static_cast<Eigen::Index>(settings.size()));

@@ -296,5 +296,35 @@ TEST_F(PlanAfter, NeedsBothOrAMachine) {
   EXPECT_EQ(run("plan grid.json --after missing.json").code, 3);
 }
 
+TEST_F(DiagnoseCommand, NoNumberToTypeInRestsOnAWeakCause) {
+  simulate("--effect chain_pitch_error:left:elongation=0.0012");
+  ASSERT_EQ(run("diagnose grid.json -o d.json").code, 0);
+  ASSERT_GE(diagnosis().causes.front().probability, 0.9);
+  EXPECT_EQ(run("export groundcontrol d.json -o sure.ini").code, 0);
+  // The same, a little less sure.
+  Diagnosis weak = diagnosis();
+  weak.causes.front().probability = 0.72;
+  write("weak.json", grid::files::write_diagnosis(weak));
+  const Outcome refused = run("export groundcontrol weak.json -o weak.ini");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err,
+              AllOf(HasSubstr("on the left (72 %), and a cause enters the numbers to type in from 90 % on"),
+                    HasSubstr("--force takes it all the same")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "weak.ini"));
+  EXPECT_EQ(run("export groundcontrol weak.json -o weak.ini --force").code, 0);
+  EXPECT_EQ(content_of(folder_ / "weak.ini"), content_of(folder_ / "sure.ini"));
+}
+
+TEST_F(DiagnoseCommand, PlainIsTheMapWithoutCausesAndContradictsThem) {
+  simulate("--effect chain_pitch_error:left:elongation=0.0012");
+  ASSERT_EQ(run("fit grid.json -o usual.json").code, 0);
+  ASSERT_EQ(run("fit grid.json --plain -o plain.json").code, 0);
+  EXPECT_EQ(content_of(folder_ / "plain.json"), content_of(folder_ / "usual.json"));
+  const Outcome both = run("fit grid.json --plain --causes -o both.json");
+  EXPECT_EQ(both.code, 3);
+  EXPECT_THAT(both.err, HasSubstr("either --plain or --causes"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "both.json"));
+}
+
 }  // namespace
 }  // namespace chaintrue

@@ -39,6 +39,24 @@ TEST_F(GcodeCommand, CompensateSaysThatItRanItsOutput) {
   }
 }
 
+// verify alone kept silent on it.
+TEST_F(GcodeCommand, AProgramWithoutUnitsIsSaidToBeTakenAsMillimetres) {
+  write("bare.nc", "G0 X0 Y0\nG1 X100 F500\nM2\n");
+  for (const char* verb : {"check bare.nc",
+                           "check bare.nc --map map.json",
+                           "compensate bare.nc --map map.json -o out.nc",
+                           "verify bare.nc out.nc --map map.json"}) {
+    const Outcome outcome = run(std::string("gcode ") + verb);
+    EXPECT_EQ(outcome.code, 0) << verb << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("before it says G20 or G21; it is taken to be in millimetres"))
+        << verb;
+  }
+  write("stated.nc", "G21\nG0 X0 Y0\nG1 X100 F500\nM2\n");
+  ASSERT_EQ(run("gcode compensate stated.nc --map map.json -o stated.true.nc").code, 0);
+  EXPECT_THAT(run("gcode verify stated.nc stated.true.nc --map map.json").err,
+              testing::Not(HasSubstr("millimetres")));
+}
+
 TEST_F(GcodeCommand, VerifyNamesTheFirstFault) {
   ASSERT_EQ(run("gcode compensate " + part() + " --map map.json -o out.nc").code, 0);
   std::string text = content_of(folder_ / "out.nc");

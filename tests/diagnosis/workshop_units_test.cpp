@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 
 #include "model/belts/effects/belt_effect.hpp"
@@ -55,10 +56,21 @@ TEST(WorkshopUnits, NoMinusSignIsBesideAWordThatHasADirection) {
 
 std::string worded(std::string_view effect, const char* parameter, double value, double sigma) {
   for (const model::effects::Effect* own : all_effects()) {
-    if (own->id == effect)
+    const bool has = std::any_of(own->parameters.begin(), own->parameters.end(), [&](const auto& one) {
+      return one.name == parameter;
+    });
+    if (own->id == effect && has)
       return in_workshop_units({own, own->sides.front()}, {parameter, value, sigma});
   }
   return "";
+}
+
+// A bug of words: "1 links".
+TEST(WorkshopUnits, OneOfSomethingIsOne) {
+  EXPECT_EQ(worded("tooth_skip", "links", 1.0, 0.0), "1 link");
+  EXPECT_EQ(worded("tooth_skip", "links", -1.0, 0.0), "-1 link");
+  EXPECT_EQ(worded("tooth_skip", "links", 2.0, 0.0), "2 links");
+  EXPECT_EQ(worded("tooth_skip", "teeth", 1.0, 0.0), "1 tooth");
 }
 
 TEST(WorkshopUnits, TheSignChoosesTheWord) {

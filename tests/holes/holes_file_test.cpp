@@ -104,6 +104,15 @@ TEST(HolesFile, ATriangleMayBeFlatWithinTheTapesError) {
   EXPECT_THAT(problems_of(flat), IsEmpty());
 }
 
+TEST(HolesFile, CentimetresAreNotCalledInches) {
+  EXPECT_THAT(problems_of("hole,x_mm,y_mm\nA,-90,40\nB,90,40\nC,90,-40\nD,-90,-40\n"
+                          "from,to,distance_mm\n"
+                          "A,B,180.1\nB,C,80.1\nC,D,179.9\nD,A,80.0\nA,C,197.0\nB,D,196.9\n"),
+              ElementsAre(HasSubstr("these and their distances look like centimetres")));
+  EXPECT_THAT(problems_with("A,B,180.1\nB,C,80.1\nC,D,179.9\nD,A,80.0\nA,C,197.0\nB,D,196.9\n"),
+              ElementsAre(HasSubstr("the distances look like centimetres")));
+}
+
 TEST(HolesFile, InchesAreRecognised) {
   EXPECT_THAT(problems_with("A,B,70.9\nB,C,31.5\nC,D,70.8\nD,A,31.5\nA,C,77.5\nB,D,77.5\n"),
               ElementsAre(AllOf(HasSubstr("distances 1.7 m off what was commanded"),

@@ -110,6 +110,7 @@ TEST(HolesFit, ALeftOutPredictionIsThatOfAFitWithoutTheReading) {
   design.hole_sigma_mm = 0.0;  // so that a hole's own error does not correlate readings
   design.noise_dof = 1e9;      // so that the noise is not estimated again
   design.tape.sigma_mm = 2.0;  // and no reading is an outlier
+  design.tape.hook_sigma_mm = 0.0;  // so that the distance of two holes is what is predicted
   MeasuredHoles quiet = design;
   quiet.tape.sigma_mm = 0.5;
   auto made = synthetic::simulate_holes(quiet, usual_holes(13));
@@ -167,11 +168,12 @@ Tally tally(const MeasuredHoles& design, int sets) {
   return result;
 }
 
-// Nine holes, twenty distances, a tape of 0.5 mm: reachable accuracy.
+// Nine holes, twenty distances, a tape of 0.5 mm whose zero offset is known to 3 mm: reachable
+// accuracy. With the offset known exactly the first spacing is 0.90 mm, the last scale 0.00018.
 //   hole's own error     spacing rms     scales rms
-//   0 (the tape alone)   0.90 mm         0.00011
-//   0.1 mm               0.93 mm         0.00012
-//   0.3 mm               1.00 mm         0.00018
+//   0 (the tape alone)   1.05 mm         0.00017
+//   0.1 mm               1.06 mm         0.00018
+//   0.3 mm               1.10 mm         0.00023
 TEST(HolesFit, NineHolesAndTwentyDistancesTellSpacingAndScales) {
   constexpr int kSets = 500;
   const auto planned = [](double hole_sigma_mm) {
@@ -179,7 +181,7 @@ TEST(HolesFit, NineHolesAndTwentyDistancesTellSpacingAndScales) {
         ->set;
   };
   const Tally exact = tally(planned(0.0), kSets);
-  EXPECT_LT(std::sqrt(exact.spacing2 / kSets), 1.0) << "mm, with the tape alone";
+  EXPECT_LT(std::sqrt(exact.spacing2 / kSets), 1.1) << "mm, with the tape alone";
   EXPECT_LT(std::sqrt(exact.scale2 / (2 * kSets)), 0.0005);
   const Tally fine = tally(planned(0.1), kSets);
   const Tally usual = tally(nine_holes(), kSets);

@@ -24,7 +24,7 @@ class MixedCommands : public testing_support::CommandFixture {
  protected:
   void SetUp() override {
     CommandFixture::SetUp();
-    const std::string hidden = " --effect beam_flex:-:flexibility_mm_per_n=0.005 --seed 2 -o ";
+    const std::string hidden = " --effect beam_flex:-:flexibility_mm_per_n=0.005 --seed 4 -o ";
     ASSERT_EQ(run("simulate --machine " + classic_ +
                   " --grid 5x3 --repeats 6 --length-noise-mm 0.2 --position-noise-mm 0.3" + hidden +
                   "g.json")
@@ -67,13 +67,15 @@ TEST_F(MixedCommands, PlanSaysWhatToMeasureNextAndInWhichFile) {
               AllOf(StartsWith("# g.json\n\"points\": add, each null filled in\n"),
                     HasSubstr("\"left_mm\": null"),
                     HasSubstr("\"readings\": add, each null filled in\n  {\"what\": "
-                              "\"chain_mass_kg_per_m\", \"value\": null, \"sigma\": 0.002},"),
+                              "\"tape_error_mm_per_m\", \"side\": \"x\", \"value\": null, "
+                              "\"sigma\": 0.15},\n  {\"what\": \"link_pitch_mm\", \"side\": "
+                              "\"left\", \"value\": null, \"sigma\": 0.001},"),
                     HasSubstr("# h.json\n\"holes\": cut and add\n  {\"name\": \"N1\""),
-                    HasSubstr("{\"from\": \"N1\", \"to\": \"E\", \"distance_mm\": null}")));
-  EXPECT_THAT(next.err, HasSubstr("  1. Measure the weight of a metre of chain, to 0.002 kg."));
+                    HasSubstr("{\"from\": \"N1\", \"to\": \"A\", \"distance_mm\": null}")));
+  EXPECT_THAT(next.err, HasSubstr("  2. Measure the length of 100 links of the left chain, pulled taut, to 0.1 mm;"));
   EXPECT_THAT(content_of(folder_ / "next.svg"), HasSubstr("among 30 measured"));
-  // The first of the list is more informative than one that is not in it.
-  const double chosen = probability_with({"chain_mass_kg_per_m", "", 0.14, 0.002});
+  // One of the list is more informative than one that is not in it.
+  const double chosen = probability_with({"link_pitch_mm", "left", 6.35, 0.001});
   const double other = probability_with({"ring_radius_mm", "", 139.1, 0.5});
   EXPECT_GT(chosen, other);
 }

@@ -262,7 +262,7 @@ TEST_F(RealSets, TheTapeOfTheLastSetIsNamedNotAReading) {
   for (const FittedDistances& one : first->distances)
     EXPECT_LT(std::abs(one.hook->mm), 1.96 * one.hook->sigma_mm);
   MeasuredHoles known = with_hole_sigma(sets_[4], kHoleSigmaMm);
-  known.tape.hook_sigma_mm.reset();
+  known.tape.hook_sigma_mm = 0.0;
   EXPECT_GT(joint_fit(known)->distances.front().left_out_all.rms_mm, 1.5 * last->distances.front().left_out_all.rms_mm);
 }
 

@@ -4,6 +4,7 @@
 /// wants typed in.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -12,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "grid/diagnosis/causes_fit.hpp"
+#include "grid/diagnosis/workshop_units.hpp"
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/controller_settings.hpp"
 #include "grid/files/groundcontrol_file.hpp"
@@ -46,7 +49,7 @@ struct Exported {
   std::vector<std::string> next;
   /// Of a map: it with the controller that holds the numbers.
   std::optional<grid::CompensationMap> map_after = std::nullopt;
-  bool is_refused = false;  ///< the map is not to be cut with, which was said
+  bool is_refused = false;  ///< the reason was said
 };
 
 /// What the machine says otherwise than its controller.
@@ -144,6 +147,40 @@ Exported of_map(const grid::CompensationMap& map,
   return result;
 }
 
+/// Causes that the settings of a diagnosis' machine rest on although they are not sure enough for it.
+std::vector<std::string> weak_causes(const grid::diagnosis::Diagnosis& found) {
+  using grid::diagnosis::Cause;
+  std::vector<model::AppliedEffect> taken = found.extended_machine.effects;
+  taken.insert(taken.end(), found.data_corrections.begin(), found.data_corrections.end());
+  std::vector<std::string> weak;
+  for (const Cause& cause : found.causes) {
+    const bool is_taken = std::any_of(taken.begin(), taken.end(), [&](const auto& effect) {
+      return effect.effect == cause.cause.effect->id &&
+             effect.side == model::effects::name(cause.cause.side);
+    });
+    if (!is_taken || cause.probability >= grid::diagnosis::kSureOfCause) continue;
+    weak.push_back(fmt::format("{}{} ({})",
+                               cause.cause.effect->cause,
+                               grid::diagnosis::side_words(cause.cause),
+                               grid::diagnosis::percent(cause.probability)));
+  }
+  return weak;
+}
+
+/// True where numbers would rest on a cause that may not act, which is said.
+bool refuses_weak_causes(const grid::diagnosis::Diagnosis& found, const std::string& name) {
+  const std::vector<std::string> weak = weak_causes(found);
+  if (weak.empty()) return false;
+  fmt::print(stderr,
+             "{}: the machine of this diagnosis rests on {}, and a cause enters the numbers to type "
+             "in from {} on. Measure what the diagnosis says next and diagnose again; --force takes "
+             "it all the same.\n",
+             name,
+             grid::diagnosis::joined(weak, "and"),
+             grid::diagnosis::percent(grid::diagnosis::kSureOfCause));
+  return true;
+}
+
 /// JSON that does not say what it is: somebody's machine, whose reader says what is missing.
 bool is_untyped_json(const InputFile& file) {
   return file.kind == FileKind::other && files::is_json(file.text) &&
@@ -171,6 +208,8 @@ Exported export_of(const InputFile& file, const ExportCommand& command, bool for
             "a diagnosis of four belts",
             "one of a machine on chains; of belts export maslow4 has the lines"}});
     }
+    if (!forced && refuses_weak_causes(found, file.name))
+      return Exported{{}, "", {}, std::nullopt, true};
     return of_machine(found.extended_machine, settings_page(file.path));
   }
   return of_machine(load_machine(file), {"plan", "--machine", file.path, "-o", "marks.csv"});
@@ -286,7 +325,8 @@ void add_export(Verb app, Run& run) {
       "Of a machine, or of the one that a diagnosis has found, the numbers that it says "
       "otherwise than its controller. Of a map the numbers with which the controller "
       "as it is comes nearest to it, and how near. All others come back as they "
-      "came.\n\nOnce the numbers are typed in, a map is of the settings before: programs that are "
+      "came. No number rests on a cause that is less than 90 % sure: the exit code is 1 then, and "
+      "nothing is written.\n\nOnce the numbers are typed in, a map is of the settings before: programs that are "
       "compensated with it come out wrong by what the numbers have mended. The map of --map-after "
       "is of the same machine with these numbers; what follows from it is what is left.\n\n{}\n"
       "  build/chaintrue fit fixtures/start/marks.csv --machine fixtures/machines/groundcontrol.json "

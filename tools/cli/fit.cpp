@@ -44,6 +44,8 @@ struct FitCommand {
   OutsideOption outside;
   /// Build on the causes that are found.
   bool causes = false;
+  /// On the machine as stated, said in so many words.
+  bool plain = false;
   bool accept_class = false;
   bool verbose = false;
   bool json = false;
@@ -199,6 +201,7 @@ Facts facts_of(const FitCommand& command, const std::vector<InputFile>& files) {
   const bool of_belts = std::any_of(files.begin(), files.end(), is_of_four_belts);
   Facts facts = command.surface == "direct" ? facts::direct : facts::residual;
   if (command.causes) facts |= facts::causes;
+  if (!command.causes) facts |= facts::no_causes;
   if (command.outside.way == "fade") facts |= facts::fade;
   for (const InputFile& file : files) {
     if (file.kind == FileKind::belts) facts |= facts::belts;
@@ -266,6 +269,9 @@ void add_fit(Verb app, Run& run) {
                 command->causes,
                 "Look for causes as diagnose does, and build the map on those that make it better on "
                 "points left out");
+  verb.add_flag("--plain",
+                command->plain,
+                "The map on the machine as stated, without a look for causes: as without --causes");
   verb.add_flag("--accept-class",
                 command->accept_class,
                 "With --causes: where links and tape cannot be told apart, it is the links");

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include "tools/cli/gcode_expected.hpp"
@@ -108,9 +109,33 @@ gcode::VerifyOptions verify_options(const GcodeOptions& options, const GcodeMach
 
 namespace {
 
+/// Whether a program is taken to be in mm because it does not say, which its first move decides.
+class AssumedUnit final : public gcode::Sink {
+ public:
+  void note(const gcode::Note& note) override {
+    if (note.name == "units_assumed") note_ = note;
+  }
+  /// Ends the program.
+  gcode::Result<void> move(const gcode::Move&) override { return tl::unexpected(gcode::Problem{}); }
+  [[nodiscard]] const std::optional<gcode::Note>& note() const { return note_; }
+
+ private:
+  std::optional<gcode::Note> note_;
+};
+
+void say_assumed_unit(const GcodeText& program, const GcodeOptions& options) {
+  AssumedUnit unit;
+  auto source = program.open();
+  (void)gcode::run_program(source, options.dialect(), unit);
+  gcode::Findings findings;
+  if (unit.note()) findings.add(*unit.note());
+  report(options.program, findings);
+}
+
 int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
   const GcodeText original(options.program);
   const GcodeText other(options.other);
+  say_assumed_unit(original, options);
   gcode::VerifyOptions settings = verify_options(options, machine);
   gcode::CutPlaces cuts;
   settings.on_move = [&cuts](const gcode::Move& move) { cuts.add(move); };

@@ -55,6 +55,8 @@ inline constexpr Facts drilled = 1U << 22;
 inline constexpr Facts no_map = 1U << 23;
 /// fit: on the causes that are found.
 inline constexpr Facts causes = 1U << 24;
+/// fit: on the machine as stated.
+inline constexpr Facts no_causes = 1U << 25;
 /// Of an option that other verbs have of the same file.
 inline constexpr Facts nothing = 0;
 inline constexpr Facts any = ~0U;
