@@ -11,6 +11,7 @@
 
 #include "grid/files/number_text.hpp"
 #include "grid/input_checks/distance_slips.hpp"
+#include "grid/input_checks/number_slips.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -212,9 +213,14 @@ void check_hook(const MeasuredHoles& set,
   const std::string found = fmt::format("distances all about {:.1f} mm {} than commanded",
                                         std::abs(*offset),
                                         *offset > 0.0 ? "longer" : "shorter");
+  double total_mm = set.tape.hook_offset_mm + *offset;
+  // Tapes are held at a mark; what the machine is off by adds a millimetre or two.
+  constexpr double kAtTheMarkMm = 3.0;
+  const double mark_mm =
+      input_checks::kTapeMarkMm * std::round(total_mm / input_checks::kTapeMarkMm);
+  if (std::abs(total_mm - mark_mm) < kAtTheMarkMm) total_mm = mark_mm;
   const std::string state =
-      fmt::format("state {:.0f} mm (hook_offset_mm of the tape, or --hook-offset-mm)",
-                  set.tape.hook_offset_mm + std::round(*offset));
+      fmt::format("state {:.0f} mm (hook_offset_mm of the tape, or --hook-offset-mm)", total_mm);
   if (is_stated) {
     problems.warn(places.distances,
                   fmt::format("{}, the short ones like the long ones. Was the hook's offset taken "
