@@ -49,7 +49,7 @@ constexpr Teeth kTeeth[] = {{1.0, 0.25},
 double share_of(const CauseId& cause) {
   const std::string_view id = cause.effect->id;
   if (id == "belt_stretch") return 40.0;
-  if (id == "tooth_skip") return 0.3;
+  if (id == "tooth_skip" || id == "zero_shift") return 0.3;
   return id == "anchor_moved" ? 0.01 : 1.0;
 }
 
@@ -111,8 +111,10 @@ class Columns {
           values.front() = own.teeth;
           add_one({cause, values}, false, share * own.share);
         }
-      } else {
+      } else if (parameters.size() > 2) {
         add_ways({cause, values}, found, share);
+      } else {
+        add_one({cause, values}, found != nullptr, share);
       }
     }
   }

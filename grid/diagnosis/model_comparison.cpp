@@ -12,10 +12,14 @@
 #include "grid/diagnosis/set_search.hpp"
 #include "grid/precondition.hpp"
 #include "grid/statistics.hpp"
+#include "model/belts/effects/belt_effect.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
+
+/// What a belts' cause's share is divided by.
+constexpr double kSharesOfBelts = 16.0;
 
 double prior_of_count(std::size_t causes, bool beside_discrepancy) {
   const std::array<double, kMostCauses + 1> prior = {
@@ -61,12 +65,13 @@ double ModelComparison::probability(const CandidateModel& model) const {
 double log_prior(const std::vector<Regressor>& regressors,
                  const std::vector<int>& set,
                  bool discrepancy) {
-  const auto effects = static_cast<double>(model::effects::catalogue().size());
+  const auto of_chains = static_cast<double>(model::effects::catalogue().size());
   std::size_t lasting = 0;
   double value = discrepancy ? std::log(kDiscrepancyPrior) : 0.0;
   for (const int k : set) {
     const Regressor& d = regressors[static_cast<std::size_t>(k)];
-    value += d.log_prior - std::log(effects);
+    const bool of_belts = model::belts::belt_effect_of(*d.cause.effect) != nullptr;
+    value += d.log_prior - std::log(of_belts ? kSharesOfBelts : of_chains);
     if (!d.slip) ++lasting;
   }
   return value + std::log(prior_of_count(lasting, discrepancy)) +

@@ -3,6 +3,10 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <stdexcept>
+
+#include "generator/hidden/grid_text.hpp"
+#include "generator/hidden/random.hpp"
 
 namespace chaintrue::sealed {
 namespace {
@@ -15,6 +19,7 @@ std::vector<Hidden> of_the_bed(std::vector<Hidden> effects) {
   std::erase_if(effects, [](const Hidden& h) {
     return h.cause == generator::Cause::drift || h.cause == generator::Cause::tooth_skip ||
            h.cause == generator::Cause::link_miscount ||
+           h.cause == generator::Cause::zero_shift ||
            h.cause == generator::Cause::direction_hysteresis;
   });
   return effects;
@@ -51,6 +56,31 @@ std::optional<MapErrors> map_errors(const generator::SealedSet& set,
   errors.true_rms_mm = std::sqrt(true_mm2 / errors.places);
   errors.stated_rms_mm = std::sqrt(stated_mm2 / errors.places);
   return errors;
+}
+
+generator::Recipe recipe_of_start() {
+  generator::Recipe recipe;
+  recipe.list_of_start = true;
+  recipe.noise = {0.1, 0.5};
+  return recipe;
+}
+
+std::string another_session(const generator::SealedSet& set, double zero_mm, std::uint64_t seed) {
+  generator::Dice dice(seed, "another session");
+  generator::TrueMachine truth = set.machine.truth();
+  truth.chain_zero_mm[0] += zero_mm;
+  generator::HiddenMachine again(set.machine.stated(), truth, of_the_bed(set.machine.hidden()));
+  constexpr double kBesideMm = 8.0;
+  const std::vector<Visit> visits = generator::fresh_session(set.machine, kBesideMm, dice);
+  generator::WrittenGrid grid;
+  grid.stated = set.machine.stated();
+  grid.stated_noise = set.noise;
+  for (const Visit& visit : visits) {
+    const auto note = again.measure(visit.place, set.noise, dice);
+    if (!note) throw std::runtime_error("another_session: a mark is out of reach");
+    grid.notes.push_back(*note);
+  }
+  return generator::grid_text(grid);
 }
 
 }  // namespace chaintrue::sealed
