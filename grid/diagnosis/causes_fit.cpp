@@ -131,13 +131,29 @@ std::optional<OfferedCause::Reason> refusal(const Cause& cause, bool decided) {
   return std::nullopt;
 }
 
+bool has_order(const MeasuredFile& file) {
+  const MeasuredGrid* grid = file.grid();
+  return grid != nullptr &&
+         std::all_of(grid->points.begin(), grid->points.end(), [](const MeasuredPoint& point) {
+           return point.order.has_value();
+         });
+}
+
+/// What happened at a visit happened in the one session whose visits were weighed: the first with an
+/// order.
 Measured with_effects(const Measured& measured, const std::vector<Cause>& causes) {
   Measured changed;
+  bool is_before_visits = true;
   for (MeasuredFile file : measured.files()) {
+    const bool has_visits = is_before_visits && has_order(file);
+    is_before_visits = is_before_visits && !has_visits;
     std::visit(
         [&](auto& own) {
           if (!own.machine) return;
-          for (const Cause& cause : causes) own.machine->effects.push_back(applied(cause));
+          for (const Cause& cause : causes) {
+            if (has_visits || !model::effects::depends_on_visit(*cause.cause.effect))
+              own.machine->effects.push_back(applied(cause));
+          }
         },
         file.measured);
     changed.add(std::move(file));
@@ -259,11 +275,19 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
 std::vector<std::string> in_words(const CausesFit& fit) {
   std::vector<std::string> sentences;
   const auto sized = [](const Cause& cause) {
-    return fmt::format("{}{} ({}; {})",
+    std::string same;
+    for (const SameCause& other : cause.same_as) {
+      same += fmt::format(", or else {}{}: {}",
+                          other.cause.effect->cause,
+                          side_words(other.cause),
+                          in_workshop_units(other.cause, other.parameters.front()));
+    }
+    return fmt::format("{}{} ({}; {}{})",
                        cause.cause.effect->cause,
                        side_words(cause.cause),
                        in_workshop_units(cause.cause, cause.parameters.front()),
-                       percent(cause.probability));
+                       percent(cause.probability),
+                       same);
   };
   if (!fit.not_weighed.empty())
     sentences.push_back("No cause was looked for: " + fit.not_weighed + ".");

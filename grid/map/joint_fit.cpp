@@ -167,9 +167,30 @@ tl::expected<void, FitFailure> state_noises(const std::vector<MeasuredFile>& fil
   return {};
 }
 
+/// Sessions whose chains hang otherwise than in the one that the map holds for.
+void note_zeros(const std::vector<MeasuredFile>& files,
+                const estimation::Estimate& estimate,
+                std::vector<std::string>& notes) {
+  const auto own = [&](std::size_t k) -> const auto& { return estimate.observations[k].zeros; };
+  std::size_t of_map = 0;
+  while (of_map + 1 < files.size() && files[of_map].grid() == nullptr) ++of_map;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    if (!own(k)) continue;
+    const std::string words = estimation::words_of(*own(k));
+    if (words.empty()) continue;
+    notes.push_back(fmt::format(
+        "{}: the chains' zeros are other than in {}: {}. The map holds for the zeros of {}; where the "
+        "machine has the other ones now, name that file first.",
+        files[k].name,
+        files[of_map].name,
+        words,
+        files[of_map].name));
+  }
+}
+
 std::vector<std::string> notes_of(const Parts& parts,
                                   const Fitting& fitting,
-                                  const MeasuredFile& first,
+                                  const std::vector<MeasuredFile>& files,
                                   const MapDraft& draft,
                                   const std::vector<SettingResult>& settings) {
   std::vector<std::string> notes;
@@ -183,9 +204,10 @@ std::vector<std::string> notes_of(const Parts& parts,
                     "file states, times {:.2f} as found, which the fewest degrees of freedom that "
                     "any of them states, {:g}, hold near 1.",
                     fmt::join(draft.sources, "; "),
-                    first.name,
+                    files.front().name,
                     fitting.estimate.noise_factor,
                     fitting.input.noise.degrees_of_freedom));
+    note_zeros(files, fitting.estimate, notes);
   }
   append(draft.notes);
   note_settings_off(settings, notes);
@@ -236,7 +258,7 @@ CompensationMap map_of(const std::vector<MeasuredFile>& files,
   } else {
     map.accuracy = held_out_accuracy(draft.points);
   }
-  map.notes = notes_of(parts, fitting, files.front(), draft, map.settings);
+  map.notes = notes_of(parts, fitting, files, draft, map.settings);
   CompensationMap finished = with_expected_error(std::move(map));
   return draft.points.empty() ? finished : finished.with_mirror(test_mirror(finished));
 }
