@@ -33,12 +33,16 @@ struct Road {
   [[nodiscard]] double own_mm() const { return map_errors(set, own.fit.map)->true_rms_mm; }
 };
 
-Road road_of(std::vector<Hidden> hidden, int points, std::uint64_t seed, bool accept_class = false) {
+Road road_of(std::vector<Hidden> hidden,
+             int points,
+             std::uint64_t seed,
+             bool accept_class = false,
+             generator::Order order = generator::Order::random) {
   generator::Recipe recipe;
   recipe.points = points;
   recipe.kind = hidden.empty() ? generator::Mix::nothing : generator::Mix::single;
   recipe.exactly = std::move(hidden);
-  recipe.order = generator::Order::random;
+  recipe.order = order;
   generator::SealedSet set = generator::draw_set(recipe, seed);
   const grid::Measured measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid);
   auto plain = grid::joint_fit(measured);
@@ -92,6 +96,36 @@ TEST(Road, WhereNothingIsHiddenTheMapIsThePlainOneToTheByte) {
     EXPECT_THAT(road.own.fit.map.contents().notes.size(),
                 road.plain.map.contents().notes.size() + 1)
         << "what was weighed is said";
+  }
+}
+
+TEST(Road, ACauseThatStaysOutsideIsInTheExpectedError) {
+  int open = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    const Road road = road_of(
+        {{Cause::drift, Where::both, 0.03, 0.0}}, 28, seed, false, generator::Order::rows);
+    if (!road.own.built_on.empty() || road.own.left_open_mm == 0.0) continue;
+    ++open;
+    const double plain_mm = road.plain.map.contents().accuracy.expected_tool.rms_mm;
+    const double own_mm = road.own.fit.map.contents().accuracy.expected_tool.rms_mm;
+    // Same lengths, and variances that add; the map's file rounds nothing here.
+    EXPECT_NEAR(std::hypot(plain_mm, road.own.left_open_mm), own_mm, 1e-9) << "seed " << seed;
+    EXPECT_THAT(road.own.fit.map.contents().notes,
+                ::testing::Contains(::testing::HasSubstr("which the expected error counts")));
+  }
+  EXPECT_GT(open, 0) << "drift looks like other causes where marks are visited in rows";
+}
+
+// The fit takes what a skipped tooth does for noise: it expected 0.7 mm where the tool was 4 mm off.
+TEST(Road, WhatIsLeftOutIsStatedWhereItContradictsTheFit) {
+  for (const std::uint64_t seed : {1, 2}) {
+    const Road road = road_of({{Cause::tooth_skip, Where::left, 1.0, 16.0}}, 28, seed);
+    const grid::MapContents& plain = road.plain.map.contents();
+    EXPECT_THAT(plain.notes, ::testing::Contains(::testing::HasSubstr("the larger is stated")));
+    // Noise of 0.2 mm in a chain and 0.3 mm in each coordinate is below 0.3 mm^2 at the tool.
+    EXPECT_GT(plain.accuracy.expected_tool.rms_mm,
+              std::sqrt(std::pow(plain.accuracy.blocked.tool.rms_mm, 2) - 0.3))
+        << "seed " << seed;
   }
 }
 

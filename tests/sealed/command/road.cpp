@@ -7,6 +7,10 @@
 ///
 ///   road --sets 40 --points 28                  // each effect of the catalogue at its usual size
 ///   road --scan scan.json --draws 200           // chaintrue import optical wrote scan.json
+///   road --stated rows.txt --sets 40            // at usual sizes: stated errors against true ones
+///
+/// The rows of --stated are kept: what the file has is not run again, so that a run may be stopped
+/// and continued, and shards of --cause may share one file one after the other.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <numeric>
 
 #include "generator/hidden/random.hpp"
@@ -21,6 +26,7 @@
 #include "grid/files/grid_file.hpp"
 #include "grid/observation/length_points.hpp"
 #include "sealed/judge/map_errors.hpp"
+#include "sealed/judge/stated_errors.hpp"
 #include "sealed/judge/trial.hpp"
 
 namespace {
@@ -34,6 +40,7 @@ struct Arguments {
   std::uint64_t first_seed = 1;
   std::string cause;
   std::string scan;
+  std::string stated;
   int draws = 200;
   int drawn_marks = 60;
 };
@@ -141,6 +148,29 @@ void print_machines(const Arguments& arguments) {
   fmt::print("{}", all.line("all"));
 }
 
+void print_stated(const Arguments& arguments) {
+  std::vector<sealed::StatedRow> rows;
+  {
+    std::ifstream file(arguments.stated);
+    for (std::string line; std::getline(file, line);) {
+      if (auto row = sealed::row_of(line)) rows.push_back(*std::move(row));
+    }
+  }
+  std::ofstream file(arguments.stated, std::ios::app);
+  for (const std::string& kind : sealed::stated_kinds()) {
+    if (!arguments.cause.empty() && kind != arguments.cause) continue;
+    for (int k = 0; k < arguments.sets; ++k) {
+      const bool is_known = std::any_of(rows.begin(), rows.end(), [&](const auto& row) {
+        return row.kind == kind && row.machine == k;
+      });
+      if (is_known) continue;
+      rows.push_back(sealed::stated_row(kind, k));
+      file << sealed::line_of(rows.back()) << std::endl;
+    }
+  }
+  fmt::print("{}", sealed::stated_table(rows));
+}
+
 /// Tool's rms at the marks that a map was not made of.
 double error_at(const grid::CompensationMap& map,
                 const std::vector<grid::LengthPoint>& points,
@@ -205,8 +235,11 @@ int main(int argc, char** argv) {
   app.add_option("--scan", arguments.scan, "a chaintrue_grid of a real scan, in place of machines");
   app.add_option("--draws", arguments.draws, "of its marks")->check(CLI::Range(1, 100000));
   app.add_option("--drawn-marks", arguments.drawn_marks, "in each draw")->check(CLI::Range(12, 400));
+  app.add_option("--stated", arguments.stated, "a file of rows, which is continued");
   CLI11_PARSE(app, argc, argv);
-  if (arguments.scan.empty()) {
+  if (!arguments.stated.empty()) {
+    print_stated(arguments);
+  } else if (arguments.scan.empty()) {
     print_machines(arguments);
   } else {
     print_scan(arguments);

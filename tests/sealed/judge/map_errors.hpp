@@ -24,4 +24,9 @@ struct MapErrors {
 [[nodiscard]] std::optional<MapErrors> map_errors(const generator::SealedSet& set,
                                                   const grid::CompensationMap& map);
 
+/// Of holes without an edge of the sheet: with the sheet laid as well as it can be, since no distance
+/// between holes knows where it lies.
+[[nodiscard]] std::optional<MapErrors> map_errors_of_free_sheet(
+    const generator::HiddenMachine& machine, const grid::CompensationMap& map);
+
 }  // namespace chaintrue::sealed
