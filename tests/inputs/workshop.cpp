@@ -270,8 +270,10 @@ Ran Workshop::run(const std::string& lines) const {
   static std::atomic<int> next = 0;
   const fs::path folder = folder_ / ("run" + std::to_string(next++));
   fs::create_directory(folder);
-  std::string shell = "cd " + folder.string() + " && { " CHAINTRUE_COMMAND " " +
-                      replaced(lines, "; ", " && " CHAINTRUE_COMMAND " ");
+  // A map that is not to be cut with ends with 1, and is written and asked all the same.
+  const std::string then = "; s=$?; [ $s -le 1 ] || exit $s; " CHAINTRUE_COMMAND " ";
+  std::string shell =
+      "cd " + folder.string() + " && { " CHAINTRUE_COMMAND " " + replaced(lines, "; ", then);
   shell = replaced(shell, "@", folder_.string() + "/") + " ; } >../out" + folder.filename().string() +
           " 2>../err" + folder.filename().string();
   const int status = std::system(shell.c_str());
