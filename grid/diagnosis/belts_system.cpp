@@ -49,7 +49,7 @@ bool is_expected(std::string_view effect) { return effect == "belt_stretch"; }
 /// How often an effect acts, against the others. What sets in during a session is rare, and an anchor
 /// that slips by just a tooth along its belt is rarer than a belt that skips.
 double share_of(std::string_view effect) {
-  if (effect == "tooth_skip") return 0.3;
+  if (effect == "tooth_skip" || effect == "zero_shift") return 0.3;
   return effect == "anchor_moved" ? 0.01 : 1.0;
 }
 
@@ -123,8 +123,10 @@ class Columns {
           values.front() = own.teeth;
           add_one({cause, values}, false, share * own.share);
         }
-      } else {
+      } else if (parameters.size() > 2) {
         add_ways({cause, values}, found, share);
+      } else {
+        add_one({cause, values}, found != nullptr, share);
       }
     }
   }

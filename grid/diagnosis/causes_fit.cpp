@@ -12,6 +12,7 @@
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
+#include "grid/map/larger_error.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -131,13 +132,29 @@ std::optional<OfferedCause::Reason> refusal(const Cause& cause, bool decided) {
   return std::nullopt;
 }
 
+bool has_order(const MeasuredFile& file) {
+  const MeasuredGrid* grid = file.grid();
+  return grid != nullptr &&
+         std::all_of(grid->points.begin(), grid->points.end(), [](const MeasuredPoint& point) {
+           return point.order.has_value();
+         });
+}
+
+/// What happened at a visit happened in the one session whose visits were weighed: the first with an
+/// order.
 Measured with_effects(const Measured& measured, const std::vector<Cause>& causes) {
   Measured changed;
+  bool is_before_visits = true;
   for (MeasuredFile file : measured.files()) {
+    const bool has_visits = is_before_visits && has_order(file);
+    is_before_visits = is_before_visits && !has_visits;
     std::visit(
         [&](auto& own) {
           if (!own.machine) return;
-          for (const Cause& cause : causes) own.machine->effects.push_back(applied(cause));
+          for (const Cause& cause : causes) {
+            if (has_visits || !model::effects::depends_on_visit(*cause.cause.effect))
+              own.machine->effects.push_back(applied(cause));
+          }
         },
         file.measured);
     changed.add(std::move(file));
@@ -176,6 +193,85 @@ CompensationMap with_errors_before(const CompensationMap& own, const Compensatio
     contents.points[k].sheet_placed_mm = before[k].sheet_placed_mm;
   }
   return CompensationMap(std::move(contents));
+}
+
+/// The tool's mean square by which one map differs from the other over the measured part, and what
+/// the latter expects there, mm^2.
+struct Apart {
+  double difference_mm2 = 0.0;
+  double expected_mm2 = 0.0;
+};
+
+Apart apart(const CompensationMap& map, const CompensationMap& other) {
+  constexpr int kColumns = 25;
+  constexpr int kRows = 13;
+  const interp::Rectangle& domain = map.contents().domain;
+  Apart sum;
+  int count = 0;
+  for (int iy = 0; iy < kRows; ++iy) {
+    for (int ix = 0; ix < kColumns; ++ix) {
+      const model::MarkPoint mark{domain.x_min + domain.width() * ix / (kColumns - 1),
+                                  domain.y_min + domain.height() * iy / (kRows - 1)};
+      if (map.status(mark) != MapStatus::inside) continue;
+      const auto here = map.query(mark);
+      const auto there = other.query(mark);
+      if (!here || !there) continue;
+      const Eigen::Vector2d chains(there->lengths.left_mm - here->lengths.left_mm,
+                                   there->lengths.right_mm - here->lengths.right_mm);
+      sum.difference_mm2 += (here->mark_jacobian.inverse() * chains).squaredNorm();
+      sum.expected_mm2 += here->tool_sigma_mm * here->tool_sigma_mm;
+      ++count;
+    }
+  }
+  const double n = std::max(count, 1);
+  return {sum.difference_mm2 / n, sum.expected_mm2 / n};
+}
+
+/// The largest sigma of a cause's size over that size.
+double least_known_size(const std::vector<Cause>& causes) {
+  double largest = 0.0;
+  for (const Cause& cause : causes) {
+    const ParameterEstimate& size = cause.parameters.front();
+    if (size.value != 0.0) largest = std::max(largest, size.sigma / std::abs(size.value));
+  }
+  return largest;
+}
+
+/// (2), of the likeliest of those that are offered and not of the paper, which moves no tool.
+void count_what_is_left_open(const Measured& measured,
+                             const CausesFitOptions& options,
+                             const CompensationMap& plain,
+                             CausesFit& result) {
+  constexpr double kLeastProbability = 0.05;
+  constexpr int kMostMaps = 4;
+  constexpr double kLeastFactor = 1.05;
+  std::vector<const Cause*> open;
+  for (const OfferedCause& offered : result.offered) {
+    const bool is_of_machine = offered.reason == OfferedCause::Reason::not_sure ||
+                               offered.reason == OfferedCause::Reason::gains_nothing;
+    if (is_of_machine && !is_of_the_paper(offered.cause.cause) &&
+        offered.cause.probability >= kLeastProbability)
+      open.push_back(&offered.cause);
+  }
+  std::stable_sort(open.begin(), open.end(), [](const Cause* a, const Cause* b) {
+    return a->probability > b->probability;
+  });
+  if (open.size() > kMostMaps) open.resize(kMostMaps);
+  const Apart built = apart(result.fit.map, plain);
+  const double expected_mm2 = built.expected_mm2;
+  double variance_mm2 = std::pow(least_known_size(result.built_on), 2) * built.difference_mm2;
+  for (const Cause* cause : open) {
+    std::vector<Cause> acting = result.built_on;
+    acting.push_back(*cause);
+    const auto other = joint_fit(with_effects(measured, acting), options.fit);
+    if (!other) continue;
+    variance_mm2 += cause->probability * apart(result.fit.map, other->map).difference_mm2;
+  }
+  if (!(expected_mm2 > 0.0)) return;
+  const double factor = std::sqrt(1.0 + variance_mm2 / expected_mm2);
+  if (factor < kLeastFactor) return;
+  result.left_open_mm = std::sqrt(variance_mm2);
+  result.fit.map = with_larger_error(result.fit.map, factor);
 }
 
 /// The sentences stand in the map's file as well.
@@ -218,7 +314,7 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
                                                     const CausesFitOptions& options) {
   auto plain = joint_fit(measured, options.fit);
   if (!plain) return tl::unexpected(plain.error());
-  CausesFit result{*std::move(plain), {}, {}, std::nullopt, {}};
+  CausesFit result{*std::move(plain), {}, {}, std::nullopt, 0.0, {}};
   DiagnosisOptions weighed;
   weighed.seed = options.seed;
   weighed.accept_class = options.accept_class;
@@ -237,33 +333,46 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
     else
       sure.push_back(cause);
   }
-  if (sure.empty()) return noted(std::move(result));
+  const CompensationMap plain_map = result.fit.map;
+  const auto with_open = [&] {
+    count_what_is_left_open(measured, options, plain_map, result);
+    return noted(std::move(result));
+  };
+  if (sure.empty()) return with_open();
   auto with_causes = joint_fit(with_effects(measured, sure), options.fit);
   if (!with_causes) {
     offer(sure, OfferedCause::Reason::gains_nothing, result);
-    return noted(std::move(result));
+    return with_open();
   }
   const std::vector<HeldOutSquare> squares = held_out_squares(result.fit, *with_causes);
   result.held_out = error_of(squares);
   if (!naming_holds(*found) || !falls_beyond_its_error(squares)) {
     offer(sure, OfferedCause::Reason::gains_nothing, result);
-    return noted(std::move(result));
+    return with_open();
   }
   with_causes->map = with_errors_before(with_causes->map, result.fit.map)
                          .with_sigma_beyond(factor_beyond(result.fit.map, with_causes->map));
   result.fit = *std::move(with_causes);
   result.built_on = std::move(sure);
-  return noted(std::move(result));
+  return with_open();
 }
 
 std::vector<std::string> in_words(const CausesFit& fit) {
   std::vector<std::string> sentences;
   const auto sized = [](const Cause& cause) {
-    return fmt::format("{}{} ({}; {})",
+    std::string same;
+    for (const SameCause& other : cause.same_as) {
+      same += fmt::format(", or else {}{}: {}",
+                          other.cause.effect->cause,
+                          side_words(other.cause),
+                          in_workshop_units(other.cause, other.parameters.front()));
+    }
+    return fmt::format("{}{} ({}; {}{})",
                        cause.cause.effect->cause,
                        side_words(cause.cause),
                        in_workshop_units(cause.cause, cause.parameters.front()),
-                       percent(cause.probability));
+                       percent(cause.probability),
+                       same);
   };
   if (!fit.not_weighed.empty())
     sentences.push_back("No cause was looked for: " + fit.not_weighed + ".");
@@ -284,6 +393,13 @@ std::vector<std::string> in_words(const CausesFit& fit) {
     sentences.push_back(fmt::format("Found and not in the map: {}; {}.",
                                     sized(offered.cause),
                                     why(offered.reason)));
+  }
+  if (fit.left_open_mm > 0.0) {
+    sentences.push_back(fmt::format(
+        "{}: by that the tool may be {:.2f} mm rms elsewhere, which the expected error counts.",
+        fit.offered.empty() ? "How large the causes are is known only so well"
+                            : "What was found and is not in the map may act all the same",
+        fit.left_open_mm));
   }
   return sentences;
 }

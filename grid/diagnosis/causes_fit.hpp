@@ -17,6 +17,15 @@
 /// (1) is the standard error of a ratio of two sums over clusters: W. Cochran, Sampling Techniques
 /// (1977), equation 6.13. Effects of the visit are taken out of the readings under the same rule.
 ///
+/// A cause that may act and does not enter is part of the expected error, and so is the size of one
+/// that does. With f_i the map on cause i of probability p_i, f the map that is given, f_0 the plain
+/// one and s the largest sigma of a cause in f over its size, the tool's variance grows by
+///
+///   V = sum p_i |J^-1 (f_i - f)|^2 + s^2 |J^-1 (f - f_0)|^2, the mean over the measured part     (2)
+///
+/// The sum is the variance between models: J. Hoeting et al., Bayesian model averaging: a tutorial,
+/// Statistical Science 14 (1999) 382, equation 3.
+///
 /// \code
 ///   const auto found = fit_with_causes(measured);
 ///   if (found) use(found->fit.map, found->built_on);   // built_on is empty: the plain map
@@ -67,6 +76,8 @@ struct CausesFit {
   std::vector<Cause> built_on;         ///< empty: the plain map
   std::vector<OfferedCause> offered;
   std::optional<HeldOutBlocksError> held_out;  ///< where causes were tried in a map
+  /// Root of (2), mm; zero where it is too small to be told, and nothing is added.
+  double left_open_mm = 0.0;
   /// Why nothing could be weighed; empty where it was.
   std::string not_weighed;
 };

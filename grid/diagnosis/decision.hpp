@@ -13,10 +13,11 @@
 namespace chaintrue::grid::diagnosis {
 
 /// Causes that these data cannot separate, however strong; the one that gives the class its name
-/// first: a cause in the machine before one on the paper.
+/// first: a cause in the machine before one on the paper. What acts by whole numbers and what acts by
+/// any amount are one class where the amount that is found is such a number, the likelier first.
 using CauseClass = std::vector<CauseId>;
 [[nodiscard]] std::vector<CauseClass> classes_of(const RegressorSystem& system,
-                                                 const MarginalisedSystem& marginalised);
+                                                 const ModelComparison& comparison);
 
 struct ClassProbability {
   std::size_t index = 0;  ///< into the classes

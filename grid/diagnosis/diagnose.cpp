@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/diagnose.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
 
 #include "grid/diagnosis/findings.hpp"
@@ -10,6 +13,7 @@
 #include "grid/diagnosis/single_reading.hpp"
 #include "grid/diagnosis/slips.hpp"
 #include "grid/diagnosis/stability.hpp"
+#include "grid/estimation/estimate.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -58,6 +62,31 @@ constexpr WorkStep kPlanning{"what to measure next", 4, kWorkSteps};
 Observations observations_of(const ObservationSet& session) {
   if (!session.has_distances()) return Observations::points;
   return session.reads_chains() ? Observations::both : Observations::distances;
+}
+
+/// Sessions whose chains hang otherwise than in the first.
+void note_zeros(const Measured& measured, const Analysis& a, Diagnosis& d) {
+  // Observations are in this order.
+  std::vector<std::string> names;
+  for (const bool grids : {true, false}) {
+    for (const MeasuredFile& file : measured.files()) {
+      if ((file.grid() != nullptr) == grids) names.push_back(file.name);
+    }
+  }
+  for (std::size_t k = 0; k < names.size() && k < a.session.parts.size(); ++k) {
+    std::array<estimation::SessionZero, 2> zeros;
+    const std::vector<Eigen::Index>& columns = a.session.parts[k].zero_columns;
+    for (std::size_t z = 0; z < columns.size(); ++z) {
+      zeros[z] = {a.estimate.setting_change(columns[z]),
+                  std::sqrt(a.estimate.setting_covariance(columns[z], columns[z]))};
+    }
+    const std::string words = estimation::words_of(zeros);
+    if (!words.empty())
+      d.notes.push_back(fmt::format("{}: the chains' zeros are other than in {}: {}.",
+                                    names[k],
+                                    names.front(),
+                                    words));
+  }
 }
 
 /// What was stated of the noise and of the files.
@@ -121,6 +150,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   extend(a, d);
   if (options.next_measurements) d.next_measurements = next_measurements(a);
   put_into_words(a, d);
+  note_zeros(measured, a, d);
   state_input(measured, d);
   return d;
 }

@@ -10,6 +10,16 @@
 
 namespace chaintrue::grid::diagnosis {
 
+namespace {
+
+/// It acts from one visit on.
+bool sets_in_at_a_visit(const Regressor& r) {
+  return r.values.size() == 2 && r.cause.effect->parameters.back().integer &&
+         !r.cause.effect->at_one_visit;
+}
+
+}  // namespace
+
 bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limits) {
   const auto sets_in = [](const Regressor& r) {
     return r.cause.effect->parameters.size() > 1 && r.cause.effect->parameters.back().integer;
@@ -18,6 +28,11 @@ bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limi
       std::abs(a.values.back() - b.values.back()) <= limits.one_event_visits) {
     return false;
   }
+  // What sets in at one visit of one chain is one event: a skip with a shift that takes back the rest
+  // of it is the shift alone.
+  if (sets_in_at_a_visit(a) && sets_in_at_a_visit(b) && a.cause.side == b.cause.side &&
+      a.values.back() == b.values.back())
+    return false;
   if (a.cause.effect != b.cause.effect) return true;
   using model::effects::EffectSide;
   const auto joint = [](EffectSide s) {

@@ -20,8 +20,8 @@ struct WeighedSet {
 }
 [[nodiscard]] inline double weight_of(const WeighedSet& one) { return one.weight; }
 
-/// May two regressors act together: one cause acts at one place, and an effect that acts on both
-/// chains alike not also on one of them.
+/// May two regressors act together: one cause acts at one place, an effect that acts on both chains
+/// alike not also on one of them, and of what sets in at one visit of one chain there is one.
 [[nodiscard]] bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limits);
 
 class ModelCollector {

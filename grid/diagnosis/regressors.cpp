@@ -152,8 +152,10 @@ class Builder {
         values.back() = place;
         add_one(cause, values, share);
       }
+      // Of visits every one is among the places.
       for (const Refinement& r : refinements) {
-        if (r.cause == cause) add_one(cause, r.values, share);
+        if (r.cause == cause && !place_parameter(*cause.effect)->integer)
+          add_one(cause, r.values, share);
       }
     }
   }

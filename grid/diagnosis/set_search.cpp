@@ -143,11 +143,18 @@ class SetSearch::Search {
   [[nodiscard]] const std::vector<bool>& outliers() const { return marginalised_.outliers; }
 
  private:
-  /// Regressors worth their place: those of no whole number, and of the others the best, alone or
-  /// once one of the leading regressors has taken its share.
+  /// Of any size, and set in at a visit.
+  [[nodiscard]] static bool at_a_visit(const Regressor& d) {
+    const auto& parameters = d.cause.effect->parameters;
+    return !d.fixed && parameters.size() > 1 && parameters.back().integer;
+  }
+
+  /// Regressors worth their place: those of no whole number, but of what sets in at a visit the best
+  /// visits, and of the others the best, alone or once one of the leading regressors has taken its share.
   [[nodiscard]] std::vector<int> columns() const {
     std::vector<int> kept;
     std::vector<int> fixed;
+    std::vector<int> shifts;
     const auto count = static_cast<int>(system_.regressors.size());
     const Eigen::VectorXd c = marginalised_.g.transpose_times(marginalised_.e);
     const Eigen::VectorXd square = marginalised_.g.squared_norms();
@@ -155,14 +162,18 @@ class SetSearch::Search {
       const Regressor& d = system_.regressors[static_cast<std::size_t>(k)];
       if (options_.told && !(d.cause == *options_.told)) continue;
       if (!(square(k) > kLeastSquare)) continue;
-      (d.fixed ? fixed : kept).push_back(k);
+      (d.fixed ? fixed : at_a_visit(d) ? shifts : kept).push_back(k);
     }
+    const auto explained = [&](int k) { return c(k) * c(k) / square(k); };
+    std::stable_sort(
+        shifts.begin(), shifts.end(), [&](int a, int b) { return explained(a) > explained(b); });
+    shifts.resize(count_with_ties(shifts, kKeptShifts, explained));
+    std::vector<int> leading = kept;
+    kept.insert(kept.end(), shifts.begin(), shifts.end());
     if (fixed.size() <= kKeptFixed) {
       kept.insert(kept.end(), fixed.begin(), fixed.end());
       return kept;
     }
-    std::vector<int> leading = kept;
-    const auto explained = [&](int k) { return c(k) * c(k) / square(k); };
     std::stable_sort(
         leading.begin(), leading.end(), [&](int a, int b) { return explained(a) > explained(b); });
     leading.resize(count_with_ties(leading, 8, explained));

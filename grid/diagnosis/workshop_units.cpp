@@ -41,6 +41,7 @@ constexpr std::array kUnits = {
     Unit{"phase_rad", kDegrees, "phase {} degrees"},
     Unit{"rate_mm_per_visit", 1.0, "{} mm a visit"},
     Unit{"links", 1.0, "{} links", "", "{} link"},
+    Unit{"shift_mm", 1.0, "{} mm too much read", "{} mm too little read"},
     Unit{"first_visit", 1.0, "from visit {} on"},
     Unit{"visit", 1.0, "at visit {}"},
     Unit{"amplitude_mm", 1.0, "{} mm"},

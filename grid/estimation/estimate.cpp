@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/estimate.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -454,6 +456,16 @@ tl::expected<void, EstimationFailure> Estimator::fill_observations(Estimate& est
     const auto line = observation.linearise({estimate.mechanism, own.sheet, &corrections[k]}, {});
     if (!line) return tl::unexpected(problem_->unreachable(k, line.error()));
     own.predicted = line->predicted;
+    if (const Eigen::Index first = unknowns.zeros(k); first >= 0) {
+      const Eigen::Vector2d zeros = coefficients.segment<2>(first);
+      const Eigen::Vector2d sigma = variance.segment<2>(first).cwiseMax(0.0).cwiseSqrt();
+      own.zeros = {{{zeros[0], sigma[0]}, {zeros[1], sigma[1]}}};
+      for (std::size_t u = 0; u < line->units.size(); ++u) {
+        const observation::Unit& rows = observation.units()[u];
+        for (const observation::PlaceColumns& place : line->units[u].places)
+          own.predicted.segment(rows.first_row, rows.rows) += place.by_chain * zeros;
+      }
+    }
     for (std::size_t i = 0; i < line->places.size(); ++i) {
       const observation::PlaceState& place = line->places[i];
       own.places.push_back({as_stated_[k][i], place.mark, place.by_mark, place.reading.lengths});
@@ -517,6 +529,23 @@ tl::expected<Estimate, EstimationFailure> Estimator::run() {
 }
 
 }  // namespace
+
+std::string words_of(const std::array<SessionZero, 2>& zeros) {
+  // Sigmas, 1 in 16 000 for each chain: who is told goes and looks at the chains.
+  constexpr double kSpokenOf = 4.0;
+  std::string words;
+  for (const Side side : model::kSides) {
+    const SessionZero& zero = zeros[static_cast<std::size_t>(row_of(side))];
+    if (!(std::abs(zero.mm) > kSpokenOf * zero.sigma_mm)) continue;
+    words += fmt::format("{}{} chain {:.1f} +- {:.1f} mm {}",
+                         words.empty() ? "" : ", ",
+                         side == Side::left ? "left" : "right",
+                         std::abs(zero.mm),
+                         zero.sigma_mm,
+                         zero.mm > 0.0 ? "more" : "less");
+  }
+  return words;
+}
 
 MachineKnowledge stated_knowledge(const model::Machine& machine) {
   MachineKnowledge knowledge;

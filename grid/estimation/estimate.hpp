@@ -39,6 +39,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -159,6 +160,14 @@ struct PlaceEstimate {
   model::ChainLengths lengths;  ///< of the machine alone
 };
 
+struct SessionZero {
+  double mm = 0.0;
+  double sigma_mm = 0.0;
+};
+
+/// "left chain 5.0 +- 0.1 mm more", both where both are beyond what noise does; empty where neither is.
+[[nodiscard]] std::string words_of(const std::array<SessionZero, 2>& zeros);
+
 /// What belongs to one observation.
 struct ObservationEstimate {
   model::SheetPlacement sheet;
@@ -166,6 +175,9 @@ struct ObservationEstimate {
   std::vector<PlaceEstimate> places;
   Eigen::VectorXd nuisance;
   Eigen::VectorXd nuisance_sigma;
+  /// By how much the zero of either chain is more in this session than in the machine, mm, with one
+  /// sigma; nothing where the machine's zeros are those of this session.
+  std::optional<std::array<SessionZero, 2>> zeros{};
 };
 
 struct Estimate {

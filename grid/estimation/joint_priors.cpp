@@ -74,7 +74,7 @@ void JointProblem::add_settings_prior(interp::PenalisedProblem& problem) const {
       precision.topLeftCorner(coupled, coupled).ldlt().solve(pull.head(coupled));
 }
 
-/// Sheets beside the first, and nuisances. Those of the noise are rows of data: the noise factor
+/// Sheets other than the first, zeros of other sessions, and nuisances. Those of the noise are rows of data: the noise factor
 /// scales them.
 void JointProblem::add_nuisance_prior(interp::PenalisedProblem& problem) const {
   Eigen::Index of_noise = 0;
@@ -85,6 +85,11 @@ void JointProblem::add_nuisance_prior(interp::PenalisedProblem& problem) const {
     const Observation& observation = *input_.observations[k];
     for (Eigen::Index i = 0; k > 0 && unknowns_->sheet(k) >= 0 && i < 3; ++i) {
       const Eigen::Index column = unknowns_->sheet(k) + i;
+      problem.prior_precision(column, column) =
+          1.0 / (unknowns_->sigma(column) * unknowns_->sigma(column));
+    }
+    for (Eigen::Index i = 0; unknowns_->zeros(k) >= 0 && i < 2; ++i) {
+      const Eigen::Index column = unknowns_->zeros(k) + i;
       problem.prior_precision(column, column) =
           1.0 / (unknowns_->sigma(column) * unknowns_->sigma(column));
     }

@@ -46,8 +46,11 @@ class Assembly {
       system_.by_setting(own, columns) = w * by_setting;
       system_.by_setting(own, part.nuisance_columns) =
           w * line.by_nuisance.middleRows(rows.first_row, rows.rows);
-      for (const observation::PlaceColumns& place : line.units[u].places)
+      for (const observation::PlaceColumns& place : line.units[u].places) {
         unit.places.push_back({part.first_place + place.place, w * place.by_chain});
+        if (!part.zero_columns.empty())
+          system_.by_setting(own, part.zero_columns) += unit.places.back().by_chain;
+      }
       if (line.units[u].by_reading.size() > 0) unit.by_reading = w * line.units[u].by_reading;
       take(std::move(unit), observation.may_slip());
     }

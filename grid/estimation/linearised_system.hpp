@@ -7,7 +7,7 @@
 ///
 ///   W (y - f) = W A (theta - theta_0) + W B b + sum_i W D_i c_i + e,   e ~ N(0, I)          (1)
 ///
-/// Columns of A and B as observation_set.hpp has them; whitened rows have no unit, chains and marks
+/// Columns of A and B as observation_set.hpp has them, the zeros of other sessions among those of A; whitened rows have no unit, chains and marks
 /// are in mm, settings and nuisances in their own units.
 ///
 /// \code

@@ -31,10 +31,21 @@ void append(ObservationPart part, ObservationSet& set) {
   set.parts.push_back(std::move(part));
 }
 
-/// The columns of nuisances, and what is stated of all columns.
+/// The columns of zeros and nuisances, and what is stated of all columns.
 void add_columns(ObservationSet& set) {
   const Eigen::Index parameters = set.parameters();
   Eigen::Index columns = parameters + 3 * static_cast<Eigen::Index>(set.sheets);
+  bool is_first = true;
+  for (ObservationPart& part : set.parts) {
+    // Nothing is said of the zeros of a mechanism that is not two chains.
+    if (set.settings.empty() || !part.reads_chains()) continue;
+    if (!is_first) {
+      part.zero_columns = {columns, columns + 1};
+      columns += 2;
+      ++set.own_zeros;
+    }
+    is_first = false;
+  }
   for (ObservationPart& part : set.parts) {
     for (Eigen::Index q = 0; q < part.observation->nuisance_sigma().size(); ++q) {
       part.nuisance_columns.push_back(columns++);
@@ -49,6 +60,8 @@ void add_columns(ObservationSet& set) {
             std::numeric_limits<double>::infinity());
   }
   for (const ObservationPart& part : set.parts) {
+    for (const Eigen::Index column : part.zero_columns)
+      set.stated_sigma(column) = kSessionZeroSigmaMm;
     for (std::size_t q = 0; q < part.nuisance_columns.size(); ++q) {
       set.stated_sigma(part.nuisance_columns[q]) =
           part.observation->nuisance_sigma()(static_cast<Eigen::Index>(q));
@@ -99,6 +112,7 @@ ObservationSet with_observations(const ObservationSet& set, std::vector<FollowUp
   for (FollowUp& one : parts) {
     ObservationPart part;
     part.sheet = set.parts[one.in_place_of].sheet;
+    part.zero_columns = set.parts[one.in_place_of].zero_columns;
     part.nuisance_columns = set.parts[one.in_place_of].nuisance_columns;
     const Eigen::VectorXd& sigma = one.observation->nuisance_sigma();
     const auto known = static_cast<Eigen::Index>(part.nuisance_columns.size());

@@ -3,8 +3,11 @@
 /// All observations of one machine: their rows one below the other, their places and units numbered
 /// through, and the columns of what is unknown with what is stated of it.
 ///
-/// Columns: the machine's settings, three for each sheet that somebody laid, the nuisances of each
-/// observation. Units (observation.hpp) are those whose readings may be slips; readings that nobody
+/// Columns: the machine's settings, three for each sheet that somebody laid, two for each session whose
+/// chain zeros are its own, the nuisances of each observation. Between two sessions in which chains are read
+/// a chain may have been hung anew: the zeros of all but the first are other than the machine's by what is
+/// estimated. Sets of holes share the machine's: distances hardly tell zeros, and the five published sets of
+/// one machine predict each other worse with zeros of their own (0.65 mm left out, 0.60 without). Units (observation.hpp) are those whose readings may be slips; readings that nobody
 /// can slip at have rows and are no units.
 ///
 /// \code
@@ -28,6 +31,11 @@ namespace chaintrue::grid::estimation {
 /// What is stated without any uncertainty is taken as known this well, in mm or rad.
 inline constexpr double kKnownSigma = 1e-7;
 
+/// One sigma beforehand of what a chain's zero is other in another session, mm: a zero that is set anew by
+/// eye comes out within some millimetres. A grid tells it to tenths of a millimetre, so that a prior as wide
+/// as this pulls a shift of a whole link by hundredths.
+inline constexpr double kSessionZeroSigmaMm = 3.0;
+
 /// Settings of the machine: the first columns.
 inline constexpr auto kMachineSettingCount =
     static_cast<Eigen::Index>(model::kMachineSettings.size());
@@ -40,6 +48,9 @@ struct ObservationPart {
   std::size_t first_unit = 0;
   std::optional<std::size_t> sheet;            ///< which of the set's; none: the bed's frame
   std::vector<Eigen::Index> nuisance_columns;  ///< among all columns
+  /// By how much the zero of either chain is more in this session than in the machine, among all columns;
+  /// none of the session that the machine's zeros are those of.
+  std::vector<Eigen::Index> zero_columns{};
   [[nodiscard]] bool reads_chains() const { return observation->kind().reads_chains; }
 };
 
@@ -68,7 +79,8 @@ struct ObservationSet {
   /// Of two chains, those of a sheet once for each; empty of another mechanism.
   std::vector<model::Setting> settings;
   std::size_t sheets = 0;
-  Eigen::VectorXd stated_value;  ///< q: of the settings, then of the nuisances, each in its unit
+  std::size_t own_zeros = 0;     ///< sessions whose chain zeros are their own
+  Eigen::VectorXd stated_value;  ///< q: of the settings and zeros, then of the nuisances, each in its unit
   Eigen::VectorXd
       stated_sigma;  ///< q, one sigma of these, at least kKnownSigma; infinite: nothing is known
   Eigen::Index rows = 0;
@@ -82,7 +94,8 @@ struct ObservationSet {
   /// Of the mechanism: the first columns.
   [[nodiscard]] Eigen::Index parameters() const { return mechanism->values().size(); }
   [[nodiscard]] Eigen::Index nuisances() const {
-    return stated_value.size() - parameters() - 3 * static_cast<Eigen::Index>(sheets);
+    return stated_value.size() - parameters() - 3 * static_cast<Eigen::Index>(sheets) -
+           2 * static_cast<Eigen::Index>(own_zeros);
   }
   [[nodiscard]] bool reads_chains() const;
   [[nodiscard]] bool has_distances() const;
@@ -103,7 +116,8 @@ struct ObservationSet {
   [[nodiscard]] std::string_view units_word() const;
 };
 
-/// In the order of `observations`. \throws std::invalid_argument for a sheet that was laid under
+/// In the order of `observations`. The machine's zeros are those of the first session that reads chains.
+/// \throws std::invalid_argument for a sheet that was laid under
 /// another mechanism than two chains.
 [[nodiscard]] ObservationSet observation_set(
     model::Machine stated,
@@ -144,7 +158,7 @@ struct MachineState {
   }
 };
 [[nodiscard]] MachineState stated_state(const ObservationSet& set);
-/// Nuisances are nothing in every state.
+/// Zeros of other sessions and nuisances are nothing in every state: what they do is linear.
 [[nodiscard]] Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& state);
 [[nodiscard]] MachineState with_settings(const ObservationSet& set,
                                          MachineState state,

@@ -23,6 +23,9 @@ Unknowns::Unknowns(const ObservationSet& set, SurfaceColumns surface)
       sheet_.back() = i == 0 ? parameters() : total_;
       if (i > 0) total_ += kSheet;
     }
+    const auto zeros = static_cast<Eigen::Index>(set.parts[i].zero_columns.size());
+    zeros_.push_back(zeros > 0 ? total_ : -1);
+    total_ += zeros;
     nuisance_.push_back(total_);
     total_ += set.parts[i].observation->nuisance_sigma().size();
   }
@@ -34,6 +37,11 @@ Unknowns::Unknowns(const ObservationSet& set, SurfaceColumns surface)
     for (std::size_t k = 0; k < own.size(); ++k) {
       of_set_[static_cast<std::size_t>(there[k])] = own[k];
       sigma_[own[k]] = set.stated_sigma[there[k]];
+    }
+    for (std::size_t z = 0; z < part.zero_columns.size(); ++z) {
+      const Eigen::Index column = zeros_[i] + static_cast<Eigen::Index>(z);
+      of_set_[static_cast<std::size_t>(part.zero_columns[z])] = column;
+      sigma_[column] = set.stated_sigma[part.zero_columns[z]];
     }
     for (std::size_t q = 0; q < part.nuisance_columns.size(); ++q) {
       of_set_[static_cast<std::size_t>(part.nuisance_columns[q])] =

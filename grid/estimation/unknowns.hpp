@@ -6,7 +6,8 @@
 ///   scales        of either chain; none of a mechanism of more lengths
 ///   polynomials   of either chain's surface, as the places observe it (observed_subspace.hpp)
 ///   bends         the same
-///   the rest      of each observation: its sheet where it has one of its own, its nuisances
+///   the rest      of each observation: its sheet and its zeros where it has some of its own, its
+///                 nuisances
 ///
 /// What comes before the rest is what a map is made of. Settings of the machine and placements of
 /// sheets are deviations from what was stated.
@@ -47,13 +48,15 @@ class Unknowns {
   [[nodiscard]] const SurfaceColumns& surface() const { return surface_; }
   /// Where the columns of an observation's sheet begin; -1: it has none.
   [[nodiscard]] Eigen::Index sheet(std::size_t observation) const { return sheet_[observation]; }
+  /// Where the columns of its own zeros begin, two; -1: it has none.
+  [[nodiscard]] Eigen::Index zeros(std::size_t observation) const { return zeros_[observation]; }
   /// Where the columns of its nuisances begin.
   [[nodiscard]] Eigen::Index nuisance(std::size_t observation) const {
     return nuisance_[observation];
   }
   [[nodiscard]] Eigen::Index total() const { return total_; }
 
-  /// One sigma beforehand of a setting's or a sheet's column, infinite where nothing is known; 0 of
+  /// One sigma beforehand of a setting's, a sheet's or a zero's column, infinite where nothing is known; 0 of
   /// the others.
   [[nodiscard]] double sigma(Eigen::Index column) const { return sigma_[column]; }
   /// Columns of an observation's own settings: the machine's, then its sheet's.
@@ -75,6 +78,7 @@ class Unknowns {
   SurfaceColumns surface_;
   Eigen::Index settings_ = 0;
   std::vector<Eigen::Index> sheet_;
+  std::vector<Eigen::Index> zeros_;
   std::vector<Eigen::Index> nuisance_;
   std::vector<Eigen::Index> of_set_;
   Eigen::Index total_ = 0;

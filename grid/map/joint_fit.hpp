@@ -5,7 +5,9 @@
 /// from all of them.
 ///
 /// The map's frame is that of the first file's marks; every other file has a sheet of its own, whose
-/// placement is estimated and belongs to it alone. A hole is where its chain lengths put it, so
+/// placement is estimated and belongs to it alone. Between two grids a chain's zero may have been set
+/// anew: each but the first has zeros of its own. The map's zeros are those of the first grid, which is the
+/// one to give first: what the machine is like now. A hole is where its chain lengths put it, so
 /// that each set's own controller says what was paid out. Each file keeps its own stated noise; one
 /// factor over all of them is found, known by the fewest degrees of freedom that any of them
 /// states. Of a grid that states no noise it is found from its points first. Readings of the machine

@@ -65,6 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Every,
                                          Hidden{"anchor_height", "tr", "offset_mm", 60.0},
                                          Hidden{"anchor_moved", "bl", "distance_mm", 7.0},
                                          Hidden{"tooth_skip", "br", "teeth", 1.0},
+                                         Hidden{"zero_shift", "tr", "shift_mm", 3.0},
                                          Hidden{"drift", "tl", "rate_mm_per_visit", 0.06},
                                          Hidden{"belt_zero", "all", "offset_mm", -25.0}),
                          [](const auto& tested) {
@@ -77,7 +78,8 @@ TEST_P(HiddenCause, IsNamedWithItsBeltAndItsSize) {
   // Perpendicular to the belt in the middle: along it a move looks like a skip of teeth.
   if (std::string_view(hidden.effect) == "anchor_moved") parameters["direction_rad"] = 2.1;
   const bool sets_in = std::string_view(hidden.effect) == "anchor_moved" ||
-                       std::string_view(hidden.effect) == "tooth_skip";
+                       std::string_view(hidden.effect) == "tooth_skip" ||
+                       std::string_view(hidden.effect) == "zero_shift";
   if (sets_in) parameters["first_visit"] = 37.0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Diagnosis found = diagnosed(

@@ -139,6 +139,8 @@ TEST(BeltEffects, EachEquationByHand) {
   EXPECT_NEAR(added(belt_zero, BeltSide::all, {-153.4}, held), -153.4, 1e-11);
   EXPECT_NEAR(added(tooth_skip, BeltSide::bl, {22.0, 12.0}, held), 43.975, 1e-11);
   EXPECT_EQ(added(tooth_skip, BeltSide::bl, {22.0, 13.0}, held), 0.0);
+  EXPECT_NEAR(added(zero_shift, BeltSide::bl, {-3.7, 12.0}, held), -3.7, 1e-11);
+  EXPECT_EQ(added(zero_shift, BeltSide::bl, {-3.7, 13.0}, held), 0.0);
   EXPECT_NEAR(added(drift, BeltSide::all, {0.05}, held), 0.6, 1e-11);
   const double level = std::hypot(900.0, 600.0) - 153.4;
   EXPECT_NEAR(

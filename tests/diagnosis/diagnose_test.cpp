@@ -218,7 +218,7 @@ TEST(Diagnose, WithoutOrderTheVisitsAreNotTestable) {
   for (MeasuredPoint& p : grid.points) p.order.reset();
   const auto answer = diagnose(grid, verdict_alone());
   ASSERT_TRUE(answer);
-  for (const char* id : {"drift", "tooth_skip", "link_miscount", "direction_hysteresis"}) {
+  for (const char* id : {"drift", "tooth_skip", "link_miscount", "zero_shift", "direction_hysteresis"}) {
     const auto said = std::count_if(answer->not_testable.begin(),
                                     answer->not_testable.end(),
                                     [&](const NotTestable& n) { return n.cause.effect->id == id; });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Points and distances of one machine in one estimate: together they identify what neither
 // identifies alone.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -109,6 +110,21 @@ TEST(MixedDiagnosis, FillsTheWholeAnswer) {
   EXPECT_LT(found->gain->extended.rms_mm, found->gain->calibrated.rms_mm);
   EXPECT_TRUE(found->stated_noise);
   EXPECT_TRUE(found->stated_tape);
+}
+
+TEST(TwoSessions, AnotherZeroIsNoCauseAndIsTold) {
+  const MeasuredGrid first = session_of({}, 21);
+  MeasuredGrid second = session_of({}, 22);
+  for (MeasuredPoint& point : second.points) point.lengths->left_mm += 5.0;
+  const auto found = diagnose({{"first", first}, {"second", second}}, verdict_alone());
+  ASSERT_TRUE(found) << found.error().sentence;
+  EXPECT_EQ(found->verdict, Verdict::nothing_found) << found->sentence;
+  EXPECT_THAT(found->notes,
+              testing::Contains(testing::StartsWith(
+                  "second: the chains' zeros are other than in first: left chain ")));
+  const auto alike = diagnose({{"first", first}, {"second", session_of({}, 22)}}, verdict_alone());
+  ASSERT_TRUE(alike);
+  EXPECT_THAT(alike->notes, testing::Not(testing::Contains(testing::HasSubstr("zeros"))));
 }
 
 TEST(MixedDiagnosis, ABadReadingOfEitherKindIsFound) {

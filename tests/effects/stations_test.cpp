@@ -72,7 +72,8 @@ TEST(Catalogue, HasTheSixteenEffectsInTheOrderInWhichTheyAct) {
                           "chain_pitch_error",
                           "drift",
                           "tooth_skip",
-                          "link_miscount"));
+                          "link_miscount",
+                          "zero_shift"));
 }
 
 TEST(MarkFrame, ScalesAndSkewsWhatIsWritten) {
@@ -158,7 +159,7 @@ TEST(BeamFlex, IsTheRigidMachineWithItsMotorsPulledIn) {
   }
 }
 
-// (L0 + plane + eccentricity + kink + hysteresis) / (1 + e) + zero + drift + skip + miscount, each
+// (L0 + plane + eccentricity + kink + hysteresis) / (1 + e) + zero + drift + skip + miscount + shift, each
 // term by hand.
 TEST(ChainAndReading, AddInTheCataloguesOrderAndDivideLast) {
   Machine machine =
@@ -166,6 +167,7 @@ TEST(ChainAndReading, AddInTheCataloguesOrderAndDivideLast) {
                     {"chain_pitch_error", "both", {{"elongation", 0.0012}}},
                     {"chain_pitch_error", "right", {{"elongation", -0.0004}}},
                     {"tooth_skip", "right", {{"links", 2.0}, {"first_visit", 4.0}}},
+                    {"zero_shift", "left", {{"shift_mm", -1.7}, {"first_visit", 5.0}}},
                     {"direction_hysteresis", "both", {{"half_width_mm", 0.3}}},
                     {"drift", "right", {{"rate_mm_per_visit", -0.02}}},
                     {"angular_kink", "left", {{"slope_mm_per_rad", 4.0}, {"knee_rad", 0.7}}},
@@ -192,7 +194,7 @@ TEST(ChainAndReading, AddInTheCataloguesOrderAndDivideLast) {
     left = (left + 0.3 * sign_left) / 1.0012 + 1.25;
     right = (right + 0.3 * sign_right) / 1.0008 - 0.75;
     right += -0.02 * static_cast<double>(n) + (n >= 4 ? 12.7 : 0.0);
-    left += n == 6 ? -6.35 : 0.0;
+    left += (n == 6 ? -6.35 : 0.0) + (n >= 5 ? -1.7 : 0.0);
     // sqrt(S^2 + z^2) - S loses 1e-12 relative to S here; the sine's argument of 300 rad rounds to
     // 6e-14 of 0.4 mm.
     EXPECT_NEAR(lengths[n].left_mm, left, 1e-11) << "visit " << n;

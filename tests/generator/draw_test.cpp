@@ -56,6 +56,8 @@ TEST(Draw, StrengthsAndSizesAreInRangeAndEffectsEven) {
   for (const CauseCard& c : cards()) {
     // The settings absorb nearly all of it: see SprocketRadiusStaysBelowSix.
     if (c.cause == Cause::sprocket_radius) continue;
+    // Asked for by name alone: the frozen sets are drawn from the others.
+    if (c.cause == Cause::zero_shift) continue;
     // 30 expected each, sigma 5.3; effects that cannot have the strength are replaced by others.
     EXPECT_GT(seen[c.cause], 9) << c.id;
     EXPECT_LT(seen[c.cause], 52) << c.id;

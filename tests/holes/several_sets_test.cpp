@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "grid/estimation/observation_set.hpp"
 #include "grid/map/joint_fit.hpp"
+#include "grid/synthetic/generator.hpp"
 #include "grid/synthetic/random.hpp"
 #include "tests/holes/hole_sets.hpp"
 
@@ -38,6 +40,82 @@ TEST(JointFit, TwoSetsTellMoreThanEither) {
   };
   EXPECT_LT(sigma_of_fit({{"first", first->set}, {"second", second->set}}),
             std::min(sigma_of_fit(first->set), sigma_of_fit(second->set)));
+}
+
+/// A session of 28 marks on the machine that cuts the holes.
+MeasuredGrid marks_of(std::uint64_t seed) {
+  synthetic::SyntheticSpec spec;
+  spec.noise = {.length_mm = 0.1, .position_mm = 0.3};
+  spec.stated = StatedNoise{0.1, 0.3, 12.0};
+  spec.seed = seed;
+  return synthetic::generate(*nine_holes().machine, spec).value().grid;
+}
+
+MeasuredGrid with_zeros_more(MeasuredGrid grid, double left_mm, double right_mm) {
+  for (MeasuredPoint& point : grid.points) {
+    point.lengths->left_mm += left_mm;
+    point.lengths->right_mm += right_mm;
+  }
+  return grid;
+}
+
+/// What of a shift stays with everything else, the prior holding it near nothing.
+double pulled_mm(const estimation::SessionZero& zero, double shift_mm) {
+  return std::abs(shift_mm) * std::pow(zero.sigma_mm / estimation::kSessionZeroSigmaMm, 2);
+}
+
+TEST(SessionZeros, WhatIsAddedToASessionIsItsOwn) {
+  const MeasuredGrid first = marks_of(1);
+  const MeasuredGrid second = marks_of(2);
+  const auto before = joint_fit({{"first", first}, {"second", second}});
+  ASSERT_TRUE(before) << before.error().sentence;
+  for (const double shift_mm : {5.0, -40.0}) {
+    const auto after = joint_fit({{"first", first}, {"second", with_zeros_more(second, shift_mm, 0.0)}});
+    ASSERT_TRUE(after) << after.error().sentence;
+    EXPECT_FALSE(after->estimate.observations[0].zeros);
+    ASSERT_TRUE(after->estimate.observations[1].zeros);
+    const auto& found = *after->estimate.observations[1].zeros;
+    const auto& none = *before->estimate.observations[1].zeros;
+    const double pulled = 1.1 * pulled_mm(found[0], shift_mm);
+    EXPECT_NEAR(found[0].mm - none[0].mm, shift_mm, pulled + 1e-3) << "passes converge to 1e-3";
+    EXPECT_NEAR(found[1].mm, none[1].mm, pulled + 1e-3);
+    for (const model::MarkPoint mark : {model::MarkPoint{0, 0}, model::MarkPoint{-900, 400}}) {
+      const auto answer = after->map.query(mark);
+      const auto usual = before->map.query(mark);
+      ASSERT_TRUE(answer && usual);
+      EXPECT_NEAR(answer->lengths.left_mm, usual->lengths.left_mm, pulled + 1e-3);
+      EXPECT_NEAR(answer->lengths.right_mm, usual->lengths.right_mm, pulled + 1e-3);
+    }
+    EXPECT_THAT(after->map.contents().notes,
+                testing::Contains(testing::AllOf(
+                    HasSubstr("second: the chains' zeros are other than in first: left chain"),
+                    HasSubstr(shift_mm > 0.0 ? "mm more" : "mm less"),
+                    HasSubstr("The map holds for the zeros of first"))));
+  }
+  EXPECT_THAT(before->map.contents().notes, testing::Not(testing::Contains(HasSubstr("zeros"))));
+}
+
+TEST(SessionZeros, TheMapIsOfTheSessionThatIsNamedFirst) {
+  const MeasuredGrid now = marks_of(3);
+  const MeasuredGrid other = with_zeros_more(marks_of(4), 0.0, 6.0);
+  const auto map = joint_fit({{"now", now}, {"other", other}});
+  const auto reversed = joint_fit({{"other", other}, {"now", now}});
+  ASSERT_TRUE(map && reversed);
+  const auto here = map->map.query({200.0, 100.0});
+  const auto there = reversed->map.query({200.0, 100.0});
+  ASSERT_TRUE(here && there);
+  const double sigma_mm = (*map->estimate.observations[1].zeros)[1].sigma_mm;
+  // The same readings: what differs is the zero that the lengths count from, and the prior's pull.
+  EXPECT_NEAR(there->lengths.right_mm - here->lengths.right_mm, 6.0, 4.0 * sigma_mm);
+}
+
+TEST(SessionZeros, HolesShareThoseOfTheMachine) {
+  const MeasuredHoles set = synthetic::simulate_holes(nine_holes(), usual_holes(6))->set;
+  const auto fit = joint_fit({{"holes", set}, {"grid", marks_of(5)}, {"more", marks_of(7)}});
+  ASSERT_TRUE(fit) << fit.error().sentence;
+  EXPECT_FALSE(fit->estimate.observations[0].zeros);
+  EXPECT_FALSE(fit->estimate.observations[1].zeros);
+  EXPECT_TRUE(fit->estimate.observations[2].zeros);
 }
 
 TEST(UnknownHook, WhatIsAddedToEveryReadingIsTheHooks) {

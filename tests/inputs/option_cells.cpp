@@ -131,6 +131,8 @@ std::vector<Telling> tellings() {
       {"fit", "--surface", "--surface residual --machine @classic.json", in_numbers, "direct"},
       {"fit", "--ends", "--ends natural"},
       {"fit", "--outside", "--outside refuse"},
+      {"fit", "--outside", "--outside refuse", in_numbers, "holes",
+       "fit @narrow_holes.json -o map.json"},
       {"fit", "--outside", "--outside refuse", in_numbers, "mix",
        "fit @placed.json --with @holes.json -o map.json"},
       {"fit", "--fade-mm", "--fade-mm 500"},

@@ -57,6 +57,23 @@ std::string belt_holes(const std::string& belts) {
   return file.dump(1);
 }
 
+/// The holes of the bed's left and middle, so that a part of it lies outside.
+std::string narrow_holes(const std::string& holes) {
+  Json file = Json::parse(holes);
+  const auto is_right = [&](const Json& name) { return name == "F" || name == "I"; };
+  Json kept = Json::array();
+  for (const Json& hole : file["holes"]) {
+    if (!is_right(hole["name"])) kept.push_back(hole);
+  }
+  file["holes"] = kept;
+  kept = Json::array();
+  for (const Json& distance : file["distances"]) {
+    if (!is_right(distance["from"]) && !is_right(distance["to"])) kept.push_back(distance);
+  }
+  file["distances"] = kept;
+  return file.dump(1);
+}
+
 /// Marks as places that the controller was sent to, 2 mm aside.
 std::string as_commands(const std::string& csv) {
   std::istringstream rows(csv);
@@ -205,6 +222,7 @@ Workshop::Workshop() : folder_(temporary_folder()), lines_(made_by_the_command()
   moved["machine"]["anchors"]["tl"]["x_mm"] = -19.0;
   write("moved_belts.json", moved.dump(1));
   write("belt_holes.json", belt_holes(text_of("belts.json")));
+  write("narrow_holes.json", narrow_holes(text_of("holes.json")));
   write("marks.csv", "x_mm,y_mm\n-900,-400\n0,-380\n900,-390\n-880,410\n20,400\n910,380\n");
   write("few_marks.csv", "x_mm,y_mm\n-800,-300\n10,-280\n820,290\n30,20\n");
   write("simple.nc", "G21 G90 G17\nF600\nG0 X-900 Y400\nG1 X900 Y400\n/G1 X900 Y-400\nG1 X0 Y0\nM2\n");
@@ -252,8 +270,10 @@ Ran Workshop::run(const std::string& lines) const {
   static std::atomic<int> next = 0;
   const fs::path folder = folder_ / ("run" + std::to_string(next++));
   fs::create_directory(folder);
-  std::string shell = "cd " + folder.string() + " && { " CHAINTRUE_COMMAND " " +
-                      replaced(lines, "; ", " && " CHAINTRUE_COMMAND " ");
+  // A map that is not to be cut with ends with 1, and is written and asked all the same.
+  const std::string then = "; s=$?; [ $s -le 1 ] || exit $s; " CHAINTRUE_COMMAND " ";
+  std::string shell =
+      "cd " + folder.string() + " && { " CHAINTRUE_COMMAND " " + replaced(lines, "; ", then);
   shell = replaced(shell, "@", folder_.string() + "/") + " ; } >../out" + folder.filename().string() +
           " 2>../err" + folder.filename().string();
   const int status = std::system(shell.c_str());

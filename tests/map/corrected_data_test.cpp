@@ -23,7 +23,8 @@ const std::vector<model::AppliedEffect> kOfTheVisit = {
     {"direction_hysteresis", "left", {{"half_width_mm", 0.6}}},
     {"drift", "right", {{"rate_mm_per_visit", 0.05}}},
     {"tooth_skip", "left", {{"links", 1.0}, {"first_visit", 20.0}}},
-    {"link_miscount", "right", {{"links", -1.0}, {"visit", 7.0}}}};
+    {"link_miscount", "right", {{"links", -1.0}, {"visit", 7.0}}},
+    {"zero_shift", "right", {{"shift_mm", -4.5}, {"first_visit", 12.0}}}};
 const std::vector<model::AppliedEffect> kOfTheMachine = {
     {"chain_stretch", "", {{"compliance_per_n", 4e-6}}},
     {"chain_pitch_error", "left", {{"elongation", 0.001}}}};

@@ -31,7 +31,10 @@ constexpr Card kCards[] = {{"belt_stretch", false, false, 0.002, 0.006, false},
                            {"anchor_moved", true, false, 2.0, 10.0, false},
                            {"tooth_skip", true, false, 1.0, 3.0, true},
                            {"drift", true, true, 0.01, 0.06, true},
-                           {"belt_zero", true, true, 3.0, 25.0, true}};
+                           {"belt_zero", true, true, 3.0, 25.0, true},
+                           {"zero_shift", true, false, 1.0, 10.0, true}};
+/// The last is asked for by name alone: the frozen sets are drawn from the others.
+constexpr std::size_t kDrawnCards = std::size(kCards) - 1;
 
 double span(const std::array<double, 3>& anchor, double x, double y) {
   return std::hypot(anchor[0] - x, anchor[1] - y);
@@ -101,6 +104,8 @@ std::vector<FourLengths> readings(const BeltFrame& frame,
       if (secret.effect == "tooth_skip" &&
           visit + static_cast<int>(n) >= secret.first_visit)
         read[n][i] += kToothMm * secret.size;
+      if (secret.effect == "zero_shift" && visit + static_cast<int>(n) >= secret.first_visit)
+        read[n][i] += secret.size;
     }
   }
   return read;
@@ -138,7 +143,7 @@ double beyond_the_fit(const BeltFrame& frame,
 BeltSecret drawn_secret(const BeltRecipe& recipe, int visits, Dice& dice) {
   BeltSecret secret;
   if (recipe.nothing) return secret;
-  const Card* card = &kCards[dice.below(std::size(kCards))];
+  const Card* card = &kCards[dice.below(kDrawnCards)];
   for (const Card& one : kCards) {
     if (recipe.effect == one.effect) card = &one;
   }
@@ -148,7 +153,8 @@ BeltSecret drawn_secret(const BeltRecipe& recipe, int visits, Dice& dice) {
   if (card->sided) secret.side = kSides[dice.below(4)];
   if (card->may_be_of_all && dice.uniform() < 0.3) secret.side = "all";
   secret.direction_rad = dice.uniform(-3.14, 3.14);
-  const bool sets_in = secret.effect == "tooth_skip" || secret.effect == "anchor_moved";
+  const bool sets_in = secret.effect == "tooth_skip" || secret.effect == "anchor_moved" ||
+                       secret.effect == "zero_shift";
   if (sets_in) secret.first_visit = static_cast<int>(visits * dice.uniform(0.15, 0.85));
   return secret;
 }

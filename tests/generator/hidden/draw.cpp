@@ -14,6 +14,10 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+/// Effects that a mix draws from; zero_shift, the last, is asked for by name alone, so that the frozen
+/// sets stay what they are.
+constexpr std::size_t kDrawn = kCauses - 1;
+
 constexpr std::pair<Mix, std::string_view> kMixes[] = {
     {Mix::single, "single"},
     {Mix::nothing, "nothing"},
@@ -146,6 +150,11 @@ std::optional<Sized> draw_effect(const Yardstick& yardstick, Cause cause, Range 
     }
     effect.size = c.lower < 0.0 ? dice.sign() : 1.0;
     if (c.place == Place::phase) effect.place = dice.uniform(-kPi, kPi);
+    if (c.place == Place::visit) {
+      // A tenth of the session at least on either side, or the shift is bad readings.
+      const auto count = yardstick.visits().size();
+      effect.place = yardstick.visits()[count / 10 + 1 + dice.below(count - 2 * (count / 10) - 1)].number;
+    }
     if (c.place == Place::angle) {
       const auto seen = yardstick.angles(effect.where == Where::left ? 0 : 1);
       const auto n_seen = static_cast<double>(seen.size());
@@ -167,7 +176,7 @@ std::vector<Sized> draw_effects(
     std::vector<Sized> chosen;
     while (chosen.size() < count) {
       const Cause cause =
-          recipe.cause && chosen.empty() ? *recipe.cause : static_cast<Cause>(dice.below(kCauses));
+          recipe.cause && chosen.empty() ? *recipe.cause : static_cast<Cause>(dice.below(kDrawn));
       auto next = draw_effect(yardstick, cause, range, dice);
       if (!next) break;
       const bool alike = std::any_of(chosen.begin(), chosen.end(), [&](const Sized& other) {
@@ -188,6 +197,11 @@ bool same_class(const Hidden& h, const Rival& r) {
     return (cause == Cause::tape_scale || cause == Cause::chain_pitch_error) &&
            where == Where::both;
   };
+  // A zero that moved by whole links is a skip.
+  const auto steps = [](Cause cause) {
+    return cause == Cause::zero_shift || cause == Cause::tooth_skip;
+  };
+  if (h.where == r.where && steps(h.cause) && steps(r.cause)) return true;
   return uniform(h.cause, h.where) && uniform(r.cause, r.where);
 }
 
@@ -357,7 +371,10 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
   answer.order = recipe.order.value_or(drawn_order);
   Layout layout = layout_of(recipe.points);
   layout.extent = recipe.extent;
-  const auto visits = true_visits(plan_visits(layout, answer.order, order_dice), place_dice);
+  const auto visits =
+      true_visits(recipe.list_of_start ? list_of_start()
+                                       : plan_visits(layout, answer.order, order_dice),
+                  place_dice);
 
   const NoiseLevel noise = recipe.noise;
   const auto yardstick = Yardstick::make(truth, visits, noise, {});

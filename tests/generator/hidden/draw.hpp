@@ -62,6 +62,8 @@ struct Recipe {
   /// This cause instead of a drawn one; its strength is still drawn.
   std::optional<Cause> cause;
   std::optional<Order> order;
+  /// The list of `chaintrue start` in place of `points`, `extent` and the order.
+  bool list_of_start = false;
   /// Exactly these instead of any drawn effects.
   std::vector<Hidden> exactly;
   /// The stated machine, instead of the classic one.

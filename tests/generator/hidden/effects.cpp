@@ -34,6 +34,7 @@ std::array<CauseCard, kCauses> make_cards() {
       {"drift", "rate_mm_per_visit", -1, 1, 0.03, any, of_order},
       {"tooth_skip", "links", -20, 20, 1, one, of_order, visit, "first_visit"},
       {"link_miscount", "links", -20, 20, 1, one, of_order, visit, "visit"},
+      {"zero_shift", "shift_mm", -130, 130, 3, one, of_order, visit, "first_visit"},
   }};
   for (std::size_t i = 0; i < all.size(); ++i) all[i].cause = static_cast<Cause>(i);
   return all;
@@ -182,6 +183,7 @@ std::vector<Lengths> readings(const TrueMachine& machine,
         const bool from = e.cause == Cause::tooth_skip && n >= e.place;
         const bool at = e.cause == Cause::link_miscount && n == static_cast<int>(e.place);
         if (from || at) reading += machine.pitch_mm * e.size;
+        if (e.cause == Cause::zero_shift && n >= e.place) reading += e.size;
       }
       all[i][chain] = reading;
     }

@@ -4,7 +4,7 @@
 /// each effect, and their order. The bounds are those of the product's catalogue (a test compares
 /// them), everything else is the hidden side's own.
 ///
-///   reading = (L0 + plane + eccentricity + kink + hysteresis) / (1 + e) + zero + drift + links
+///   reading = (L0 + plane + eccentricity + kink + hysteresis) / (1 + e) + zero + drift + links + shift
 #pragma once
 
 #include <array>
@@ -35,8 +35,9 @@ enum class Cause {
   drift,
   tooth_skip,
   link_miscount,
+  zero_shift,
 };
-inline constexpr std::size_t kCauses = 16;
+inline constexpr std::size_t kCauses = 17;
 
 enum class Where { nowhere, left, right, both, x, y };
 [[nodiscard]] std::string_view word(Where where);
@@ -59,7 +60,7 @@ struct CauseCard {
   Cause cause = Cause::tape_scale;
 
   /// In links.
-  [[nodiscard]] bool whole() const { return place == Place::visit; }
+  [[nodiscard]] bool whole() const { return size_name == "links"; }
   [[nodiscard]] bool alters_machine() const { return nature == Nature::of_machine; }
   [[nodiscard]] bool needs_order() const { return nature == Nature::of_order; }
 };

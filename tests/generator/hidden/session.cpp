@@ -2,6 +2,7 @@
 #include "generator/hidden/session.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -73,6 +74,24 @@ std::vector<PlannedVisit> plan_visits(const Layout& layout, Order order, Dice& d
     visits.push_back(repeat);
   }
   while (next < marks.size()) visits.push_back(marks[next++]);
+  return visits;
+}
+
+std::vector<PlannedVisit> list_of_start() {
+  constexpr double kColumns[] = {-1119.0, -969.0, -559.0, 0.0, 559.0, 969.0, 1119.0};
+  constexpr double kRows[] = {-509.0, -254.0, 254.0, 509.0};
+  std::vector<PlannedVisit> visits;
+  std::vector<PlannedVisit> marks;
+  for (std::size_t row = 0; row < std::size(kRows); ++row) {
+    for (std::size_t k = 0; k < std::size(kColumns); ++k) {
+      const std::size_t column = row % 2 == 0 ? k : std::size(kColumns) - 1 - k;
+      marks.push_back({{kColumns[column], kRows[row]}, marks.size(), false});
+      visits.push_back(marks.back());
+    }
+    PlannedVisit again = row + 1 < std::size(kRows) ? marks[marks.size() - 6] : marks.front();
+    again.repeat = true;
+    visits.push_back(again);
+  }
   return visits;
 }
 

@@ -37,5 +37,8 @@ struct PlannedVisit {
   bool repeat = false;
 };
 [[nodiscard]] std::vector<PlannedVisit> plan_visits(const Layout& layout, Order order, Dice& dice);
+/// The list that `chaintrue start` prints for a bed of 8 by 4 feet: 28 marks row by row, one way and back,
+/// the second mark of each row but the last once more at its end, and the first mark last.
+[[nodiscard]] std::vector<PlannedVisit> list_of_start();
 
 }  // namespace chaintrue::generator

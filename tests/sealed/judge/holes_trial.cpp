@@ -63,7 +63,7 @@ Vec2 place_reached(const TrueMachine& machine,
   return at;
 }
 
-grid::MeasuredHoles hidden_holes(const std::vector<Hidden>& effects, std::uint64_t seed) {
+CutHoles cut_holes(const std::vector<Hidden>& effects, std::uint64_t seed) {
   grid::MeasuredHoles set = nine_holes();
   generator::Dice dice(seed, "holes");
   TrueMachine truth;
@@ -74,9 +74,11 @@ grid::MeasuredHoles hidden_holes(const std::vector<Hidden>& effects, std::uint64
   for (double& zero : truth.chain_zero_mm) zero = 0.5 * dice.normal();
   const auto distances = grid::observation::TapeDistances::in_given_order(set);
   std::vector<Vec2> places;
+  std::vector<generator::Visit> visits;
   for (std::size_t i = 0; i < set.holes.size(); ++i) {
     const model::BedPoint& near = set.holes[i].commanded;
     Vec2 place = place_reached(truth, effects, distances->places()[i].lengths, {near.x_mm, near.y_mm});
+    visits.push_back({place, static_cast<int>(i)});
     place.x += set.hole_sigma_mm * dice.normal();
     place.y += set.hole_sigma_mm * dice.normal();
     places.push_back(place);
@@ -86,7 +88,13 @@ grid::MeasuredHoles hidden_holes(const std::vector<Hidden>& effects, std::uint64
     const Vec2& b = places[distance.to];
     distance.distance_mm = std::hypot(a.x - b.x, a.y - b.y) + set.tape.sigma_mm * dice.normal();
   }
-  return set;
+  generator::HiddenMachine machine(TrueMachine{}, truth, effects);
+  machine.went_to(std::move(visits));
+  return {std::move(set), std::move(machine)};
+}
+
+grid::MeasuredHoles hidden_holes(const std::vector<Hidden>& effects, std::uint64_t seed) {
+  return cut_holes(effects, seed).set;
 }
 
 Trial run_holes_trial(bool long_chain, std::uint64_t seed) {

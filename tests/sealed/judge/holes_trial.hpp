@@ -19,9 +19,16 @@ namespace chaintrue::sealed {
                                             const model::ChainLengths& paid_out,
                                             generator::Vec2 near);
 
+/// What was measured, and the machine that cut it.
+struct CutHoles {
+  grid::MeasuredHoles set;
+  generator::HiddenMachine machine;
+};
+
 /// Nine holes and twenty distances (fixtures/holes/nine_holes.json, its lengths replaced); motors
 /// off by 1.5 mm and zeros by 0.5 mm, one sigma; stated 3 and 1. \throws std::runtime_error if the
 /// machine cannot cut one of the holes.
+[[nodiscard]] CutHoles cut_holes(const std::vector<generator::Hidden>& effects, std::uint64_t seed);
 [[nodiscard]] grid::MeasuredHoles hidden_holes(const std::vector<generator::Hidden>& effects,
                                                std::uint64_t seed);
 

@@ -27,7 +27,7 @@ bool hangs_on_visits(const generator::SealedSet& set) {
   using generator::Cause;
   const auto& hidden = set.machine.hidden();
   return std::any_of(hidden.begin(), hidden.end(), [](const Hidden& h) {
-    return h.cause == Cause::drift || h.cause == Cause::tooth_skip ||
+    return h.cause == Cause::drift || h.cause == Cause::tooth_skip || h.cause == Cause::zero_shift ||
            h.cause == Cause::direction_hysteresis;
   });
 }

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// zero_shift: the zero of a belt moves once, by any amount.
+///   z  shift, mm
+///   m  first visit after it
+///
+///   added = z for n >= m                                                                    (1)
+#include "model/belts/effects/belt_effect.hpp"
+
+namespace chaintrue::model::belts {
+namespace {
+
+using effects::EffectParameter;
+
+constexpr EffectParameter kParameters[] = {
+    {
+        .name = "shift_mm",
+        .symbol = "z",
+        .meaning = "what every reading from then on is too long by",
+        .nominal = 2.0,
+        .lower = -500.0,
+        .upper = 500.0,
+        // As a belt's own zero: a belt that is retracted anew, or slips in its clamp, does so by millimetres.
+        .prior_sigma = 3.0,
+    },
+    kFirstVisit};
+
+// (1)
+double add(double /*length_mm*/, double /*turn_mm*/, const BeltVisit& visit, Values values) {
+  return visit.order >= values[1] ? values[0] : 0.0;
+}
+
+}  // namespace
+
+extern constinit const BeltEffect zero_shift{
+    .id = "zero_shift",
+    .sides = kOneBelt,
+    .parameters = kParameters,
+    .cause = "the zero of a belt moved while the machine measured",
+    .signature = "from one visit on, one belt is off by the same amount, which need not be whole teeth",
+    .equation = "+ z for n >= m",
+    .source = "a belt that was retracted and extended anew, or slips where it is clamped",
+    .not_modelled = "a second shift; state it as an effect of its own",
+    .typical = "1 to 10 mm",
+    .needs = effects::DataNeed::order,
+    .remedy =
+        "look where the belt is clamped and at its retraction; retract and extend all belts and "
+        "measure again",
+    .add = add,
+};
+
+}  // namespace chaintrue::model::belts

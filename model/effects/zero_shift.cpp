@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// zero_shift: the zero of a chain moves once, by any amount.
+///   z  shift [mm]
+///   n  number of the visit
+///   m  number of the first visit after it
+///
+///   added = z for n >= m, otherwise 0                                                       (1)
+#include "model/effects/sides.hpp"
+
+namespace chaintrue::model::effects {
+namespace {
+
+constexpr EffectParameter kParameters[] = {
+    {
+        .name = "shift_mm",
+        .symbol = "z",
+        .meaning = "what every reading from then on is too long by",
+        .nominal = 3.0,
+        .lower = -130.0,
+        .upper = 130.0,
+        // Half a link: a sprocket that turns on its shaft, or a zero set by eye, stops anywhere between
+        // two teeth.
+        .prior_sigma = 3.0,
+    },
+    {
+        .name = "first_visit",
+        .symbol = "m",
+        .meaning = "number of the first visit after the shift",
+        .role = ParameterRole::place,
+        .null = 10.0,
+        .nominal = 10.0,
+        .lower = 0.0,
+        .upper = 1e6,
+        .prior_sigma = 10.0,
+        .integer = true,
+    },
+};
+
+// (1)
+double misread(const VisitNote& visit, Values values) {
+  return visit.order >= values[1] ? values[0] : 0.0;
+}
+
+}  // namespace
+
+extern constinit const Effect zero_shift{
+    .id = "zero_shift",
+    .station = Station::reading,
+    .sides = kOneChain,
+    .parameters = kParameters,
+    .cause = "the zero of a chain moved during the measurement",
+    .signature = "from one visit on, one chain is off by the same amount, which need not be whole links",
+    .equation = "+ z for n >= m",
+    .source = "a sprocket slips on its shaft when its grub screw is loose; a zero set anew on the way",
+    .not_modelled = "a second shift; state it as an effect of its own",
+    .typical = "1 to 10 mm",
+    .needs = DataNeed::order,
+    .remedy_kind = RemedyKind::repair,
+    .remedy =
+        "check the sprocket's grub screw and set the chain to 12 o'clock again; the readings after "
+        "the shift are corrected, and a map holds for the zero before it",
+    .misread = misread,
+};
+
+}  // namespace chaintrue::model::effects
