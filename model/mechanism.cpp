@@ -75,8 +75,9 @@ tl::expected<ToolPosition, MechanismFailure> locate_by_newton(const Mechanism& m
                                                               const ToolPosition& start,
                                                               const std::vector<bool>& counting) {
   // Where four lengths agree to a few millimetres Gauss-Newton converges linearly; the rate is the
-  // ratio of the residuals to the lengths, some 1e-3 a step.
-  constexpr int kMostSteps = 50;
+  // ratio of the residuals to the lengths, some 1e-3 a step; with a reading that is off by metres it
+  // is near one.
+  constexpr int kMostSteps = 1000;
   constexpr int kMostHalvings = 40;
   constexpr double kConvergedMm = 1e-9;
   // At the minimum the residuals decrease by no more than the lengths' rounding.

@@ -111,6 +111,29 @@ tl::unexpected<BeltsFitFailure> failure(BeltsFitFailure::Reason reason, std::str
   return tl::unexpected(BeltsFitFailure{reason, std::move(sentence)});
 }
 
+tl::unexpected<BeltsFitFailure> not_determined(const MeasuredBelts& belts) {
+  const std::string pulls = repeated_pulls_in_words(belts);
+  return failure(
+      BeltsFitFailure::Reason::not_determined,
+      fmt::format(
+          "the places do not tell where the anchors are: they lie on a line, or all in one "
+          "spot; measure at places spread over the sheet's width and height{}{}",
+          pulls.empty() ? "" : ". ",
+          pulls));
+}
+
+/// No belt's readings differ by more than the width of a spot: no frame can be made of them.
+bool are_in_one_spot(const MeasuredBelts& belts) {
+  constexpr double kSpotMm = 50.0;
+  return std::all_of(kBelts.begin(), kBelts.end(), [&](Belt belt) {
+    const auto [least, most] = std::minmax_element(
+        belts.points.begin(), belts.points.end(), [&](const BeltPoint& a, const BeltPoint& b) {
+          return a.lengths_mm[belt] < b.lengths_mm[belt];
+        });
+    return most->lengths_mm[belt] - least->lengths_mm[belt] < kSpotMm;
+  });
+}
+
 }  // namespace
 
 tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
@@ -138,7 +161,8 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
       "no four anchors make sense of these lengths: are they of one frame, in mm, each under its "
       "own "
       "belt?";
-  if (!frame) return failure(Reason::no_frame, kNoFrame);
+  if (!frame)
+    return are_in_one_spot(belts) ? not_determined(belts) : failure(Reason::no_frame, kNoFrame);
   const belts::FitDiagnostics view(belts, *frame);
   if (frame->spread_mm > kNoFrameMm) {
     return failure(Reason::no_frame,
@@ -150,14 +174,7 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
   if (!view.covariance().allFinite() || variance.minCoeff() <= 0.0 ||
       variance.maxCoeff() > kLostAnchorMm * kLostAnchorMm ||
       belts::are_on_a_line(frame->state.places)) {
-    const std::string pulls = repeated_pulls_in_words(belts);
-    return failure(
-        Reason::not_determined,
-        fmt::format(
-            "the places do not tell where the anchors are: they lie on a line, or all in one "
-            "spot; measure at places spread over the sheet's width and height{}{}",
-            pulls.empty() ? "" : ". ",
-            pulls));
+    return not_determined(belts);
   }
   if (!frame->is_sound) return failure(Reason::no_frame, kNoFrame);
   BeltsFit fit;

@@ -46,11 +46,12 @@ constexpr Teeth kTeeth[] = {{1.0, 0.25},
 /// Belts that are pulled stretch: the four frames whose owners published more than a start all do.
 bool is_expected(std::string_view effect) { return effect == "belt_stretch"; }
 
-/// How often an effect acts, against the others. What sets in during a session is rare, and an anchor
-/// that slips by just a tooth along its belt is rarer than a belt that skips.
+/// How often an effect acts, against the others. What sets in during a session is rare. An anchor that
+/// slips by just a tooth along its belt is rarer than a belt that skips, and as rare as a belt that
+/// slips by some amount where it is clamped, which looks nearly the same.
 double share_of(std::string_view effect) {
-  if (effect == "tooth_skip" || effect == "zero_shift") return 0.3;
-  return effect == "anchor_moved" ? 0.01 : 1.0;
+  if (effect == "tooth_skip") return 0.3;
+  return effect == "anchor_moved" || effect == "zero_shift" ? 0.01 : 1.0;
 }
 
 /// Of the published frames none shows anything besides stretch: one other cause is a third as likely as

@@ -23,6 +23,7 @@
 /// beside a process.
 #pragma once
 
+#include <algorithm>
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cmath>
@@ -100,7 +101,7 @@ template <class One, class Other>
   // Signatures that show at all are some sigmas long.
   constexpr double kNothing = 1e-12;
   const double lengths = one.norm() * other.norm();
-  return lengths > kNothing ? std::abs(one.dot(other)) / lengths : 0.0;
+  return lengths > kNothing ? std::min(1.0, std::abs(one.dot(other)) / lengths) : 0.0;
 }
 
 /// Inner products of the residual and of some columns.

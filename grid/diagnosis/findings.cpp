@@ -276,6 +276,10 @@ std::vector<Term> terms(const Analysis& a) {
                  alone.coefficient_sigma(0);
     term.signal_to_noise = std::abs(alone.coefficient(0)) * length;
     term.share_left = length / std::max(raw_length(a, column), 1e-12);
+    // Of a signature that the settings absorb but for rounding nothing is known but its prior.
+    constexpr double kRounding = 1e-9;
+    if (term.share_left < kRounding && !cause.effect->parameters.front().integer)
+      term.sigma = cause.effect->parameters.front().prior_sigma;
     const auto tested = std::find_if(
         a.tested.begin(), a.tested.end(), [&](const auto& one) { return one.first == cause; });
     term.p_value = a.null.p_value(

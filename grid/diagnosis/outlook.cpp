@@ -219,6 +219,35 @@ std::vector<Alternative> alternatives_about(const Analysis& a,
   return alternatives;
 }
 
+namespace {
+
+/// Log odds against a group, about N(mean, variance).
+struct Rival {
+  double mean = 0.0;
+  double variance = 0.0;
+};
+
+/// Of the odds against one being named so that all rivals together leave it named. What they may
+/// leave is shared out as they are expected to take it, a tenth of it equally.
+double chance_of_all(const std::vector<Rival>& rivals) {
+  constexpr double kEqually = 0.1;
+  double all = 0.0;
+  for (const Rival& rival : rivals) all += std::exp(-rival.mean);
+  const double odds = std::log(kNamedAlone / (1.0 - kNamedAlone));
+  double chance = 1.0;
+  for (const Rival& rival : rivals) {
+    const double share = (1.0 - kEqually) * (all > 0.0 ? std::exp(-rival.mean) / all : 0.0) +
+                         kEqually / static_cast<double>(rivals.size());
+    const double ahead = rival.mean - odds + std::log(rivals.size() > 1 ? share : 1.0);
+    chance *= rival.variance > 1e-9
+                  ? 1.0 - normal_upper(ahead / std::sqrt(rival.variance))
+                  : (ahead > 0.0 ? 1.0 : 0.0);
+  }
+  return chance;
+}
+
+}  // namespace
+
 ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& alternatives,
                                                const std::vector<Eigen::Index>& rows) {
   const Eigen::MatrixXd d = distances(alternatives, rows);
@@ -231,7 +260,6 @@ ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& a
     for (Eigen::Index k = group.first; k < group.second; ++k) total += term(k);
     return total;
   };
-  const double odds = std::log(kNamedAlone / (1.0 - kNamedAlone));
   ExpectedDiscrimination result;
   for (const auto& own : groups) {
     for (const auto& other : groups) {
@@ -244,7 +272,7 @@ ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& a
     result.named_alone += sum(own, [&](Eigen::Index k) {
       const double weight =
           sum(own, [&](Eigen::Index j) { return p(j) * std::exp(-0.5 * d(k, j)); });
-      double named = p(k);
+      std::vector<Rival> rivals;
       for (const auto& other : groups) {
         if (other.first == own.first) continue;
         const auto against = [&](Eigen::Index l) { return 0.5 * d(k, l) - std::log(p(l)); };
@@ -252,11 +280,9 @@ ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& a
         for (Eigen::Index i = l; i < other.second; ++i) l = against(i) < against(l) ? i : l;
         const double rival =
             sum(other, [&](Eigen::Index i) { return p(i) * std::exp(-0.5 * (d(k, i) - d(k, l))); });
-        const double ahead = 0.5 * d(k, l) + std::log(weight / rival) - odds;
-        named *= d(k, l) > 1e-9 ? 1.0 - normal_upper(ahead / std::sqrt(d(k, l)))
-                                : (ahead > 0.0 ? 1.0 : 0.0);
+        rivals.push_back({0.5 * d(k, l) + std::log(weight / rival), d(k, l)});
       }
-      return named;
+      return p(k) * chance_of_all(rivals);
     });
   }
   return result;

@@ -103,7 +103,8 @@ std::vector<double> places(const RegressorSystem& system, CauseId cause) {
     for (const SystemPlace& own : system.places) {
       if (own.ordered) result.push_back(own.order);
     }
-    if (!cause.effect->at_one_visit && !result.empty()) result.erase(result.begin());
+    if (!cause.effect->at_one_visit && !result.empty())
+      std::erase(result, *std::min_element(result.begin(), result.end()));
     return result;
   }
   if (place.upper - place.lower >= 2.0 * std::numbers::pi) {

@@ -90,7 +90,11 @@ void check_apart(const MeasuredHoles& set, const HolesPlaces& places, Problems& 
                  fmt::format("{}, {:.4g} mm apart as commanded",
                              words_of(set, distance),
                              commanded_mm(set, distance)),
-                 fmt::format("two holes at least {:.0f} mm apart", kLeastMm));
+                 fmt::format("two holes at least {:.0f} mm apart; hole {} was cut at the same spot "
+                             "as hole {}: is a minus missing at one of them?",
+                             kLeastMm,
+                             set.holes[distance.from].name,
+                             set.holes[distance.to].name));
   }
 }
 

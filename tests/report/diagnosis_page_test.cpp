@@ -167,7 +167,7 @@ TEST_F(DiagnosisPage, OfHolesDrawsDistances) {
   for (const char* text : {"What it does to the distances",
                            "What these distances can tell apart",
                            "Bad distances",
-                           "named in 9 of 9 folds",
+                           "named in 8 of 9 folds",
                            "A new hole at (0, -500), measured to A, C."})
     EXPECT_THAT(html, HasSubstr(text));
   EXPECT_THAT(html, Not(HasSubstr("Folded at one sprocket turn")));

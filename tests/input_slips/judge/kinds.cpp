@@ -314,8 +314,11 @@ void add_holes(std::vector<Kind>& kinds) {
                        auto& hole = set.holes[dice.below(set.holes.size())];
                        if (hole.commanded.x_mm > -100.0) continue;
                        hole.commanded.x_mm = -hole.commanded.x_mm;
-                       return Expected{
-                           {fmt::format("hole {} was cut at", hole.name)}, "", true};
+                       // Where another hole is there already, the two are named.
+                       return Expected{{fmt::format("hole {} was cut at", hole.name),
+                                        fmt::format("as hole {}: is a minus missing", hole.name)},
+                                       "",
+                                       true};
                      }
                    }});
   kinds.push_back({"rows slipped", Way::holes, [](Session& session, Dice& dice) {
