@@ -2,6 +2,7 @@
 #include "model/mechanism.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 namespace chaintrue::model {
 
@@ -75,9 +76,11 @@ tl::expected<ToolPosition, MechanismFailure> locate_by_newton(const Mechanism& m
                                                               const ToolPosition& start,
                                                               const std::vector<bool>& counting) {
   // Where four lengths agree to a few millimetres Gauss-Newton converges linearly; the rate is the
-  // ratio of the residuals to the lengths, some 1e-3 a step; with a reading that is off by metres it
-  // is near one.
-  constexpr int kMostSteps = 1000;
+  // ratio of the residuals to the lengths, some 1e-3 a step. With a reading that is off by metres it
+  // steps too far each time, and the step is shortened by what the last two moves tell of that.
+  constexpr int kMostSteps = 200;
+  constexpr double kOvershoots = -0.2;
+  constexpr double kShortest = 0.05;
   constexpr int kMostHalvings = 40;
   constexpr double kConvergedMm = 1e-9;
   // At the minimum the residuals decrease by no more than the lengths' rounding.
@@ -91,6 +94,8 @@ tl::expected<ToolPosition, MechanismFailure> locate_by_newton(const Mechanism& m
   const auto missing_at = [&](const LengthsPrediction& at) -> Eigen::VectorXd {
     return weight.cwiseProduct(lengths_mm - at.lengths_mm);
   };
+  double share = 1.0;
+  Eigen::Vector2d last_move = Eigen::Vector2d::Zero();
   for (int step = 0; step < kMostSteps; ++step) {
     const Eigen::VectorXd missing = missing_at(*there);
     const Eigen::MatrixX2d slope = weight.asDiagonal() * there->by_position;
@@ -98,6 +103,10 @@ tl::expected<ToolPosition, MechanismFailure> locate_by_newton(const Mechanism& m
     Eigen::Vector2d move = normal.ldlt().solve(slope.transpose() * missing);
     if (!move.allFinite()) break;
     const bool is_converged = move.norm() < kConvergedMm;
+    const double left = step > 0 ? move.dot(last_move) / last_move.squaredNorm() : 0.0;
+    if (left < kOvershoots) share = std::max(kShortest, share / (1.0 - left));
+    last_move = move;
+    move *= share;
     ToolPosition next;
     auto at_next = there;
     for (int halving = 0; halving < kMostHalvings; ++halving, move *= 0.5) {

@@ -86,12 +86,34 @@ void place_all(const MeasuredBelts& belts,
 
 namespace {
 
+/// Without the points whose lengths end nowhere about these anchors, where these are few: a reading
+/// that lost a digit would end the estimate before it begins.
+Counting without_nowhere_points(const MeasuredBelts& belts,
+                                const AnchorVector& start,
+                                const Counting& counting) {
+  const auto mechanism = mechanism_at(belts, {start, 0.0, {}});
+  const observation::BeltLengthReadings readings = readings_of(belts, counting);
+  Counting fewer = counting;
+  std::size_t out = 0;
+  for (const auto& block : readings.blocks()) {
+    if (readings.block_line(observation::View(mechanism), block, false)) continue;
+    for (const std::size_t place : block.places) {
+      fewer[readings.readings()[place].index] = {false, false, false, false};
+      ++out;
+    }
+  }
+  const bool are_few =
+      static_cast<double>(out) <= kMostBadReadings * static_cast<double>(belts.points.size());
+  return are_few ? fewer : counting;
+}
+
 /// Belts alone.
 std::optional<AnchorFit> settled_alone(const MeasuredBelts& belts,
                                        const AnchorVector& start,
                                        Counting counting,
                                        Readings which,
                                        double most_noise_mm = kPlausibleSpreadMm) {
+  if (which == Readings::those_that_fit) counting = without_nowhere_points(belts, start, counting);
   estimation::EstimationInput input = anchor_input(belts, counting, start);
   if (which == Readings::those_that_fit)
     input.reading_limits =

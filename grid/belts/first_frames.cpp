@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "model/belts/belt_kinematics.hpp"
 
@@ -52,23 +51,27 @@ FramePoint nearest_place(const model::BeltMachine& machine,
 std::vector<AnchorVector> first_frames(const MeasuredBelts& belts) {
   std::vector<AnchorVector> frames;
   if (belts.machine.anchors_known) frames.push_back(anchors_of(belts.machine));
-  // Two belts from opposite sides are together at least as long as their side of the frame.
-  double width = std::numeric_limits<double>::infinity();
-  double height = width;
+  // Two belts from opposite sides are together at least as long as their side of the frame. Where one
+  // point's lengths lost a digit, the others tell it.
+  std::vector<double> widths;
+  std::vector<double> heights;
   for (const BeltPoint& point : belts.points) {
     const auto& l = point.lengths_mm;
-    width = std::min({width, l.tl + l.tr, l.bl + l.br});
-    height = std::min({height, l.tl + l.bl, l.tr + l.br});
+    widths.push_back(std::min(l.tl + l.tr, l.bl + l.br));
+    heights.push_back(std::min(l.tl + l.bl, l.tr + l.br));
   }
-  if (belts.machine.lengths == model::BeltLengths::belt) {
-    width += 2.0 * model::reach_mm(belts.machine);
-    height += 2.0 * model::reach_mm(belts.machine);
-  }
-  for (const double share : {0.9, 0.75, 0.97}) {
-    for (const double other : {share, 0.6}) {
-      const double w = share * width;
-      const double h = other * height;
-      frames.emplace_back(AnchorVector{0.0, h, w, h, w});
+  std::sort(widths.begin(), widths.end());
+  std::sort(heights.begin(), heights.end());
+  const double arms_mm = belts.machine.lengths == model::BeltLengths::belt
+                             ? 2.0 * model::reach_mm(belts.machine)
+                             : 0.0;
+  for (std::size_t least = 0; least < std::min<std::size_t>(widths.size(), 2); ++least) {
+    for (const double share : {0.9, 0.75, 0.97}) {
+      for (const double other : {share, 0.6}) {
+        const double w = share * (widths[least] + arms_mm);
+        const double h = other * (heights[least] + arms_mm);
+        frames.emplace_back(AnchorVector{0.0, h, w, h, w});
+      }
     }
   }
   return frames;

@@ -227,23 +227,35 @@ struct Rival {
   double variance = 0.0;
 };
 
-/// Of the odds against one being named so that all rivals together leave it named. What they may
-/// leave is shared out as they are expected to take it, a tenth of it equally.
+/// That all rivals together leave it named. What the one that takes most leaves is summed over its log
+/// odds; of the others, which the same readings refute, the likeliest to stay must leave the rest.
 double chance_of_all(const std::vector<Rival>& rivals) {
-  constexpr double kEqually = 0.1;
+  const double odds = (1.0 - kNamedAlone) / kNamedAlone;
+  const auto taken = [](const Rival& rival) { return rival.mean - 2.0 * std::sqrt(rival.variance); };
+  const auto most = std::min_element(
+      rivals.begin(), rivals.end(), [&](const Rival& a, const Rival& b) { return taken(a) < taken(b); });
+  constexpr double kWidest = 4.0;  // sigmas
+  constexpr int kSteps = 32;
+  double chance = 0.0;
   double all = 0.0;
-  for (const Rival& rival : rivals) all += std::exp(-rival.mean);
-  const double odds = std::log(kNamedAlone / (1.0 - kNamedAlone));
-  double chance = 1.0;
-  for (const Rival& rival : rivals) {
-    const double share = (1.0 - kEqually) * (all > 0.0 ? std::exp(-rival.mean) / all : 0.0) +
-                         kEqually / static_cast<double>(rivals.size());
-    const double ahead = rival.mean - odds + std::log(rivals.size() > 1 ? share : 1.0);
-    chance *= rival.variance > 1e-9
-                  ? 1.0 - normal_upper(ahead / std::sqrt(rival.variance))
-                  : (ahead > 0.0 ? 1.0 : 0.0);
+  for (int step = 0; step < kSteps; ++step) {
+    const double z = kWidest * ((2.0 * step + 1.0) / kSteps - 1.0);
+    const double density = std::exp(-0.5 * z * z);
+    all += density;
+    const double left = odds - std::exp(-(most->mean + z * std::sqrt(most->variance)));
+    if (left <= 0.0) continue;
+    double of_others = 1.0;
+    for (auto rival = rivals.begin(); rival != rivals.end(); ++rival) {
+      if (rival == most) continue;
+      const double ahead = rival->mean + std::log(left);
+      const double alone = rival->variance > 1e-9
+                               ? 1.0 - normal_upper(ahead / std::sqrt(rival->variance))
+                               : (ahead > 0.0 ? 1.0 : 0.0);
+      of_others = std::min(of_others, alone);
+    }
+    chance += density * of_others;
   }
-  return chance;
+  return chance / all;
 }
 
 }  // namespace
@@ -282,7 +294,7 @@ ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& a
             sum(other, [&](Eigen::Index i) { return p(i) * std::exp(-0.5 * (d(k, i) - d(k, l))); });
         rivals.push_back({0.5 * d(k, l) + std::log(weight / rival), d(k, l)});
       }
-      return p(k) * chance_of_all(rivals);
+      return rivals.empty() ? p(k) : p(k) * chance_of_all(rivals);
     });
   }
   return result;

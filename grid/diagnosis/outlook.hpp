@@ -13,10 +13,11 @@
 ///
 ///   confusion    sum over pairs of groups of sqrt(p_K p_L) times the mean of exp(-D_kl / 8) over
 ///                their members: the Bhattacharyya bound where a group has one
-///   named_alone  sum over k of p_k prod_L P(log odds of K against L > those of being named | k), what
-///                all L together may leave shared out among them as they are expected to take it,
-///                log odds about N(D_kl / 2 + log(p_K' / p_L'), D_kl), l the member of L nearest to
-///                k, and p' what a group weighs once its members are told apart:
+///   named_alone  sum over k of p_k P(odds of all other groups together < those of being named | k):
+///                summed over the log odds of the group that takes most, and of the others the one
+///                that is the likeliest to take the rest; log odds of K against L about
+///                N(D_kl / 2 + log(p_K' / p_L'), D_kl), l the member of L nearest to k, and p' what
+///                a group weighs once its members are told apart:
 ///                p_K' = sum over j in K of p_j exp(-(D_kj - D_kk) / 2), likewise about l for L
 ///
 /// A reading of which all alternatives expect the same changes neither.

@@ -136,10 +136,11 @@ TEST(NextMeasurements, OfAClassEachCauseIsForetoldByItself) {
       const std::string& what = candidate.measurement.what;
       if (what != "tape_error_mm_per_m" && what != "link_pitch_mm") continue;
       all.push_back(candidate.rows.front());
-      // Predicted with Gaussian log odds and independent rivals; 2000 draws are accurate to 0.01.
+      // Predicted with Gaussian log odds of one rival and a bound of the others, which errs by up to
+      // 0.112 on these sets; 2000 draws are accurate to 0.01.
       EXPECT_NEAR(expected_discrimination(*alternatives, candidate.rows).named_alone,
                   drawn_named_alone(*alternatives, candidate.rows, seed),
-                  0.1)
+                  0.12)
           << what;
     }
     ASSERT_EQ(all.size(), 4u);

@@ -123,19 +123,17 @@ class AssumedUnit final : public gcode::Sink {
   std::optional<gcode::Note> note_;
 };
 
-void say_assumed_unit(const GcodeText& program, const GcodeOptions& options) {
+std::optional<gcode::Note> assumed_unit(const GcodeText& program, const GcodeOptions& options) {
   AssumedUnit unit;
   auto source = program.open();
   (void)gcode::run_program(source, options.dialect(), unit);
-  gcode::Findings findings;
-  if (unit.note()) findings.add(*unit.note());
-  report(options.program, findings);
+  return unit.note();
 }
 
 int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
   const GcodeText original(options.program);
   const GcodeText other(options.other);
-  say_assumed_unit(original, options);
+  const auto assumed = assumed_unit(original, options);
   gcode::VerifyOptions settings = verify_options(options, machine);
   gcode::CutPlaces cuts;
   settings.on_move = [&cuts](const gcode::Move& move) { cuts.add(move); };
@@ -150,6 +148,11 @@ int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
   auto again = original.open({"the same without compensation", 2, 2});
   const auto control =
       gcode::uncompensated(again, machine.corrector(), options.dialect(), settings);
+  if (assumed) {
+    gcode::Findings findings;
+    findings.add(*assumed);
+    report(options.program, findings);
+  }
   // Where the original cannot be followed to its end, neither can what is cut be told.
   const PromisedError promised{control ? cuts.expected(machine.target()) : std::nullopt,
                                summary->largest_mm()};
