@@ -132,8 +132,10 @@ void add_units(List& list, std::string_view readings) {
 
 /// Each a little off, all alike: only against what is known of the machine is that a slip.
 void add_shifts(List& list, const model::Bed& bed, bool reads_lengths) {
-  for (const auto& [by_mm, why] : {std::pair(kTapeMarkMm, "the tape held at its 100 mm mark"),
-                                   std::pair(kMmPerFoot, "a foot miscounted")}) {
+  for (const auto& slip : {std::pair(kTapeMarkMm, "the tape held at its 100 mm mark"),
+                           std::pair(kMmPerFoot, "a foot miscounted")}) {
+    const double by_mm = slip.first;
+    const char* why = slip.second;
     for (const double sign : {1.0, -1.0}) {
       const char* too = sign > 0.0 ? "small" : "large";
       const auto words = [&](const char* what) {
