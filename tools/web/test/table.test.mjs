@@ -125,6 +125,22 @@ describe("typing", () => {
     await visit.text(".said", "the map leaves 0.39 mm");
   });
 
+  test("the map is built on causes where that is asked for, and again without them", async () => {
+    await visit.click("Begin anew");
+    await visit.click("Try an example machine");
+    await visit.text(".said", "the map leaves 0.39 mm");
+    await visit.click("See the map and the causes");
+    await visit.page.click("#causes");
+    await visit.click("Measure");
+    await visit.text(".said", "Found and not in the map: the chain's links are worn");
+    await visit.click("Map and causes");
+    assert.equal(await visit.page.$eval("#causes", (box) => box.checked), true);
+    await visit.page.click("#causes");
+    await visit.click("Measure");
+    await visit.page.waitForFunction(() => [...document.querySelectorAll(".said")].some((one) =>
+      one.textContent.includes("the map leaves 0.39 mm") && !one.textContent.includes("Found and not in the map")));
+  });
+
   test("a number of the form that cannot be is said at its field", async () => {
     await anew();
     await visit.click("Machine");
