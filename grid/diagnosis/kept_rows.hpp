@@ -8,7 +8,7 @@
 /// \code
 ///   const KeptRows kept(system, rejected);
 ///   const Eigen::VectorXd e = kept(system.e);
-///   const Eigen::MatrixXd a = kept(system.by_setting);
+///   const Eigen::MatrixXd a = kept.of(system.by_setting);
 /// \endcode
 #pragma once
 
@@ -32,7 +32,7 @@ class KeptRows {
   };
 
   KeptRows() = default;
-  /// `rejected`: a flag an outlier group of the system (outlier_group.hpp).
+  /// `rejected`: a flag an outlier group of the system (regressor_system.hpp).
   KeptRows(const RegressorSystem& system, const std::vector<bool>& rejected);
   [[nodiscard]] static KeptRows all(const RegressorSystem& system);
 

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/estimate.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 
-#include "grid/estimation/joint_problem.hpp"
+#include "grid/estimation/estimator.hpp"
 #include "grid/estimation/left_out.hpp"
 #include "grid/estimation/unknowns.hpp"
 #include "model/calibration/setting.hpp"
-#include "model/chains/chain_mechanism.hpp"
 
 namespace chaintrue::grid::estimation {
 namespace {
@@ -27,14 +23,6 @@ constexpr double kSettledWeight = 1e-2;
 /// Passes with soft weights only, so that several bad units cannot hide each other.
 constexpr int kSoftPasses = 4;
 
-/// When the passes end.
-struct Settling {
-  int most_passes;
-  double step_sigmas;  ///< of the stated sigmas
-  bool scales_count;
-  int fewest_passes;
-};
-
 /// A step of 3e-3 stated sigmas changes no length by more than some 1e-3 mm. Where places follow
 /// from what is estimated, holes lie where the last step put them; distances settle more slowly, one
 /// of them being set aside at a time.
@@ -44,60 +32,13 @@ Settling settling_of(const EstimationInput& input, bool places_move) {
                      : Settling{25, 3e-3, false, kSoftPasses + 2};
 }
 
-class Estimator {
- public:
-  explicit Estimator(const EstimationInput& input)
-      : input_(input),
-        problem_(std::make_unique<JointProblem>(input_, input_.surface == SurfaceUse::smoothed)),
-        state_(problem_->stated()) {}
-
-  tl::expected<Estimate, EstimationFailure> run();
-
- private:
-  /// Choosing the smoothing costs some twenty times a solution.
-  enum class Smoothing { choose, keep };
-  using Fit = tl::expected<interp::PenalisedFit, EstimationFailure>;
-  [[nodiscard]] Fit solve(const Eigen::VectorXd& weights,
-                          Smoothing smoothing,
-                          bool correct_covariance) const;
-  tl::expected<void, EstimationFailure> approach();
-  tl::expected<void, EstimationFailure> settle();
-  void begin_weights();
-  /// A reading with its unit among the problem's.
-  struct Shift {
-    observation::UnitReading at;
-    double sigmas = 0.0;
-  };
-  [[nodiscard]] std::optional<Shift> worst_reading() const;
-  [[nodiscard]] std::optional<Shift> best_rejected() const;
-  [[nodiscard]] bool settle_without(RejectedReadings rejected);
-  void reject_readings();
-  [[nodiscard]] double step_to(const State& next, const Settling& settling) const;
-  [[nodiscard]] bool update_weights(int pass);
-  [[nodiscard]] std::optional<std::size_t> worst_alone() const;
-  tl::expected<void, EstimationFailure> choose_surface();
-  [[nodiscard]] tl::expected<Estimate, EstimationFailure> result() const;
-  void fill_units(Estimate& estimate) const;
-  tl::expected<void, EstimationFailure> fill_observations(Estimate& estimate) const;
-  void fill_covariances(Estimate& estimate) const;
-
-  EstimationInput input_;
-  std::unique_ptr<JointProblem> problem_;
-  State state_;
-  Eigen::VectorXd weights_;
-  Eigen::VectorXd distances_;
-  interp::PenalisedFit fit_;
-  std::vector<std::vector<model::MarkPoint>> as_stated_;
-  bool settled_ = false;
-  bool is_linearised_ = false;  ///< the problem is about the state
-  double surface_log_evidence_ = 0.0;
-};
-
 EstimationFailure failure_of(const interp::FitFailure& refusal) {
   return {refusal.reason == interp::FitFailure::Reason::rank_deficient ? Reason::rank_deficient
                                                                        : Reason::not_converged,
           refusal.sentence};
 }
+
+}  // namespace
 
 Estimator::Fit Estimator::solve(const Eigen::VectorXd& weights,
                                 Smoothing smoothing,
@@ -248,97 +189,6 @@ tl::expected<void, EstimationFailure> Estimator::approach() {
   return {};
 }
 
-std::optional<Estimator::Shift> Estimator::worst_reading() const {
-  std::optional<Shift> worst;
-  const Eigen::VectorXd residual = problem_->response() - problem_->design() * fit_.coefficients;
-  const FittedRows rows{problem_->design(), residual, fit_, problem_->dof(fit_)};
-  for (std::size_t u = 0; u < problem_->units().size(); ++u) {
-    const SystemUnit& unit = problem_->units()[u];
-    const std::vector<Eigen::Index>& rejected = problem_->rejected(u);
-    for (Eigen::Index i = 0; i < unit.by_reading.cols(); ++i) {
-      if (std::find(rejected.begin(), rejected.end(), i) != rejected.end()) continue;
-      const double sigmas = shift_of(rows, unit, rejected, i).sigmas;
-      // Readings that share one check are out by the same: the first of them.
-      constexpr double kSame = 1e-6;
-      if (!worst || sigmas > (1.0 + kSame) * worst->sigmas) worst = Shift{{u, i}, sigmas};
-    }
-  }
-  return worst;
-}
-
-/// The rejected reading that fits best.
-std::optional<Estimator::Shift> Estimator::best_rejected() const {
-  std::optional<Shift> best;
-  const Eigen::VectorXd residual = problem_->response() - problem_->design() * fit_.coefficients;
-  const FittedRows rows{problem_->design(), residual, fit_, problem_->dof(fit_)};
-  for (std::size_t u = 0; u < problem_->units().size(); ++u) {
-    for (const Eigen::Index i : problem_->rejected(u)) {
-      const double sigmas = shift_of(rows, problem_->units()[u], problem_->rejected(u), i).sigmas;
-      if (sigmas > 0.0 && (!best || sigmas < best->sigmas)) best = Shift{{u, i}, sigmas};
-    }
-  }
-  return best;
-}
-
-/// Fits again with these readings rejected; false, and nothing changed, where that has no answer.
-bool Estimator::settle_without(RejectedReadings rejected) {
-  std::vector<std::vector<observation::UnitReading>> of_observation(input_.observations.size());
-  for (std::size_t u = 0; u < rejected.size(); ++u) {
-    const SystemUnit& unit = problem_->units()[u];
-    for (const Eigen::Index i : rejected[u])
-      of_observation[unit.observation].push_back({unit.unit, i});
-  }
-  const observation::Observations before = input_.observations;
-  auto fit = fit_;
-  auto state = state_;
-  for (std::size_t k = 0; k < before.size(); ++k) {
-    if (auto other = before[k]->about_others(of_observation[k]))
-      input_.observations[k] = std::move(other);
-  }
-  auto problem =
-      std::exchange(problem_, std::make_unique<JointProblem>(input_, false, std::move(rejected)));
-  is_linearised_ = false;
-  if (settle()) return true;
-  problem_ = std::move(problem);
-  input_.observations = before;
-  fit_ = std::move(fit);
-  state_ = std::move(state);
-  return false;
-}
-
-void Estimator::reject_readings() {
-  const ReadingLimits& limits = *input_.reading_limits;
-  if (std::sqrt(fit_.sigma2) > limits.most_noise) return;
-  Eigen::Index readings = 0;
-  for (const SystemUnit& unit : problem_->units()) readings += unit.by_reading.cols();
-  const auto most = static_cast<std::size_t>(limits.most_share * static_cast<double>(readings));
-  const auto of_now = [this] {
-    RejectedReadings rejected = problem_->rejected();
-    rejected.resize(problem_->units().size());
-    return rejected;
-  };
-  for (std::size_t out = 0; out < most && problem_->dof(fit_) > 1.0; ++out) {
-    const auto worst = worst_reading();
-    if (!worst || worst->sigmas < limits.rejected_beyond) break;
-    RejectedReadings more = of_now();
-    more[worst->at.unit].push_back(worst->at.reading);
-    if (!settle_without(std::move(more))) break;
-  }
-  // What was rejected while a worse one was still in may fit after all.
-  for (std::size_t back = 0; back < most; ++back) {
-    const auto best = best_rejected();
-    if (!best || best->sigmas >= limits.rejected_beyond) break;
-    const RejectedReadings now = of_now();
-    RejectedReadings fewer = now;
-    std::erase(fewer[best->at.unit], best->at.reading);
-    if (!settle_without(std::move(fewer))) break;
-    const auto worst = worst_reading();
-    if (!worst || worst->sigmas < limits.rejected_beyond) continue;
-    if (!settle_without(now)) break;
-    break;
-  }
-}
-
 tl::expected<void, EstimationFailure> Estimator::settle() {
   Settling settling = settling_of(input_, problem_->places_move());
   if (input_.most_passes > 0) settling.most_passes = input_.most_passes;
@@ -407,117 +257,6 @@ tl::expected<void, EstimationFailure> Estimator::choose_surface() {
   return settle();
 }
 
-void Estimator::fill_units(Estimate& estimate) const {
-  LeftOut left_out(*problem_, fit_, weights_);
-  left_out.prepare_units();
-  if (!input_.held_out_together.empty()) left_out.prepare_all();
-  for (std::size_t u = 0; u < problem_->units().size(); ++u) {
-    const SystemUnit& unit = problem_->units()[u];
-    const auto at = static_cast<Eigen::Index>(u);
-    const auto back = unit.whitening.inverse();
-    const Eigen::MatrixXd rows = problem_->design().middleRows(unit.first_row, unit.rows);
-    const double distance = input_.fixed_weights ? left_out.distance(u) : distances_[at];
-    UnitEstimate own{unit.observation, unit.unit, weights_[at], distance, {}, {}, {}, {}};
-    own.residual =
-        back * (problem_->response().segment(unit.first_row, unit.rows) - rows * fit_.coefficients);
-    const LeftOut::Seen seen = left_out.seen(u);
-    own.left_out = back * seen.residual;
-    own.left_out_covariance = back * seen.covariance * back.transpose();
-    estimate.units.push_back(std::move(own));
-  }
-  const Eigen::VectorXd residual = problem_->response() - problem_->design() * fit_.coefficients;
-  const FittedRows rows{problem_->design(), residual, fit_, problem_->dof(fit_)};
-  for (std::size_t u = 0; u < problem_->units().size(); ++u) {
-    const SystemUnit& unit = problem_->units()[u];
-    for (const Eigen::Index i : problem_->rejected(u)) {
-      const ReadingShift shift = shift_of(rows, unit, problem_->rejected(u), i);
-      estimate.rejected_readings.push_back(
-          {unit.observation, {unit.unit, i}, shift.off_mm, shift.sigmas});
-    }
-  }
-  for (const UnitGroup& group : input_.held_out_together) {
-    const auto residuals = left_out.residuals(group);
-    for (std::size_t k = 0; k < group.size(); ++k) {
-      estimate.units[group[k]].left_out_with_group =
-          problem_->units()[group[k]].whitening.inverse() * residuals[k];
-    }
-  }
-}
-
-tl::expected<void, EstimationFailure> Estimator::fill_observations(Estimate& estimate) const {
-  const Unknowns& unknowns = problem_->unknowns();
-  const Eigen::VectorXd coefficients = problem_->coefficients(fit_);
-  const Eigen::VectorXd variance = problem_->covariance(fit_).diagonal();
-  const auto corrections = problem_->corrections_of(state_);
-  for (std::size_t k = 0; k < input_.observations.size(); ++k) {
-    const observation::Observation& observation = *input_.observations[k];
-    ObservationEstimate own;
-    own.sheet = unknowns.sheet_at(coefficients, k);
-    const auto line = observation.linearise({estimate.mechanism, own.sheet, &corrections[k]}, {});
-    if (!line) return tl::unexpected(problem_->unreachable(k, line.error()));
-    own.predicted = line->predicted;
-    if (const Eigen::Index first = unknowns.zeros(k); first >= 0) {
-      const Eigen::Vector2d zeros = coefficients.segment<2>(first);
-      const Eigen::Vector2d sigma = variance.segment<2>(first).cwiseMax(0.0).cwiseSqrt();
-      own.zeros = {{{zeros[0], sigma[0]}, {zeros[1], sigma[1]}}};
-      for (std::size_t u = 0; u < line->units.size(); ++u) {
-        const observation::Unit& rows = observation.units()[u];
-        for (const observation::PlaceColumns& place : line->units[u].places)
-          own.predicted.segment(rows.first_row, rows.rows) += place.by_chain * zeros;
-      }
-    }
-    for (std::size_t i = 0; i < line->places.size(); ++i) {
-      const observation::PlaceState& place = line->places[i];
-      own.places.push_back({as_stated_[k][i], place.mark, place.by_mark, place.reading.lengths});
-    }
-    const Eigen::Index count = observation.nuisance_sigma().size();
-    own.nuisance = coefficients.segment(unknowns.nuisance(k), count);
-    own.nuisance_sigma = variance.segment(unknowns.nuisance(k), count).cwiseMax(0.0).cwiseSqrt();
-    estimate.observations.push_back(std::move(own));
-  }
-  return {};
-}
-
-void Estimator::fill_covariances(Estimate& estimate) const {
-  const Unknowns& unknowns = problem_->unknowns();
-  estimate.columns = {unknowns.settings(), estimate.surface.basis.size()};
-  estimate.covariance = problem_->map_covariance(fit_, estimate.columns);
-  std::vector<Eigen::Index> own;
-  for (Eigen::Index i = 0; i < unknowns.parameters(); ++i) own.push_back(i);
-  for (Eigen::Index i = 0; i < unknowns.scales(); ++i) own.push_back(unknowns.settings() + i);
-  const Eigen::VectorXd coefficients = problem_->coefficients(fit_);
-  estimate.map_unknowns = coefficients.head(unknowns.settings() + unknowns.scales());
-  estimate.knowledge.mean = coefficients(own);
-  estimate.knowledge.covariance = problem_->covariance(fit_)(own, own);
-}
-
-tl::expected<Estimate, EstimationFailure> Estimator::result() const {
-  auto found = problem_->unknowns().mechanism_at(problem_->coefficients(fit_));
-  const auto* chains = dynamic_cast<const model::ChainMechanism*>(found.get());
-  const observation::Columns columns = observation::columns_of(*input_.observations.front());
-  Estimate estimate{
-      chains != nullptr ? chains->machine() : input_.machine,
-      chains != nullptr ? observation::settings_in(columns) : std::vector<model::Setting>{},
-      {},
-      {},
-      state_.surface,
-      problem_->has_surface(),
-      surface_log_evidence_,
-      {},
-      {},
-      std::sqrt(fit_.sigma2),
-      fit_.edf,
-      {},
-      {},
-      {},
-      settled_,
-      std::move(found)};
-  fill_covariances(estimate);
-  fill_units(estimate);
-  if (auto done = fill_observations(estimate); !done) return tl::unexpected(done.error());
-  return estimate;
-}
-
 tl::expected<Estimate, EstimationFailure> Estimator::run() {
   if (auto done = approach(); !done) return tl::unexpected(done.error());
   if (auto done = settle(); !done) return tl::unexpected(done.error());
@@ -526,25 +265,6 @@ tl::expected<Estimate, EstimationFailure> Estimator::run() {
     if (auto done = choose_surface(); !done) return tl::unexpected(done.error());
   }
   return result();
-}
-
-}  // namespace
-
-std::string words_of(const std::array<SessionZero, 2>& zeros) {
-  // Sigmas, 1 in 16 000 for each chain: who is told goes and looks at the chains.
-  constexpr double kSpokenOf = 4.0;
-  std::string words;
-  for (const Side side : model::kSides) {
-    const SessionZero& zero = zeros[static_cast<std::size_t>(row_of(side))];
-    if (!(std::abs(zero.mm) > kSpokenOf * zero.sigma_mm)) continue;
-    words += fmt::format("{}{} chain {:.1f} +- {:.1f} mm {}",
-                         words.empty() ? "" : ", ",
-                         side == Side::left ? "left" : "right",
-                         std::abs(zero.mm),
-                         zero.sigma_mm,
-                         zero.mm > 0.0 ? "more" : "less");
-  }
-  return words;
 }
 
 MachineKnowledge stated_knowledge(const model::Machine& machine) {

@@ -23,18 +23,7 @@ constexpr EffectParameter kParameters[] = {
         .prior_sigma = 1.0,
         .integer = true,
     },
-    {
-        .name = "visit",
-        .symbol = "m",
-        .meaning = "number of the visit",
-        .role = ParameterRole::place,
-        .null = 10.0,
-        .nominal = 10.0,
-        .lower = 0.0,
-        .upper = 1e6,
-        .prior_sigma = 10.0,
-        .integer = true,
-    },
+    visit_parameter("visit", "number of the visit"),
 };
 
 // (1)

@@ -23,18 +23,7 @@ constexpr EffectParameter kParameters[] = {
         // two teeth.
         .prior_sigma = 3.0,
     },
-    {
-        .name = "first_visit",
-        .symbol = "m",
-        .meaning = "number of the first visit after the shift",
-        .role = ParameterRole::place,
-        .null = 10.0,
-        .nominal = 10.0,
-        .lower = 0.0,
-        .upper = 1e6,
-        .prior_sigma = 10.0,
-        .integer = true,
-    },
+    visit_parameter("first_visit", "number of the first visit after the shift"),
 };
 
 // (1)
@@ -58,8 +47,8 @@ extern constinit const Effect zero_shift{
     .needs = DataNeed::order,
     .remedy_kind = RemedyKind::repair,
     .remedy =
-        "check the sprocket's grub screw and set the chain to 12 o'clock again; the readings after "
-        "the shift are corrected, and a map holds for the zero before it",
+        "check the sprocket's grub screw and set the chain to 12 o'clock again: a map is of the chain "
+        "as it hung before the shift",
     .misread = misread,
 };
 

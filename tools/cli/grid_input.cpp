@@ -105,7 +105,7 @@ void add_tape_options(Verb verb, TapeInput& input) {
              "--hook-sigma-mm",
              input.hook_sigma_mm,
              grid::files::kHoleSigmaMm,
-             "Of holes: how well that is known, one sigma; exactly where unsaid");
+             "Of holes: how well that is known, one sigma; to 3 mm where unsaid, exactly with 0");
   add_number(verb,
              "--hole-sigma-mm",
              input.hole_sigma_mm,

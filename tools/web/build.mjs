@@ -5,7 +5,6 @@ import {execFileSync} from "node:child_process";
 import {existsSync, mkdirSync, readFileSync, renameSync, statSync, writeFileSync} from "node:fs";
 import {dirname, join} from "node:path";
 import {fileURLToPath} from "node:url";
-import {gzipSync} from "node:zlib";
 import esbuild from "esbuild";
 import {encoded} from "./page/base85.js";
 
@@ -31,7 +30,8 @@ export function bundle(entry, options = {}) {
 /** A minified text for the browser. */
 const minified = (text, loader) => esbuild.transformSync(text, {loader, minify: true, charset: "utf8", legalComments: "inline"}).code;
 
-const packed = (bytes) => encoded(gzipSync(bytes, {level: 9}));
+/** Compressed by xz, a quarter smaller than by gzip; the dictionary holds all of it. The page unpacks it with xz-decompress. */
+const packed = (bytes) => encoded(execFileSync("xz", ["--format=xz", "--check=crc32", "--lzma2=preset=9e,dict=16MiB", "-c"], {input: bytes, maxBuffer: 1e9}));
 
 /** The file `to` that `make(begun)` makes from `from`. It takes a minute, so it is kept until `from` changes. */
 function made(folder, from, to, make) {
@@ -48,17 +48,12 @@ const smallerWasm = (folder) => made(folder, "chaintrue.wasm", "chaintrue.small.
   execFileSync("wasm-opt", ["-Oz", ...WASM_FEATURES, source, "-o", begun], {stdio: "inherit"});
 });
 
-/** In gzip format, compressed by zopfli: 5 % smaller than by gzip itself, readable by any browser. */
-const packedWasm = (folder) => made(folder, "chaintrue.small.wasm", "chaintrue.small.wasm.gz", (source, begun) => {
-  writeFileSync(begun, execFileSync("zopfli", ["--i3", "-c", source], {maxBuffer: 1e9}));
-});
-
 /** Text of a script element: it must not contain the end tag. */
 const inScript = (text) => text.replaceAll("</", "<\\/");
 
 function licences() {
   const fflate = read(join(here, "node_modules/fflate/LICENSE"));
-  return `${read(join(root, "tools/report/assets/licences.txt"))}\nfflate\n\n${fflate}`
+  return `${read(join(root, "tools/report/assets/licences.txt"))}\nfflate\n\n${fflate}\n${read(join(here, "page/licence_of_xz.txt"))}`
     .replaceAll("&", "&amp;").replaceAll("<", "&lt;");
 }
 
@@ -80,7 +75,7 @@ function main([from, to, version]) {
   const worker = `${glue}\nself.createChaintrue = createChaintrue;\n${bundle("engine/worker.js")}`;
   const html = page({
     STYLE: minified(read(join(here, "page/style.css")), "css"), VERSION: version, LICENCES: licences(), EXAMPLE: inScript(JSON.stringify(example())),
-    WORKER: packed(worker), WASM: encoded(packedWasm(from)), APP: inScript(bundle("page/app.js")),
+    WORKER: packed(worker), WASM: packed(wasm), APP: inScript(bundle("page/app.js")),
   });
   mkdirSync(to, {recursive: true});
   writeFileSync(join(to, "chaintrue.html"), html);

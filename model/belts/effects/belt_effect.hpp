@@ -19,6 +19,7 @@
 
 #include "model/belts/belt_machine.hpp"
 #include "model/effects/effect.hpp"
+#include "model/effects/sides.hpp"
 
 namespace chaintrue::model::belts {
 
@@ -75,17 +76,7 @@ inline constexpr BeltSide kOneBeltOrAll[] = {
 [[nodiscard]] const BeltEffect* belt_effect_of(const effects::Effect& described);
 
 /// The visit at which an effect sets in.
-inline constexpr effects::EffectParameter kFirstVisit = {
-    .name = "first_visit",
-    .symbol = "m",
-    .meaning = "number of the first visit at which it acts",
-    .role = effects::ParameterRole::place,
-    .null = 10.0,
-    .nominal = 10.0,
-    .lower = 0.0,
-    .upper = 1e6,
-    .prior_sigma = 10.0,
-    .integer = true,
-};
+inline constexpr effects::EffectParameter kFirstVisit =
+    effects::visit_parameter("first_visit", "number of the first visit at which it acts");
 
 }  // namespace chaintrue::model::belts

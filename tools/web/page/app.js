@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: an owner's evening in four steps on one folder. The engine and the example are embedded as data.
+import {XzReadableStream} from "xz-decompress";
 import {Engine} from "../engine/engine.js";
 import {decoded} from "./base85.js";
 import {Busy} from "./busy.js";
@@ -18,8 +19,7 @@ const STEPS = [["machine", "Machine"], ["measure", "Measure"], ["result", "Map a
 
 async function unpacked(id) {
   const bytes = decoded(document.getElementById(id).textContent.trim());
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).arrayBuffer();
+  return new Response(new XzReadableStream(new Blob([bytes]).stream())).arrayBuffer();
 }
 
 class Page {

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/cause_classes.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "grid/diagnosis/constants.hpp"
+#include "grid/diagnosis/estimate.hpp"
+#include "grid/statistics.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// The most telling regressor of each cause: the longest, and the nearest to the data among those
+/// of a cause with places.
+std::vector<std::pair<CauseId, int>> leading_regressors(const RegressorSystem& system,
+                                                        const MarginalisedSystem& marginalised) {
+  std::vector<std::pair<CauseId, int>> result;
+  double best = -1.0;
+  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+    const auto column = marginalised.g.col(static_cast<Eigen::Index>(k));
+    const double length = column.norm();
+    if (!(length > 1e-4)) continue;
+    const double score = std::abs(column.dot(marginalised.e)) / length;
+    if (result.empty() || !(result.back().first == system.regressors[k].cause)) {
+      result.emplace_back(system.regressors[k].cause, static_cast<int>(k));
+      best = score;
+    } else if (score > best) {
+      result.back().second = static_cast<int>(k);
+      best = score;
+    }
+  }
+  return result;
+}
+
+bool on_paper(const CauseId& cause) {
+  return cause.effect->station == model::effects::Station::paper;
+}
+
+/// A cause's signature with the settings free, and with what was stated of them.
+struct Representative {
+  Eigen::VectorXd free;
+  Eigen::VectorXd stated;
+  CauseId cause;
+  bool fixed = false;
+};
+
+/// The first model, the best ones first, in which one of these acts, with the free one at work.
+struct FreeModel {
+  std::vector<int> regressors;
+  int free = -1;
+  std::size_t marginalised = 0;
+};
+std::optional<FreeModel> model_with(const RegressorSystem& system,
+                                    const ModelComparison& comparison,
+                                    const CauseId& whole,
+                                    const CauseId& free) {
+  const auto regressor = [&](int k) -> const Regressor& {
+    return system.regressors[static_cast<std::size_t>(k)];
+  };
+  for (const CandidateModel& model : comparison.models) {
+    FreeModel found{{}, -1, model.marginalised};
+    for (const int k : model.regressors) {
+      if (regressor(k).cause == free) found.free = k;
+      if (!(regressor(k).cause == whole)) {
+        found.regressors.push_back(k);
+        continue;
+      }
+      for (std::size_t other = 0; other < system.regressors.size(); ++other) {
+        const Regressor& own = system.regressors[other];
+        if (own.cause == free && own.values.back() == regressor(k).values.back())
+          found.free = static_cast<int>(other);
+      }
+      if (found.free >= 0) found.regressors.push_back(found.free);
+    }
+    if (found.free < 0) continue;
+    std::sort(found.regressors.begin(), found.regressors.end());
+    found.regressors.erase(std::unique(found.regressors.begin(), found.regressors.end()),
+                           found.regressors.end());
+    return found;
+  }
+  return std::nullopt;
+}
+
+/// The size that is found of `free` is that of a whole number of `whole`, as well as noise lets one see.
+bool is_whole(const RegressorSystem& system,
+              const ModelComparison& comparison,
+              const CauseId& whole,
+              const CauseId& free) {
+  constexpr double kSigmas = 3.0;  // 1 in 370
+  const auto model = model_with(system, comparison, whole, free);
+  if (!model) return false;
+  const Estimate found = estimate(
+      system, comparison.marginalised_systems[model->marginalised], model->regressors, -1);
+  const auto at = static_cast<Eigen::Index>(
+      std::find(model->regressors.begin(), model->regressors.end(), model->free) -
+      model->regressors.begin());
+  const Eigen::VectorXd own = system.g.col(model->free);
+  const Regressor& of_free = system.regressors[static_cast<std::size_t>(model->free)];
+  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+    const Regressor& of_whole = system.regressors[k];
+    if (!(of_whole.cause == whole) || of_whole.values.back() != of_free.values.back()) continue;
+    const double asked =
+        own.dot(Eigen::VectorXd(system.g.col(static_cast<Eigen::Index>(k)))) / own.squaredNorm();
+    if (std::abs(found.coefficient(at) - asked) <= kSigmas * found.coefficient_sigma(at)) return true;
+  }
+  return false;
+}
+
+bool one_class(const RegressorSystem& system,
+               const ModelComparison& comparison,
+               const Representative& a,
+               const Representative& b) {
+  if (collinearity_of(a.free, b.free) < kOneClass) return false;
+  if (!a.fixed && !b.fixed) return true;
+  // A whole link is no small change: where it would ask a chain zero for what nobody stated, it is
+  // told apart.
+  if (collinearity_of(a.stated, b.stated) < kOneClass) return false;
+  // Nor is it any amount: what moved by another one is told apart by that.
+  return a.fixed == b.fixed || (a.fixed ? is_whole(system, comparison, a.cause, b.cause)
+                                        : is_whole(system, comparison, b.cause, a.cause));
+}
+
+/// Of what may be a whole number or any amount, the likelier first: the whole number has no size to
+/// spend its prior on, and so leads where the amount fits it.
+void put_likelier_first(const RegressorSystem& system,
+                        const ModelComparison& comparison,
+                        CauseClass& members) {
+  const auto weight_of = [&](const CauseId& cause) {
+    double sum = kMinusInfinity;
+    for (const CandidateModel& model : comparison.models) {
+      const bool acts = std::any_of(model.regressors.begin(), model.regressors.end(), [&](int k) {
+        return system.regressors[static_cast<std::size_t>(k)].cause == cause;
+      });
+      if (acts) sum = log_sum(sum, model.log_weight);
+    }
+    return sum;
+  };
+  const auto is_paper = [](const CauseId& cause) { return on_paper(cause); };
+  const auto end = std::find_if(members.begin(), members.end(), is_paper);
+  std::stable_sort(members.begin(), end, [&](const CauseId& a, const CauseId& b) {
+    return weight_of(a) > weight_of(b);
+  });
+}
+
+/// An orthonormal basis of what the settings can do. Distances hardly feel some of them, and what
+/// no setting does within reason does not count.
+Eigen::MatrixXd range_of_settings(const RegressorSystem& system, const Eigen::MatrixXd& columns) {
+  constexpr double kFelt = 1e-4;
+  if (system.nuisances == 0) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+    return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns *
+                                                 system.sigma.head(columns.cols()).asDiagonal());
+  qr.setThreshold(kFelt);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+}
+
+}  // namespace
+
+std::vector<CauseClass> classes_of(const RegressorSystem& system,
+                                   const ModelComparison& comparison) {
+  const MarginalisedSystem& marginalised =
+      comparison.marginalised_systems[comparison.best().marginalised];
+  // Free settings: what a class shares must not hang on how well the settings were stated.
+  const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(system, marginalised.kept);
+  const auto seen = [&](Eigen::MatrixXd columns) {
+    if (system.nuisances > 0) noise.matrixL().solveInPlace(columns);
+    return columns;
+  };
+  const Eigen::Index settings = system.by_setting.cols() - system.nuisances;
+  const Eigen::MatrixXd basis = range_of_settings(
+      system, seen(marginalised.kept.of(system.by_setting.leftCols(settings))));
+  std::vector<CauseClass> classes;
+  std::vector<Representative> first;
+  std::vector<bool> mixed;  // whole numbers and any amounts
+  for (const auto& [cause, column] : leading_regressors(system, marginalised)) {
+    Representative own{seen(marginalised.kept(system.g.col(column))),
+                       marginalised.g.col(column),
+                       cause,
+                       system.regressors[static_cast<std::size_t>(column)].fixed};
+    const double whole = own.free.norm();
+    own.free -= basis * (basis.transpose() * own.free);
+    // Of a signature that the settings take whole, only rounding would be compared.
+    const bool absorbed = own.free.norm() < kAbsorbed * whole;
+    std::size_t home = classes.size();
+    for (std::size_t k = 0; k < classes.size() && home == classes.size() && !absorbed; ++k) {
+      if (one_class(system, comparison, own, first[k])) home = k;
+    }
+    if (home < classes.size()) mixed[home] = mixed[home] || own.fixed != first[home].fixed;
+    if (home == classes.size()) {
+      mixed.push_back(false);
+      classes.emplace_back();
+      if (absorbed) own.free.setZero();
+      first.push_back(std::move(own));
+    }
+    classes[home].push_back(cause);
+  }
+  for (std::size_t k = 0; k < classes.size(); ++k) {
+    CauseClass& members = classes[k];
+    std::stable_partition(
+        members.begin(), members.end(), [](const CauseId& c) { return !on_paper(c); });
+    if (mixed[k]) put_likelier_first(system, comparison, members);
+  }
+  return classes;
+}
+
+}  // namespace chaintrue::grid::diagnosis

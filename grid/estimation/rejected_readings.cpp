@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Single readings that the others contradict, left out one at a time, the worst first.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "grid/estimation/estimator.hpp"
+
+namespace chaintrue::grid::estimation {
+
+std::optional<Estimator::Shift> Estimator::worst_reading() const {
+  std::optional<Shift> worst;
+  const Eigen::VectorXd residual = problem_->response() - problem_->design() * fit_.coefficients;
+  const FittedRows rows{problem_->design(), residual, fit_, problem_->dof(fit_)};
+  for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+    const SystemUnit& unit = problem_->units()[u];
+    const std::vector<Eigen::Index>& rejected = problem_->rejected(u);
+    for (Eigen::Index i = 0; i < unit.by_reading.cols(); ++i) {
+      if (std::find(rejected.begin(), rejected.end(), i) != rejected.end()) continue;
+      const double sigmas = shift_of(rows, unit, rejected, i).sigmas;
+      // Readings that share one check are out by the same: the first of them.
+      constexpr double kSame = 1e-6;
+      if (!worst || sigmas > (1.0 + kSame) * worst->sigmas) worst = Shift{{u, i}, sigmas};
+    }
+  }
+  return worst;
+}
+
+/// The rejected reading that fits best.
+std::optional<Estimator::Shift> Estimator::best_rejected() const {
+  std::optional<Shift> best;
+  const Eigen::VectorXd residual = problem_->response() - problem_->design() * fit_.coefficients;
+  const FittedRows rows{problem_->design(), residual, fit_, problem_->dof(fit_)};
+  for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+    for (const Eigen::Index i : problem_->rejected(u)) {
+      const double sigmas = shift_of(rows, problem_->units()[u], problem_->rejected(u), i).sigmas;
+      if (sigmas > 0.0 && (!best || sigmas < best->sigmas)) best = Shift{{u, i}, sigmas};
+    }
+  }
+  return best;
+}
+
+/// Fits again with these readings rejected; false, and nothing changed, where that has no answer.
+bool Estimator::settle_without(RejectedReadings rejected) {
+  std::vector<std::vector<observation::UnitReading>> of_observation(input_.observations.size());
+  for (std::size_t u = 0; u < rejected.size(); ++u) {
+    const SystemUnit& unit = problem_->units()[u];
+    for (const Eigen::Index i : rejected[u])
+      of_observation[unit.observation].push_back({unit.unit, i});
+  }
+  const observation::Observations before = input_.observations;
+  auto fit = fit_;
+  auto state = state_;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (auto other = before[k]->about_others(of_observation[k]))
+      input_.observations[k] = std::move(other);
+  }
+  auto problem =
+      std::exchange(problem_, std::make_unique<JointProblem>(input_, false, std::move(rejected)));
+  is_linearised_ = false;
+  if (settle()) return true;
+  problem_ = std::move(problem);
+  input_.observations = before;
+  fit_ = std::move(fit);
+  state_ = std::move(state);
+  return false;
+}
+
+void Estimator::reject_readings() {
+  const ReadingLimits& limits = *input_.reading_limits;
+  if (std::sqrt(fit_.sigma2) > limits.most_noise) return;
+  Eigen::Index readings = 0;
+  for (const SystemUnit& unit : problem_->units()) readings += unit.by_reading.cols();
+  const auto most = static_cast<std::size_t>(limits.most_share * static_cast<double>(readings));
+  const auto of_now = [this] {
+    RejectedReadings rejected = problem_->rejected();
+    rejected.resize(problem_->units().size());
+    return rejected;
+  };
+  for (std::size_t out = 0; out < most && problem_->dof(fit_) > 1.0; ++out) {
+    const auto worst = worst_reading();
+    if (!worst || worst->sigmas < limits.rejected_beyond) break;
+    RejectedReadings more = of_now();
+    more[worst->at.unit].push_back(worst->at.reading);
+    if (!settle_without(std::move(more))) break;
+  }
+  // What was rejected while a worse one was still in may fit after all.
+  for (std::size_t back = 0; back < most; ++back) {
+    const auto best = best_rejected();
+    if (!best || best->sigmas >= limits.rejected_beyond) break;
+    const RejectedReadings now = of_now();
+    RejectedReadings fewer = now;
+    std::erase(fewer[best->at.unit], best->at.reading);
+    if (!settle_without(std::move(fewer))) break;
+    const auto worst = worst_reading();
+    if (!worst || worst->sigmas < limits.rejected_beyond) continue;
+    if (!settle_without(now)) break;
+    break;
+  }
+}
+
+}  // namespace chaintrue::grid::estimation
