@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/diagnosis/bed_parts.hpp"
 #include "grid/diagnosis/link_priors.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/diagnosis/relinearise.hpp"
@@ -129,6 +130,12 @@ void speak_of_leaders(const RegressorSystem& system,
 
 }  // namespace
 
+double noise_dof(const Analysis& a) {
+  // Nothing is known beforehand of noise that is whatever the best fit leaves.
+  constexpr double kNothingKnown = 1e-3;
+  return a.options.steps.anchor_noise ? a.session.noise_dof : kNothingKnown;
+}
+
 bool can_be_seen(const RegressorSystem& system,
                  const MarginalisedSystem& marginalised,
                  const CauseId& cause) {
@@ -231,7 +238,11 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
     a.state = std::move(relinearised.state);
   }
   test_significance(a.system, NoiseSize::stated, a);
-  if (a.family_wise_p >= kFalseAlarm && !options.told) decide_for(false, a);
+  if (options.steps.average_parts && !options.told) {
+    a.parts = average_over_parts(
+        a.system, noise_dof(a), none, a.session.fewest_units, a.comparison);
+  }
+  decide_for(options.told.has_value() || a.family_wise_p < kFalseAlarm, a);
   return a;
 }
 

@@ -6,6 +6,7 @@
 
 #include <tl/expected.hpp>
 
+#include "grid/diagnosis/bed_parts.hpp"
 #include "grid/diagnosis/decision.hpp"
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/null_distribution.hpp"
@@ -27,6 +28,8 @@ struct Analysis {
   double family_wise_p = 1.0;  ///< chance that noise alone scores as high
   /// Score of each cause where the test has rows of its own (test_significance); else empty.
   std::vector<std::pair<CauseId, double>> tested;
+  /// What quarters of the bed make of it; empty where there is no pattern, or no such parts.
+  std::vector<PartPosterior> parts;
   Decision decision;
   /// Of the discrepancy that the decision leaves; null where it leaves none.
   std::shared_ptr<const DiscrepancyNoise> noise;
@@ -44,6 +47,9 @@ struct Analysis {
 void decide_for(bool seen, Analysis& analysis);
 /// Noise and estimate of the decision at hand.
 void estimate_decided(Analysis& analysis);
+
+/// How well the noise is known, degrees of freedom.
+[[nodiscard]] double noise_dof(const Analysis& analysis);
 
 /// Whether a cause could show at some size that it may have, the settings free.
 [[nodiscard]] bool can_be_seen(const RegressorSystem& system,

@@ -21,6 +21,8 @@ constexpr double kFalseAlarmOfBelts = 0.001;
 /// Beside a pattern, how much likelier than beforehand the readings must make a cause that is named:
 /// "positive" evidence (R. Kass and A. Raftery, J. Am. Stat. Assoc. 90 (1995), 777).
 constexpr double kSpokenFor = 3.0;
+/// Places in a part of the bed: anchors need four, and a check at each besides shows that one is wrong.
+constexpr std::size_t kFewestPlaces = 8;
 /// Linearised about nothing, about what was found, and about what that leaves.
 constexpr int kPasses = 3;
 
@@ -143,6 +145,13 @@ void compare(bool last, BeltsAnalysis& a) {
         system_of(a.belts, {a.alone, {}}, own.candidates.testable, a.sigma_mm),
         NoiseSize::unknown,
         own);
+    if (own.options.steps.average_parts && !own.options.told) {
+      own.parts = average_over_parts(own.system,
+                                     own.session.noise_dof,
+                                     nothing_rejected(own.system),
+                                     kFewestPlaces,
+                                     own.comparison);
+    }
   }
   decide(!last || own.family_wise_p < kFalseAlarmOfBelts, a);
 }

@@ -64,15 +64,19 @@ Observations observations_of(const ObservationSet& session) {
   return session.reads_chains() ? Observations::both : Observations::distances;
 }
 
-/// Sessions whose chains hang otherwise than in the first.
-void note_zeros(const Measured& measured, const Analysis& a, Diagnosis& d) {
-  // Observations are in this order.
+/// In the order of the observations: grids, then sets of holes.
+std::vector<std::string> names_of_sessions(const Measured& measured) {
   std::vector<std::string> names;
   for (const bool grids : {true, false}) {
     for (const MeasuredFile& file : measured.files()) {
       if ((file.grid() != nullptr) == grids) names.push_back(file.name);
     }
   }
+  return names;
+}
+
+/// Sessions whose chains hang otherwise than in the first.
+void note_zeros(const std::vector<std::string>& names, const Analysis& a, Diagnosis& d) {
   for (std::size_t k = 0; k < names.size() && k < a.session.parts.size(); ++k) {
     std::array<estimation::SessionZero, 2> zeros;
     const std::vector<Eigen::Index>& columns = a.session.parts[k].zero_columns;
@@ -145,12 +149,15 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   d.unexplained = unexplained(a);
   d.budget = error_budget(a);
   d.normal_plot = normal_plot(a);
+  const std::vector<std::string> sessions = names_of_sessions(measured);
+  d.bed_parts = bed_part_findings(a);
+  d.sessions = session_findings(a, sessions);
   if (options.gain) d.gain = measure_gain(a);
   tell(options.progress, kPlanning);
   extend(a, d);
   if (options.next_measurements) d.next_measurements = next_measurements(a);
   put_into_words(a, d);
-  note_zeros(measured, a, d);
+  note_zeros(sessions, a, d);
   state_input(measured, d);
   return d;
 }

@@ -49,12 +49,14 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
   d.separations = separations(a);
   d.unexplained = unexplained(*analysed);
   d.normal_plot = normal_plot(a);
+  d.bed_parts = bed_part_findings(a);
   d.outliers = bad_belts(beside);
   d.belts = belts_findings(*analysed, beside, belts, *alone);
   const BeltsNext next = options.next_measurements ? next_measurements(*analysed) : BeltsNext{};
   if (options.next_measurements)
     d.next_measurements = measurements_of(next, belts, *alone, a.decision);
   put_belts_into_words(belts, *alone, next, d);
+  for (std::string& note : parts_in_words(d)) d.notes.push_back(std::move(note));
   return d;
 }
 

@@ -301,6 +301,15 @@ struct Stability {
   std::vector<Removal> removals;  ///< points by index, then columns and rows by place
 };
 
+/// What the readings say without a quarter of the bed, or one session by itself.
+struct PartFinding {
+  double towards_rad = 0.0;  ///< where the quarter lies, from the middle; from x towards y
+  std::string session;       ///< of one session its name; of a quarter empty
+  std::size_t units = 0;     ///< of a quarter those left out, of a session its own
+  Hypothesis leading;        ///< the likeliest cause, or "nothing" where none is likelier than not
+  std::vector<Hypothesis> named;  ///< what is named, with its probability here
+};
+
 /// What is left at the good points, whitened and in units of its own rms, against what normal noise
 /// would leave: a value a chain and point, ascending, all lists of one length.
 struct NormalPlot {
@@ -351,6 +360,10 @@ struct Diagnosis {
   /// Empty where no cause is named or too few points would be left.
   std::optional<Stability> stability;
   std::optional<NormalPlot> normal_plot;
+  /// Quarters of the bed over which the probabilities are averaged; empty where no pattern stands.
+  std::vector<PartFinding> bed_parts;
+  /// Each session by itself, where causes are named and there is more than one.
+  std::vector<PartFinding> sessions;
   /// Another grid predicted; empty where none was asked for.
   std::optional<Transfer> transferred;
   /// Empty where no earlier diagnosis was given.

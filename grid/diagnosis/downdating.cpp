@@ -8,19 +8,12 @@
 #include <map>
 #include <set>
 
-#include "grid/diagnosis/leading.hpp"
 #include "grid/diagnosis/ties.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Models so far below the best are not followed, nor more than so many in all.
-constexpr double kNegligible = 14.0;
-constexpr std::size_t kMostModels = 160;
-/// Share of the probability from which a discrepancy is followed, and the most of them.
-constexpr double kDiscrepancyShare = 0.01;
-constexpr std::size_t kMostDiscrepancies = 4;
 /// Share of a column's square below which what is left of it is rounding: that of one whitened row is 1e-13 of it.
 constexpr double kNothingLeft = 1e-9;
 
@@ -28,18 +21,21 @@ using FactorisationKey = std::pair<std::size_t, int>;  ///< marginalised system,
 
 /// The models that may lead once some points are gone: the best, and in each marginalised system of
 /// these nothing, and every cause alone at its best place.
-std::map<FactorisationKey, std::vector<CandidateModel>> followed(
-    const RegressorSystem& system, const ModelComparison& comparison) {
+std::map<FactorisationKey, std::vector<CandidateModel>> models_to_follow(
+    const RegressorSystem& system,
+    const ModelComparison& comparison,
+    const FollowedModels& limits) {
   std::map<FactorisationKey, double> share;
   for (const CandidateModel& model : comparison.models) {
     share[{model.marginalised, model.discrepancy}] += comparison.probability(model);
   }
   std::vector<std::pair<double, FactorisationKey>> discrepancies;
   for (const auto& [key, p] : share) {
-    if (key.second >= 0 && p >= kDiscrepancyShare) discrepancies.emplace_back(-p, key);
+    if (key.second >= 0 && p >= limits.discrepancy_share) discrepancies.emplace_back(-p, key);
   }
   std::sort(discrepancies.begin(), discrepancies.end());
-  if (discrepancies.size() > kMostDiscrepancies) discrepancies.resize(kMostDiscrepancies);
+  if (discrepancies.size() > limits.most_discrepancies)
+    discrepancies.resize(limits.most_discrepancies);
   const auto is_followed = [&](const FactorisationKey& key) {
     return key.second < 0 || std::any_of(discrepancies.begin(),
                                          discrepancies.end(),
@@ -55,8 +51,8 @@ std::map<FactorisationKey, std::vector<CandidateModel>> followed(
   for (const CandidateModel& model : comparison.models) {
     const FactorisationKey key{model.marginalised, model.discrepancy};
     if (!is_followed(key)) continue;
-    const bool leads = model.log_weight > best - kNegligible &&
-                       (taken < kMostModels || tied(model.log_weight, last));
+    const bool leads = model.log_weight > best - limits.within &&
+                       (taken < limits.most || tied(model.log_weight, last));
     bool first_alone = model.regressors.empty();
     if (model.regressors.size() == 1) {
       const CauseId& cause = system.regressors[static_cast<std::size_t>(model.regressors[0])].cause;
@@ -65,7 +61,7 @@ std::map<FactorisationKey, std::vector<CandidateModel>> followed(
       if (first_alone) known.push_back(cause);
     }
     if (!leads && !(first_alone && marginalised_systems.contains(key.first))) continue;
-    if (leads && taken < kMostModels) last = model.log_weight;
+    if (leads && taken < limits.most) last = model.log_weight;
     taken += leads ? 1 : 0;
     marginalised_systems.insert(key.first);
     result[key].push_back(model);
@@ -84,25 +80,31 @@ void clear_unseen_columns(const NormalEquations& before, NormalEquations& equati
 }
 
 /// Rows of these units in a marginalised system.
-std::vector<Eigen::Index> rows_of(const RegressorSystem& system,
-                                  const MarginalisedSystem& marginalised,
+std::vector<Eigen::Index> rows_of(const MarginalisedSystem& marginalised,
                                   const std::vector<std::size_t>& units) {
   std::vector<Eigen::Index> result;
-  for (const std::size_t number : units) {
-    const SystemUnit& unit = system.units[number];
-    const std::vector<Eigen::Index>& kept = marginalised.kept.rows();
-    const auto at = std::lower_bound(kept.begin(), kept.end(), unit.first_row);
-    if (at == kept.end() || *at != unit.first_row) continue;
-    const auto first = static_cast<Eigen::Index>(at - kept.begin());
-    for (Eigen::Index k = 0; k < unit.rows; ++k) result.push_back(first + k);
+  for (const KeptRows::Unit& kept : marginalised.kept.units()) {
+    if (std::find(units.begin(), units.end(), kept.unit) == units.end()) continue;
+    for (Eigen::Index k = 0; k < kept.rows; ++k) result.push_back(kept.at + k);
   }
   return result;
 }
 
-std::vector<bool> with_units_out(std::vector<bool> outliers,
-                                 const std::vector<std::size_t>& units) {
-  for (const std::size_t unit : units) outliers[unit] = true;
-  return outliers;
+/// The outlier groups with all of these units set to `rejected`.
+std::vector<bool> with_units(const RegressorSystem& system,
+                             std::vector<bool> groups,
+                             const std::vector<std::size_t>& units,
+                             bool rejected) {
+  if (system.groups.empty()) {
+    for (const std::size_t unit : units) groups[unit] = rejected;
+    return groups;
+  }
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const auto row = static_cast<std::size_t>(system.groups[k].first_row);
+    const auto own = static_cast<std::size_t>(system.unit_of_row[row]);
+    if (std::find(units.begin(), units.end(), own) != units.end()) groups[k] = rejected;
+  }
+  return groups;
 }
 
 /// The comparison's marginalised system with these points set aside, made where there is none.
@@ -119,13 +121,15 @@ std::size_t home_of(ModelComparison& comparison, std::vector<bool> outliers) {
 
 }  // namespace
 
-Downdating::Downdating(const Analysis& analysis)
-    : a_(analysis),
-      dof_(analysis.options.steps.anchor_noise ? analysis.session.noise_dof : 1e-3),
-      score_(analysis.system,
-             analysis.comparison.marginalised_systems[analysis.comparison.best().marginalised],
-             dof_) {
-  for (auto& [key, models] : followed(a_.system, a_.comparison)) {
+Downdating::Downdating(const RegressorSystem& system,
+                       const ModelComparison& comparison,
+                       double noise_dof,
+                       const FollowedModels& limits)
+    : system_(system),
+      comparison_(comparison),
+      dof_(noise_dof),
+      score_(system, comparison.marginalised_systems[comparison.best().marginalised], noise_dof) {
+  for (auto& [key, models] : models_to_follow(system, comparison, limits)) {
     add_factorisation(key.first, key.second, std::move(models));
   }
 }
@@ -133,7 +137,7 @@ Downdating::Downdating(const Analysis& analysis)
 void Downdating::add_factorisation(std::size_t number,
                                    int discrepancy,
                                    std::vector<CandidateModel> models) {
-  const MarginalisedSystem& marginalised = a_.comparison.marginalised_systems[number];
+  const MarginalisedSystem& marginalised = comparison_.marginalised_systems[number];
   Factorisation factorised;
   factorised.marginalised = number;
   factorised.discrepancy = discrepancy;
@@ -150,9 +154,9 @@ void Downdating::add_factorisation(std::size_t number,
   e.rightCols(e.cols() - 1) = marginalised.g.dense(columns);
   double log_det = marginalised.log_det;
   if (discrepancy >= 0) {
-    const Discrepancy process = discrepancy_of(a_.system, marginalised, discrepancy);
+    const Discrepancy process = discrepancy_of(system_, marginalised, discrepancy);
     Eigen::MatrixXd k =
-        discrepancy_covariance(a_.system, marginalised.kept, process.kernel);
+        discrepancy_covariance(system_, marginalised.kept, process.kernel);
     k = marginalised.root.solve(k);
     k = marginalised.root.solve(k.transpose()) * (process.sigma_mm * process.sigma_mm);
     k.diagonal().array() += 1.0;
@@ -168,14 +172,16 @@ void Downdating::add_factorisation(std::size_t number,
                           gram(0, 0),
                           gram.col(0).tail(c),
                           gram.bottomRightCorner(c, c),
-                          marginalised.g.dense(columns).colwise().squaredNorm(),
+                          prior_squares(system_.regressors,
+                                        columns,
+                                        marginalised.g.dense(columns).colwise().squaredNorm()),
                           log_det};
   const NoiseDensity noise(dof_, n);
   for (const CandidateModel& model : models) {
     std::vector<Eigen::Index> set;
     for (const int k : model.regressors) set.push_back(factorised.equations.position(k));
     const double evidence =
-        set_evidence(factorised.equations, a_.system.regressors, set, noise).log_evidence;
+        set_evidence(factorised.equations, system_.regressors, set, noise).log_evidence;
     factorised.prior.push_back(model.log_weight - evidence - marginalised.log_outliers);
     factorised.sets.push_back(std::move(set));
   }
@@ -184,7 +190,7 @@ void Downdating::add_factorisation(std::size_t number,
 }
 
 NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
-                                                const std::vector<Eigen::Index>& out) {
+                                                const std::vector<Eigen::Index>& out) const {
   NormalEquations equations = factorised.equations;
   if (out.empty()) return equations;
   const Eigen::MatrixXd half = factorised.inverse(Eigen::all, out);
@@ -198,7 +204,10 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
   clear_unseen_columns(factorised.equations, equations);
   equations.log_det += 2.0 * Eigen::MatrixXd(block.matrixL()).diagonal().array().log().sum();
   // Beside a discrepancy the sizes are expected as of all points.
-  if (factorised.discrepancy < 0) equations.prior_square = equations.gg.diagonal();
+  if (factorised.discrepancy < 0) {
+    equations.prior_square =
+        prior_squares(system_.regressors, equations.columns, equations.gg.diagonal());
+  }
   return equations;
 }
 
@@ -208,21 +217,20 @@ Downdating::Without Downdating::without(const std::vector<std::size_t>& units) c
   std::set<std::tuple<std::size_t, int, std::vector<int>>> known;
   std::vector<std::pair<double, std::size_t>> strongest;  // score, by marginalised system
   for (const Factorisation& factorised : factorisations_) {
-    const MarginalisedSystem& whole = a_.comparison.marginalised_systems[factorised.marginalised];
-    const auto out = rows_of(a_.system, whole, units);
+    const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.marginalised];
+    const auto out = rows_of(whole, units);
     const NormalEquations equations = downdated_equations(factorised, out);
     const Eigen::Index rows = factorised.inverse.rows() - static_cast<Eigen::Index>(out.size());
     const NoiseDensity noise(dof_, rows);
     // Marginalised systems that differ in the points left out alone are one.
-    const std::size_t home = home_of(comparison, with_units_out(whole.outliers, units));
-    std::vector<bool> outliers = whole.outliers;
-    for (const std::size_t unit : units) outliers[unit] = false;
-    const double price = log_price_of_outliers(a_.system, outliers);
+    const std::size_t home = home_of(comparison, with_units(system_, whole.outliers, units, true));
+    const std::vector<bool> outliers = with_units(system_, whole.outliers, units, false);
+    const double price = log_price_of_outliers(system_, outliers);
     for (std::size_t k = 0; k < factorised.models.size(); ++k) {
       const CandidateModel& model = factorised.models[k];
       if (!known.emplace(home, factorised.discrepancy, model.regressors).second) continue;
       const SetEvidence evidence =
-          set_evidence(equations, a_.system.regressors, factorised.sets[k], noise);
+          set_evidence(equations, system_.regressors, factorised.sets[k], noise);
       if (!std::isfinite(evidence.log_evidence)) continue;
       comparison.models.push_back({model.regressors,
                                    factorised.discrepancy,
@@ -233,17 +241,60 @@ Downdating::Without Downdating::without(const std::vector<std::size_t>& units) c
     }
     if (factorised.discrepancy < 0) strongest.emplace_back(score_.largest(equations, rows), home);
   }
-  std::stable_sort(
-      comparison.models.begin(),
-      comparison.models.end(),
-      [](const CandidateModel& a, const CandidateModel& b) { return a.log_weight > b.log_weight; });
-  std::vector<double> weights;
-  for (const CandidateModel& model : comparison.models) weights.push_back(model.log_weight);
-  comparison.log_total = log_sum(weights);
+  sort_by_weight(comparison);
   for (const auto& [score, marginalised] : strongest) {
-    if (marginalised == comparison.best().marginalised) {
-      result.seen = result.seen || a_.null.p_value(score) < kFalseAlarm;
+    if (marginalised == comparison.best().marginalised) result.score = std::max(result.score, score);
+  }
+  return result;
+}
+
+std::vector<const CandidateModel*> Downdating::followed() const {
+  std::vector<const CandidateModel*> result;
+  for (const Factorisation& factorised : factorisations_) {
+    for (const CandidateModel& model : factorised.models) result.push_back(&model);
+  }
+  return result;
+}
+
+std::vector<double> Downdating::probabilities_without(const std::vector<std::size_t>& units) const {
+  struct Same {
+    double log_weight = 0.0;
+    std::vector<double> log_shares{};  ///< weights with all points, of those that are one without them
+    double log_all = 0.0;
+  };
+  std::map<std::tuple<std::vector<bool>, int, std::vector<int>>, Same> known;
+  std::vector<std::pair<Same*, double>> of_model;
+  for (const Factorisation& factorised : factorisations_) {
+    const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.marginalised];
+    const auto out = rows_of(whole, units);
+    const NormalEquations equations = downdated_equations(factorised, out);
+    const NoiseDensity noise(dof_,
+                             factorised.inverse.rows() - static_cast<Eigen::Index>(out.size()));
+    const std::vector<bool> outliers = with_units(system_, whole.outliers, units, false);
+    const double price = log_price_of_outliers(system_, outliers);
+    for (std::size_t k = 0; k < factorised.models.size(); ++k) {
+      const CandidateModel& model = factorised.models[k];
+      Same& same = known[{outliers, factorised.discrepancy, model.regressors}];
+      if (same.log_shares.empty()) {
+        const double evidence =
+            set_evidence(equations, system_.regressors, factorised.sets[k], noise).log_evidence;
+        same.log_weight = factorised.prior[k] + evidence + price;
+      }
+      same.log_shares.push_back(model.log_weight);
+      of_model.emplace_back(&same, model.log_weight);
     }
+  }
+  std::vector<double> weights;
+  for (auto& [key, same] : known) {
+    same.log_all = log_sum(same.log_shares);
+    if (std::isfinite(same.log_weight)) weights.push_back(same.log_weight);
+  }
+  const double total = weights.empty() ? 0.0 : log_sum(weights);
+  std::vector<double> result;
+  for (const auto& [same, own] : of_model) {
+    result.push_back(std::isfinite(same->log_weight)
+                         ? std::exp(same->log_weight - total + own - same->log_all)
+                         : 0.0);
   }
   return result;
 }

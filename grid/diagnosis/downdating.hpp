@@ -15,31 +15,49 @@
 /// which are the inverse of a partitioned matrix and Schur's determinant (G. Golub and C. Van Loan,
 /// Matrix Computations (2013), section 3.2.11; F. Zhang, The Schur Complement (2005), theorem 1.1).
 ///
-/// Exact for each model that the comparison kept; models that it let go, sets of outliers that it
-/// never met, and discrepancies that hold less than a hundredth of the probability are not looked
-/// at.
+/// Exact for each model that is followed; models that the comparison let go, sets of outliers that it
+/// never met, and discrepancies with less than a least share of the probability are not looked at.
 #pragma once
 
 #include <vector>
 
-#include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
+#include "grid/diagnosis/null_distribution.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
+/// Which models are followed.
+struct FollowedModels {
+  double within = 14.0;                ///< logarithm of the weight below the best
+  std::size_t most = 160;              ///< in all
+  double discrepancy_share = 0.01;     ///< of the probability, from which a discrepancy is followed
+  std::size_t most_discrepancies = 4;  ///< the likeliest
+};
+
 class Downdating {
  public:
-  /// The analysis is kept by reference.
-  explicit Downdating(const Analysis& analysis);
+  /// System and comparison are kept by reference.
+  Downdating(const RegressorSystem& system,
+             const ModelComparison& comparison,
+             double noise_dof,
+             const FollowedModels& followed = {});
 
   struct Without {
     /// Best first; its marginalised systems bear the points set aside, those left out among them,
     /// and no rows.
     ModelComparison comparison;
-    /// The strongest effect is still beyond what noise does.
-    bool seen = false;
+    /// Score of the strongest effect (null_distribution.hpp) where what the best model rejects is out.
+    double score = 0.0;
   };
   /// Units are positions in the session.
   [[nodiscard]] Without without(const std::vector<std::size_t>& units) const;
+
+  /// The models followed, in the order of `probabilities_without`.
+  [[nodiscard]] std::vector<const CandidateModel*> followed() const;
+  /// Of each model followed, given that one of them holds. Models that differ in nothing but in which of
+  /// the points left out they reject share what they have by their weights with all points.
+  [[nodiscard]] std::vector<double> probabilities_without(
+      const std::vector<std::size_t>& units) const;
 
  private:
   /// One marginalised system with one discrepancy or none.
@@ -58,10 +76,11 @@ class Downdating {
                          int discrepancy,
                          std::vector<CandidateModel> models);
   /// Inner products with these rows of the marginalised system gone.
-  [[nodiscard]] static NormalEquations downdated_equations(const Factorisation& factorised,
-                                                           const std::vector<Eigen::Index>& out);
+  [[nodiscard]] NormalEquations downdated_equations(
+      const Factorisation& factorised, const std::vector<Eigen::Index>& out) const;
 
-  const Analysis& a_;
+  const RegressorSystem& system_;
+  const ModelComparison& comparison_;
   double dof_;
   SingleScore score_;
   std::vector<Factorisation> factorisations_;

@@ -153,6 +153,16 @@ Eigen::Index NormalEquations::position(int column) const {
   return static_cast<Eigen::Index>(found - columns.begin());
 }
 
+Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors,
+                              const std::vector<int>& columns,
+                              Eigen::VectorXd squares) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const double sigma = regressors[static_cast<std::size_t>(columns[i])].coefficient_sigma;
+    if (sigma > 0.0) squares(static_cast<Eigen::Index>(i)) = std::pow(kUsualSignalToNoise / sigma, 2);
+  }
+  return squares;
+}
+
 NormalEquations normal_equations(const RegressorSystem& system,
                                  const MarginalisedSystem& marginalised,
                                  std::vector<int> columns) {
@@ -163,13 +173,8 @@ NormalEquations normal_equations(const RegressorSystem& system,
   equations.ee = marginalised.e.squaredNorm();
   equations.ge = g.transpose() * marginalised.e;
   equations.gg = g.transpose() * g;
-  equations.prior_square = equations.gg.diagonal();
-  for (std::size_t i = 0; i < equations.columns.size(); ++i) {
-    const double sigma =
-        system.regressors[static_cast<std::size_t>(equations.columns[i])].coefficient_sigma;
-    if (sigma > 0.0)
-      equations.prior_square(static_cast<Eigen::Index>(i)) = std::pow(kUsualSignalToNoise / sigma, 2);
-  }
+  equations.prior_square =
+      prior_squares(system.regressors, equations.columns, equations.gg.diagonal());
   equations.log_det = marginalised.log_det;
   return equations;
 }

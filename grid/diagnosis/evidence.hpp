@@ -116,6 +116,10 @@ struct NormalEquations {
   double log_det = 0.0;      ///< of everything that is not noise's scale: V and the discrepancy
   [[nodiscard]] Eigen::Index position(int column) const;
 };
+/// What the prior of a size is in, of columns of these squares: NormalEquations::prior_square.
+[[nodiscard]] Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors,
+                                            const std::vector<int>& columns,
+                                            Eigen::VectorXd squares);
 [[nodiscard]] NormalEquations normal_equations(const RegressorSystem& system,
                                                const MarginalisedSystem& marginalised,
                                                std::vector<int> columns);

@@ -259,7 +259,7 @@ std::vector<Hypothesis> hypotheses(const Analysis& a) {
 std::vector<Term> terms(const Analysis& a) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const SingleScore score(
-      a.system, marginalised, a.options.steps.anchor_noise ? a.session.noise_dof : 1e-3);
+      a.system, marginalised, noise_dof(a));
   const Eigen::VectorXd by_cause = score.by_cause(marginalised.e);
   std::vector<Term> result;
   for (std::size_t k = 0; k < score.causes().size(); ++k) {

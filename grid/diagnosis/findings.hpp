@@ -10,6 +10,10 @@ namespace chaintrue::grid::diagnosis {
 
 [[nodiscard]] std::vector<Cause> causes_found(const Analysis& analysis);
 [[nodiscard]] std::vector<Hypothesis> hypotheses(const Analysis& analysis);
+/// The quarters of the bed, and each session by itself.
+[[nodiscard]] std::vector<PartFinding> bed_part_findings(const Analysis& analysis);
+[[nodiscard]] std::vector<PartFinding> session_findings(const Analysis& analysis,
+                                                        const std::vector<std::string>& names);
 [[nodiscard]] std::vector<Term> terms(const Analysis& analysis);
 /// Also moves effects that the settings absorb to `not_testable`.
 [[nodiscard]] std::vector<Bound> bounds(const Analysis& analysis,
@@ -30,6 +34,10 @@ namespace chaintrue::grid::diagnosis {
 /// Sets the machine and the corrections of the data from the causes; a class that may lie on the
 /// paper as well only where the options accept it.
 void extend(const Analysis& analysis, Diagnosis& diagnosis);
+
+/// Quarters without which the answer is another one, and causes of one session alone; empty where there
+/// are none of either.
+[[nodiscard]] std::vector<std::string> parts_in_words(const Diagnosis& diagnosis);
 
 /// verdict, sentence, what_to_do, not_proved and notes from everything else.
 void put_into_words(const Analysis& analysis, Diagnosis& diagnosis);

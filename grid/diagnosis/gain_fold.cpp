@@ -15,7 +15,7 @@ class Folds {
     std::vector<bool> excluded(a_.session.units.size(), false);
     for (const std::size_t u : units) excluded[u] = true;
     const DiagnosisOptions& options = a_.options;
-    const ModelComparison comparison =
+    ModelComparison comparison =
         compare_models(a_.system,
                        excluded,
                        {.steps = options.steps,
@@ -25,6 +25,10 @@ class Folds {
     const MarginalisedSystem& first =
         comparison.marginalised_systems[comparison.best().marginalised];
     const SingleScore score(a_.system, first, a_.session.noise_dof);
+    if (!a_.parts.empty()) {
+      (void)average_over_parts(
+          a_.system, noise_dof(a_), excluded, a_.session.fewest_units, comparison);
+    }
     const bool seen = options.told.has_value() ||
                       a_.null.p_value(score.by_cause(first.e).maxCoeff()) < kFalseAlarm;
     const Decision decision = decide_for_leaders(a_.system, comparison, excluded, seen);

@@ -57,6 +57,16 @@ double ModelComparison::probability(const CandidateModel& model) const {
   return std::exp(model.log_weight - log_total);
 }
 
+void sort_by_weight(ModelComparison& comparison) {
+  std::stable_sort(
+      comparison.models.begin(),
+      comparison.models.end(),
+      [](const CandidateModel& a, const CandidateModel& b) { return a.log_weight > b.log_weight; });
+  std::vector<double> weights;
+  for (const CandidateModel& model : comparison.models) weights.push_back(model.log_weight);
+  comparison.log_total = log_sum(weights);
+}
+
 double log_prior(const RegressorSystem& system, const std::vector<int>& set, bool discrepancy) {
   std::size_t lasting = 0;
   double value = discrepancy ? std::log(kDiscrepancyPrior) : 0.0;
@@ -155,16 +165,6 @@ std::vector<std::vector<bool>> sets_without_links(const RegressorSystem& system,
   return result;
 }
 
-void finish(ModelComparison& comparison) {
-  std::stable_sort(
-      comparison.models.begin(),
-      comparison.models.end(),
-      [](const CandidateModel& a, const CandidateModel& b) { return a.log_weight > b.log_weight; });
-  std::vector<double> weights;
-  for (const CandidateModel& model : comparison.models) weights.push_back(model.log_weight);
-  comparison.log_total = log_sum(weights);
-}
-
 }  // namespace
 
 namespace {
@@ -218,7 +218,7 @@ class Comparer {
         if (all || search.best() > best - kWorthDiscrepancies) look_beside(search);
       }
     }
-    finish(comparison_);
+    sort_by_weight(comparison_);
   }
 
   ModelComparison& comparison() { return comparison_; }

@@ -21,7 +21,8 @@ struct CandidateModel {
   std::vector<int> regressors;   ///< ascending
   int discrepancy = -1;          ///< number of the model discrepancy, or none
   std::size_t marginalised = 0;  ///< into ModelComparison::marginalised_systems
-  double log_weight = 0.0;       ///< natural logarithm of prior times evidence
+  /// Natural logarithm of prior times evidence, or of a probability averaged over parts (bed_parts.hpp).
+  double log_weight = 0.0;
   double larger_noise = 0.0;     ///< share of it from noise larger than stated
   double quadratic = 0.0;        ///< what the set leaves of e'e
 };
@@ -36,6 +37,9 @@ struct ModelComparison {
   [[nodiscard]] const CandidateModel& best() const;
   [[nodiscard]] double probability(const CandidateModel& model) const;
 };
+
+/// Best first, and `log_total`.
+void sort_by_weight(ModelComparison& comparison);
 
 /// How far sets of causes are searched, by what a mechanism's regressors are like.
 struct SearchLimits {

@@ -19,6 +19,7 @@ struct Steps {
   bool anchor_noise = true;      ///< off: the noise is whatever the best fit leaves
   bool average_location = true;  ///< off: the best location counts in full
   bool robust = true;            ///< off: no point is set aside
+  bool average_parts = true;     ///< off: the probabilities of all readings, also given a pattern
 };
 
 struct DiagnosisOptions {

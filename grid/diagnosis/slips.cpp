@@ -30,6 +30,18 @@ std::optional<DiagnosisFailure> suspected_hook(const MeasuredHoles& set) {
 }  // namespace
 
 std::optional<DiagnosisFailure> suspected_slip(const Measured& measured) {
+  for (std::size_t k = 1; k < measured.files().size(); ++k) {
+    for (std::size_t before = 0; before < k; ++before) {
+      const MeasuredFile& first = measured.files()[before];
+      const MeasuredFile& other = measured.files()[k];
+      if (!same_readings(first, other)) continue;
+      return DiagnosisFailure{
+          DiagnosisFailure::Reason::contradictory_settings,
+          fmt::format("{} holds the same readings as {}, to the last digit: a copy says nothing more. Leave it out",
+                      other.name,
+                      first.name)};
+    }
+  }
   for (const MeasuredHoles* set : measured.holes()) {
     if (auto hook = suspected_hook(*set)) return hook;
   }

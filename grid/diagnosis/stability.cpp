@@ -174,7 +174,7 @@ std::optional<Stability> examine_stability(const Analysis& a) {
   if (a.decision.listed.empty()) return std::nullopt;
   const std::vector<LeftOut> groups = groups_to_leave_out(a.session);
   if (groups.empty()) return std::nullopt;
-  const Downdating downdating(a);
+  const Downdating downdating(a.system, a.comparison, noise_dof(a));
   const Statement statement(a);
   const double all = statement.log_odds(downdating.without({}).comparison);
   Stability result;
@@ -186,7 +186,8 @@ std::optional<Stability> examine_stability(const Analysis& a) {
     const auto without = downdating.without(group.units);
     std::vector<bool> excluded(a.session.units.size(), false);
     for (const std::size_t u : group.units) excluded[u] = true;
-    const bool seen = without.seen || a.options.told.has_value();
+    const bool seen =
+        a.null.p_value(without.score) < kFalseAlarm || a.options.told.has_value();
     const Decision decision =
         decide(a.system, without.comparison, excluded, seen, a.decision.classes);
     const double log_odds = statement.log_odds(without.comparison);

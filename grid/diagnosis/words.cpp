@@ -305,6 +305,7 @@ void put_into_words(const Analysis& a, Diagnosis& d) {
         noise.position_mm));
   }
   if (d.stability) d.notes.push_back(stability_in_words(d));
+  for (std::string& note : parts_in_words(d)) d.notes.push_back(std::move(note));
   if (speaks_of_distances(d) && d.left_over.p_value < kFalseAlarm) {
     d.notes.emplace_back(
         "What these distances leave is alike among neighbours. Which coordinate it follows they "

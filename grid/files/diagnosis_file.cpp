@@ -242,6 +242,8 @@ Record<Diagnosis> make_diagnosis_record() {
       .optional("stated_noise", &Diagnosis::stated_noise, object(stated_noise_record()))
       .optional("stability", &Diagnosis::stability, object(stability_record()))
       .optional("normal_plot", &Diagnosis::normal_plot, object(normal_plot_record()))
+      .sparse("bed_parts", &Diagnosis::bed_parts, list(object(bed_part_record())))
+      .sparse("sessions", &Diagnosis::sessions, list(object(session_record())))
       .optional("held_out_grid", &Diagnosis::transferred, object(transfer_record()))
       .optional("trend", &Diagnosis::trend, object(trend_record()));
   distance_keys(record);

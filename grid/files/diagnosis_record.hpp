@@ -28,6 +28,8 @@ namespace chaintrue::grid::files {
 /// diagnosis_stability_record.cpp.
 [[nodiscard]] const Record<diagnosis::Stability>& stability_record();
 [[nodiscard]] const Record<diagnosis::NormalPlot>& normal_plot_record();
+[[nodiscard]] const Record<diagnosis::PartFinding>& bed_part_record();
+[[nodiscard]] const Record<diagnosis::PartFinding>& session_record();
 /// Positions on the bed; diagnosis_point_record.cpp.
 [[nodiscard]] const Record<diagnosis::NextMeasurement>& next_measurement_record();
 [[nodiscard]] const Record<diagnosis::PointPicture>& point_picture_record();

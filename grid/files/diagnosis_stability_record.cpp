@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stability of a diagnosis, in a chaintrue_diagnosis file: its results without some of the points,
-// and the test of normality of the residuals.
+// The stability of a diagnosis, in a chaintrue_diagnosis file: its results without some of the points
+// or parts of the bed, and the test of normality of the residuals.
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/record_values.hpp"
@@ -8,6 +8,7 @@
 namespace chaintrue::grid::files {
 
 using diagnosis::NormalPlot;
+using diagnosis::PartFinding;
 using diagnosis::Removal;
 using diagnosis::Stability;
 using diagnosis::Verdict;
@@ -124,6 +125,44 @@ const Record<Stability>& stability_record() {
       Record<Stability>("whether the name stands")
           .required("probability", &Stability::probability, number(kShare))
           .required("removals", &Stability::removals, list(object(removal_record())));
+  return record;
+}
+
+namespace {
+
+void part_keys(Record<PartFinding>& part) {
+  part.custom(
+          "units",
+          true,
+          "how many readings",
+          [](const Cursor& at, PartFinding& object) {
+            if (const auto value = integer(0, kMostNumbered).read(at))
+              object.units = static_cast<std::size_t>(*value);
+          },
+          [](const PartFinding& object) { return std::optional<Json>(object.units); })
+      .required("leading", &PartFinding::leading, object(hypothesis_record()))
+      .required("named", &PartFinding::named, list(object(hypothesis_record())));
+}
+
+}  // namespace
+
+const Record<PartFinding>& bed_part_record() {
+  static const auto record = [] {
+    Record<PartFinding> part("the probabilities without a quarter of the bed");
+    part.required("towards_rad", &PartFinding::towards_rad, number(kAnyNumber));
+    part_keys(part);
+    return part;
+  }();
+  return record;
+}
+
+const Record<PartFinding>& session_record() {
+  static const auto record = [] {
+    Record<PartFinding> part("the probabilities of a session by itself");
+    part.required("session", &PartFinding::session, text());
+    part_keys(part);
+    return part;
+  }();
   return record;
 }
 

@@ -48,7 +48,10 @@ inline constexpr std::array kOlderDiagnoses = {
     OlderVersion{"1.1", "written before belts were diagnosed; taken to be of chains"},
     OlderVersion{"1.2",
                  "written before belts were told what to measure next; what it proposes is taken as "
-                 "it stands"}};
+                 "it stands"},
+    OlderVersion{"1.3",
+                 "written before probabilities were averaged over parts of the bed; its own are taken "
+                 "as they stand"}};
 
 inline constexpr std::array kOlderHoles = {
     OlderVersion{"1.0",
@@ -66,7 +69,7 @@ inline constexpr Format kHolesFormat{"chaintrue_holes", "1.1", kOlderHoles};
 inline constexpr Format kBeltsFormat{"chaintrue_belts", "1.0"};
 inline constexpr Format kAnchorsFormat{"chaintrue_anchors", "1.2", kOlderAnchors};
 inline constexpr Format kMapFormat{"chaintrue_map", "1.2", kOlderMaps};
-inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.3", kOlderDiagnoses};
+inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.4", kOlderDiagnoses};
 inline constexpr Format kSweepFormat{"chaintrue_sweep", "1.0"};
 inline constexpr Format kSweepSummaryFormat{"chaintrue_sweep_summary", "1.0", {}, false};
 inline constexpr Format kAnswerFormat{"chaintrue_answer", "1.0", {}, false};

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
@@ -17,7 +19,39 @@ std::vector<const Kind*> of_kind(const std::vector<MeasuredFile>& files) {
   return result;
 }
 
+bool same(const MeasuredPoint& a, const MeasuredPoint& b) {
+  const auto same_lengths = [&] {
+    return a.lengths->left_mm == b.lengths->left_mm && a.lengths->right_mm == b.lengths->right_mm;
+  };
+  const auto same_command = [&] {
+    return a.commanded->x_mm == b.commanded->x_mm && a.commanded->y_mm == b.commanded->y_mm;
+  };
+  return a.mark.x_mm == b.mark.x_mm && a.mark.y_mm == b.mark.y_mm &&
+         a.lengths.has_value() == b.lengths.has_value() && (!a.lengths || same_lengths()) &&
+         a.commanded.has_value() == b.commanded.has_value() && (!a.commanded || same_command());
+}
+
+bool same(const HoleDistance& a, const HoleDistance& b) {
+  return a.from == b.from && (a.edge || a.to == b.to) && a.edge == b.edge &&
+         a.distance_mm == b.distance_mm;
+}
+
+template <class Reading>
+bool all_same(const std::vector<Reading>& a, const std::vector<Reading>& b) {
+  return !a.empty() && std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return same(x, y);
+  });
+}
+
 }  // namespace
+
+bool same_readings(const MeasuredFile& one, const MeasuredFile& other) {
+  if (one.grid() != nullptr && other.grid() != nullptr)
+    return all_same(one.grid()->points, other.grid()->points);
+  if (one.holes() != nullptr && other.holes() != nullptr)
+    return all_same(one.holes()->distances, other.holes()->distances);
+  return false;
+}
 
 const std::optional<model::Machine>& MeasuredFile::machine() const {
   return std::visit(

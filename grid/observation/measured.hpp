@@ -58,6 +58,10 @@ class Measured {
   std::vector<MeasuredFile> files_;
 };
 
+/// Whether two files hold the same readings at the same marks to the last digit: a copy, since nobody reads a
+/// machine twice without a tenth of a millimetre between.
+[[nodiscard]] bool same_readings(const MeasuredFile& one, const MeasuredFile& other);
+
 /// The first setting that two machines do not share, in words of the file that states the other;
 /// empty where they share all.
 [[nodiscard]] std::string difference_of_settings(const model::Machine& first,

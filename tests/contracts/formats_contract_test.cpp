@@ -69,13 +69,17 @@ std::string aged_map(std::string text, std::string_view) {
 }
 
 /// Diagnoses of version 1.0 have neither the remainder nor the budget of the error; those of 1.1 have
-/// no belts, and those of 1.2 no next measurements of belts; this one has none of these.
+/// no belts, and those of 1.2 no next measurements of belts; this one has none of these. Those before 1.4
+/// have no parts of the bed.
 std::string aged_diagnosis(std::string text, std::string_view version) {
-  if (version != "1.0") return text;
   Problems problems("diagnosis.json");
   Json json = parse_json(text, problems);
-  json.erase("unexplained");
-  json.erase("budget");
+  json.erase("bed_parts");
+  json.erase("sessions");
+  if (version == "1.0") {
+    json.erase("unexplained");
+    json.erase("budget");
+  }
   return print_json(json);
 }
 

@@ -202,6 +202,17 @@ Diagnosis sample_diagnosis() {
   found.stability = sample_stability(found.points);
   found.normal_plot = diagnosis::NormalPlot{
       {-1.4, 0.1, 1.5}, {-1.3, 0.0, 1.3}, {-2.0, -0.7, 0.6}, {-0.6, 0.7, 2.0}, 0.42};
+  found.bed_parts = {{0.2,
+                      "",
+                      8,
+                      {"chain_pitch_error", "left", 0.96},
+                      {{"chain_pitch_error", "left", 0.96}}},
+                     {2.2, "", 8, {"nothing", "", 0.7}, {{"chain_pitch_error", "left", 0.2}}}};
+  found.sessions = {{0.0,
+                     "monday.json",
+                     34,
+                     {"chain_pitch_error", "left", 0.97},
+                     {{"chain_pitch_error", "left", 0.97}}}};
   found.transferred = diagnosis::Transfer{"a day later",
                                           60,
                                           {3.80, 6.10, 3.40, 4.20},
@@ -229,6 +240,8 @@ Diagnosis quiet_diagnosis() {
   found.gain.reset();
   found.transferred.reset();
   found.stability.reset();
+  found.bed_parts.clear();
+  found.sessions.clear();
   found.normal_plot.reset();
   found.stated_noise.reset();
   found.seed = 1;

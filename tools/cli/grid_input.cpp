@@ -169,6 +169,14 @@ grid::Measured load_measured(const std::vector<InputFile>& files,
             "--with", files[k].path, fmt::format("a file of the same machine as the first: {}", difference));
       }
     }
+    for (std::size_t before = 0; before < k; ++before) {
+      if (grid::same_readings(measured.files()[before], other)) {
+        problems.add("--with",
+                     files[k].path,
+                     fmt::format("a session of its own: it holds the same readings as {}, to the last digit",
+                                 files[before].path));
+      }
+    }
     measured.add(std::move(other));
   }
   problems.throw_if_any();

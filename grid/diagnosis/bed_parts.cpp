@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/bed_parts.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+#include "grid/diagnosis/downdating.hpp"
+#include "grid/statistics.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr int kDirections = 16;
+constexpr double kShareLeftOut = 0.25;
+/// Places whose scatter across their best line is less than this share of that along it lie on a line.
+constexpr double kOnALine = 1e-3;
+/// Enough of the models to hold 99 % of the probability of scans C and D, which have 23 kernels' worth of
+/// neighbours in each pattern.
+constexpr FollowedModels kFollowed{
+    .within = 16.0, .most = 1000, .discrepancy_share = 0.002, .most_discrepancies = 30};
+
+struct UnitPlace {
+  std::size_t unit = 0;
+  Eigen::Vector2d at;
+};
+
+Eigen::Vector2d place_of(const RegressorSystem& system, std::size_t u) {
+  if (!system.entries.empty()) return {system.entries[u].x_mm, system.entries[u].y_mm};
+  const SystemUnit& unit = system.units[u];
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const observation::PlaceColumns& place : unit.places) {
+    const model::MarkPoint& mark = system.places[place.place].mark;
+    sum += Eigen::Vector2d(mark.x_mm, mark.y_mm);
+  }
+  return sum / static_cast<double>(unit.places.size());
+}
+
+std::vector<UnitPlace> places_of_units(const RegressorSystem& system,
+                                       const std::vector<bool>& excluded) {
+  std::vector<UnitPlace> result;
+  const KeptRows kept(system, excluded);
+  for (const KeptRows::Unit& unit : kept.units()) {
+    if (system.entries.empty() && system.units[unit.unit].places.empty()) continue;
+    result.push_back({unit.unit, place_of(system, unit.unit)});
+  }
+  return result;
+}
+
+bool lie_on_a_line(const std::vector<Eigen::Vector2d>& places) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const auto& at : places) mean += at / static_cast<double>(places.size());
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  for (const auto& at : places) scatter += (at - mean) * (at - mean).transpose();
+  const Eigen::Vector2d squares =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+  return squares(0) <= kOnALine * kOnALine * squares(1);
+}
+
+using ModelKey = std::tuple<std::vector<int>, int, std::size_t>;
+ModelKey key_of(const CandidateModel& model) {
+  return {model.regressors, model.discrepancy, model.marginalised};
+}
+
+PartPosterior summary(const RegressorSystem& system,
+                      const std::vector<const CandidateModel*>& models,
+                      const std::vector<double>& probability,
+                      BedPart part) {
+  PartPosterior result;
+  result.left_out = std::move(part);
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    if (!models[k]->regressors.empty()) result.caused += probability[k];
+    for (const int regressor : models[k]->regressors) {
+      const CauseId& cause = system.regressors[static_cast<std::size_t>(regressor)].cause;
+      const auto known = std::find_if(result.causes.begin(),
+                                      result.causes.end(),
+                                      [&](const auto& own) { return own.first == cause; });
+      auto& own = known != result.causes.end() ? *known : result.causes.emplace_back(cause, 0.0);
+      own.second += probability[k];
+    }
+  }
+  for (auto& own : result.causes) own.second = std::min(own.second, 1.0);
+  result.caused = std::min(result.caused, 1.0);
+  std::stable_sort(result.causes.begin(), result.causes.end(), [](const auto& x, const auto& y) {
+    return x.second > y.second;
+  });
+  return result;
+}
+
+/// Of each followed model with a pattern its averaged share among those.
+std::map<ModelKey, double> shares_of_patterns(const std::vector<const CandidateModel*>& models,
+                                              const std::vector<double>& sum) {
+  double all = 0.0;
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    if (models[k]->discrepancy >= 0) all += sum[k];
+  }
+  std::map<ModelKey, double> result;
+  if (!(all > 0.0)) return result;
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    if (models[k]->discrepancy >= 0) result.emplace(key_of(*models[k]), sum[k] / all);
+  }
+  return result;
+}
+
+/// Followed models with a pattern share anew what they have together; all others keep theirs.
+void share_anew(const std::map<ModelKey, double>& shares, ModelComparison& comparison) {
+  double together = 0.0;
+  for (const CandidateModel& model : comparison.models) {
+    if (shares.contains(key_of(model))) together += comparison.probability(model);
+  }
+  // Of a model that no part bears out, so that its logarithm is a number.
+  constexpr double kNothing = 1e-300;
+  for (CandidateModel& model : comparison.models) {
+    const auto found = shares.find(key_of(model));
+    const double p = found != shares.end() ? found->second * together : comparison.probability(model);
+    model.log_weight = std::log(std::max(p, kNothing));
+  }
+  sort_by_weight(comparison);
+}
+
+}  // namespace
+
+std::vector<BedPart> bed_parts(const RegressorSystem& system,
+                               const std::vector<bool>& excluded,
+                               std::size_t fewest) {
+  const std::vector<UnitPlace> places = places_of_units(system, excluded);
+  const auto out = static_cast<std::size_t>(kShareLeftOut * static_cast<double>(places.size()));
+  std::vector<BedPart> parts;
+  for (int k = 0; k < kDirections && out > 0; ++k) {
+    // Half a step from the axes, so that no line runs along the columns of a lattice.
+    const double towards = (k + 0.5) * 2.0 * std::numbers::pi / kDirections;
+    const Eigen::Vector2d direction(std::cos(towards), std::sin(towards));
+    std::vector<double> along;
+    for (const UnitPlace& place : places) along.push_back(direction.dot(place.at));
+    std::vector<double> sorted = along;
+    std::sort(sorted.begin(), sorted.end(), std::greater<>());
+    // Readings of one mark go together.
+    constexpr double kOneMarkMm = 1e-6;
+    BedPart part{towards, {}};
+    std::vector<Eigen::Vector2d> rest;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (along[i] >= sorted[out - 1] - kOneMarkMm) {
+        part.units.push_back(places[i].unit);
+      } else {
+        rest.push_back(places[i].at);
+      }
+    }
+    if (rest.size() >= std::max<std::size_t>(fewest, 3) && !lie_on_a_line(rest))
+      parts.push_back(std::move(part));
+  }
+  if (2 * parts.size() < static_cast<std::size_t>(kDirections)) parts.clear();
+  return parts;
+}
+
+std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
+                                              double noise_dof,
+                                              const std::vector<bool>& excluded,
+                                              std::size_t fewest,
+                                              ModelComparison& comparison) {
+  std::vector<PartPosterior> result;
+  const bool pattern = std::any_of(comparison.models.begin(),
+                                   comparison.models.end(),
+                                   [](const CandidateModel& model) { return model.discrepancy >= 0; });
+  if (!pattern) return result;
+  std::vector<BedPart> parts = bed_parts(system, excluded, fewest);
+  if (parts.empty()) return result;
+  const Downdating downdating(system, comparison, noise_dof, kFollowed);
+  const std::vector<const CandidateModel*> models = downdating.followed();
+  std::vector<double> sum(models.size(), 0.0);
+  for (BedPart& part : parts) {
+    const std::vector<double> own = downdating.probabilities_without(part.units);
+    for (std::size_t k = 0; k < own.size(); ++k) sum[k] += own[k];
+    result.push_back(summary(system, models, own, std::move(part)));
+  }
+  share_anew(shares_of_patterns(models, sum), comparison);
+  return result;
+}
+
+PartPosterior posterior_without(const RegressorSystem& system,
+                                double noise_dof,
+                                const ModelComparison& comparison,
+                                BedPart left_out) {
+  const Downdating downdating(system, comparison, noise_dof, kFollowed);
+  const std::vector<double> own = downdating.probabilities_without(left_out.units);
+  return summary(system, downdating.followed(), own, std::move(left_out));
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Probabilities averaged over parts of the bed, where a smooth pattern stands that no cause explains.
+///
+/// The kernels of the discrepancy describe such a pattern only nearly, and a likelihood that is nearly
+/// right makes odds of a thousand out of nothing: other marks on the same machine would make other odds.
+/// The average over parts of the data holds what each part would repeat:
+///
+///   p(model | pattern) = sum_k p_k(model and pattern) / sum_k p_k(pattern)
+///   p_k                  given all readings but those of part k
+///
+/// A part is the quarter of the readings on one side of a line, since what a model misses is correlated over
+/// the bed: single readings drawn at random would all repeat it. How likely a pattern is, and every model
+/// without one, stay as all readings have them: readings that scatter as the noise does are described
+/// rightly, and lose nothing.
+///
+/// Each part's probabilities are of the models that the whole comparison holds (downdating.hpp), within
+/// 0.03 of comparisons made anew: tests/diagnosis/bed_parts_test.cpp.
+///
+/// Sources: J. Huggins and J. Miller, Bayesian Analysis 18 (2023), 79; on blocks P. Hall, J. Horowitz and
+/// B. Jing, Biometrika 82 (1995), 561.
+///
+/// \code
+///   const std::vector<PartPosterior> parts = average_over_parts(system, dof, excluded, fewest, comparison);
+/// \endcode
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "grid/diagnosis/cause_id.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// Units left out together, positions in the system.
+struct BedPart {
+  double towards_rad = 0.0;  ///< where they lie, from the middle of all; from x towards y
+  std::vector<std::size_t> units;
+};
+
+/// The quarters on one side of each of sixteen lines, without units that are `excluded` (flags of outlier
+/// groups); only those that leave `fewest` units, whose places do not lie on a line. Of a distance the place
+/// is the middle between its ends. Empty where fewer than half of the sixteen can be formed: the least number
+/// of readings in which one direction does not outweigh the others.
+[[nodiscard]] std::vector<BedPart> bed_parts(const RegressorSystem& system,
+                                             const std::vector<bool>& excluded,
+                                             std::size_t fewest);
+
+/// What readings say by themselves.
+struct PartPosterior {
+  BedPart left_out;
+  /// Of each cause that any model holds, that it acts; the likeliest first.
+  std::vector<std::pair<CauseId, double>> causes;
+  double caused = 0.0;  ///< that any acts
+};
+
+/// Puts averaged probabilities in place of the weights, and says what the parts make of the causes. The
+/// comparison stays as it is where no parts can be formed, or no model has a pattern.
+[[nodiscard]] std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
+                                                            double noise_dof,
+                                                            const std::vector<bool>& excluded,
+                                                            std::size_t fewest,
+                                                            ModelComparison& comparison);
+
+/// What the comparison's models say without these units.
+[[nodiscard]] PartPosterior posterior_without(const RegressorSystem& system,
+                                              double noise_dof,
+                                              const ModelComparison& comparison,
+                                              BedPart left_out);
+
+}  // namespace chaintrue::grid::diagnosis

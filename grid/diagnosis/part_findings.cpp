@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/workshop_units.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// A cause that holds in a part: likelier than not; in a session: as likely as a name is.
+constexpr double kHolds = 0.5;
+constexpr double kHoldsInSession = 0.9;
+
+Hypothesis hypothesis_of(const CauseId& cause, double probability) {
+  return {std::string(cause.effect->id),
+          std::string(model::effects::name(cause.side)),
+          probability};
+}
+
+double probability_of_class(const PartPosterior& part, const CauseClass& members) {
+  double sum = 0.0;
+  for (const auto& [cause, p] : part.causes) {
+    if (std::find(members.begin(), members.end(), cause) != members.end()) sum += p;
+  }
+  return std::min(sum, 1.0);
+}
+
+PartFinding finding_of(const Analysis& a, const PartPosterior& part) {
+  PartFinding result;
+  result.towards_rad = part.left_out.towards_rad;
+  result.units = part.left_out.units.size();
+  result.leading = {"nothing", "", 1.0 - part.caused};
+  double most = kHolds;
+  for (const CauseClass& members : a.decision.classes) {
+    const double p = probability_of_class(part, members);
+    if (p > most) {
+      most = p;
+      result.leading = hypothesis_of(members.front(), p);
+    }
+  }
+  for (const std::size_t index : a.decision.listed) {
+    const CauseClass& members = a.decision.classes[index];
+    result.named.push_back(hypothesis_of(members.front(), probability_of_class(part, members)));
+  }
+  return result;
+}
+
+std::string_view quarter(double towards_rad) {
+  constexpr std::array<std::string_view, 8> kNames = {"right", "upper right", "top", "upper left",
+                                                      "left", "lower left", "bottom", "lower right"};
+  const long eighth = std::lround(towards_rad / (0.25 * std::numbers::pi));
+  return kNames[static_cast<std::size_t>(eighth) % kNames.size()];
+}
+
+/// What a hypothesis is called in sentences: terms hold every cause that was weighed.
+std::string cause_words(const Diagnosis& d, const Hypothesis& one) {
+  for (const Term& term : d.terms) {
+    if (term.cause.effect->id == one.effect && model::effects::name(term.cause.side) == one.side)
+      return fmt::format("\"{}{}\"", term.cause.effect->cause, side_words(term.cause));
+  }
+  return one.effect;
+}
+
+std::string answer_words(const Diagnosis& d, const Hypothesis& one) {
+  if (one.effect == "nothing") return "no cause is likelier than not";
+  return fmt::format("it is {} ({})", cause_words(d, one), percent(one.probability));
+}
+
+bool is_named(const PartFinding& part, const Hypothesis& one) {
+  return std::any_of(part.named.begin(), part.named.end(), [&](const Hypothesis& own) {
+    return own.effect == one.effect && own.side == one.side;
+  });
+}
+
+/// Something named does not hold there; of a set, none of it.
+bool denies(const Diagnosis& d, const PartFinding& part) {
+  const auto holds = [](const Hypothesis& own) { return own.probability >= kHolds; };
+  if (d.verdict == Verdict::named_set) {
+    double sum = 0.0;
+    for (const Hypothesis& own : part.named) sum += own.probability;
+    return sum < kHolds;
+  }
+  return !std::all_of(part.named.begin(), part.named.end(), holds);
+}
+
+std::string words_of_quarters(const Diagnosis& d) {
+  std::map<std::string, std::vector<std::string_view>> by_answer;
+  for (const PartFinding& part : d.bed_parts) {
+    if (!denies(d, part)) continue;
+    const Hypothesis* lost = nullptr;
+    for (const Hypothesis& own : part.named) {
+      if (own.probability < kHolds && (lost == nullptr || own.probability < lost->probability))
+        lost = &own;
+    }
+    const bool other = !is_named(part, part.leading);
+    std::string answer = other || lost == nullptr
+                             ? answer_words(d, part.leading)
+                             : fmt::format("{} is not likely ({})",
+                                           cause_words(d, *lost),
+                                           percent(lost->probability));
+    auto& where = by_answer[std::move(answer)];
+    if (std::find(where.begin(), where.end(), quarter(part.towards_rad)) == where.end())
+      where.push_back(quarter(part.towards_rad));
+  }
+  if (by_answer.empty()) return {};
+  std::string text;
+  for (const auto& [answer, where] : by_answer) {
+    text += text.empty() ? "Without the " : " Without the ";
+    text += fmt::format("{} quarter of the bed {}.", fmt::join(where, " or the "), answer);
+  }
+  return text;
+}
+
+/// Causes that only some sessions bear out by themselves.
+std::vector<std::string> words_of_sessions(const Diagnosis& d) {
+  std::vector<std::string> result;
+  if (d.sessions.empty()) return result;
+  for (std::size_t k = 0; k < d.sessions.front().named.size(); ++k) {
+    std::vector<std::string> with, without;
+    for (const PartFinding& session : d.sessions) {
+      const Hypothesis& own = session.named[k];
+      std::string words = fmt::format("{} ({})", session.session, percent(own.probability));
+      if (own.probability >= kHoldsInSession) with.push_back(std::move(words));
+      else if (own.probability <= 1.0 - kHoldsInSession) without.push_back(std::move(words));
+    }
+    const Hypothesis& named = d.sessions.front().named[k];
+    const std::string cause = cause_words(d, named);
+    if (with.size() == d.sessions.size()) {
+      result.push_back(fmt::format("Each session shows {} by itself.", cause));
+    } else if (!with.empty() && !without.empty()) {
+      result.push_back(fmt::format("The sessions contradict each other: {} is in {}, not in {}.",
+                                   cause,
+                                   fmt::join(with, " and "),
+                                   fmt::join(without, " and ")));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<PartFinding> bed_part_findings(const Analysis& a) {
+  std::vector<PartFinding> result;
+  if (a.decision.discrepancy <= kDiscrepancyLikely) return result;
+  for (const PartPosterior& part : a.parts) result.push_back(finding_of(a, part));
+  return result;
+}
+
+std::vector<PartFinding> session_findings(const Analysis& a,
+                                          const std::vector<std::string>& names) {
+  std::vector<PartFinding> result;
+  if (a.decision.listed.empty() || a.session.parts.size() < 2) return result;
+  for (std::size_t own = 0; own < a.session.parts.size() && own < names.size(); ++own) {
+    BedPart others;
+    std::size_t units = 0;
+    for (std::size_t u = 0; u < a.session.units.size(); ++u) {
+      if (a.session.units[u].part != own) others.units.push_back(u);
+      else ++units;
+    }
+    if (units < a.session.fewest_units || others.units.empty()) continue;
+    PartFinding one = finding_of(
+        a, posterior_without(a.system, noise_dof(a), a.comparison, std::move(others)));
+    one.session = names[own];
+    one.units = units;
+    result.push_back(std::move(one));
+  }
+  if (result.size() < 2) result.clear();
+  return result;
+}
+
+std::vector<std::string> parts_in_words(const Diagnosis& d) {
+  std::vector<std::string> result = words_of_sessions(d);
+  if (std::string quarters = words_of_quarters(d); !quarters.empty())
+    result.insert(result.begin(), std::move(quarters));
+  return result;
+}
+
+}  // namespace chaintrue::grid::diagnosis

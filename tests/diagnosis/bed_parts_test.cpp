@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Probabilities averaged over quarters of the bed: which quarters there are, what the average keeps, and
+// each quarter's probabilities compared with a comparison made anew.
+#include "grid/diagnosis/bed_parts.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/downdating.hpp"
+#include "grid/diagnosis/findings.hpp"
+#include "tests/diagnosis/sessions.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+using testing_support::session_of;
+using testing_support::verdict_alone;
+
+const model::AppliedEffect kLongLeftOfParts{"chain_pitch_error", "left", {{"elongation", 0.0015}}};
+
+/// A ridge that moves both chains, oblique to the bed, of a shape that no kernel has.
+MeasuredGrid with_ridge(MeasuredGrid grid, double height_mm, double place_mm) {
+  for (MeasuredPoint& point : grid.points) {
+    const double along = 0.8 * point.mark.x_mm + 0.6 * point.mark.y_mm - place_mm;
+    const double mm = height_mm * std::max(0.0, 1.0 - std::abs(along) / 400.0);
+    point.lengths->left_mm += mm;
+    point.lengths->right_mm -= 0.5 * mm;
+  }
+  return grid;
+}
+
+Analysis analysed(const MeasuredGrid& grid, bool averaged = true) {
+  auto session = observations_of(grid);
+  EXPECT_TRUE(session);
+  DiagnosisOptions options = verdict_alone();
+  options.steps.average_parts = averaged;
+  auto a = analyse(*std::move(session), options);
+  EXPECT_TRUE(a);
+  return *std::move(a);
+}
+
+std::vector<BedPart> parts_of_all(const Analysis& a) {
+  return bed_parts(a.system, nothing_rejected(a.system), a.session.fewest_units);
+}
+
+double share_of_patterns(const ModelComparison& comparison) {
+  double sum = 0.0;
+  for (const CandidateModel& model : comparison.models) {
+    if (model.discrepancy >= 0) sum += comparison.probability(model);
+  }
+  return sum;
+}
+
+TEST(BedParts, EachOfSixteenIsAQuarterOnOneSide) {
+  const Analysis a = analysed(session_of({}, 1));
+  const auto parts = parts_of_all(a);
+  ASSERT_EQ(parts.size(), 16U);
+  std::vector<int> times(a.system.units.size(), 0);
+  for (const BedPart& part : parts) {
+    for (const std::size_t u : part.units) ++times[u];
+    // Of 34 readings eight; the six repeats go with the marks that they repeat.
+    EXPECT_GE(part.units.size(), a.system.units.size() / 4);
+    EXPECT_LE(part.units.size(), a.system.units.size() / 4 + 2);
+    // All on one side of a line: what is left out reaches further towards it than what stays.
+    const auto reach = [&](std::size_t u) {
+      const model::MarkPoint& mark = a.system.places[a.system.units[u].places.front().place].mark;
+      return mark.x_mm * std::cos(part.towards_rad) + mark.y_mm * std::sin(part.towards_rad);
+    };
+    double least_out = 1e9;
+    double most_left = -1e9;
+    for (std::size_t u = 0; u < a.system.units.size(); ++u) {
+      const bool out = std::find(part.units.begin(), part.units.end(), u) != part.units.end();
+      (out ? least_out : most_left) =
+          out ? std::min(least_out, reach(u)) : std::max(most_left, reach(u));
+    }
+    EXPECT_GT(least_out, most_left);
+  }
+  EXPECT_LT(*std::max_element(times.begin(), times.end()), 16);  // none is left out of all
+}
+
+TEST(BedParts, AreOfTheReadingsThatCount) {
+  const Analysis a = analysed(session_of({}, 1));
+  std::vector<bool> excluded = nothing_rejected(a.system);
+  excluded[3] = true;
+  for (const BedPart& part : bed_parts(a.system, excluded, a.session.fewest_units))
+    EXPECT_THAT(part.units, Not(Contains(3U)));
+}
+
+TEST(BedParts, ThereAreNoneOfTooFewReadings) {
+  const Analysis a = analysed(session_of({}, 1));
+  EXPECT_TRUE(bed_parts(a.system, nothing_rejected(a.system), a.system.units.size()).empty());
+}
+
+// Of marks on two columns, what is left without one side is on one line for most of the directions.
+TEST(BedParts, NoPartLeavesALine) {
+  const Analysis a = analysed(session_of({}, 1, 2, 7));
+  for (const BedPart& part : parts_of_all(a)) {
+    std::vector<double> x;
+    for (std::size_t u = 0; u < a.system.units.size(); ++u) {
+      if (std::find(part.units.begin(), part.units.end(), u) == part.units.end())
+        x.push_back(a.system.places[a.system.units[u].places.front().place].mark.x_mm);
+    }
+    EXPECT_GT(*std::max_element(x.begin(), x.end()) - *std::min_element(x.begin(), x.end()), 1.0);
+  }
+}
+
+// Where nothing but noise and a cause is, the likelihood is right: nothing of it is averaged away.
+TEST(Averaging, KeepsTheModelsWithoutAPattern) {
+  const MeasuredGrid grid = session_of({kLongLeftOfParts}, 5);
+  const Analysis whole = analysed(grid, false);
+  const Analysis averaged = analysed(grid);
+  EXPECT_TRUE(whole.parts.empty());
+  EXPECT_EQ(averaged.parts.size(), 16U);
+  std::map<std::pair<std::vector<int>, std::size_t>, double> before;
+  for (const CandidateModel& model : whole.comparison.models) {
+    if (model.discrepancy < 0)
+      before[{model.regressors, model.marginalised}] = whole.comparison.probability(model);
+  }
+  for (const CandidateModel& model : averaged.comparison.models) {
+    if (model.discrepancy >= 0) continue;
+    // Logarithm and exponential of each model once more, and a sum over all.
+    EXPECT_NEAR(averaged.comparison.probability(model),
+                (before.at({model.regressors, model.marginalised})),
+                1e-9);
+  }
+}
+
+TEST(Averaging, KeepsHowLikelyAPatternIs) {
+  const MeasuredGrid grid = with_ridge(session_of({kLongLeftOfParts}, 7, 10, 6), 1.5, 200.0);
+  const Analysis whole = analysed(grid, false);
+  const Analysis averaged = analysed(grid);
+  EXPECT_GT(share_of_patterns(whole.comparison), 0.9);
+  EXPECT_NEAR(share_of_patterns(averaged.comparison), share_of_patterns(whole.comparison), 1e-9);
+  double sum = 0.0;
+  for (const CandidateModel& model : averaged.comparison.models)
+    sum += averaged.comparison.probability(model);
+  EXPECT_NEAR(sum, 1.0, 1e-9);  // rounding of a thousand addends
+}
+
+// A part by what the whole comparison holds, and by a comparison of its own: averaged over the parts,
+// each cause's probability given a pattern is the same within 0.03.
+TEST(Averaging, SaysWhatComparisonsMadeAnewSay) {
+  const bool is_long = std::getenv("CHAINTRUE_LONG") != nullptr;
+  const int sets = is_long ? 50 : 2;
+  double worst = 0.0;
+  for (int seed = 1; seed <= sets; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<model::AppliedEffect> hidden =
+        seed % 3 == 0 ? std::vector<model::AppliedEffect>{} : std::vector{kLongLeftOfParts};
+    const Analysis a = analysed(with_ridge(session_of(hidden, static_cast<std::uint64_t>(seed), 10, 6),
+                                              1.0 + 0.02 * seed,
+                                              20.0 * seed - 500.0));
+    ASSERT_EQ(a.parts.size(), 16U);
+    std::map<std::string, std::pair<double, double>> by_cause;  // by the shortcut, anew
+    const auto name = [](const CauseId& cause) {
+      return std::string(cause.effect->id) + std::string(model::effects::name(cause.side));
+    };
+    for (const PartPosterior& part : a.parts) {
+      std::vector<bool> excluded = nothing_rejected(a.system);
+      for (const std::size_t u : part.left_out.units) excluded[u] = true;
+      const ModelComparison anew =
+          compare_models(a.system, excluded, {.steps = verdict_alone().steps});
+      for (const auto& [cause, p] : part.causes) by_cause[name(cause)].first += p / 16.0;
+      for (const CandidateModel& model : anew.models) {
+        for (const int k : model.regressors) {
+          by_cause[name(a.system.regressors[static_cast<std::size_t>(k)].cause)].second +=
+              anew.probability(model) / 16.0;
+        }
+      }
+    }
+    for (const auto& [cause, p] : by_cause) {
+      worst = std::max(worst, std::abs(p.first - p.second));
+      // What is asked for; models that matter without a quarter only are not followed.
+      EXPECT_NEAR(p.first, p.second, 0.03) << cause;
+    }
+  }
+  std::cout << sets << " sets, seeds 1 to " << sets << ": worst difference " << worst << "\n";
+}
+
+TEST(Averaging, DoesNotDependOnTheOrderInTheFile) {
+  MeasuredGrid grid = with_ridge(session_of({kLongLeftOfParts}, 9, 8, 5), 1.5, 100.0);
+  const auto one = diagnose(grid, verdict_alone());
+  std::reverse(grid.points.begin(), grid.points.end());
+  const auto other = diagnose(grid, verdict_alone());
+  ASSERT_TRUE(one && other);
+  ASSERT_EQ(one->hypotheses.size(), other->hypotheses.size());
+  for (std::size_t k = 0; k < one->hypotheses.size(); ++k) {
+    // Sums in another order.
+    EXPECT_NEAR(one->hypotheses[k].probability, other->hypotheses[k].probability, 1e-6);
+  }
+}
+
+TEST(Averaging, SaysWhichQuarterDisagrees) {
+  Diagnosis d;
+  d.verdict = Verdict::named;
+  const Hypothesis named{"chain_sag", "", 0.7};
+  const double upper_left = 2.3;
+  d.bed_parts = {{0.2, "", 15, named, {named}},
+                 {upper_left, "", 15, {"tape_scale", "x", 0.72}, {{"chain_sag", "", 0.2}}}};
+  EXPECT_THAT(parts_in_words(d),
+              Contains("Without the upper left quarter of the bed it is tape_scale (72 %)."));
+  d.bed_parts.pop_back();
+  EXPECT_TRUE(parts_in_words(d).empty());
+}
+
+TEST(Sessions, SayWhatIsCommonAndWhatIsOneSessions) {
+  Diagnosis d;
+  d.verdict = Verdict::several_causes;
+  const auto of = [](const char* session, double skew, double friction) {
+    PartFinding one;
+    one.session = session;
+    one.named = {{"axes_skew", "", skew}, {"direction_hysteresis", "left", friction}};
+    return one;
+  };
+  d.sessions = {of("C.json", 0.99, 0.97), of("D.json", 0.95, 0.02)};
+  const auto words = parts_in_words(d);
+  EXPECT_THAT(words, Contains(HasSubstr("Each session shows axes_skew by itself.")));
+  EXPECT_THAT(words,
+              Contains(HasSubstr("contradict each other: direction_hysteresis is in C.json (97 %), "
+                                 "not in D.json (2 %)")));
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis
