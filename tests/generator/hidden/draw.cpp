@@ -43,13 +43,6 @@ struct Range {
   double to = 22.0;
 };
 
-/// An effect with its strength in the data.
-struct Sized {
-  Hidden hidden;
-  double delta = 0.0;
-  Signature signature;
-};
-
 TrueMachine stated_machine(const Recipe& recipe, Dice& dice) {
   TrueMachine m = recipe.machine.value_or(TrueMachine{});
   if (!recipe.other_machines) return m;
@@ -75,7 +68,7 @@ TrueMachine with_settings_off(TrueMachine m, double factor, Dice& dice) {
 
 // The size that gives the required delta: the secant method on log delta over log size, which is
 // linear for most effects.
-std::optional<Sized> sized(const Yardstick& yardstick, Hidden effect, double wanted) {
+std::optional<SizedEffect> sized(const Yardstick& yardstick, Hidden effect, double wanted) {
   const CauseCard& c = card(effect.cause);
   const double sign = effect.size < 0.0 ? -1.0 : 1.0;
   const double bound = sign > 0.0 ? c.upper : -c.lower;
@@ -89,7 +82,7 @@ std::optional<Sized> sized(const Yardstick& yardstick, Hidden effect, double wan
     if (!signature) return std::nullopt;
     const double delta = signature->norm();
     if (!(delta > 1e-9)) return std::nullopt;
-    if (std::abs(delta / wanted - 1.0) < 1e-3) return Sized{effect, delta, *signature};
+    if (std::abs(delta / wanted - 1.0) < 1e-3) return SizedEffect{effect, delta, *signature};
     const double log_size = std::log(size), log_delta = std::log(delta);
     if (n > 0 && std::abs(log_size - last_log_size) > 1e-12) {
       slope = std::clamp((log_delta - last_log_delta) / (log_size - last_log_size), 0.3, 4.0);
@@ -110,11 +103,11 @@ std::optional<Sized> sized(const Yardstick& yardstick, Hidden effect, double wan
 }
 
 // Whole links: any of the pairs with a delta in range, with equal probability.
-std::optional<Sized> whole_links(const Yardstick& yardstick,
+std::optional<SizedEffect> whole_links(const Yardstick& yardstick,
                                  Hidden effect,
                                  Range range,
                                  Dice& dice) {
-  std::vector<Sized> fitting;
+  std::vector<SizedEffect> fitting;
   const int last = yardstick.visits().back().number;
   const int first = effect.cause == Cause::tooth_skip ? 1 : 0;
   for (int visit = first; visit <= last; ++visit) {
@@ -130,7 +123,7 @@ std::optional<Sized> whole_links(const Yardstick& yardstick,
     }
   }
   if (fitting.empty()) return std::nullopt;
-  Sized chosen = fitting[dice.below(fitting.size())];
+  SizedEffect chosen = fitting[dice.below(fitting.size())];
   const double sign = dice.sign();
   chosen.hidden.size *= sign;
   chosen.signature *= sign;
@@ -138,7 +131,7 @@ std::optional<Sized> whole_links(const Yardstick& yardstick,
 }
 
 // Side and place are drawn again up to 30 times before the effect is dropped.
-std::optional<Sized> draw_effect(const Yardstick& yardstick, Cause cause, Range range, Dice& dice) {
+std::optional<SizedEffect> draw_effect(const Yardstick& yardstick, Cause cause, Range range, Dice& dice) {
   const CauseCard& c = card(cause);
   for (int n = 0; n < 30; ++n) {
     Hidden effect{cause, c.sides[dice.below(c.sides.size())], 0.0, 0.0};
@@ -170,16 +163,16 @@ std::optional<Sized> draw_effect(const Yardstick& yardstick, Cause cause, Range 
 }
 
 // Effects that are not collinear, each with its own strength.
-std::vector<Sized> draw_effects(
+std::vector<SizedEffect> draw_effects(
     const Yardstick& yardstick, const Recipe& recipe, std::size_t count, Range range, Dice& dice) {
   for (int n = 0; n < 300; ++n) {
-    std::vector<Sized> chosen;
+    std::vector<SizedEffect> chosen;
     while (chosen.size() < count) {
       const Cause cause =
           recipe.cause && chosen.empty() ? *recipe.cause : static_cast<Cause>(dice.below(kDrawn));
       auto next = draw_effect(yardstick, cause, range, dice);
       if (!next) break;
-      const bool alike = std::any_of(chosen.begin(), chosen.end(), [&](const Sized& other) {
+      const bool alike = std::any_of(chosen.begin(), chosen.end(), [&](const SizedEffect& other) {
         return other.hidden.cause == next->hidden.cause ||
                std::abs(other.signature.dot(next->signature)) >= 0.85 * other.delta * next->delta;
       });
@@ -205,7 +198,7 @@ bool same_class(const Hidden& h, const Rival& r) {
   return uniform(h.cause, h.where) && uniform(r.cause, r.where);
 }
 
-void note_rival(const Yardstick& yardstick, const Sized& truth, Answer& answer) {
+void note_rival(const Yardstick& yardstick, const SizedEffect& truth, Answer& answer) {
   for (const Rival& r : yardstick.rivals()) {
     if (same_class(truth.hidden, r)) continue;
     const double rho = likeness(truth.signature, r);
@@ -360,6 +353,11 @@ std::optional<Mix> mix_of(std::string_view text) {
   return std::nullopt;
 }
 
+std::optional<SizedEffect> draw_sized_effect(
+    const Yardstick& yardstick, Cause cause, double least_delta, double most_delta, Dice& dice) {
+  return draw_effect(yardstick, cause, {least_delta, most_delta}, dice);
+}
+
 SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
   Dice machine_dice(seed, "machine"), order_dice(seed, "order"), place_dice(seed, "places");
   Dice effect_dice(seed, "effects"), noise_dice(seed, "noise"), slip_dice(seed, "slips");
@@ -390,7 +388,7 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
     }
   } else if (const std::size_t count = effects_in(recipe.kind); count > 0) {
     const auto effects = draw_effects(*yardstick, recipe, count, range_of(recipe), effect_dice);
-    for (const Sized& s : effects) {
+    for (const SizedEffect& s : effects) {
       answer.hidden.push_back(s.hidden);
       answer.delta.push_back(s.delta);
       signatures.push_back(s.signature);

@@ -95,6 +95,7 @@ std::optional<Yardstick> Yardstick::make(const TrueMachine& machine,
     a.col(k).head(rows) = y.whitened(slope);
     a(rows + k, k) = 1.0 / (k < 4 ? stated.motor_mm : stated.zero_mm);
   }
+  y.by_setting_ = a;
   Eigen::HouseholderQR<Eigen::MatrixXd> qr(a);
   y.settings_ = qr.householderQ() * Eigen::MatrixXd::Identity(rows + kSettings, kSettings);
   return y;

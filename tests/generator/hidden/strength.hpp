@@ -67,8 +67,14 @@ class Yardstick {
   /// Angles of a chain over the session, ascending.
   [[nodiscard]] std::vector<double> angles(std::size_t chain) const;
 
- private:
+  /// A, with the rows of the stated sigmas last.
+  [[nodiscard]] const Eigen::MatrixXd& settings() const { return by_setting_; }
+  /// Lower triangle of each visit's whitening: 00, 10, 11.
+  [[nodiscard]] const std::vector<std::array<double, 3>>& whitening() const { return whitening_; }
+  /// Pairs of lengths as rows in units of noise, nothing projected out.
   [[nodiscard]] Eigen::VectorXd whitened(std::span<const Lengths> pairs) const;
+
+ private:
   [[nodiscard]] Signature projected(Eigen::VectorXd rows) const;
 
   TrueMachine machine_;
@@ -76,8 +82,9 @@ class Yardstick {
   std::vector<Rest> rests_;
   std::vector<Lengths> plain_;
   std::vector<std::array<double, 4>> slopes_;
-  std::vector<std::array<double, 3>> whitening_;  ///< lower triangle: 00, 10, 11
-  Eigen::MatrixXd settings_;                      ///< orthonormal
+  std::vector<std::array<double, 3>> whitening_;
+  Eigen::MatrixXd by_setting_;
+  Eigen::MatrixXd settings_;  ///< orthonormal
 };
 
 /// Largest |cosine| between a signature and those of a rival.

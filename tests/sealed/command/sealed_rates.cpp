@@ -20,7 +20,6 @@
 #include <fstream>
 #include <limits>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "sealed/judge/plan.hpp"
@@ -51,29 +50,11 @@ std::set<Key> keys_of(const std::vector<Outcome>& outcomes) {
   return keys;
 }
 
-std::vector<Outcome> read(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::invalid_argument(path + " cannot be read");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parse_outcomes(text.str());
-}
-
-/// By an atomic rename, so that an interruption leaves the old file or the new one.
-void write(const std::string& path, const std::vector<Outcome>& outcomes) {
-  const std::string whole = path + ".part";
-  std::ofstream file(whole, std::ios::binary);
-  file << text_of(outcomes);
-  file.close();
-  if (!file) throw std::invalid_argument(whole + " cannot be written");
-  std::filesystem::rename(whole, path);
-}
-
 std::vector<Outcome> known(const Arguments& arguments) {
   std::vector<Outcome> outcomes;
-  if (std::filesystem::exists(arguments.file)) outcomes = read(arguments.file);
+  if (std::filesystem::exists(arguments.file)) outcomes = read_outcomes(arguments.file);
   for (const std::string& other : arguments.join) {
-    const std::vector<Outcome> more = read(other);
+    const std::vector<Outcome> more = read_outcomes(other);
     outcomes.insert(outcomes.end(), more.begin(), more.end());
   }
   return sorted(std::move(outcomes));
@@ -106,7 +87,7 @@ void run(const Arguments& arguments,
          const std::vector<PlannedSet>& list,
          std::vector<Outcome>& outcomes) {
   const std::set<Key> done = keys_of(outcomes);
-  write(arguments.file, outcomes);
+  write_outcomes(arguments.file, outcomes);
   std::ofstream file(arguments.file, std::ios::binary | std::ios::app);
   std::size_t count = 0;
   for (const PlannedSet& set : list) {
@@ -118,7 +99,7 @@ void run(const Arguments& arguments,
     if (++count % 50 == 0) fmt::print(stderr, "\r{} of {}", count, list.size());
   }
   outcomes = sorted(std::move(outcomes));
-  write(arguments.file, outcomes);
+  write_outcomes(arguments.file, outcomes);
 }
 
 int print_comparison(const Arguments& arguments,
@@ -141,7 +122,7 @@ int print_comparison(const Arguments& arguments,
 
 int run_all(const Arguments& arguments) {
   std::vector<Outcome> frozen;
-  if (!arguments.against.empty()) frozen = sorted(read(arguments.against));
+  if (!arguments.against.empty()) frozen = sorted(read_outcomes(arguments.against));
   std::vector<Outcome> outcomes = known(arguments);
   run(arguments, asked(arguments, frozen), outcomes);
   if (!arguments.against.empty()) return print_comparison(arguments, frozen, outcomes);

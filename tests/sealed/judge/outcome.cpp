@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
@@ -189,6 +191,23 @@ std::string text_of(const std::vector<Outcome>& outcomes) {
   std::string text;
   for (const Outcome& outcome : outcomes) text += line_of(outcome) + "\n";
   return text;
+}
+
+std::vector<Outcome> read_outcomes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::invalid_argument(path + " cannot be read");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return parse_outcomes(text.str());
+}
+
+void write_outcomes(const std::string& path, const std::vector<Outcome>& outcomes) {
+  const std::string whole = path + ".part";
+  std::ofstream file(whole, std::ios::binary);
+  file << text_of(outcomes);
+  file.close();
+  if (!file) throw std::invalid_argument(whole + " cannot be written");
+  std::filesystem::rename(whole, path);
 }
 
 }  // namespace chaintrue::sealed

@@ -51,4 +51,10 @@ struct Outcome {
 [[nodiscard]] std::vector<Outcome> sorted(std::vector<Outcome> outcomes);
 [[nodiscard]] std::string text_of(const std::vector<Outcome>& outcomes);
 
+/// \throws std::invalid_argument if the file cannot be read, or for a line as parse_outcomes() does.
+[[nodiscard]] std::vector<Outcome> read_outcomes(const std::string& path);
+/// By an atomic rename, so that an interruption leaves the old file or the new one. \throws
+/// std::invalid_argument if the file cannot be written.
+void write_outcomes(const std::string& path, const std::vector<Outcome>& outcomes);
+
 }  // namespace chaintrue::sealed

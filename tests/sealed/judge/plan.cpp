@@ -68,11 +68,17 @@ const Kind& kind_of(const std::string& name) {
 /// Three of four sets have 28 points, where causes are hardest to distinguish, and one has 60.
 int points_of(std::uint64_t seed) { return seed % 4 == 3 ? 60 : 28; }
 
+generator::Recipe recipe_of(const Chains& chains, std::uint64_t seed) {
+  generator::Recipe recipe;
+  recipe.kind = chains.mix;
+  recipe.patterns = chains.patterns;
+  recipe.points = points_of(seed);
+  return recipe;
+}
+
 Outcome run(const Kind& kind, const Chains& chains, std::uint64_t seed) {
   TrialOptions options;
-  options.recipe.kind = chains.mix;
-  options.recipe.patterns = chains.patterns;
-  options.recipe.points = points_of(seed);
+  options.recipe = recipe_of(chains, seed);
   return outcome_of(kind.name, run_trial(options, seed));
 }
 
@@ -121,6 +127,11 @@ std::vector<PlannedSet> shard_of(const std::vector<PlannedSet>& list,
     return list.begin() + static_cast<std::ptrdiff_t>(list.size() * part / shards);
   };
   return {cut(shard - 1), cut(shard)};
+}
+
+std::optional<generator::Recipe> recipe_of(const PlannedSet& set) {
+  const auto* chains = std::get_if<Chains>(&kind_of(set.kind).recipe);
+  return chains == nullptr ? std::nullopt : std::optional(recipe_of(*chains, set.seed));
 }
 
 Outcome run_set(const PlannedSet& set) {

@@ -46,7 +46,8 @@ RowComparison compare_row(const RateRow& row,
 }  // namespace
 
 bool RateRow::counts(const Outcome& outcome) const {
-  return outcome.kind == kind && outcome.strength >= from_strength && outcome.strength < to_strength;
+  const bool is_of_kind = outcome.kind == kind || outcome.kind.ends_with(":" + kind);
+  return is_of_kind && outcome.strength >= from_strength && outcome.strength < to_strength;
 }
 
 bool RateRow::right(const Outcome& outcome) const {
@@ -145,7 +146,9 @@ bool Comparison::worse() const {
   return std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.worse(); });
 }
 
-Comparison compare(const std::vector<Outcome>& frozen, const std::vector<Outcome>& now) {
+Comparison compare(const std::vector<Outcome>& frozen,
+                   const std::vector<Outcome>& now,
+                   const std::vector<RateRow>& rows) {
   std::map<std::pair<std::string, std::uint64_t>, const Outcome*> of_now;
   for (const Outcome& outcome : now) of_now[key(outcome)] = &outcome;
   std::vector<std::pair<Outcome, Outcome>> pairs;
@@ -163,7 +166,7 @@ Comparison compare(const std::vector<Outcome>& frozen, const std::vector<Outcome
     if (line_of(before) != line_of(after)) result.changed.emplace_back(before, after);
   }
   result.sets = static_cast<int>(pairs.size());
-  for (const RateRow& row : rate_rows()) {
+  for (const RateRow& row : rows) {
     RowComparison compared = compare_row(row, pairs);
     if (compared.sets > 0) result.rows.push_back(std::move(compared));
   }

@@ -16,7 +16,7 @@ namespace chaintrue::sealed {
 struct RateRow {
   std::string hidden;    ///< for the table
   std::string right_is;  ///< for the table
-  std::string kind;
+  std::string kind;  ///< or the kind's end, after a colon
   std::vector<std::string> facts;
   double from_strength = 0.0;
   double to_strength = 1e9;
@@ -55,7 +55,8 @@ struct Comparison {
 /// For the sets present in both. \throws std::invalid_argument if the hidden causes of a set differ:
 /// these are not the same sets.
 [[nodiscard]] Comparison compare(const std::vector<Outcome>& frozen,
-                                 const std::vector<Outcome>& now);
+                                 const std::vector<Outcome>& now,
+                                 const std::vector<RateRow>& rows = rate_rows());
 [[nodiscard]] std::string comparison_table(const Comparison& comparison);
 
 }  // namespace chaintrue::sealed
