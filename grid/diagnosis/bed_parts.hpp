@@ -7,7 +7,8 @@
 /// The average over parts of the data holds what each part would repeat:
 ///
 ///   p(model | pattern) = sum_k p_k(model and pattern) / sum_k p_k(pattern)
-///   p_k                  given all readings but those of part k
+///   p_k                  given all readings but those of part k, the evidence of each model counted as of
+///                        as many readings as there are in all
 ///
 /// A part is the quarter of the readings on one side of a line, since what a model misses is correlated over
 /// the bed: single readings drawn at random would all repeat it. How likely a pattern is, and every model
@@ -63,7 +64,7 @@ struct PartPosterior {
                                                             std::size_t fewest,
                                                             ModelComparison& comparison);
 
-/// What the comparison's models say without these units.
+/// What the comparison's models say without these units, the rest counted as it is.
 [[nodiscard]] PartPosterior posterior_without(const RegressorSystem& system,
                                               double noise_dof,
                                               const ModelComparison& comparison,

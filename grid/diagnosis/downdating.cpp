@@ -256,7 +256,8 @@ std::vector<const CandidateModel*> Downdating::followed() const {
   return result;
 }
 
-std::vector<double> Downdating::probabilities_without(const std::vector<std::size_t>& units) const {
+std::vector<double> Downdating::probabilities_without(const std::vector<std::size_t>& units,
+                                                      CountAs count_as) const {
   struct Same {
     double log_weight = 0.0;
     std::vector<double> log_shares{};  ///< weights with all points, of those that are one without them
@@ -268,8 +269,12 @@ std::vector<double> Downdating::probabilities_without(const std::vector<std::siz
     const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.marginalised];
     const auto out = rows_of(whole, units);
     const NormalEquations equations = downdated_equations(factorised, out);
-    const NoiseDensity noise(dof_,
-                             factorised.inverse.rows() - static_cast<Eigen::Index>(out.size()));
+    const Eigen::Index all = factorised.inverse.rows();
+    const Eigen::Index rows = all - static_cast<Eigen::Index>(out.size());
+    const NoiseDensity noise(dof_, rows);
+    const double power = count_as == CountAs::all
+                             ? static_cast<double>(all) / static_cast<double>(std::max<Eigen::Index>(rows, 1))
+                             : 1.0;
     const std::vector<bool> outliers = with_units(system_, whole.outliers, units, false);
     const double price = log_price_of_outliers(system_, outliers);
     for (std::size_t k = 0; k < factorised.models.size(); ++k) {
@@ -278,7 +283,7 @@ std::vector<double> Downdating::probabilities_without(const std::vector<std::siz
       if (same.log_shares.empty()) {
         const double evidence =
             set_evidence(equations, system_.regressors, factorised.sets[k], noise).log_evidence;
-        same.log_weight = factorised.prior[k] + evidence + price;
+        same.log_weight = factorised.prior[k] + power * evidence + price;
       }
       same.log_shares.push_back(model.log_weight);
       of_model.emplace_back(&same, model.log_weight);

@@ -34,6 +34,12 @@ struct FollowedModels {
   std::size_t most_discrepancies = 4;  ///< the likeliest
 };
 
+/// As how many readings those that are left count.
+enum class CountAs {
+  themselves,
+  all,  ///< each evidence to the power of all rows over those left: a sample as large as the whole
+};
+
 class Downdating {
  public:
   /// System and comparison are kept by reference.
@@ -56,8 +62,8 @@ class Downdating {
   [[nodiscard]] std::vector<const CandidateModel*> followed() const;
   /// Of each model followed, given that one of them holds. Models that differ in nothing but in which of
   /// the points left out they reject share what they have by their weights with all points.
-  [[nodiscard]] std::vector<double> probabilities_without(
-      const std::vector<std::size_t>& units) const;
+  [[nodiscard]] std::vector<double> probabilities_without(const std::vector<std::size_t>& units,
+                                                          CountAs count_as) const;
 
  private:
   /// One marginalised system with one discrepancy or none.
