@@ -163,7 +163,7 @@ std::optional<AnchorFit> with_tape(const MeasuredBelts& belts, std::optional<Anc
   return with_places(belts, std::move(fit));
 }
 
-/// A point of another frame, or with digits lost, bends all others to itself, and its four readings
+/// A point of another frame, or with digits lost, distorts the fit of all others, and its four readings
 /// hide one another: points are left out whole, the worst first, while that makes a frame of what was
 /// none.
 AnchorFit without_gross_points(const MeasuredBelts& belts, AnchorFit frame) {

@@ -10,10 +10,10 @@
 ///          where the sheet lies
 ///   d_k    a distance as distance_geometry() has it of the q_i
 ///
-///   C = f^2 (tape^2 I + hole^2 B B') + size^2 w w' + hook^2 1 1' + P S P' + G K G'          (1)
+///   C = f^2 (tape^2 I + hole^2 B B') + size^2 w w' + zero^2 1 1' + P S P' + G K G'          (1)
 ///
 /// with B = G = dd/dq, P = dd/d(where the sheet lies), which edges alone notice, and f how much
-/// larger the noise is than stated. K is what moves holes that lie near each other alike
+/// larger the noise is than stated. K is the covariance of what displaces neighbouring holes equally
 /// (tool_displacement.hpp), or nothing.
 ///
 /// Arm, extension and heights fall out of m_i: the controller and the machine have the same.
@@ -50,7 +50,7 @@ inline constexpr Eigen::Index kFrameUnknowns = kAnchorUnknowns + 1;
 
 /// Distances about a frame, mm.
 struct HoleRows {
-  Eigen::VectorXd residual_mm;                  ///< n, taped (less the hook) less predicted
+  Eigen::VectorXd residual_mm;                  ///< n, taped (less the tape's zero offset) less predicted
   Eigen::MatrixXd by_frame;                     ///< n x 6, d(predicted)/d(a, s)
   Eigen::MatrixXd by_mark;                      ///< n x 2 N
   Eigen::MatrixXd by_size;                      ///< n x 2

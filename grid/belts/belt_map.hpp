@@ -14,7 +14,7 @@
 /// Lengths are those of the belts themselves at the bed's height, from the anchor slanting to the
 /// end: what the motors pay out. `left` is the top left belt.
 ///
-/// A scale that no tape has told is 1: then the sheet is measured in the belts' millimetres.
+/// A scale that no tape determined is 1: then the sheet is measured in the belts' millimetres.
 ///
 /// \code
 ///   const BeltMap map(fit.belts, &fit.holes);
@@ -42,7 +42,7 @@ class BeltMap final : public MechanismMap {
   /// not known, or with fewer than three places.
   explicit BeltMap(const BeltsFit& fit, const HolesBesideBelts* holes = nullptr);
 
-  /// Without a scale that a tape has told, nothing is known of the tool's error in true millimetres.
+  /// Without a scale from a tape, nothing is known of the tool's error in true millimetres.
   [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(model::BedPoint point) const override;
   /// What the controller believed when the places, or the holes, were commanded.
   [[nodiscard]] const model::BeltMachine& in_force() const { return in_force_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Slips that four lengths a place show before any anchors are believed: belts under one another's
+/// Gross errors that four lengths a place show before anchors are estimated: belts under one another's
 /// names, and places that no anchors make sense of.
 #pragma once
 
@@ -41,7 +41,7 @@ struct NowherePoint {
 [[nodiscard]] std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
                                                        const belts::AnchorFit& frame);
 
-/// A reading that the other three belts contradict, and a slip of the pen that makes it agree.
+/// A reading that the other three belts contradict, and the writing error that would explain it.
 struct BeltQuestion {
   std::size_t point = 0;
   model::Belt belt{};

@@ -154,7 +154,7 @@ TapedNoise likeliest_noise(const HolesEstimate& frame,
   return with.mean() - without.mean() > estimation::kSurfaceEvidence ? with.noise : without.noise;
 }
 
-/// Settles with the noise as it is; false where it does not.
+/// Iterates with the noise as it is; false where it does not converge.
 bool settle(const HolesEstimate& frame, const std::vector<BeltHoles>& sets, State& state) {
   const auto there = frame.converged(
       state.frame, belts::taped_covariance(sets, state.rows, state.noise, state.counting));
@@ -215,7 +215,7 @@ void fill_frame(const MeasuredBelts& measured,
     AnchorCoordinate& coordinate = fit.coordinates[i];
     coordinate.fitted_mm = state.frame.anchors[row];
     coordinate.sigma_mm = std::sqrt(covariance(row, row));
-    // Belts told this share of it; the rest is the tape's.
+    // The belts' share of its variance; the rest is the tape's.
     const double alone = state.without_holes.covariance(row, row);
     for (const Belt belt : kBelts) coordinate.rests_on[belt] *= covariance(row, row) / alone;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// One fit of what four belts measured by themselves and of holes that were cut and taped: anchors,
-/// the absolute scale, and how far the tool lies beside where its upper two belts put it.
+/// the absolute scale, and the displacement of the tool from where its upper two belts put it.
 ///
 /// Notation
 ///   x   five coordinates of anchors and the logarithm of the scale; about x_b with covariance S_b
@@ -16,7 +16,7 @@
 /// The noise's factor (a scaled inverse chi square of noise_dof) and the displacement's size and
 /// reach are where (2) is largest on a grid finer than so few readings tell; a displacement joins
 /// where it is twenty times as likely, summed over the grid, as none. A distance beyond 3.5 sigmas
-/// of (3) is set aside, the worst first.
+/// of (3) is rejected, the worst first.
 ///
 /// The displacement is what the holes show of the tool; what is left of belts' lengths is not in it.
 ///
@@ -81,7 +81,7 @@ struct HolesBesideBelts {
   Eigen::MatrixXd covariance;
   /// Where the edges say that the sheet lies; absent where the holes lay it.
   std::optional<Eigen::Vector3d> sheet;  ///< x_mm, y_mm, rotation_rad
-  double left_out_rms_mm = 0.0;          ///< of distances that were not set aside
+  double left_out_rms_mm = 0.0;          ///< of distances that were not rejected
 };
 
 struct BeltsAndHolesFit {

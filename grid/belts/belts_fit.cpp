@@ -20,7 +20,7 @@ namespace {
 
 /// An anchor that is less sure than this was not found: an arm's length.
 constexpr double kLostAnchorMm = 100.0;
-/// Lengths that are off by more, all told, are no readings of four belts of one frame: the machine
+/// Lengths whose rms residual is larger are no readings of four belts of one frame: the machine
 /// itself gives up at 5 mm of its own kind.
 constexpr double kNoFrameMm = 50.0;
 

@@ -10,11 +10,11 @@
 /// is what one belt's reading is off by, whereas the machine's own message ("Find Anchors fit: rms")
 /// divides by the readings. Sigmas are (1) of fit_diagnostics.hpp with this spread.
 ///
-/// A reading that does not fit the others is set aside, the worst first: the distance of its residual,
+/// A reading that does not fit the others is rejected, the worst first: the distance of its residual,
 /// seen from a fit without it, in units of the spread without it. That is Student's t; what counts is
 /// the normal deviate of the same chance.
 ///
-/// Belts know nothing of the scale: all readings 1.005 times as long make a frame 1.005 times as
+/// Lengths of belts do not determine the scale: all readings 1.005 times as long make a frame 1.005 times as
 /// large. Distances, taped, tell it.
 ///
 /// Sources: R. Cook and S. Weisberg, Residuals and Influence in Regression (1982), sections 2.2 and
@@ -39,10 +39,10 @@
 
 namespace chaintrue::grid {
 
-/// Normal deviate beyond which a reading is set aside: chance 7e-6 for a good one, so that one set of
+/// Normal deviate beyond which a reading is rejected: chance 7e-6 for a good one, so that one set of
 /// 100 places in 370 loses one.
 inline constexpr double kBadReadingSigmas = 4.5;
-/// Largest share that is set aside; beyond it the rest does not judge itself.
+/// Largest share that is rejected; beyond it the remaining readings do not determine their own noise.
 inline constexpr double kMostBadReadings = 0.12;
 
 /// One of tl_x_mm, tl_y_mm, tr_x_mm, tr_y_mm, br_x_mm.
@@ -58,7 +58,7 @@ struct AnchorCoordinate {
 /// A reading of one belt.
 struct BeltResidual {
   double off_mm = 0.0;     ///< read less fitted
-  bool counts = true;      ///< false: set aside
+  bool counts = true;      ///< false: rejected
   double sigmas = 0.0;     ///< seen from a fit without it; 0 where nothing else tells of it
   double beside_mm = 0.0;  ///< read less what all other readings make of it
 };
@@ -75,7 +75,7 @@ struct BadBeltReading {
   double off_mm = 0.0;  ///< read less what all other readings make of it
 };
 
-/// Lower belts as the upper two foretell them, at places that were not fitted: what the machine's own
+/// Lower belts as predicted from the upper two, at places that were not fitted: what the machine's own
 /// check of tension looks at.
 struct BeltPrediction {
   std::size_t readings = 0;
@@ -96,10 +96,10 @@ struct BeltsFit {
   Eigen::Matrix<double, 5, 5> covariance_mm2 = Eigen::Matrix<double, 5, 5>::Zero();
   double spread_mm = 0.0;  ///< (1)
   int checks = 0;          ///< the denominator of (1)
-  double rms_mm = 0.0;  ///< of all readings, those set aside too, as the machine's message has it
+  double rms_mm = 0.0;  ///< of all readings, the rejected ones included, as the machine's message has it
   model::PerBelt<double> rms_of_mm;     ///< of those that count
   std::vector<FittedPlace> places;      ///< of each point
-  std::vector<BadBeltReading> bad;      ///< set aside, the worst first
+  std::vector<BadBeltReading> bad;      ///< rejected, the worst first
   std::vector<std::size_t> bad_points;  ///< of which fewer than three readings agree
   std::optional<BeltScale> scale;       ///< empty: not known
   BeltPrediction one_left_out;

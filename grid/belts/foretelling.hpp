@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Lower belts as the upper two foretell them, at places that the anchors were not fitted to.
+/// Lower belts as predicted from the upper two, at places that the anchors were not fitted to.
 /// Private to grid/belts.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace chaintrue::grid::belts {
 
-/// What the lower belts of a point are off by from what the upper ones foretell; nothing where a belt
+/// Residuals of the lower belts of a point from the prediction by the upper ones; nothing where a belt
 /// that it takes does not count.
 void foretell(const MeasuredBelts& belts,
               std::size_t point,
@@ -25,12 +25,12 @@ void foretell(const MeasuredBelts& belts,
 /// Points in the order of their visits, of the file where that is not known.
 [[nodiscard]] std::vector<std::size_t> in_order(const MeasuredBelts& belts);
 
-/// Each place by the anchors without it. Readings that are set aside neither foretell nor are
-/// foretold.
+/// Each place by the anchors without it. Rejected readings neither predict nor are
+/// predicted.
 [[nodiscard]] BeltPrediction foretell_one_by_one(const MeasuredBelts& belts,
                                                  const FitDiagnostics& view);
 /// Every second place, in the order of the visits, by the others, and those by these. Empty where a
-/// half has fewer than kFewestBeltPoints, or settles nowhere.
+/// half has fewer than kFewestBeltPoints, or does not converge.
 [[nodiscard]] std::optional<BeltPrediction> foretell_by_halves(const MeasuredBelts& belts,
                                                                const AnchorFit& frame);
 

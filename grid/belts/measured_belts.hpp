@@ -34,7 +34,7 @@ struct BeltPoint {
   model::PerBelt<std::vector<double>> thrown_away_mm{};
 };
 
-/// A hole that the machine cut, where it was told to, with the anchors and scales in force.
+/// A hole that the machine cut at a commanded place, with the anchors and scales in force.
 struct CutHole {
   model::BedPoint commanded;
 };

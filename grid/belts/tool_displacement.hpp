@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How far the tool lies beside where its upper two belts put it: a smooth displacement over the
-/// sheet, known at some places and foretold between them.
+/// The displacement of the tool from where its upper two belts put it: a smooth field over the
+/// sheet, known at some places and predicted between them.
 ///
 ///   k(r) = (1 + u + u^2 / 3) exp(-u),   u = sqrt(5) r / reach                               (1)
 ///   d(q) = sum_i k(|q - q_i|) w_i,      K w = d at the places                               (2)
 ///
 /// Each axis by itself; far from all places it falls to nothing, and size^2 (1 - k' K^-1 k) is what
-/// stays uncertain beside what is known at the places.
+/// stays uncertain given what is known at the places.
 ///
 /// Source: C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equations
 /// 4.17 for (1) and 2.25 for (2).
 ///
 /// \code
-///   const ToolDisplacement beside({.size_mm = 0.8, .reach_mm = 900.0, .places = holes, .at = d});
-///   const Eigen::Vector2d off = beside.at({100.0, -200.0});
+///   const ToolDisplacement displacement({.size_mm = 0.8, .reach_mm = 900.0, .places = holes, .at = d});
+///   const Eigen::Vector2d off = displacement.at({100.0, -200.0});
 /// \endcode
 #pragma once
 
@@ -43,7 +43,7 @@ class ToolDisplacement {
   /// \throws std::invalid_argument where `at_mm` is not of the places.
   explicit ToolDisplacement(DisplacementParts parts);
   [[nodiscard]] Eigen::Vector2d at(model::MarkPoint mark) const;
-  /// Of each axis, beside what is uncertain at the places themselves.
+  /// Of each axis, in addition to what is uncertain at the places themselves.
   [[nodiscard]] double own_variance_mm2(model::MarkPoint mark) const;
   [[nodiscard]] const DisplacementParts& parts() const { return parts_; }
 

@@ -24,8 +24,8 @@ constexpr double kSettledWeight = 1e-2;
 constexpr int kSoftPasses = 4;
 
 /// A step of 3e-3 stated sigmas changes no length by more than some 1e-3 mm. Where places follow
-/// from what is estimated, holes lie where the last step put them; distances settle more slowly, one
-/// of them being set aside at a time.
+/// from what is estimated, holes lie where the last step put them; distances converge more slowly, one
+/// of them being rejected at a time.
 Settling settling_of(const EstimationInput& input, bool places_move) {
   if (input.fixed_weights) return {12, 1e-6, true, 0};
   return places_move ? Settling{40, 1e-3, true, kSoftPasses + 2}
@@ -198,7 +198,7 @@ tl::expected<void, EstimationFailure> Estimator::settle() {
     WorkStep work = input_.step;
     work.pass = pass + 1;
     tell(input_.progress, work);
-    // Once all but the smoothing has settled, the pass that chooses it may be the last.
+    // Once all but the smoothing has converged, the iteration that chooses it may be the last.
     const bool last = pass + 1 == settling.most_passes;
     const bool perhaps_last = settled_ || last || !problem_->has_surface();
     if (perhaps_last) smoothing = Smoothing::choose;
@@ -221,11 +221,11 @@ tl::expected<void, EstimationFailure> Estimator::settle() {
     settled_ =
         !update_weights(pass) && step < settling.step_sigmas && pass + 1 >= settling.fewest_passes;
     if (perhaps_last && (settled_ || last)) {
-      // What is told of the units belongs to the weights that the fit was solved with.
+      // What is reported of the units belongs to the weights that the fit was solved with.
       weights_ = solved_with;
       break;
     }
-    // Otherwise chosen anew only when the bad units are first set aside.
+    // Otherwise chosen anew only when the bad units are first rejected.
     smoothing = pass == kSoftPasses ? Smoothing::choose : Smoothing::keep;
   }
   return {};
@@ -246,7 +246,7 @@ tl::expected<void, EstimationFailure> Estimator::choose_surface() {
   if (auto done = bent->linearise(state); !done) return done;
   const auto with = interp::fit_penalised(bent->weighted(weights_), plain);
   if (!with) return {};  // what the readings do not determine they do not ask for
-  // The polynomials' prior, a constant beside V.
+  // The polynomials' prior, added to V as a constant.
   const double prior = 2.0 * static_cast<double>(bent->unknowns().surface().polynomials) *
                        std::log(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
   surface_log_evidence_ = 0.5 * (without - (with->minus_two_log_reml - prior));

@@ -7,23 +7,23 @@
 /// surfaces' polynomials have weak priors of their own, so that what a setting can explain is
 /// explained by the setting. Nuisances that belong to the noise (a hole's own error) are as large
 /// beside the readings' noise as was stated, whatever the noise turns out to be; the others (a
-/// hook, a sheet's size) are data of known sigma, and so are readings that nobody can slip at.
+/// tape's zero, a sheet's size) are data of known sigma, and so are readings that cannot be outliers.
 ///
 ///   y = f(theta, s) + B b + W^-1 e,   e ~ N(0, s^2 I),   b_noise ~ N(0, s^2 sigma_b^2)        (1)
 ///
 /// s, one noise factor over what was stated, and the surfaces' smoothness are chosen by restricted
 /// maximum likelihood (interp/reml.hpp); of readings stated with different degrees of freedom the
-/// fewest count. The model is linearised anew until it settles.
+/// fewest count. The model is linearised anew until it converges.
 ///
 /// A frame that nothing was measured to is free: in each direction in which an observation's
 /// readings do not notice where its sheet lies, it is laid so that the places, as a whole, lie where
 /// they were commanded. These directions are eliminated, exactly.
 ///
-/// Readings that do not fit the rest are first weighted down, then set aside, unit by unit: by the
+/// Readings that do not fit the rest are first weighted down, then rejected, unit by unit: by the
 /// distance of a unit's residual, seen from a fit without it, in sigmas. A unit of one row beyond
 /// kBadDistanceSigmas of what the others make of it, with the noise that they alone show, is set
 /// aside, the worst first: among few single numbers a bad one raises the noise found and hides
-/// itself. A unit of two rows is set aside beyond kBadPointDistance.
+/// itself. A unit of two rows is rejected beyond kBadPointDistance.
 ///
 /// Sources: S. Wood, Generalized Additive Models (2017), sections 4.2 and 6.2, for the mixed model;
 /// P. Huber and E. Ronchetti, Robust Statistics (2009), section 7.7, for the weights; C. Rasmussen
@@ -68,7 +68,7 @@ inline constexpr double kBadPointDistance = 4.5;
 inline constexpr double kBadDistanceSigmas = 3.5;
 /// Of a surface over none, in natural units, where the readings have to ask for it: twenty to one.
 inline constexpr double kSurfaceEvidence = 3.0;
-/// With fewer units of one row than these none is set aside.
+/// With fewer units of one row than these none is rejected.
 inline constexpr std::size_t kFewestSingleRows = 5;
 
 /// The order of the machine's own unknowns: model::kMachineSettings, the left scale, the right one.
@@ -91,7 +91,7 @@ enum class SurfaceUse {
 /// Units whose left-out residuals are wanted with all of them left out together.
 using UnitGroup = std::vector<std::size_t>;
 
-/// When a single reading of a unit that does not slip as one is rejected (reading_shifts.hpp), the
+/// When a single reading of a unit is rejected whose readings may be outliers one by one (reading_shifts.hpp), the
 /// worst first; those that fit once a worse one is gone count again.
 struct ReadingLimits {
   double rejected_beyond = 4.5;  ///< normal deviate
@@ -120,13 +120,13 @@ struct EstimationInput {
   int intervals_y = 0;
   /// In place of what the machine states.
   std::optional<MachineKnowledge> knowledge;
-  /// Of each unit, 0: set aside; no reweighting then, and settings settle to 1e-6 sigmas.
+  /// Of each unit, 0: rejected; no reweighting then, and settings converge to 1e-6 sigmas.
   std::optional<Eigen::VectorXd> fixed_weights;
-  /// Single readings are searched for slips; with fixed_weights alone.
+  /// Single readings are searched for outliers; with fixed_weights alone.
   std::optional<ReadingLimits> reading_limits;
   std::vector<UnitGroup> held_out_together;
   int most_passes = 0;  ///< 0: as many as such readings need
-  /// Is told of `step` at each pass.
+  /// Receives `step` at each iteration.
   Progress progress{};
   WorkStep step{"settings and correction"};
 };
@@ -135,7 +135,7 @@ struct EstimationInput {
 struct UnitEstimate {
   std::size_t observation = 0;
   std::size_t unit = 0;   ///< into the observation's
-  double weight = 1.0;    ///< in the fit that all else here is told of; 0: set aside
+  double weight = 1.0;    ///< in the fit that all else here describes; 0: rejected
   double distance = 0.0;  ///< of the left-out residual, in sigmas
   Eigen::VectorXd residual;
   Eigen::VectorXd left_out;             ///< seen from a fit without the unit
@@ -193,7 +193,7 @@ struct Estimate {
   MachineKnowledge knowledge;         ///< of the machine's own unknowns, afterwards
   double noise_factor = 1.0;          ///< the noise found, as a multiple of the one that went in
   double effective_parameters = 0.0;
-  std::vector<UnitEstimate> units;  ///< of readings that somebody may slip at
+  std::vector<UnitEstimate> units;  ///< of readings that may be outliers
   std::vector<ObservationEstimate> observations;
   std::vector<ReadingEstimate> rejected_readings;
   /// False where settings or weights still moved after the last pass.

@@ -129,7 +129,7 @@ tl::expected<Estimate, EstimationFailure> Estimator::result() const {
 }
 
 std::string words_of(const std::array<SessionZero, 2>& zeros) {
-  // Sigmas, 1 in 16 000 for each chain: who is told goes and looks at the chains.
+  // Sigmas, 1 in 16 000 for each chain: a warning makes somebody inspect the chains.
   constexpr double kSpokenOf = 4.0;
   std::string words;
   for (const Side side : model::kSides) {

@@ -9,7 +9,7 @@
 ///   c_i  where they were commanded
 ///   G    d(all m)/d(unknowns)
 ///   g    what the unknowns have moved the marks by where they stand now
-///   M    3 x 2N, how places lie beside their commands as a whole: shift x, shift y, turn (small)
+///   M    3 x 2N, the displacement of all places from their commands: shift x, shift y, turn (small)
 ///   x_f  the free directions, which follow from the other unknowns x_r:
 ///
 ///   M (m - c + G x - g) = 0   =>   x_f = a + F x_r,

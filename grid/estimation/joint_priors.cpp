@@ -113,7 +113,7 @@ void JointProblem::add_surface_prior(interp::PenalisedProblem& problem,
   problem.prior_precision.diagonal()
       .segment(unknowns_->polynomial(Side::left), 2 * surface.polynomials)
       .setConstant(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
-  // One smoothness for both chains: what bends one surface bends the other.
+  // One smoothness for both chains: the same causes act on both surfaces.
   interp::Penalty penalty;
   penalty.first_column = unknowns_->bend(Side::left);
   penalty.matrix = Eigen::MatrixXd::Identity(2 * surface.bends, 2 * surface.bends);

@@ -49,11 +49,11 @@ class JointProblem {
   [[nodiscard]] bool has_surface() const { return has_surface_; }
   /// Some places follow from the machine: they move with what is estimated.
   [[nodiscard]] bool places_move() const { return places_move_; }
-  /// Units that may be set aside, and their whitened rows by all unknowns.
+  /// Units that may be rejected, and their whitened rows by all unknowns.
   [[nodiscard]] const std::vector<SystemUnit>& units() const { return units_; }
   [[nodiscard]] const Eigen::MatrixXd& design() const { return design_; }
   [[nodiscard]] const Eigen::VectorXd& response() const { return response_; }
-  /// Of a unit; none of one that slips as one.
+  /// Of a unit; none where the unit is an outlier as a whole.
   [[nodiscard]] const std::vector<Eigen::Index>& rejected(std::size_t unit) const;
   [[nodiscard]] const RejectedReadings& rejected() const { return rejected_; }
   /// Rows that count, less what the fit took.
@@ -108,7 +108,7 @@ class JointProblem {
   Eigen::MatrixXd design_;
   Eigen::VectorXd response_;
   std::optional<LocalDesign> local_;
-  /// Rows of readings that nobody slips at.
+  /// Rows of readings that cannot be outliers.
   Eigen::MatrixXd sure_design_;
   Eigen::VectorXd sure_response_;
   FreeDirections free_;

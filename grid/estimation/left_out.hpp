@@ -39,7 +39,7 @@ class LeftOut {
   /// Residual and covariance of a unit. Where the unit all but determines what the fit says of it,
   /// I - w X C X' / s^2 is rounding: the rest is then fitted anew, at the smoothing of the whole.
   [[nodiscard]] Seen seen(std::size_t unit) const;
-  /// The whitened residual of a unit with it left out. What is set aside is not in the fit.
+  /// The whitened residual of a unit with it left out. Rejected readings are not in the fit.
   [[nodiscard]] Eigen::VectorXd residual(std::size_t unit) const;
   /// Those of a group of units with all of them left out. \throws std::logic_error before
   /// prepare_all().

@@ -50,7 +50,7 @@ struct SystemUnit {
   bool reads_chains = false;  ///< the rows are the chains at its only place
   /// W_u D_i, `place` into the system's places.
   std::vector<observation::PlaceColumns> places{};
-  /// What a millimetre of each reading adds to the rows, whitened; empty: the unit slips as one.
+  /// What a millimetre of each reading adds to the rows, whitened; empty: the unit is an outlier as a whole.
   Eigen::MatrixXd by_reading{};
 
   /// From the readings' units to those of noise, and back: the rows of this unit, at most two.
@@ -81,7 +81,7 @@ struct LinearisedSystem {
   Eigen::MatrixXd by_setting;       ///< W (A, B), n x q, columns as the observation set has them
   Eigen::Index nuisances = 0;       ///< the last of these q columns
   std::vector<SystemUnit> units;    ///< numbered as in the observation set
-  std::vector<SystemUnit> certain;  ///< rows of readings that nobody can slip at
+  std::vector<SystemUnit> certain;  ///< rows of readings that cannot be outliers
   std::vector<int> unit_of_row;     ///< n; -1: a row of those
   std::vector<SystemPlace> places{};
 

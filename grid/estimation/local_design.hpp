@@ -6,7 +6,7 @@
 ///   X = D M,   M = diag(I, B, B)                                                              (1)
 ///   X' w X = M' (D' w D) M,   X_u C X_u' = D_u (M C M') D_u'                                  (2)
 ///
-/// D holds the columns of all unknowns but the bends, and phi(place) for each chain; B turns bends
+/// D holds the columns of all unknowns but the penalised ones, and phi(place) for each chain; B turns these
 /// into splines (observed_subspace.hpp). A row of D has some 50 entries where one of X has 350: (2)
 /// costs n 50^2 + q^3 in place of n q^2, for n rows and q unknowns.
 #pragma once

@@ -7,8 +7,9 @@
 /// chain zeros are its own, the nuisances of each observation. Between two sessions in which chains are read
 /// a chain may have been hung anew: the zeros of all but the first are other than the machine's by what is
 /// estimated. Sets of holes share the machine's: distances hardly tell zeros, and the five published sets of
-/// one machine predict each other worse with zeros of their own (0.65 mm left out, 0.60 without). Units (observation.hpp) are those whose readings may be slips; readings that nobody
-/// can slip at have rows and are no units.
+/// one machine predict each other worse with zeros of their own (0.65 mm left out, 0.60 without). Units
+/// (observation.hpp) are those whose readings may be outliers; readings that cannot be outliers have
+/// rows and are no units.
 ///
 /// \code
 ///   const ObservationSet set = observation_set(machine, {points, holes});

@@ -9,7 +9,7 @@
 ///   phi  the splines at a mark
 ///   P    their bending penalty
 ///   F    the polynomials that P leaves free, F' P = 0
-///   B    with B2 beside it, B B' + B2 B2' the pseudo-inverse of P: (2) is the prior
+///   B    with B2 alongside, B B' + B2 B2' the pseudo-inverse of P: (2) is the prior
 ///        exp(-lambda c' P c / 2) on all that is no polynomial
 ///   B2   phi(q)' B2 = 0 at every point: u2 keeps its prior whatever is measured
 ///

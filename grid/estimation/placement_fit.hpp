@@ -44,7 +44,7 @@ class PlacementNormal {
 /// ends the search where it is.
 using LinearisedAt = std::function<bool(const model::SheetPlacement&, PlacementNormal&)>;
 
-/// Eight steps from the identity: a shift of 50 mm and a turn of 0.03 rad settle in four. Without a
+/// Eight steps from the identity: a shift of 50 mm and a turn of 0.03 rad converge in four. Without a
 /// prior the readings must determine all three unknowns.
 [[nodiscard]] model::SheetPlacement fit_placement(
     const LinearisedAt& linearised, const std::optional<observation::SheetPrior>& prior = {});

@@ -5,7 +5,7 @@
 ///   settings      parameters of the mechanism; of the first observation's sheet (3), where it has one
 ///   scales        of either chain; none of a mechanism of more lengths
 ///   polynomials   of either chain's surface, as the places observe it (observed_subspace.hpp)
-///   bends         the same
+///   penalised     the same
 ///   the rest      of each observation: its sheet and its zeros where it has some of its own, its
 ///                 nuisances
 ///
@@ -22,7 +22,7 @@
 
 namespace chaintrue::grid::estimation {
 
-/// How many columns a surface has for each chain: polynomials and bends.
+/// How many columns a surface has for each chain: polynomials and the penalised basis.
 struct SurfaceColumns {
   Eigen::Index polynomials = 0;
   Eigen::Index bends = 0;

@@ -263,7 +263,7 @@ bool warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Pr
   return true;
 }
 
-/// Slips of the whole file, and of rows. True where there is no use in looking further.
+/// Errors of the whole file, and of rows. True where no further check is useful.
 bool check_slips(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
   if (!grid.machine) {
     if (check_unit(grid, places, problems) || check_axes(grid, places, problems)) return true;

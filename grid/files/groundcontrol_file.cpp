@@ -118,7 +118,7 @@ std::optional<OtherUnit> other_unit_of(const IniTable& table) {
     const IniEntry* entry = table.find(kSections, key);
     return entry != nullptr ? number_of(entry->text) : std::nullopt;
   };
-  // A bed is at least 200 mm high; motors stand half a metre beside the widest in centimetres.
+  // A bed is at least 200 mm high; motors lie half a metre beyond the widest in centimetres.
   constexpr double kShortest = 10.0;
   const std::pair<const char*, double> most[] = {
       {"bedwidth", kWidestOfOtherUnit}, {"bedheight", 200.0}, {"motorspacingx", 500.0}};

@@ -65,7 +65,7 @@ bool check_other_unit(const MeasuredHoles& set, const HolesPlaces& places, Probl
   return true;
 }
 
-/// Where a slip of the whole file was found it is reported; what is asked about single distances is
+/// Where an error of the whole file was found it is reported; what is asked about single distances is
 /// returned.
 std::vector<input_checks::RowFinding> check_slips(const MeasuredHoles& set,
                                                   const HolesPlaces& places,

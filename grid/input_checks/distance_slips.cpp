@@ -14,7 +14,7 @@
 namespace chaintrue::grid::input_checks {
 namespace {
 
-/// Sheet right and up, its turn, three strains, the hook.
+/// Sheet right and up, its turn, three strains, the tape's zero offset.
 constexpr Eigen::Index kDistanceBasis = 7;
 /// One sigma of each: a sheet laid by hand; machines err by 3 mm a metre before they are calibrated.
 constexpr double kSheetMm = 10.0;
@@ -23,7 +23,7 @@ constexpr double kHookMm = 3.0;
 constexpr double kMetreMm = 1000.0;
 /// Chi-square of seven coefficients: one set in a thousand.
 constexpr double kOddDistances = 25.0;
-/// Half of the distances this far off, and no slip that mends it.
+/// Half of the distances this far off, and no error that explains it.
 constexpr double kStrangeDistancesMm = 60.0;
 
 Eigen::RowVectorXd basis_of(const MeasuredHoles& set, const HoleDistance& distance) {
@@ -140,7 +140,7 @@ void add_axes(Attempts& attempts) {
         [](model::BedPoint p) { return model::BedPoint{p.y_mm, p.x_mm}; });
 }
 
-/// A hole under another name, or written down wrongly, spoils every distance from it.
+/// A hole under another name, or written down wrongly, makes every distance from it wrong.
 void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Attempts& attempts) {
   for (std::size_t h = 0; h < set.holes.size(); ++h) {
     std::size_t of_it = 0;
@@ -181,7 +181,7 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Atte
   }
 }
 
-/// From which distance on each was written beside the line after, or before, its own.
+/// From which distance on each was written in the line after, or before, its own.
 void add_slipped_rows(const MeasuredHoles& set, std::vector<Candidate>& candidates) {
   constexpr double kCoarseMm = 10.0;
   constexpr double kLostMm = 1000.0;

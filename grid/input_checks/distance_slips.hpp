@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Gross slips in taped distances between holes, found before anything is fitted: as point_slips,
-/// with a trend of the sheet's place, the machine's scales and the tape's hook between what was
+/// Gross errors in taped distances between holes, found before anything is fitted: as point_slips,
+/// with a trend of the sheet's place, the machine's scales and the tape's zero offset between what was
 /// commanded and what was read.
 #pragma once
 

@@ -27,7 +27,7 @@ std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates,
   });
   const Candidate& best = candidates.front();
   WholeFinding finding{best.from_row, std::move(found), best.sentence, best.is_doubtful};
-  // Two accounts this near each other are both told.
+  // Two accounts this near each other are both reported.
   constexpr double kAlike = 3.0;
   for (std::size_t i = 1; i < candidates.size(); ++i) {
     const Candidate& other = candidates[i];

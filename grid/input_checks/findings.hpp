@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the input checks find, and by how much a slip must explain a file to be named.
+/// What the input checks find, and by how much an error must explain a file to be named.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ struct Findings {
   std::vector<RowFinding> rows;
 };
 
-/// One account of a file, as it stands or with a slip mended.
+/// One account of a file, as written or with one error corrected.
 struct Account {
   double log_likelihood = 0.0;
   double median_mm = 0.0;  ///< what the trend leaves of half of the rows
@@ -52,7 +52,7 @@ inline constexpr double kSoundMm = 12.0;
 /// A row this far off the trend is nobody's noise, friction or skipped tooth (6 to 20 mm).
 inline constexpr double kGrossMm = 15.0;
 inline constexpr double kGrossScales = 8.0;
-/// Logarithm of how much likelier a slip must make what it mends: a hundred times.
+/// Logarithm of how much likelier a correction must make the file: a hundred times.
 inline constexpr double kHundredTimes = 4.605;
 
 /// Of a row that is off beyond doubt: how much likelier a question must make it than a blunder of any

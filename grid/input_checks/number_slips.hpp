@@ -10,15 +10,14 @@ namespace chaintrue::grid::input_checks {
 
 inline constexpr double kMmPerInch = 25.4;
 inline constexpr double kMmPerFoot = 304.8;
-/// Where a tape is held that has lost its hook.
+/// Where a tape without its hook is held.
 inline constexpr double kTapeMarkMm = 100.0;
 
 struct NumberSlip {
   double value = 0.0;  ///< what may have been meant
   /// "is the minus missing?", "is it 563.5 rather than 536.5?"
   std::string question;
-  /// Logarithm of how many values slips of this kind offer in all: what one that fits by chance
-  /// costs.
+  /// Logarithm of the number of values that errors of this kind offer: the penalty of one that fits by chance.
   double penalty = 0.0;
 };
 

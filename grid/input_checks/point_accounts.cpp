@@ -10,7 +10,7 @@ namespace {
 
 constexpr Eigen::Index kPointBasis = 6;
 /// Machines as their owners state them err by 3 to 13 mm rms over the bed before anything is
-/// calibrated (the scans of a real machine), constant, slope and bend alike.
+/// calibrated (the scans of a real machine), constant, slope and bend equally.
 constexpr double kErrorMm = 10.0;
 
 Eigen::VectorXd point_sigmas(const MeasuredGrid& grid) {

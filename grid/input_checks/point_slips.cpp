@@ -22,10 +22,10 @@ using Places = std::vector<Place>;
 
 /// Chi-square of the trend's twelve coefficients: the 98th percentile.
 constexpr double kOddPoints = 25.0;
-/// Half of the points this far off, and no slip that mends it: marks and readings of two lists.
+/// Half of the points this far off, and no error that explains it: marks and readings of two lists.
 constexpr double kStrangePointsMm = 60.0;
 constexpr std::size_t kFewestStrangePoints = 6;
-/// As many rows tell a slip of the whole file as well as all.
+/// So many rows show an error of the whole file as well as all do.
 constexpr std::size_t kMostLookedAt = 200;
 constexpr double kRepeatMm = 30.0;
 
@@ -271,7 +271,7 @@ struct PointRows {
     const double least_mm = trend.prior_chi_square < kOddPoints ? kGrossMm : kGrossOfOddMm;
     return off_mm(row) > std::max(least_mm, kGrossScales * trend.scale_mm);
   }
-  /// The slip that makes most of the row, where it makes it three times likelier.
+  /// The likeliest error of the row, where its correction makes the row three times likelier.
   [[nodiscard]] std::optional<RowSlip> best_of(std::size_t row) const {
     constexpr double kLostMm = 2000.0;  // a row whose lengths no pose has
     const double as_it_is =

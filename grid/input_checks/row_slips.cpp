@@ -10,9 +10,9 @@
 namespace chaintrue::grid::input_checks {
 namespace {
 
-/// Some ten slips of a whole row.
+/// Some ten kinds of errors in a whole row.
 constexpr double kOfRow = 2.3;
-/// Commands stand on the sheet already, lengths and marks are written by hand.
+/// Commands are printed on the sheet, lengths and marks are written by hand.
 constexpr double kPrinted = 2.0;
 
 template <class Number>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Slips that spoil one row of points: what each would make of the row, and the question that it
+/// Errors in one row of points: the row with each of them corrected, and the question that it
 /// raises.
 #pragma once
 

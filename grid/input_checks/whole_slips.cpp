@@ -130,7 +130,7 @@ void add_units(List& list, std::string_view readings) {
   readings_in("metres", kMmPerM);
 }
 
-/// Each a little off, all alike: only against what is known of the machine is that a slip.
+/// Each a little off, all equally: only the machine's prior shows that this is an error.
 void add_shifts(List& list, const model::Bed& bed, bool reads_lengths) {
   for (const auto& slip : {std::pair(kTapeMarkMm, "the tape held at its 100 mm mark"),
                            std::pair(kMmPerFoot, "a foot miscounted")}) {

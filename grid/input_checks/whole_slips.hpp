@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Slips that spoil a whole file of points, each with what mends it: an axis turned round, columns
+/// Errors in a whole file of points, each with its correction: an axis turned round, columns
 /// exchanged, units, minus signs left out, a tape read from another mark, another origin.
 #pragma once
 

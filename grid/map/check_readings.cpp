@@ -88,7 +88,7 @@ class Gathered {
     if (part.sheet) shared_columns_ += 3;
   }
 
-  /// Where a sheet lies beside where it was meant to: an error that its readings share.
+  /// Displacement of a sheet from its intended place: an error that its readings share.
   void add_sheet(const observation::SheetPrior& sheet,
                  const Eigen::Matrix<double, Eigen::Dynamic, 3>& by_sheet,
                  Eigen::Index first_row) {

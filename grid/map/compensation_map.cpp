@@ -185,7 +185,7 @@ tl::expected<MarkPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted
     mark.x_mm = std::clamp(mark.x_mm + move.x(), domain.x_min - 50.0, domain.x_max + 50.0);
     mark.y_mm = std::clamp(mark.y_mm + move.y(), domain.y_min - 50.0, domain.y_max + 50.0);
     if (move.norm() < kConvergedMm) {
-      // On the domain's edge the last step may end beside it by what it may miss.
+      // On the domain's edge the last step may end outside by the tolerance.
       const MarkPoint within{std::clamp(mark.x_mm, domain.x_min, domain.x_max),
                              std::clamp(mark.y_mm, domain.y_min, domain.y_max)};
       if (std::hypot(within.x_mm - mark.x_mm, within.y_mm - mark.y_mm) < kConvergedMm)

@@ -50,7 +50,7 @@ struct ErrorSummary {
   double maximum_mm = 0.0;
 };
 
-/// Errors of one way of holding points out. Chain: both chains alike. Tool: distance from where the
+/// Errors of one way of holding points out. Chain: both chains equally. Tool: distance from where the
 /// tool was.
 struct HeldOutError {
   ErrorSummary chain;
@@ -80,7 +80,7 @@ struct MapNoise {
 };
 
 /// A measured point as the map sees it, in millimetres at the tool: how far the tool was beyond
-/// where each model thinks. As stated, of a point that gives a command, is where it was told to be.
+/// where each model thinks. As stated, of a point that gives a command, is the commanded place.
 struct MapPoint {
   model::MarkPoint mark;
   model::ChainLengths lengths;
@@ -106,7 +106,7 @@ struct MirrorTest {
   std::string sentence;
 };
 
-/// What a map made from holes and a tape stands on: its points are the holes, where
+/// What a map made from holes and a tape is fitted to: its points are the holes, where
 /// the distances say they are, and its held-out errors those of distances, along the tape.
 struct DistancesUsed {
   int used = 0;
@@ -126,7 +126,7 @@ struct ModelSurface {
   /// C = F F', lower triangular, of all unknowns in the order of FitColumns.
   Eigen::MatrixXd covariance_factor;
   /// Takes the place of the residual's splines (its chain scales stay) where readings without noise
-  /// stand on a lattice.
+  /// lie on a lattice.
   std::optional<LatticeResidual> lattice = std::nullopt;
 };
 
@@ -173,7 +173,7 @@ struct MapContents {
   std::optional<MirrorTest> mirror;
   /// Only of a map made from holes.
   std::optional<DistancesUsed> distances = std::nullopt;
-  /// Sentences for the person: what was assumed, set aside, or found odd.
+  /// Sentences for the person: what was assumed, rejected, or found odd.
   std::vector<std::string> notes;
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 using model::Side;
 
-/// The lines of a full grid, and its values; empty nodes are told by `filled`.
+/// The lines of a full grid, and its values; `filled` marks the empty nodes.
 struct Lattice {
   std::vector<double> x_nodes_mm;
   std::vector<double> y_nodes_mm;

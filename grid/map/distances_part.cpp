@@ -82,7 +82,7 @@ class DistancesPart final : public FitPart {
     draft.tape_sigma_mm = set().tape.sigma_mm;
   }
 
-  /// Of a file alone: how large the noise is beside what was stated.
+  /// Of a file alone: how large the noise is relative to what was stated.
   void note_noise(double factor, std::vector<std::string>& notes) const {
     if (factor <= kNoiseDisagreement) return;
     notes.push_back(fmt::format(

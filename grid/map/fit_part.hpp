@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// A measured file among those that are fitted together: its observation, and what is special to
-/// its kind. joint_fit() knows nothing else of a file. Private to grid/map.
+/// its kind. joint_fit() uses nothing else of a file. Private to grid/map.
 #pragma once
 
 #include <memory>

@@ -17,7 +17,7 @@
 namespace chaintrue::grid {
 
 struct FittedDistance {
-  double measured_mm = 0.0;  ///< without the hook
+  double measured_mm = 0.0;  ///< without the tape's zero offset
   double commanded_mm = 0.0;
   double predicted_mm = 0.0;  ///< by the fitted machine
   /// Measured less predicted by a fit without this reading, and one sigma of that.
@@ -27,7 +27,7 @@ struct FittedDistance {
   [[nodiscard]] double sigmas() const { return left_out_mm / left_out_sigma_mm; }
 };
 
-/// By how much the readings of a file are all too long, where the hook's offset was not known
+/// By how much the readings of a file are all too long, where the tape's zero offset was not known
 /// exactly.
 struct FoundHook {
   double mm = 0.0;
@@ -56,17 +56,17 @@ struct FittedDistances {
 
 /// A hole as a point of a map.
 [[nodiscard]] MapPoint map_point(const FittedHole& hole);
-/// What a map of holes stands on.
+/// What a map of holes is fitted to.
 [[nodiscard]] DistancesUsed distances_used(const std::vector<FittedDistance>& distances,
                                            double tape_sigma_mm);
-/// Of the readings: which were set aside, and what is wrong with all of them.
+/// Of the readings: which were rejected, and what is wrong with all of them.
 [[nodiscard]] std::vector<std::string> distance_notes(const MeasuredHoles& set,
                                                       const FittedDistances& fit);
 
 /// The surface's intervals: a bend of the whole bed is what some twenty distances can show.
 inline constexpr int kHolesIntervalsX = 4;
 inline constexpr int kHolesIntervalsY = 3;
-/// The bed, as far as a sheet may lie beside it.
+/// The bed, as far as a sheet may reach beyond it.
 [[nodiscard]] interp::Rectangle holes_domain(const model::Bed& bed);
 
 }  // namespace chaintrue::grid

@@ -15,7 +15,7 @@ Eigen::Vector2d to_tool(const Eigen::Matrix2d& mark_jacobian, const Eigen::Vecto
 }
 
 /// How far the tool was beyond where its command sent it, on the sheet. The controller believes
-/// neither the stated machine nor the catenary: a machine that goes where it is told is right.
+/// neither the stated machine nor the catenary: a machine that reaches its commanded places is right.
 Eigen::Vector2d beyond_mark(model::BedPoint commanded,
                             const model::SheetPlacement& sheet,
                             model::MarkPoint mark) {
@@ -24,7 +24,7 @@ Eigen::Vector2d beyond_mark(model::BedPoint commanded,
          Eigen::Vector2d(commanded.x_mm - place.x_mm, commanded.y_mm - place.y_mm);
 }
 
-/// Fits the placement of the sheet under the machine as delivered, by weighted least squares on its
+/// Fits the placement of the sheet under the uncalibrated machine, by weighted least squares on its
 /// good points.
 model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points,
                                           const MeasuredGrid& grid,
@@ -53,7 +53,7 @@ model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points
   });
 }
 
-/// How far the tool was beyond where the machine as delivered thinks: the command, or where the
+/// How far the tool was from where the uncalibrated machine thinks: the command, or where the
 /// lengths put it; zero where that machine has no pose.
 Eigen::Vector2d tool_residual(const model::ReadingModel& model,
                               const model::SheetPlacement& sheet,

@@ -41,7 +41,7 @@ struct PointsFit {
 /// Points, and blocks of them, that were left out; bad ones do not count.
 [[nodiscard]] MapAccuracy held_out_accuracy(const std::vector<FittedPoint>& points);
 
-/// Each point as the map has it, beside the grid's machine as stated.
+/// Each point of the map alongside the grid's machine as stated.
 [[nodiscard]] std::vector<MapPoint> map_points(const std::vector<FittedPoint>& points,
                                                const MeasuredGrid& grid,
                                                const observation::PointNoise& noise);

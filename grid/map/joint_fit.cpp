@@ -117,7 +117,7 @@ estimation::EstimationInput estimation_input(const Parts& parts) {
 }
 
 /// A map that keeps less than two thirds of a file's readings is not the map of those readings: so
-/// many are no slips of the hand.
+/// many are no writing errors.
 tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>& files,
                                                  const Parts& parts,
                                                  const estimation::Estimate& estimate) {

@@ -27,7 +27,7 @@ constexpr double kStillPredicts = 2.0;
 /// ends.
 constexpr double kHalvedSpacing = 8.0;
 
-/// Where each point of the fit stands; points set aside and places without a point are empty nodes.
+/// The node of each point of the fit; rejected points and places without a point are empty nodes.
 struct Places {
   std::vector<double> x_nodes_mm;
   std::vector<double> y_nodes_mm;

@@ -21,7 +21,7 @@
 
 namespace chaintrue::grid {
 
-/// How far the tool was beyond its points with the settings as stated is told of `now`. `note` is
+/// How far the tool was beyond its points with the settings as stated is reported of `now`. `note` is
 /// added to the map's notes, unless it is empty. \throws std::invalid_argument for a map without a
 /// machine.
 [[nodiscard]] CompensationMap map_for_settings(const CompensationMap& map,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What every map that stands on an estimate is assembled from. Nothing is fitted here.
+/// What every map of an estimate is assembled from. Nothing is fitted here.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace chaintrue::grid {
 /// The estimate's machine, its surface and what is known of both.
 [[nodiscard]] ModelSurface model_surface(const estimation::Estimate& estimate);
 /// `stated` is the machine that the estimate began with, `sheet` what was known of the first sheet:
-/// without one its placement is told and never off.
+/// without one its placement is stated and exact.
 [[nodiscard]] std::vector<SettingResult> setting_results(
     const model::Machine& stated,
     const estimation::Estimate& estimate,

@@ -16,14 +16,14 @@ namespace chaintrue::grid {
 namespace {
 
 /// A stated noise of zero means readings with all digits; this much is left of it and of any finer
-/// one. Beside settings known to a millimetre the squares of finer weights leave no digit for what
+/// one. Given settings known to a millimetre the squares of finer weights leave no digit for what
 /// the points do not tell: at 1e-6 mm the fit is taken for undetermined.
 constexpr double kLeastNoiseMm = 1e-5;
 
 constexpr WorkStep kSmoother{"a smoother correction", 2, FitPart::kStepsToFindNoise};
 constexpr WorkStep kNoise{"how large the noise is", 3, FitPart::kStepsToFindNoise};
 
-/// The bed, as far as hand-laid marks may lie beside it, and all points.
+/// The bed, as far as hand-laid marks may lie beyond it, and all points.
 interp::Rectangle domain_of(const MeasuredGrid& grid, const std::vector<LengthPoint>& points) {
   const model::Bed& bed = grid.machine->bed;
   double beyond = 0.0;
@@ -238,7 +238,7 @@ class PointsPart final : public FitPart {
     return fit;
   }
 
-  /// Of a file alone: how large the noise is beside what was stated.
+  /// Of a file alone: how large the noise is relative to what was stated.
   static void note_noise(MapDraft& draft) {
     const MapNoise& noise = draft.map.noise;
     if (noise.source == "stated" && noise.factor_found > kNoiseDisagreement) {
@@ -277,7 +277,7 @@ class PointsPart final : public FitPart {
   std::vector<LengthPoint> points_;
   observation::PointNoise noise_;
   std::string source_ = "fit";  ///< of the noise, as MapNoise has it
-  /// Takes the place of the surface where readings without noise stand on a lattice.
+  /// Takes the place of the surface where readings without noise lie on a lattice.
   std::optional<LatticeFit> lattice_;
 };
 

@@ -26,7 +26,7 @@ struct FreeSetting {
   double step;
 };
 
-/// Those that the controller has; what it was never told it may not know.
+/// Those that the controller has; it may lack what was never typed in.
 std::vector<FreeSetting> free_settings(const Machine& machine) {
   using S = ControllerSettings;
   const double motor_mm = machine.uncertainty.motor_position_mm;
@@ -107,7 +107,7 @@ ErrorSummary summary_of(const Eigen::VectorXd& errors) {
   return result;
 }
 
-/// One step of Gauss and Newton from `now`; `weight` is of an error's square beside the priors'.
+/// One step of Gauss and Newton from `now`; `weight` is of an error's square relative to the priors'.
 std::optional<ControllerSettings> improved(const Machine& machine,
                                            const ControllerSettings& now,
                                            const std::vector<FreeSetting>& free,

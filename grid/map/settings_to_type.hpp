@@ -34,7 +34,7 @@ struct SettingsToType {
   /// Error of the tool over the measured part, with the settings in force and with these, mm.
   ErrorSummary as_it_is;
   ErrorSummary typed;
-  /// Good points of the map that all of it stands on.
+  /// Good points of the map, which all of it is fitted to.
   std::size_t points = 0;
   /// False where the settings in force are about as good as numbers can be; `settings` are then
   /// those, and `typed` is `as_it_is`.

@@ -16,7 +16,7 @@
 /// What two lengths say is spent on the position; m - 2 rows remain and check the rest. A is the
 /// derivative but for dQ, which is multiplied by what the lengths miss at q and is left out: the
 /// least squares are the same, and passes converge as fast. Where fewer than three lengths count a
-/// place has no rows and is no unit. A single reading may slip: what it adds to the rows is its column
+/// place has no rows and is no unit. A single reading may be an outlier: what it adds to the rows is its column
 /// of Q'.
 ///
 /// Places that taped distances join are a block: positions, lengths and distances of a block are

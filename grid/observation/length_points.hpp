@@ -20,7 +20,7 @@ struct LengthPoint {
   std::size_t index = 0;  ///< into the grid's points
   model::MarkPoint mark;
   model::ChainLengths lengths;
-  /// What the controller was told, where the lengths come of a command.
+  /// The command to the controller, where the lengths come of a command.
   std::optional<model::BedPoint> commanded = std::nullopt;
 };
 

@@ -36,7 +36,7 @@ struct Hole {
   model::BedPoint commanded;
 };
 
-/// One reading of the tape, the hook's offset still in it: from a hole's centre to another's, or
+/// One reading of the tape, the tape's zero offset included: from a hole's centre to another's, or
 /// square to an edge of the sheet.
 struct HoleDistance {
   std::size_t from = 0;  ///< into the holes
@@ -71,7 +71,7 @@ struct MeasuredHoles {
   std::string name;
   std::optional<model::Machine> machine;
   Tape tape;
-  /// One sigma on each axis of where a hole lies beside where its chain lengths put it: friction of
+  /// One sigma on each axis of a hole's displacement from where its chain lengths put it: friction of
   /// the sled, drift of the drill.
   double hole_sigma_mm = 0.3;
   /// How well these two are known, in degrees of freedom.
@@ -84,15 +84,15 @@ struct MeasuredHoles {
 
 /// One sigma of a reading.
 [[nodiscard]] double sigma_of(const MeasuredHoles& set, const HoleDistance& distance);
-/// The distance without the hook.
+/// The distance without the tape's zero offset.
 [[nodiscard]] double length_of(const MeasuredHoles& set, const HoleDistance& distance);
 /// "A-B", "A to the top edge".
 [[nodiscard]] std::string words_of(const MeasuredHoles& set, const HoleDistance& distance);
 /// What the commands say the distance is, on a sheet laid as the bed.
 [[nodiscard]] double commanded_mm(const MeasuredHoles& set, const HoleDistance& distance);
 
-/// The amount by which nearly all distances are longer than commanded, alike for short and long
-/// ones; nothing where there is none above 8 mm. It smells of a hook offset that was not stated (or
+/// The amount by which nearly all distances are longer than commanded, equally for short and long
+/// ones; nothing where there is none above 8 mm. It suggests a zero offset that was not stated (or
 /// stated twice, where negative).
 [[nodiscard]] std::optional<double> suspected_hook_offset_mm(const MeasuredHoles& set);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The one currency of calibration and diagnosis: an observation, numbers that somebody read, with
-/// what the machine makes of them. Estimators and diagnosis know nothing else of how something was
+/// what the machine makes of them. Estimators and diagnosis use nothing else of how something was
 /// measured; a kind of observation is one file pair here and one line in kinds.def.
 ///
 /// Notation
@@ -14,7 +14,7 @@
 ///   y = f + A (theta - theta_0) + B b + sum_i D_i c_i + noise,   noise of unit u ~ N(0, C_u)   (1)
 ///
 /// A place is where the tool stood while the machine held it: a mark, or a hole. A unit is the rows
-/// that one slip of the hand spoils together; noise of different units is independent given b.
+/// that one gross error makes outliers together; noise of different units is independent given b.
 /// Whitening W_u with W_u C_u W_u' = I brings a unit to units of noise.
 ///
 /// \code
@@ -58,7 +58,7 @@ struct Place {
   model::MarkPoint mark;        ///< as it was written, or commanded
   model::ChainLengths lengths;  ///< read there, or paid out to get there
   int order = 0;                ///< of the visit
-  /// What the controller was told, where the lengths come of a command at this mark.
+  /// The command to the controller, where the lengths come of a command at this mark.
   std::optional<model::BedPoint> commanded = std::nullopt;
 };
 
@@ -143,8 +143,8 @@ struct PlaceColumns {
 struct UnitState {
   Eigen::MatrixXd covariance;  ///< C_u
   std::vector<PlaceColumns> places;
-  /// Where single readings of a unit may slip: what a millimetre of each adds to its rows, rows x
-  /// readings; a column of nothing for a reading that does not count. Empty: the unit slips as one.
+  /// Where single readings of a unit may be outliers: what a millimetre of each adds to its rows, rows x
+  /// readings; a column of nothing for a reading that does not count. Empty: the unit is an outlier as a whole.
   Eigen::MatrixXd by_reading = {};
 };
 
@@ -195,11 +195,11 @@ class Observation {
   [[nodiscard]] virtual bool ordered() const = 0;
   /// How well the noise is known, degrees of freedom.
   [[nodiscard]] virtual double noise_dof() const = 0;
-  /// A slip may spoil a unit; not so what was measured with care, once, and is stated with a sigma.
+  /// Whether units may be outliers; not what was measured with care, once, and is stated with a sigma.
   [[nodiscard]] virtual bool may_slip() const = 0;
 
   /// The same rows, with these readings left out of what is linearised about: a position that is
-  /// found from the others alone. Null of a kind whose units slip as one.
+  /// found from the others alone. Null of a kind whose units are outliers as a whole.
   [[nodiscard]] virtual std::shared_ptr<const Observation> about_others(
       const std::vector<UnitReading>& /*rejected*/) const {
     return nullptr;
@@ -246,7 +246,7 @@ using Observations = std::vector<std::shared_ptr<const Observation>>;
 #include "grid/observation/kinds.def"
 #undef CHAINTRUE_OBSERVATION
 
-/// C of all units and, beside it, B diag(sigma^2) B'.
+/// C of all units and, separately, B diag(sigma^2) B'.
 [[nodiscard]] Eigen::MatrixXd marginal_covariance(const Linearisation& line,
                                                   const Eigen::VectorXd& nuisance_sigma);
 

@@ -2,7 +2,7 @@
 /// \file
 /// Readings of the machine itself: the motors' spacing with a tape, the beam's rise with a level,
 /// a link's pitch with a caliper, a chain's mass on a scale, another tape against the one at hand.
-/// Each was taken with care, once, and is stated with a sigma: a row for each, none is set aside.
+/// Each was taken with care, once, and is stated with a sigma: a row for each, none is rejected.
 ///
 /// They are linear in the settings.
 #pragma once

@@ -7,11 +7,11 @@
 ///   q_i   where the machine puts the tool with them: f(q_i) = l_i
 ///   m_i   q_i on the sheet
 ///   d_k   |m_a - m_b|, or m_a's distance from an edge                                      (1)
-///   V     tape^2 I + hole^2 B B' + size^2 w w' + hook^2 1 1', B = dd/dm                    (2)
+///   V     tape^2 I + hole^2 B B' + size^2 w w' + zero^2 1 1', B = dd/dm                    (2)
 ///
 /// A distance is a unit of one row with the tape's own noise. What holes share with every distance
-/// that ends there, all readings with the tape's hook, and edges with the sheet's size, are
-/// nuisances: how much wider and higher the sheet is, the hook where it is not known exactly, and
+/// that ends there, all readings with the tape's zero offset, and edges with the sheet's size, are
+/// nuisances: how much wider and higher the sheet is, the zero offset where it is not known exactly, and
 /// the shift of each hole in x and y, in this order. The frame of the sheet matters to edges alone:
 /// distances between holes do not move with it.
 ///
@@ -44,7 +44,7 @@ struct DistanceGeometry {
                                                  const std::vector<model::MarkPoint>& marks);
 
 /// (2) in its parts: the tape's alone (a diagonal), the holes', that of the sheet's size and that
-/// of the hook.
+/// of the zero offset.
 struct DistanceNoise {
   Eigen::VectorXd tape_mm2;
   Eigen::MatrixXd holes_mm2;
@@ -94,7 +94,7 @@ class TapeDistances final : public Observation {
       MeasuredHoles set);
 
   [[nodiscard]] const Kind& kind() const override { return tape_distances; }
-  /// measured() are the readings less the hook.
+  /// measured() are the readings less the zero offset.
   [[nodiscard]] Eigen::Index nuisances_of_noise() const override {
     return 2 * static_cast<Eigen::Index>(places_.size());
   }

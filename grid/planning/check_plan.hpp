@@ -7,7 +7,7 @@
 /// those where they differ most. With K, X and P of map_check.hpp, x the change of the readings by
 /// growth of one chain by kPitchGrowthSigma and Z that by shifted zeros,
 ///
-///   told^2 = x' (K + Z P Z')^-1 x                                                           (1)
+///   expected^2 = x' (K + Z P Z')^-1 x                                                           (1)
 ///
 /// is the squared significance of growth, in sigmas, after projection on the shifted zeros. The
 /// harmonic mean over both chains is maximised by exchanging points of a lattice. Source: A.

@@ -130,6 +130,33 @@ class OptionMatrix : public testing::Test {
 };
 Workshop* OptionMatrix::workshop_ = nullptr;
 
+bool writes_a_file(const Telling* telling, const Use& use) {
+  return telling != nullptr && telling->shows == Shows::as_file && *telling->instead == '\0' &&
+         cli::refusal_of(use.verb, telling->option, use.facts) == nullptr;
+}
+
+/// What is wrong with the options that write a file: one run is given all of them, and one file of each is expected.
+std::string fault_of_files(const Workshop& workshop, const Use& use, const Ran& plain, const std::vector<std::string>& options) {
+  std::string line = use.line;
+  std::vector<std::pair<std::string, std::string>> expected;
+  for (const std::string& option : options) {
+    const Telling* telling = telling_of(use.verb, option, use.name);
+    if (!writes_a_file(telling, use)) continue;
+    const std::string words = telling->words;
+    line = without(line, option) + " " + words;
+    expected.emplace_back(option, words.substr(words.rfind(' ') + 1));
+  }
+  if (expected.empty()) return "";
+  const Ran ran = workshop.run(line);
+  std::string fault;
+  for (const auto& [option, file] : expected) {
+    const auto written = ran.files.find(file);
+    if (plain.files.contains(file) || written == ran.files.end() || written->second.empty())
+      fault += option + " writes no file: " + line + "\n" + ran.err;
+  }
+  return fault;
+}
+
 class EveryOption : public OptionMatrix, public testing::WithParamInterface<std::string> {};
 
 TEST_P(EveryOption, ActsOrIsRefused) {
@@ -151,11 +178,13 @@ TEST_P(EveryOption, ActsOrIsRefused) {
     for (const std::string& option : options) {
       if (option == "--force") continue;  // below
       const Telling* telling = telling_of(use.verb, option, use.name);
+      if (writes_a_file(telling, use)) continue;
       const bool by_itself = telling != nullptr && (telling->shows == Shows::as_file ||
                                                     telling->shows == Shows::in_words);
       const std::string fault = fault_of(*workshop_, use, by_itself ? plain : base, option);
       EXPECT_EQ(fault, "") << verb << " of " << use.name << ": " << option;
     }
+    EXPECT_EQ(fault_of_files(*workshop_, use, plain, options), "") << verb << " of " << use.name;
   }
 }
 

@@ -10,7 +10,7 @@ namespace chaintrue::cli {
 /// What one belt's reading is off by, and what the machine says of the same. Precondition: places.
 [[nodiscard]] report::Section agreement_section(const FittedBelts& fitted);
 [[nodiscard]] report::Section fitted_anchors_section(const grid::BeltsFit& fit);
-/// What was left out and predicted, what was set aside, the scale, the holes.
+/// What was left out and predicted, what was rejected, the scale, the holes.
 [[nodiscard]] report::Section tests_section(const FittedBelts& fitted);
 /// Each place with what its belts are off by.
 [[nodiscard]] report::Section places_section(const grid::BeltsFit& fit);

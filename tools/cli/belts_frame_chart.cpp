@@ -19,7 +19,7 @@ using report::DataTable;
 
 namespace {
 
-/// Of Okabe and Ito's palette, told apart with every colour vision.
+/// Of Okabe and Ito's palette, distinguishable with every colour vision.
 constexpr model::PerBelt<const char*> kColors = {"#d55e00", "#0072b2", "#cc79a7", "#009e73"};
 
 /// The longest stroke of a good reading, as a share of the frame's width.
@@ -32,7 +32,7 @@ double width_mm(const BeltsFindings& found) {
   return std::max(a.tr.x_mm, a.br.x_mm) - std::min(a.tl.x_mm, a.bl.x_mm);
 }
 
-/// One magnification for what the anchors alone leave and for what is left beside the causes.
+/// One magnification for what the anchors alone leave and for what is left given the causes.
 double magnification(const BeltsFindings& found) {
   double most = 0.0;
   for (const BeltPlacePicture& place : found.places) {

@@ -18,7 +18,7 @@ namespace {
 using grid::MapContents;
 
 /// Within this many times the root of the summed variances lie 95 % of cuts, where x and y err
-/// alike: sqrt(-2 ln 0.05) / sqrt(2).
+/// equally: sqrt(-2 ln 0.05) / sqrt(2).
 constexpr double k95PerCent = 1.7308;
 
 report::Section measured_section(const grid::CompensationMap& map) {

@@ -269,7 +269,7 @@ Facts facts_of(const std::vector<InputFile>& files) {
 }
 
 int run_diagnose(Verb verb, const DiagnoseCommand& command) {
-  // A wrong file is told before the work.
+  // A wrong file is reported before the work.
   std::optional<Diagnosis> before;
   if (!command.before.empty()) before = files::read_diagnosis(command.before, nullptr);
   const std::vector<InputFile> opened = open_inputs(command.input.grid, command.with);

@@ -26,7 +26,7 @@ namespace chaintrue::cli {
 [[nodiscard]] std::vector<report::ChartRow> arrow_charts(const grid::diagnosis::Diagnosis& found);
 /// Measured, best cause, rival, remainder: one chart a chain. Empty where no cause is named.
 [[nodiscard]] std::vector<report::Chart> strip_charts(const grid::diagnosis::Diagnosis& found);
-/// Against the chain's length, and beside it the same folded at one turn of the sprocket; a row a
+/// Against the chain's length, and alongside the same folded at one turn of the sprocket; a row a
 /// chain.
 [[nodiscard]] std::vector<report::ChartRow> length_charts(const grid::diagnosis::Diagnosis& found);
 [[nodiscard]] report::ChartRow angle_charts(const grid::diagnosis::Diagnosis& found);

@@ -9,7 +9,7 @@
 
 namespace chaintrue::cli {
 
-/// What the name rests on. Precondition: the diagnosis has a stability.
+/// Which readings influence the name. Precondition: the diagnosis has a stability.
 [[nodiscard]] report::Section stability_section(const grid::diagnosis::Diagnosis& found);
 /// Waves in the residuals along each chain; a picture only of a chain where one stands out of
 /// noise. Precondition: points that waves_can_be_sought() accepts.

@@ -28,7 +28,7 @@ struct Ends {
   MarkPoint to;
 };
 
-/// Where a hole lies, or an edge beside another place; a name that nobody bears lies there too.
+/// The place of a hole, or of an edge next to another place; an unknown name gets that place.
 MarkPoint place_of(const Diagnosis& found, const std::string& name, const MarkPoint& beside) {
   for (const auto& hole : found.holes) {
     if (hole.name == name) return hole.mark;

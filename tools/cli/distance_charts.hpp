@@ -9,7 +9,7 @@
 
 namespace chaintrue::cli {
 
-/// The calibrated machine and, beside it, the machine with what was named.
+/// The calibrated machine and, alongside, the machine with what was named.
 [[nodiscard]] report::Chart distance_chart(const grid::diagnosis::Diagnosis& found);
 /// Measured, best cause, rival, remainder. Precondition: a cause is named.
 [[nodiscard]] report::Chart distance_strip_chart(const grid::diagnosis::Diagnosis& found);

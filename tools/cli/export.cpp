@@ -147,7 +147,7 @@ Exported of_map(const grid::CompensationMap& map,
   return result;
 }
 
-/// Causes that the settings of a diagnosis' machine rest on although they are not sure enough for it.
+/// Causes that the settings of a diagnosis' machine depend on, and that are not sure enough for that.
 std::vector<std::string> weak_causes(const grid::diagnosis::Diagnosis& found) {
   using grid::diagnosis::Cause;
   std::vector<model::AppliedEffect> taken = found.extended_machine.effects;
@@ -167,7 +167,7 @@ std::vector<std::string> weak_causes(const grid::diagnosis::Diagnosis& found) {
   return weak;
 }
 
-/// True where numbers would rest on a cause that may not act, which is said.
+/// True, with a message, where numbers would depend on a cause that may not act.
 bool refuses_weak_causes(const grid::diagnosis::Diagnosis& found, const std::string& name) {
   const std::vector<std::string> weak = weak_causes(found);
   if (weak.empty()) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue fit: measured points become a compensation map, and the fit is told in words.
+/// chaintrue fit: measured points become a compensation map, and the fit is reported in words.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -106,7 +106,7 @@ std::string refused_by_its_reader(const std::string& text) {
   return {};
 }
 
-/// The map goes to its file, the words to standard error; a fit that failed is told.
+/// The map goes to its file, the words to standard error; a fit that failed is reported.
 int finish(const FitCommand& command,
            const tl::expected<grid::CompensationMap, grid::FitFailure>& map,
            std::vector<report::Section> more) {

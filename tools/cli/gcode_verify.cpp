@@ -153,7 +153,7 @@ int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
     findings.add(*assumed);
     report(options.program, findings);
   }
-  // Where the original cannot be followed to its end, neither can what is cut be told.
+  // Where the original cannot be followed to its end, what is cut is unknown as well.
   const PromisedError promised{control ? cuts.expected(machine.target()) : std::nullopt,
                                summary->largest_mm()};
   if (options.json) {

@@ -17,7 +17,7 @@ std::string effect_words(const grid::SeenEffect& effect) {
   return effect.side.empty() ? effect.effect : fmt::format("{} ({})", effect.effect, effect.side);
 }
 
-/// Patterns fainter than this cannot be told from chance.
+/// Patterns fainter than this cannot be distinguished from chance.
 constexpr double kFaintSigmas = 3.0;
 constexpr double kDoubtfulSigmas = 1.0;
 

@@ -102,7 +102,7 @@ int main_with_exit_code(int argc, char** argv) {
   take_up_closed_streams();
   keep_lines_whole();
   grid::files::remove_pending_files_on_signals();
-  // A limit on file sizes is then an error of writing, told like any other.
+  // A limit on file sizes is then an error of writing, reported like any other.
   std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app{"chaintrue makes a hanging two-chain router cut true.", "chaintrue"};
   app.require_subcommand(1);

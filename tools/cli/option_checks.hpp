@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// All that is wrong with a command line, told at once and before any file is read: numbers out of
+/// All that is wrong with a command line, reported at once and before any file is read: numbers out of
 /// their range (numbers.hpp), what a verb says of its own options here, places of files
 /// (places.hpp). What depends on what a file says the verb finds by itself, later.
 ///

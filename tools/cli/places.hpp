@@ -67,7 +67,7 @@ void check_places();
 /// One output, or several: all or none. \throws as files::write_whole_files.
 void write_output(const std::string& path, const std::string& text);
 void write_outputs(const std::vector<grid::files::OutputFile>& outputs);
-/// For what was written piece by piece, beside texts that are whole. A path that is empty is left
+/// For outputs that are written piece by piece, in addition to whole texts. A path that is empty is left
 /// out.
 void take_place(grid::files::PendingFile& pending,
                 const std::string& path,

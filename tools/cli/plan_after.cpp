@@ -42,7 +42,7 @@ struct Sources {
   std::vector<grid::MeasuredHoles> sets;
 };
 
-/// `few`: beside other files a reading or two are enough.
+/// `few`: together with other files a reading or two are enough.
 void read(const InputFile& file,
           const std::optional<model::Machine>& machine,
           bool few,

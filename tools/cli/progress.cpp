@@ -26,7 +26,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// What was told last. The share is apart: it may be told millions of times.
+/// What was received last. The share is separate: it may change millions of times.
 struct Told {
   std::mutex mutex;
   grid::WorkStep step;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A person at a terminal is told that work goes on, from one second on: for how long, at what step
+/// Shows at a terminal that work goes on, from one second on: for how long, at what step
 /// of how many it is and, where that can be known, how much of the step is done and how long it will
 /// take yet. Not a byte of it where standard error is no terminal.
 ///
@@ -27,9 +27,9 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 };
 
-/// Shows the steps that it is told. Safe from any thread, and cheap.
+/// Shows the steps that it receives. Safe from any thread, and cheap.
 [[nodiscard]] grid::Progress shown_progress();
-/// Of the step that was told last, or of the whole where none was.
+/// Of the step that was received last, or of the whole where none was.
 void progress_is(double finished, double total);
 /// Takes the line away; nothing more is shown. Without a ProgressLine nothing happens.
 void end_progress();

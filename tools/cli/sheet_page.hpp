@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// A plan as a page to print: the bed drawn, what is to be done in which order, and lines to write
-/// the readings on. For A4 and Letter alike; nothing is fetched, no script runs. Same plan, same
+/// the readings on. For both A4 and Letter; nothing is fetched, no script runs. Same plan, same
 /// bytes.
 #pragma once
 

@@ -115,7 +115,7 @@ int run_start(Verb verb, const StartCommand& command) {
     fmt::print(stderr, "chaintrue start: {}\n", plans.error().sentence);
     return kNotSupportedOrOutside;
   }
-  // Sheets of a machine file of ours go beside it.
+  // Sheets of a machine file of ours are written to its folder.
   std::string folder = command.folder;
   if (started.is_ours && !verb.is_given("folder"))
     folder = fs::path(command.file).parent_path().string();

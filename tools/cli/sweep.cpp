@@ -156,7 +156,7 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
                       options);
     }
   }
-  // One voice for a slip that all processes saw.
+  // One message for an error that all processes found.
   if (failure && processes.rank() == 0) std::rethrow_exception(failure);
   return failure ? kBadInput : kDone;
 }

@@ -20,14 +20,14 @@ namespace chaintrue::cli {
 /// shell needs it. Nothing is said where one of the words is "-": a pipe goes on by itself.
 void say_next(const std::vector<std::string>& words);
 
-/// The talk of --quiet: kept back, and told after all where the verb did not do what it was asked.
+/// Messages under --quiet: kept back, and printed after all where the verb did not do what it was asked.
 class QuietTalk {
  public:
   explicit QuietTalk(bool is_quiet);
   ~QuietTalk();
   QuietTalk(const QuietTalk&) = delete;
   QuietTalk& operator=(const QuietTalk&) = delete;
-  /// From here on talk is heard again; what was kept back is told first if `is_to_be_told`.
+  /// From here on messages are printed again; what was kept back is printed first if `is_to_be_told`.
   void end(bool is_to_be_told);
 
  private:
