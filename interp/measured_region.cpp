@@ -26,8 +26,8 @@ ValueGradient linear(const Surface& surface, const NearestPoint& near) {
     const double step = 1e-4 * std::max(domain.width(), domain.height());
     const PlanePoint t{-n.y, n.x};
     const auto outward_at = [&](double s) {
-      const ValueGradient beside = surface.at(near.point.x + s * t.x, near.point.y + s * t.y);
-      return n.x * beside.dx + n.y * beside.dy;
+      const ValueGradient neighbour = surface.at(near.point.x + s * t.x, near.point.y + s * t.y);
+      return n.x * neighbour.dx + n.y * neighbour.dy;
     };
     const double turn = near.distance * (outward_at(step) - outward_at(-step)) / (2.0 * step);
     result.dx += turn * t.x;

@@ -173,12 +173,12 @@ class BorderedStructure final : public Structure {
     if (!diagonalised) {
       return false;
     }
-    Eigen::MatrixXd beside(m, static_cast<Eigen::Index>(shared_.columns.size()));
+    Eigen::MatrixXd shared_columns(m, static_cast<Eigen::Index>(shared_.columns.size()));
     for (std::size_t i = 0; i < shared_.columns.size(); ++i) {
-      beside.col(static_cast<Eigen::Index>(i)) =
+      shared_columns.col(static_cast<Eigen::Index>(i)) =
           problem.gram.col(shared_.columns[i]).segment(penalty.first_column, m);
     }
-    block.coupling = block.basis.transpose() * beside;
+    block.coupling = block.basis.transpose() * shared_columns;
     blocks_.push_back(std::move(block));
     return true;
   }

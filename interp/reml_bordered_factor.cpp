@@ -22,8 +22,8 @@ class BorderedFactor final : public Factor {
           (1.0 - block.weight.array()) * per_sigma2 +
           (lambda(static_cast<Eigen::Index>(k)) / block.balance) * block.weight.array();
       inverse_diagonal_.push_back(a.cwiseInverse());
-      beside_.emplace_back((per_sigma2 * inverse_diagonal_.back()).asDiagonal() * block.coupling);
-      h.noalias() -= (per_sigma2 * block.coupling.transpose()) * beside_.back();
+      scaled_coupling_.emplace_back((per_sigma2 * inverse_diagonal_.back()).asDiagonal() * block.coupling);
+      h.noalias() -= (per_sigma2 * block.coupling.transpose()) * scaled_coupling_.back();
       log_determinant_ += a.array().log().sum() - 2.0 * block.log_basis;
       size_ += a.size();
     }
@@ -71,7 +71,7 @@ class BorderedFactor final : public Factor {
     Eigen::MatrixXd result(right.rows(), right.cols());
     Eigen::MatrixXd corner = right.bottomRows(p);
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
-      corner.noalias() -= beside_[k].transpose() * part(right, k);
+      corner.noalias() -= scaled_coupling_[k].transpose() * part(right, k);
     }
     if (p > 0) {
       corner = corner_cholesky_->solve(corner);
@@ -80,7 +80,7 @@ class BorderedFactor final : public Factor {
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
       auto mine = result.middleRows(blocks_[k].first_working, blocks_[k].weight.size());
       mine = inverse_diagonal_[k].asDiagonal() * part(right, k);
-      mine.noalias() -= beside_[k] * corner;
+      mine.noalias() -= scaled_coupling_[k] * corner;
     }
     return result;
   }
@@ -96,10 +96,10 @@ class BorderedFactor final : public Factor {
       const Eigen::VectorXd d = (lambda_(i) / blocks_[k].balance) * blocks_[k].weight;
       const Eigen::VectorXd plain = d.cwiseProduct(inverse_diagonal_[k]);
       const Eigen::VectorXd extra =
-          d.cwiseProduct((beside_[k] * corner).cwiseProduct(beside_[k]).rowwise().sum());
+          d.cwiseProduct((scaled_coupling_[k] * corner).cwiseProduct(scaled_coupling_[k]).rowwise().sum());
       result.first(i) = plain.sum() + extra.sum();
       result.second(i, i) = plain.squaredNorm() + 2.0 * plain.dot(extra);
-      low_rank.push_back(corner * (beside_[k].transpose() * d.asDiagonal() * beside_[k]));
+      low_rank.push_back(corner * (scaled_coupling_[k].transpose() * d.asDiagonal() * scaled_coupling_[k]));
     }
     low_rank.push_back(corner * shared_.prior);
     result.first(n - 1) = low_rank.back().trace();
@@ -132,7 +132,7 @@ class BorderedFactor final : public Factor {
     wide.bottomRows(p) = root;
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
       wide.middleRows(blocks_[k].first_working, blocks_[k].weight.size()).noalias() =
-          -beside_[k] * root;
+          -scaled_coupling_[k] * root;
     }
     sum.roots.push_back({weight, std::move(wide)});
   }
@@ -149,7 +149,7 @@ class BorderedFactor final : public Factor {
   Eigen::VectorXd lambda_;
   Eigen::Index size_;
   std::vector<Eigen::VectorXd> inverse_diagonal_;
-  std::vector<Eigen::MatrixXd> beside_;            // U
+  std::vector<Eigen::MatrixXd> scaled_coupling_;            // U
   std::optional<ScaledCholesky> corner_cholesky_;  // of H; none without shared columns
   double log_determinant_ = 0.0;
   bool positive_ = false;

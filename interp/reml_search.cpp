@@ -173,8 +173,8 @@ tl::expected<SearchResult, FitFailure::Reason> search(const Marginal& marginal,
   result.theta = scan(marginal, balance, limits);
   auto state = marginal.evaluate(result.theta, Order::hessian);
   if (!state) return tl::unexpected(FitFailure::Reason::rank_deficient);
-  bool settled = false;
-  while (!settled) {
+  bool converged = false;
+  while (!converged) {
     const std::vector<bool> held = held_at_limit(result.theta, state->gradient, limits);
     if (largest_free_gradient(state->gradient, held) < kGradientTolerance) {
       break;
@@ -193,19 +193,19 @@ tl::expected<SearchResult, FitFailure::Reason> search(const Marginal& marginal,
         break;
       }
     }
-    settled = fraction <= 1e-6;
-    if (!settled) {
+    converged = fraction <= 1e-6;
+    if (!converged) {
       const double before = state->value;
       result.theta = next;
       state = marginal.evaluate(result.theta, Order::hessian);
       if (!state) return tl::unexpected(FitFailure::Reason::rank_deficient);
       // Changes of V below 1e-10 are negligible; where its gradient is all rounding it never gets
       // small.
-      settled = before - state->value < 1e-10;
+      converged = before - state->value < 1e-10;
     }
   }
   // If the gradient itself ended the search there is nothing to refine.
-  if (settled) polish(marginal, limits, result.theta, *state);
+  if (converged) polish(marginal, limits, result.theta, *state);
   for (Eigen::Index k = 0; k < marginal.penalties(); ++k) {
     result.ends.push_back(
         end_of(result.theta(k), limits.low(k), limits.high(k), state->hessian(k, k)));

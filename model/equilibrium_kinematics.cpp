@@ -86,7 +86,7 @@ PoseResult EquilibriumKinematics<kRotates>::inverse(BedPoint point) const {
           return settle_inverse<kRotates>(m_, p, state);
         });
   }
-  if (iterations == 0) return tl::unexpected(why_unsettled(m_, point));
+  if (iterations == 0) return tl::unexpected(why_not_converged(m_, point));
   return pose_of(m_, q, point, iterations);
 }
 

@@ -149,7 +149,7 @@ struct ReadingModel::State {
   [[nodiscard]] Eigen::Vector2d through_effects(const Pose& pose,
                                                 const Eigen::Vector2d& length_slope,
                                                 const PerSide<AngleAndFree>& slope) const;
-  [[nodiscard]] PoseResult pose_beside(BedPoint point, Setting setting, double change_mm) const;
+  [[nodiscard]] PoseResult pose_near(BedPoint point, Setting setting, double change_mm) const;
 };
 
 ChainAddition ReadingModel::State::additions(const Pose& pose, Side side, Part part) const {
@@ -181,7 +181,7 @@ Eigen::Vector2d ReadingModel::State::through_effects(const Pose& pose,
   return result;
 }
 
-PoseResult ReadingModel::State::pose_beside(BedPoint point,
+PoseResult ReadingModel::State::pose_near(BedPoint point,
                                             Setting setting,
                                             double change_mm) const {
   EquilibriumParameters changed = parameters;
@@ -252,7 +252,7 @@ Eigen::Vector2d ReadingModel::sensitivity(const PointReading& reading, Setting s
   PerSide<AngleAndFree> slope;
   if (state.looks_at_state) {
     const auto found = state_slope(
-        [&](double mm) { return state.pose_beside(reading.pose.position, setting, mm); });
+        [&](double mm) { return state.pose_near(reading.pose.position, setting, mm); });
     // A pose exists here but not at its neighbours within 16 um: at the very edge only the length's
     // own slope is used.
     if (found) slope = *found;
@@ -345,7 +345,7 @@ class Session {
 tl::expected<std::vector<ChainLengths>, VisitFailure> readings(
     const ReadingModel& model,
     std::span<const Visit> visits,
-    const std::function<void(std::size_t read)>& told) {
+    const std::function<void(std::size_t read)>& on_progress) {
   std::vector<std::size_t> sequence(visits.size());
   std::iota(sequence.begin(), sequence.end(), std::size_t{0});
   std::sort(sequence.begin(), sequence.end(), [&](std::size_t a, std::size_t b) {
@@ -362,7 +362,7 @@ tl::expected<std::vector<ChainLengths>, VisitFailure> readings(
     const auto lengths = session.read(visits[i]);
     if (!lengths) return tl::unexpected(VisitFailure{i, lengths.error()});
     result[i] = *lengths;
-    if (told) told(k + 1);
+    if (on_progress) on_progress(k + 1);
   }
   return result;
 }

@@ -105,7 +105,7 @@ struct VisitFailure {
 [[nodiscard]] tl::expected<std::vector<ChainLengths>, VisitFailure> readings(
     const ReadingModel& model,
     std::span<const Visit> visits,
-    const std::function<void(std::size_t read)>& told = {});
+    const std::function<void(std::size_t read)>& on_progress = {});
 
 /// The frame of the marks: the paper effects of a machine, in the catalogue's order. They are
 /// linear.

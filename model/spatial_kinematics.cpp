@@ -183,10 +183,10 @@ int settle_inverse(const Spatial& q, BedPoint p, SpatialState& x) {
                        step.n.right)) {
       return 0;
     }
-    const bool settled = advance<kRotates>(m, d, x.plane);
+    const bool converged = advance<kRotates>(m, d, x.plane);
     x.n.left += step.n.left;
     x.n.right += step.n.right;
-    if (settled &&
+    if (converged &&
         std::abs(step.n.left) + std::abs(step.n.right) < kRelativeForceStep * (m.W + 1.0)) {
       return n;
     }
@@ -251,7 +251,7 @@ PoseResult SpatialKinematics<kRotates>::inverse(BedPoint point) const {
         [&q](BedPoint p) { return spatial_start(q, p); },
         [&q](BedPoint p, SpatialState& state) { return settle_inverse<kRotates>(q, p, state); });
   }
-  if (iterations == 0) return tl::unexpected(why_unsettled(m_, point));
+  if (iterations == 0) return tl::unexpected(why_not_converged(m_, point));
   const PerSide<SpatialTerms> t = terms_of(q, x);
   Pose pose;
   pose.position = point;

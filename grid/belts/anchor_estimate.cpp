@@ -108,7 +108,7 @@ Counting without_nowhere_points(const MeasuredBelts& belts,
 }
 
 /// Belts alone.
-std::optional<AnchorFit> settled_alone(const MeasuredBelts& belts,
+std::optional<AnchorFit> fit_alone(const MeasuredBelts& belts,
                                        const AnchorVector& start,
                                        Counting counting,
                                        Readings which,
@@ -129,8 +129,8 @@ std::optional<AnchorFit> settled_alone(const MeasuredBelts& belts,
   AnchorFit fit;
   fit.state.anchors = estimate->mechanism->values().head<kAnchorUnknowns>();
   fit.checks = checks_of(counting);
-  fit.spread_mm = fit.checks > 0 ? std::max(estimate->noise_factor, kLeastSpreadMm) : 1.0;
-  fit.is_sound = estimate->settled && is_upright_frame(fit.state.anchors);
+  fit.residual_sigma_mm = fit.checks > 0 ? std::max(estimate->noise_factor, kLeastSpreadMm) : 1.0;
+  fit.is_sound = estimate->converged && is_upright_frame(fit.state.anchors);
   fit.counting = std::move(counting);
   return fit;
 }
@@ -138,7 +138,7 @@ std::optional<AnchorFit> settled_alone(const MeasuredBelts& belts,
 std::optional<AnchorFit> with_places(const MeasuredBelts& belts, std::optional<AnchorFit> fit) {
   if (fit) {
     place_all(belts,
-              readings_of(belts, fit->counting, fit->spread_mm),
+              readings_of(belts, fit->counting, fit->residual_sigma_mm),
               mechanism_at(belts, fit->state),
               *fit);
   }
@@ -149,7 +149,7 @@ std::optional<AnchorFit> with_places(const MeasuredBelts& belts, std::optional<A
 std::optional<AnchorFit> with_tape(const MeasuredBelts& belts, std::optional<AnchorFit> fit) {
   if (!fit || belts.distances.empty()) return with_places(belts, std::move(fit));
   const auto readings = std::make_shared<const observation::BeltLengthReadings>(
-      readings_of(belts, fit->counting, fit->spread_mm));
+      readings_of(belts, fit->counting, fit->residual_sigma_mm));
   estimation::EstimationInput input = anchor_input(belts, fit->counting, fit->state.anchors);
   input.mechanism = mechanism_at(belts, fit->state);
   input.fixed_weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(readings->units().size()));
@@ -159,7 +159,7 @@ std::optional<AnchorFit> with_tape(const MeasuredBelts& belts, std::optional<Anc
   if (!estimate) return std::nullopt;
   fit->state.anchors = estimate->mechanism->values().head<kAnchorUnknowns>();
   fit->state.log_scale = estimate->mechanism->values()[kAnchorUnknowns];
-  fit->is_sound = estimate->settled && is_upright_frame(fit->state.anchors);
+  fit->is_sound = estimate->converged && is_upright_frame(fit->state.anchors);
   return with_places(belts, std::move(fit));
 }
 
@@ -175,17 +175,17 @@ AnchorFit without_gross_points(const MeasuredBelts& belts, AnchorFit frame) {
   const auto most =
       static_cast<std::size_t>(std::ceil(kMostBadReadings * static_cast<double>(count)));
   for (std::size_t out = 0; out < most; ++out) {
-    if (frame.is_sound && frame.spread_mm < kPlausibleSpreadMm) break;
+    if (frame.is_sound && frame.residual_sigma_mm < kPlausibleSpreadMm) break;
     std::optional<AnchorFit> best;
     for (std::size_t k = 0; k < count; ++k) {
       if (!frame.counting[k].tl) continue;
       Counting fewer = frame.counting;
       fewer[k] = {false, false, false, false};
-      auto without = settled_alone(belts, frame.state.anchors, std::move(fewer), Readings::all);
+      auto without = fit_alone(belts, frame.state.anchors, std::move(fewer), Readings::all);
       if (!without || without->checks < 1 || !without->is_sound) continue;
-      if (!best || without->spread_mm < best->spread_mm) best = std::move(without);
+      if (!best || without->residual_sigma_mm < best->residual_sigma_mm) best = std::move(without);
     }
-    if (!best || kMuchBetter * best->spread_mm > frame.spread_mm) break;
+    if (!best || kMuchBetter * best->residual_sigma_mm > frame.residual_sigma_mm) break;
     frame = *std::move(best);
   }
   return frame;
@@ -196,13 +196,13 @@ std::optional<AnchorFit> first_fit(const MeasuredBelts& belts, Readings which) {
   const Counting all(belts.points.size(), {true, true, true, true});
   std::optional<AnchorFit> best;
   for (const AnchorVector& start : first_frames(belts)) {
-    auto fit = settled_alone(belts, start, all, which);
+    auto fit = fit_alone(belts, start, all, which);
     if (!fit) continue;
     if (!best ||
-        std::pair(!fit->is_sound, fit->spread_mm) < std::pair(!best->is_sound, best->spread_mm)) {
+        std::pair(!fit->is_sound, fit->residual_sigma_mm) < std::pair(!best->is_sound, best->residual_sigma_mm)) {
       best = std::move(fit);
     }
-    if (best->is_sound && best->spread_mm < kPlausibleSpreadMm) break;
+    if (best->is_sound && best->residual_sigma_mm < kPlausibleSpreadMm) break;
   }
   return best;
 }
@@ -287,21 +287,21 @@ tl::expected<estimation::Estimate, estimation::EstimationFailure> estimate_ancho
   return estimation::estimate(anchor_input(belts, counting, start));
 }
 
-std::optional<AnchorFit> settle_from(const MeasuredBelts& belts,
+std::optional<AnchorFit> fit_anchors_from(const MeasuredBelts& belts,
                                      const FrameState& state,
                                      const Counting& counting) {
   return with_tape(belts,
-                   settled_alone(without_distances(belts), state.anchors, counting, Readings::all));
+                   fit_alone(without_distances(belts), state.anchors, counting, Readings::all));
 }
 
-std::optional<AnchorFit> settle(const MeasuredBelts& belts) {
+std::optional<AnchorFit> fit_anchors(const MeasuredBelts& belts) {
   return with_tape(belts, first_fit(without_distances(belts), Readings::all));
 }
 
-std::optional<AnchorFit> settle_robustly(const MeasuredBelts& belts) {
+std::optional<AnchorFit> fit_anchors_robustly(const MeasuredBelts& belts) {
   const MeasuredBelts untaped = without_distances(belts);
   const auto is_plausible = [](const AnchorFit& fit) {
-    return fit.is_sound && fit.spread_mm <= kPlausibleSpreadMm;
+    return fit.is_sound && fit.residual_sigma_mm <= kPlausibleSpreadMm;
   };
   auto fit = first_fit(untaped, Readings::those_that_fit);
   if (!fit || is_plausible(*fit)) return with_tape(belts, std::move(fit));
@@ -309,7 +309,7 @@ std::optional<AnchorFit> settle_robustly(const MeasuredBelts& belts) {
   constexpr double kAny = std::numeric_limits<double>::infinity();
   const auto robust = [&untaped](const AnchorFit& from) {
     if (!from.is_sound) return from;
-    return settled_alone(untaped, from.state.anchors, from.counting, Readings::those_that_fit, kAny)
+    return fit_alone(untaped, from.state.anchors, from.counting, Readings::those_that_fit, kAny)
         .value_or(from);
   };
   AnchorFit less = robust(*fit);

@@ -9,8 +9,8 @@
 /// bends the frame must not make the belts seem less sure, and its slip not lead the search.
 ///
 /// \code
-///   const auto fit = settle_robustly(belts);
-///   if (fit && fit->is_sound) use(fit->state.anchors, fit->spread_mm);
+///   const auto fit = fit_anchors_robustly(belts);
+///   if (fit && fit->is_sound) use(fit->state.anchors, fit->residual_sigma_mm);
 /// \endcode
 #pragma once
 
@@ -60,11 +60,11 @@ void place_all(const MeasuredBelts& belts,
 
 /// From the likeliest start that leads to a sound frame, every reading counting; where none does the
 /// one that fits best, and empty where no start leads anywhere.
-[[nodiscard]] std::optional<AnchorFit> settle(const MeasuredBelts& belts);
+[[nodiscard]] std::optional<AnchorFit> fit_anchors(const MeasuredBelts& belts);
 /// The same without the readings that do not fit.
-[[nodiscard]] std::optional<AnchorFit> settle_robustly(const MeasuredBelts& belts);
+[[nodiscard]] std::optional<AnchorFit> fit_anchors_robustly(const MeasuredBelts& belts);
 /// From a state near by, with what counts given.
-[[nodiscard]] std::optional<AnchorFit> settle_from(const MeasuredBelts& belts,
+[[nodiscard]] std::optional<AnchorFit> fit_anchors_from(const MeasuredBelts& belts,
                                                    const FrameState& state,
                                                    const Counting& counting);
 

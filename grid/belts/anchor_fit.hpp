@@ -27,7 +27,7 @@ struct FrameState {
 struct AnchorFit {
   FrameState state;
   Counting counting;
-  double spread_mm = 0.0;
+  double residual_sigma_mm = 0.0;
   Eigen::Index checks = 0;
   /// Converged, with right anchors right of the left ones and upper above lower ones.
   bool is_sound = false;

@@ -40,7 +40,7 @@ tl::unexpected<CheckFailure> check_fails(CheckFailure::Reason reason, const char
 
 tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const MeasuredBelts& belts) {
   using Reason = CheckFailure::Reason;
-  if (fit.checks < 1 || !(fit.spread_mm > 0.0)) {
+  if (fit.checks < 1 || !(fit.residual_sigma_mm > 0.0)) {
     return check_fails(
         Reason::no_noise,
         "these anchors were not fitted to belts, so that nothing says how well new readings should "
@@ -52,7 +52,7 @@ tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const Measu
   const auto check =
       check_lengths({mechanism,
                      fit.covariance_mm2,
-                     fit.spread_mm,
+                     fit.residual_sigma_mm,
                      static_cast<double>(fit.checks)},
                     belts::readings_of(belts, all).readings(),
                     words_of_anchors());

@@ -101,7 +101,7 @@ Eigen::MatrixXd hole_covariance(const BeltHoles& holes, const HoleRows& rows, do
   Eigen::MatrixXd covariance = noise.holes_mm2;
   covariance.diagonal() += noise.tape_mm2;
   covariance *= noise_factor * noise_factor;
-  return covariance + noise.size_mm2 + noise.hook_mm2 +
+  return covariance + noise.size_mm2 + noise.tape_zero_mm2 +
          rows.by_sheet * sheet_variance().asDiagonal() * rows.by_sheet.transpose();
 }
 

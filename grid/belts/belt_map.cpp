@@ -35,7 +35,7 @@ tl::expected<FramePoint, BeltFailure> end_of_spans(const model::BeltMachine& mac
 }
 
 /// Anchors, logarithm of the scale, displacements.
-Eigen::VectorXd unknowns_of(const BeltsFit& fit, const HolesBesideBelts* holes) {
+Eigen::VectorXd unknowns_of(const BeltsFit& fit, const HolesWithBelts* holes) {
   const bool smooth = holes != nullptr && holes->displacement;
   const Eigen::Index moved = smooth ? holes->displacement->at_mm.size() : 0;
   Eigen::VectorXd unknowns(kFrameUnknowns + moved);
@@ -45,7 +45,7 @@ Eigen::VectorXd unknowns_of(const BeltsFit& fit, const HolesBesideBelts* holes) 
   return unknowns;
 }
 
-Eigen::MatrixXd covariance_of(const BeltsFit& fit, const HolesBesideBelts* holes) {
+Eigen::MatrixXd covariance_of(const BeltsFit& fit, const HolesWithBelts* holes) {
   if (holes != nullptr) return holes->covariance;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(kFrameUnknowns, kFrameUnknowns);
   covariance.topLeftCorner<kAnchorUnknowns, kAnchorUnknowns>() = fit.covariance_mm2;
@@ -142,7 +142,7 @@ class BeltSheet final : public SheetInFrame {
 /// What a fit says of where the tool is, for any values of its unknowns.
 class Placing {
  public:
-  Placing(const BeltsFit& fit, const HolesBesideBelts* holes, model::BeltMachine in_force)
+  Placing(const BeltsFit& fit, const HolesWithBelts* holes, model::BeltMachine in_force)
       : in_force_(std::move(in_force)) {
     if (holes != nullptr) {
       displacement_ = holes->displacement;
@@ -178,7 +178,7 @@ class Placing {
   }
 
  private:
-  void refer_to_holes(const HolesBesideBelts& holes) {
+  void refer_to_holes(const HolesWithBelts& holes) {
     for (const BeltHole& hole : holes.holes) {
       const FramePoint meant = model::to_frame(in_force_, hole.commanded);
       references_.push_back({hole.commanded,
@@ -225,7 +225,7 @@ class Placing {
 };
 
 MechanismMap map_of(const BeltsFit& fit,
-                    const HolesBesideBelts* holes,
+                    const HolesWithBelts* holes,
                     const model::BeltMachine& in_force) {
   using model::BeltLengths;
   const Placing placing(fit, holes, in_force);
@@ -246,7 +246,7 @@ MechanismMap map_of(const BeltsFit& fit,
           MeasuredArea(placing.measured(), domain_of(in_force))};
 }
 
-model::BeltMachine commanded_by(const BeltsFit& fit, const HolesBesideBelts* holes) {
+model::BeltMachine commanded_by(const BeltsFit& fit, const HolesWithBelts* holes) {
   return paying_out(holes != nullptr ? holes->machine : machine_in_force(fit));
 }
 
@@ -267,7 +267,7 @@ model::BeltMachine paying_out(model::BeltMachine machine) {
   return machine;
 }
 
-BeltMap::BeltMap(const BeltsFit& fit, const HolesBesideBelts* holes)
+BeltMap::BeltMap(const BeltsFit& fit, const HolesWithBelts* holes)
     : MechanismMap(map_of(fit, holes, commanded_by(fit, holes))),
       in_force_(commanded_by(fit, holes)),
       knows_scale_(fit.scale.has_value()) {}

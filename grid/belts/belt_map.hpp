@@ -40,7 +40,7 @@ class BeltMap final : public MechanismMap {
  public:
   /// `holes` may be null. \throws std::invalid_argument without holes where the anchors in force are
   /// not known, or with fewer than three places.
-  explicit BeltMap(const BeltsFit& fit, const HolesBesideBelts* holes = nullptr);
+  explicit BeltMap(const BeltsFit& fit, const HolesWithBelts* holes = nullptr);
 
   /// Without a scale from a tape, nothing is known of the tool's error in true millimetres.
   [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(model::BedPoint point) const override;

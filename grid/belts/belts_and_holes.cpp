@@ -46,13 +46,13 @@ struct State {
 
 /// (2) and (3) about a state.
 struct Marginal {
-  Eigen::VectorXd off_mm;   ///< r_b
+  Eigen::VectorXd residual_mm;   ///< r_b
   Eigen::MatrixXd inverse;  ///< V^-1
   double log_likelihood = 0.0;
   std::vector<bool> counting;
 
   [[nodiscard]] double left_out_mm(Eigen::Index k) const {
-    return (inverse.row(k) * off_mm)(0) / inverse(k, k);
+    return (inverse.row(k) * residual_mm)(0) / inverse(k, k);
   }
   /// The tape's own and that of what the others predict; what kept a rejected distance from
   /// counting is no part of it.
@@ -69,14 +69,14 @@ Marginal marginal(const HolesEstimate& frame,
                   const std::vector<bool>& counting) {
   Marginal result;
   result.counting = counting;
-  result.off_mm = frame.about_the_belts(at.rows, at.frame);
-  const Eigen::Index count = result.off_mm.size();
+  result.residual_mm = frame.about_the_belts(at.rows, at.frame);
+  const Eigen::Index count = result.residual_mm.size();
   const Eigen::MatrixXd v =
       belts::taped_covariance(sets, at.rows, noise, counting) +
       at.rows.by_frame * at.without_holes.covariance * at.rows.by_frame.transpose();
   const Eigen::LLT<Eigen::MatrixXd> factor(v);
   result.inverse = factor.solve(Eigen::MatrixXd::Identity(count, count));
-  result.log_likelihood = -0.5 * result.off_mm.dot(result.inverse * result.off_mm) -
+  result.log_likelihood = -0.5 * result.residual_mm.dot(result.inverse * result.residual_mm) -
                           factor.matrixLLT().diagonal().array().log().sum();
   return result;
 }
@@ -155,7 +155,7 @@ TapedNoise likeliest_noise(const HolesEstimate& frame,
 }
 
 /// Iterates with the noise as it is; false where it does not converge.
-bool settle(const HolesEstimate& frame, const std::vector<BeltHoles>& sets, State& state) {
+bool converge(const HolesEstimate& frame, const std::vector<BeltHoles>& sets, State& state) {
   const auto there = frame.converged(
       state.frame, belts::taped_covariance(sets, state.rows, state.noise, state.counting));
   if (!there) return false;
@@ -184,22 +184,22 @@ std::optional<std::size_t> worst_of(const HolesEstimate& frame,
   return worst;
 }
 
-std::optional<State> settled_state(const HolesEstimate& frame, const std::vector<BeltHoles>& sets) {
+std::optional<State> converged_state(const HolesEstimate& frame, const std::vector<BeltHoles>& sets) {
   const belts::FrameState& first = frame.alone().state;
   auto rows = belts::taped_rows(sets, first.anchors, first.log_scale);
   if (!rows) return std::nullopt;
   State state{first, *std::move(rows), {}, {}, {}};
   state.counting.assign(static_cast<std::size_t>(state.rows.residual_mm.size()), true);
   const double dof = noise_dof(sets);
-  if (!settle(frame, sets, state)) return std::nullopt;
+  if (!converge(frame, sets, state)) return std::nullopt;
   const auto most = static_cast<std::size_t>(static_cast<double>(state.counting.size()) / 3.0);
   for (std::size_t aside = 0; aside <= most; ++aside) {
     state.noise = likeliest_noise(frame, sets, state, dof);
-    if (!settle(frame, sets, state)) return std::nullopt;
+    if (!converge(frame, sets, state)) return std::nullopt;
     const auto worst = worst_of(frame, sets, state);
     if (!worst) return state;
     state.counting[*worst] = false;
-    if (!settle(frame, sets, state)) return std::nullopt;
+    if (!converge(frame, sets, state)) return std::nullopt;
   }
   return std::nullopt;
 }
@@ -217,7 +217,7 @@ void fill_frame(const MeasuredBelts& measured,
     coordinate.sigma_mm = std::sqrt(covariance(row, row));
     // The belts' share of its variance; the rest is the tape's.
     const double alone = state.without_holes.covariance(row, row);
-    for (const Belt belt : kBelts) coordinate.rests_on[belt] *= covariance(row, row) / alone;
+    for (const Belt belt : kBelts) coordinate.variance_share[belt] *= covariance(row, row) / alone;
   }
   BeltScale scale;
   scale.factor = std::exp(state.frame.log_scale);
@@ -229,7 +229,7 @@ void fill_frame(const MeasuredBelts& measured,
   for (std::size_t k = 0; k < fit.places.size(); ++k) {
     fit.places[k].at = state.frame.places[k];
     for (const Belt belt : kBelts)
-      fit.places[k].belts[belt].off_mm = there.residual[belts::row_of(k, belt)];
+      fit.places[k].belts[belt].residual_mm = there.residual[belts::row_of(k, belt)];
   }
   fit.rms_mm = rms(std::vector<double>(there.residual.begin(), there.residual.end()));
   if (!fit.scale || measured.distances.empty()) return;
@@ -267,7 +267,7 @@ Eigen::MatrixXd posterior(const HolesEstimate& frame,
   const Marginal now = marginal(frame, sets, state, state.noise, state.counting);
   const Eigen::MatrixXd cross = prior * by_unknown.transpose();
   if (smooth) {
-    const Eigen::VectorXd mean = cross * (now.inverse * now.off_mm);
+    const Eigen::VectorXd mean = cross * (now.inverse * now.residual_mm);
     displacement = DisplacementParts{
         state.noise.size_mm, state.noise.reach_mm, state.rows.marks, mean.tail(moved)};
   }
@@ -290,7 +290,7 @@ std::optional<Eigen::Vector3d> sheet_by_edges(const std::vector<BeltHoles>& sets
 void fill_distances(const HolesEstimate& frame,
                     const std::vector<BeltHoles>& sets,
                     const State& state,
-                    HolesBesideBelts& found) {
+                    HolesWithBelts& found) {
   const Marginal now = marginal(frame, sets, state, state.noise, state.counting);
   std::vector<double> left_out;
   Eigen::Index row = 0;
@@ -332,7 +332,7 @@ tl::expected<std::pair<BeltsFit, belts::AnchorFit>, BeltsFitFailure> by_belts(
   }
   auto fit = fit_belts(measured);
   if (!fit) return tl::unexpected(fit.error());
-  const auto frame = belts::settle_robustly(measured);
+  const auto frame = belts::fit_anchors_robustly(measured);
   return std::pair(*std::move(fit), *frame);
 }
 
@@ -357,7 +357,7 @@ tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
   auto alone = by_belts(measured);
   if (!alone) return tl::unexpected(alone.error());
   const HolesEstimate frame(measured, sets, std::move(alone->second));
-  const auto state = settled_state(frame, sets);
+  const auto state = converged_state(frame, sets);
   if (!state) {
     return joint_failure(
         Reason::tape_contradicts,

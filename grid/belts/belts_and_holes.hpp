@@ -64,13 +64,13 @@ struct BeltTapedDistance {
   std::size_t set = 0;
   std::string words;  ///< "A-B"
   double measured_mm = 0.0;
-  double off_mm = 0.0;  ///< taped less fitted
+  double residual_mm = 0.0;  ///< taped less fitted
   double left_out_mm = 0.0;
   double left_out_sigma_mm = 0.0;
   bool rejected = false;
 };
 
-struct HolesBesideBelts {
+struct HolesWithBelts {
   /// In force when the first set was cut: commands count from where its frame's diagonals cross.
   model::BeltMachine machine;
   std::vector<BeltHole> holes;  ///< of the first set, which the frame is laid by
@@ -86,7 +86,7 @@ struct HolesBesideBelts {
 
 struct BeltsAndHolesFit {
   BeltsFit belts;  ///< without places where no belts were given
-  HolesBesideBelts holes;
+  HolesWithBelts holes;
 };
 
 /// `belts` may be without points: then what is known of the anchors is what its machine states, to

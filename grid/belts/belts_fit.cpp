@@ -8,7 +8,7 @@
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
-#include "grid/belts/foretelling.hpp"
+#include "grid/belts/prediction.hpp"
 #include "grid/belts/repeated_pulls.hpp"
 
 namespace chaintrue::grid {
@@ -47,7 +47,7 @@ void fill_coordinates(const MeasuredBelts& belts,
     coordinate.fitted_mm = fitted[row];
     coordinate.sigma_mm = std::sqrt(fit.covariance_mm2(row, row));
     for (const Belt belt : kBelts) {
-      coordinate.rests_on[belt] =
+      coordinate.variance_share[belt] =
           squares(row, static_cast<Eigen::Index>(belt)) / squares.row(row).sum();
     }
   }
@@ -66,12 +66,12 @@ void fill_places(const MeasuredBelts& belts,
     for (const Belt belt : kBelts) {
       BeltResidual& residual = place.belts[belt];
       residual = view.residual(k, belt);
-      square += residual.off_mm * residual.off_mm;
+      square += residual.residual_mm * residual.residual_mm;
       if (residual.counts) {
-        squares[belt] += residual.off_mm * residual.off_mm;
+        squares[belt] += residual.residual_mm * residual.residual_mm;
         ++counts[belt];
       } else {
-        bad.push_back({k, belt, residual.beside_mm});
+        bad.push_back({k, belt, residual.deleted_residual_mm});
       }
     }
     // Two readings fix a place and check nothing.
@@ -87,7 +87,7 @@ void fill_places(const MeasuredBelts& belts,
     fit.rms_of_mm[belt] = counts[belt] > 0 ? std::sqrt(squares[belt] / counts[belt]) : 0.0;
   }
   std::stable_sort(fit.bad.begin(), fit.bad.end(), [](const auto& a, const auto& b) {
-    return std::abs(a.off_mm) > std::abs(b.off_mm);
+    return std::abs(a.residual_mm) > std::abs(b.residual_mm);
   });
 }
 
@@ -156,7 +156,7 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
                    "a distance ends at a hole, and where the machine cut that follows from the "
                    "anchors that it had at the time: state x_mm and y_mm of the anchors in force");
   }
-  const auto frame = belts::settle_robustly(belts);
+  const auto frame = belts::fit_anchors_robustly(belts);
   constexpr const char* kNoFrame =
       "no four anchors make sense of these lengths: are they of one frame, in mm, each under its "
       "own "
@@ -164,11 +164,11 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
   if (!frame)
     return are_in_one_spot(belts) ? not_determined(belts) : failure(Reason::no_frame, kNoFrame);
   const belts::FitDiagnostics view(belts, *frame);
-  if (frame->spread_mm > kNoFrameMm) {
+  if (frame->residual_sigma_mm > kNoFrameMm) {
     return failure(Reason::no_frame,
                    fmt::format("the lengths contradict each other by {:.0f} mm whatever the "
                                "anchors: are they of one frame, in mm, each under its own belt?",
-                               frame->spread_mm));
+                               frame->residual_sigma_mm));
   }
   const Eigen::VectorXd variance = view.covariance().diagonal().head<5>();
   if (!view.covariance().allFinite() || variance.minCoeff() <= 0.0 ||
@@ -180,13 +180,13 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
   BeltsFit fit;
   fit.machine = belts::with_anchors(belts.machine, frame->state.anchors);
   fit.covariance_mm2 = view.covariance().topLeftCorner<5, 5>();
-  fit.spread_mm = frame->spread_mm;
+  fit.residual_sigma_mm = frame->residual_sigma_mm;
   fit.checks = static_cast<int>(frame->checks);
   fill_coordinates(belts, view, fit);
   fill_places(belts, *frame, view, fit);
   fill_scale(belts, *frame, view, fit);
-  fit.one_left_out = belts::foretell_one_by_one(belts, view);
-  fit.half_left_out = belts::foretell_by_halves(belts, *frame);
+  fit.one_left_out = belts::predict_one_by_one(belts, view);
+  fit.half_left_out = belts::predict_by_halves(belts, *frame);
   return fit;
 }
 

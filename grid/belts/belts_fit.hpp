@@ -24,7 +24,7 @@
 /// \code
 ///   const auto fit = fit_belts(belts);
 ///   if (!fit) say(fit.error().sentence);
-///   else use(fit->machine, fit->coordinates[0].sigma_mm, fit->spread_mm);
+///   else use(fit->machine, fit->coordinates[0].sigma_mm, fit->residual_sigma_mm);
 /// \endcode
 #pragma once
 
@@ -52,15 +52,15 @@ struct AnchorCoordinate {
   double fitted_mm = 0.0;
   double sigma_mm = 0.0;
   /// Share of its variance that comes of each belt's readings; together 1.
-  model::PerBelt<double> rests_on;
+  model::PerBelt<double> variance_share;
 };
 
 /// A reading of one belt.
 struct BeltResidual {
-  double off_mm = 0.0;     ///< read less fitted
+  double residual_mm = 0.0;     ///< read less fitted
   bool counts = true;      ///< false: rejected
   double sigmas = 0.0;     ///< seen from a fit without it; 0 where nothing else tells of it
-  double beside_mm = 0.0;  ///< read less what all other readings make of it
+  double deleted_residual_mm = 0.0;  ///< read less what all other readings make of it
 };
 
 struct FittedPlace {
@@ -72,7 +72,7 @@ struct FittedPlace {
 struct BadBeltReading {
   std::size_t point = 0;
   model::Belt belt = model::Belt::tl;
-  double off_mm = 0.0;  ///< read less what all other readings make of it
+  double residual_mm = 0.0;  ///< read less what all other readings make of it
 };
 
 /// Lower belts as predicted from the upper two, at places that were not fitted: what the machine's own
@@ -94,7 +94,7 @@ struct BeltsFit {
   model::BeltMachine machine;  ///< with the anchors fitted, in the belts' own millimetres
   std::array<AnchorCoordinate, 5> coordinates;
   Eigen::Matrix<double, 5, 5> covariance_mm2 = Eigen::Matrix<double, 5, 5>::Zero();
-  double spread_mm = 0.0;  ///< (1)
+  double residual_sigma_mm = 0.0;  ///< (1)
   int checks = 0;          ///< the denominator of (1)
   double rms_mm = 0.0;  ///< of all readings, the rejected ones included, as the machine's message has it
   model::PerBelt<double> rms_of_mm;     ///< of those that count

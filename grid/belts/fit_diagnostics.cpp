@@ -50,7 +50,7 @@ Eigen::VectorXd FitDiagnostics::Block::gradient() const {
 
 FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& frame)
     : frame_(frame), mechanism_(mechanism_at(belts, frame.state)), slots_(belts.points.size()) {
-  const auto readings = readings_of(belts, frame_.counting, frame_.spread_mm);
+  const auto readings = readings_of(belts, frame_.counting, frame_.residual_sigma_mm);
   const observation::View view(mechanism_);
   const Eigen::Index unknowns = mechanism_->values().size();
   const auto rows = 4 * static_cast<Eigen::Index>(belts.points.size());
@@ -63,7 +63,7 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
       precision_.setConstant(std::numeric_limits<double>::quiet_NaN());
       continue;
     }
-    line->weight /= frame_.spread_mm * frame_.spread_mm;
+    line->weight /= frame_.residual_sigma_mm * frame_.residual_sigma_mm;
     Block block{*std::move(line), {}, {}, !own.distances.empty()};
     const Eigen::MatrixXd weighed =
         block.line.by_position.transpose() * block.line.weight.asDiagonal();
@@ -157,18 +157,18 @@ Eigen::Matrix2d FitDiagnostics::place_covariance_mm2(std::size_t point) const {
 }
 
 Eigen::VectorXd FitDiagnostics::influence(std::size_t point, Belt belt) const {
-  const double weight = 1.0 / (frame_.spread_mm * frame_.spread_mm);
+  const double weight = 1.0 / (frame_.residual_sigma_mm * frame_.residual_sigma_mm);
   return weight * (covariance_ * row_at(slots_[point].value(), belt).by_unknown);
 }
 
 BeltResidual FitDiagnostics::residual(std::size_t point, Belt belt) const {
   BeltResidual result;
   const double r = equations_.residual[row_of(point, belt)];
-  result.off_mm = r;
+  result.residual_mm = r;
   result.counts = counts(point, belt);
-  result.beside_mm = r;
+  result.deleted_residual_mm = r;
   if (!slots_[point]) return result;
-  const double s2 = frame_.spread_mm * frame_.spread_mm;
+  const double s2 = frame_.residual_sigma_mm * frame_.residual_sigma_mm;
   const ReadingRow row = row_at(*slots_[point], belt);
   const double own_share =
       row.by_position * blocks_[slots_[point]->block].inverse * row.by_position.transpose();
@@ -176,11 +176,11 @@ BeltResidual FitDiagnostics::residual(std::size_t point, Belt belt) const {
   const auto n = static_cast<double>(frame_.checks);
   if (!result.counts) {
     if (n >= 1.0)
-      result.sigmas = estimation::normal_deviate(r / (frame_.spread_mm * std::sqrt(1.0 + h)), n);
+      result.sigmas = estimation::normal_deviate(r / (frame_.residual_sigma_mm * std::sqrt(1.0 + h)), n);
     return result;
   }
   if (1.0 - h < estimation::kOwnWord || n < 2.0) return result;
-  result.beside_mm = r / (1.0 - h);
+  result.deleted_residual_mm = r / (1.0 - h);
   result.sigmas = estimation::deleted_deviate(r, 1.0 - h, s2, n);
   return result;
 }

@@ -52,7 +52,7 @@ class FitDiagnostics {
   FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& frame);
 
   [[nodiscard]] const FitResiduals& equations() const { return equations_; }
-  [[nodiscard]] double sigma_mm() const { return frame_.spread_mm; }
+  [[nodiscard]] double sigma_mm() const { return frame_.residual_sigma_mm; }
   [[nodiscard]] const AnchorFit& frame() const { return frame_; }
   /// Of a. Not finite, or with a negative diagonal, where it is not determined.
   [[nodiscard]] const Eigen::MatrixXd& covariance() const { return covariance_; }

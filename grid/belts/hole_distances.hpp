@@ -44,7 +44,7 @@ class HoleDistances final : public observation::Observation {
   }
   [[nodiscard]] bool ordered() const override { return false; }
   [[nodiscard]] double noise_dof() const override { return 0.0; }
-  [[nodiscard]] bool may_slip() const override { return true; }
+  [[nodiscard]] bool may_be_outlier() const override { return true; }
   [[nodiscard]] tl::expected<Eigen::VectorXd, observation::Unreachable> predicted(
       const observation::View& view) const override;
   [[nodiscard]] tl::expected<observation::Linearisation, observation::Unreachable> linearise(

@@ -88,7 +88,7 @@ std::optional<FrameState> HolesEstimate::converged(const FrameState& state,
   input.noise.knowledge = interp::NoiseKnowledge::exact;
   input.observations.clear();
   const auto readings = std::make_shared<const observation::BeltLengthReadings>(
-      readings_of(belts_, alone_.counting, has_points ? alone_.spread_mm : 1.0));
+      readings_of(belts_, alone_.counting, has_points ? alone_.residual_sigma_mm : 1.0));
   if (has_points) input.observations.push_back(readings);
   input.observations.push_back(std::make_shared<const HoleDistances>(sets_, covariance));
   Eigen::Index units = 0;
@@ -101,7 +101,7 @@ std::optional<FrameState> HolesEstimate::converged(const FrameState& state,
                         machine, kStatedAnchorMm, model::BeltScaleKnowledge{kBeltScaleSigma})
                         ->with_values(frame_vector(state));
   const auto estimate = estimation::estimate(input);
-  if (!estimate || !estimate->settled) return std::nullopt;
+  if (!estimate || !estimate->converged) return std::nullopt;
   AnchorFit fit;
   fit.state.anchors = estimate->mechanism->values().head<kAnchorUnknowns>();
   fit.state.log_scale = estimate->mechanism->values()[kAnchorUnknowns];

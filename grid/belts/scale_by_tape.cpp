@@ -64,7 +64,7 @@ belts::AnchorFit frame_of(const BeltsFit& fit) {
   if (fit.scale) frame.state.log_scale = std::log(fit.scale->factor);
   // Lengths without noise are as good as a hundredth of what anybody reads.
   constexpr double kFinestMm = 1e-3;
-  frame.spread_mm = std::max(fit.spread_mm, kFinestMm);
+  frame.residual_sigma_mm = std::max(fit.residual_sigma_mm, kFinestMm);
   return frame;
 }
 

@@ -61,8 +61,8 @@ tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
   Steps projected = a.options.steps;
   projected.project_settings = true;
   const std::vector<bool> none(session.units.size(), false);
-  a.settled = false;
-  for (int pass = 0; pass < kCalibrations && !a.settled; ++pass) {
+  a.converged = false;
+  for (int pass = 0; pass < kCalibrations && !a.converged; ++pass) {
     auto system = linearise(session, state, a.options.steps);
     if (!system) return tl::unexpected(unreachable(session, system.error()));
     system->g = RegressorColumns(session.rows);
@@ -72,7 +72,7 @@ tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
     state = with_settings(session, state, system->setting + change);
     const auto problems = model::problems_of(state.machine);
     if (!problems.empty()) return tl::unexpected(impossible(session, problems.front()));
-    a.settled = move_mm(session, change) < kConvergedMm;
+    a.converged = move_mm(session, change) < kConvergedMm;
   }
   a.state = std::move(state);
   return {};
@@ -223,26 +223,26 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
   a.options = options;
   if (auto done = calibrate(a); !done) return tl::unexpected(done.error());
   a.candidates = candidates(a.session);
-  ComparisonOptions compared{.steps = options.steps, .told = options.told};
+  ComparisonOptions compared{.steps = options.steps, .given_cause = options.given_cause};
   const std::vector<bool> none(a.session.units.size(), false);
-  constexpr int kPasses = 2;
+  constexpr int kCalibrationRounds = 2;
   std::vector<Refinement> known;
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < kCalibrationRounds; ++pass) {
     if (auto done = linearise_anew(known, pass == 0, a); !done) return tl::unexpected(done.error());
     a.comparison = compare_models(a.system, none, compared);
     decide_for(true, a);
-    if (pass + 1 == kPasses || a.decision.regressors.empty()) break;
-    compared.kernels = leading_kernels(a.comparison);
+    if (pass + 1 == kCalibrationRounds || a.decision.regressors.empty()) break;
+    compared.kernels = best_kernels(a.comparison);
     Relinearised relinearised = relinearise(a);
     known = std::move(relinearised.refinements);
     a.state = std::move(relinearised.state);
   }
   test_significance(a.system, NoiseSize::stated, a);
-  if (options.steps.average_parts && !options.told) {
+  if (options.steps.average_parts && !options.given_cause) {
     a.parts = average_over_parts(
         a.system, noise_dof(a), none, a.session.fewest_units, a.comparison);
   }
-  decide_for(options.told.has_value() || a.family_wise_p < kFalseAlarm, a);
+  decide_for(options.given_cause.has_value() || a.family_wise_p < kFalseAlarm, a);
   return a;
 }
 

@@ -18,7 +18,7 @@ namespace chaintrue::grid::diagnosis {
 struct Analysis {
   ObservationSet session;
   DiagnosisOptions options;
-  bool settled = true;  ///< calibrating came to rest
+  bool converged = true;  ///< calibrating came to rest
   State state;          ///< settings about which the system is linear; no effect named is in it
   Candidates candidates;
   RegressorSystem system;

@@ -24,7 +24,7 @@ constexpr double kSpokenFor = 3.0;
 /// Places in a part of the bed: anchors need four, and a check at each besides shows that one is wrong.
 constexpr std::size_t kFewestPlaces = 8;
 /// Linearised about nothing, about what was found, and about what that leaves.
-constexpr int kPasses = 3;
+constexpr int kCalibrationRounds = 3;
 
 /// Regressors of a cause that are weighed, and what sets in at about one visit: an anchor that slips in
 /// a way between those that are tried looks like a skip of another belt as well.
@@ -127,16 +127,16 @@ void decide(bool seen, BeltsAnalysis& a) {
 
 void compare(bool last, BeltsAnalysis& a) {
   Analysis& own = a.analysis;
-  ComparisonOptions options{.steps = own.options.steps, .told = own.options.told};
+  ComparisonOptions options{.steps = own.options.steps, .given_cause = own.options.given_cause};
   options.search = kSearch;
   // Until the last every other strength with the best set of outliers says enough.
-  options.search.sets_beside = last ? 2 : 1;
+  options.search.sets_given = last ? 2 : 1;
   options.search.strength_step = last ? 1 : 2;
   if (const auto found = found_before(a); found.size() > 1) options.hypotheses.push_back(found);
   if (own.system.e.size() > kManyRows) {
     options.kernels = {kKernelOfMany};
     options.discrepancies = last;
-    options.search.sets_beside = 1;
+    options.search.sets_given = 1;
     options.search.strength_step = 2;
   }
   own.comparison = compare_models(own.system, nothing_rejected(own.system), options);
@@ -145,7 +145,7 @@ void compare(bool last, BeltsAnalysis& a) {
         system_of(a.belts, {a.alone, {}}, own.candidates.testable, a.sigma_mm),
         NoiseSize::unknown,
         own);
-    if (own.options.steps.average_parts && !own.options.told) {
+    if (own.options.steps.average_parts && !own.options.given_cause) {
       own.parts = average_over_parts(own.system,
                                      own.session.noise_dof,
                                      nothing_rejected(own.system),
@@ -182,10 +182,10 @@ void drop_hidden(BeltsAnalysis& a) {
 void move_state(BeltsAnalysis& a) {
   belts::AnchorFit from = a.state.frame;
   from.counting = decided_counting(a);
-  auto beside = settle_beside(a.belts, decided_causes(a.analysis), from);
-  if (!beside) return;
+  auto given = fit_given_causes(a.belts, decided_causes(a.analysis), from);
+  if (!given) return;
   // A place of which everything is set aside stays where it was.
-  a.state = {std::move(beside->frame), std::move(beside->causes)};
+  a.state = {std::move(given->frame), std::move(given->causes)};
 }
 
 }  // namespace
@@ -211,7 +211,7 @@ tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts
   BeltsAnalysis a;
   a.belts = belts;
   a.belts.distances.clear();
-  const auto alone = belts::settle_robustly(a.belts);
+  const auto alone = belts::fit_anchors_robustly(a.belts);
   if (!alone) {
     return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::contradictory_settings,
                                            "no four anchors make sense of these lengths"});
@@ -229,9 +229,9 @@ tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts
   own.session.noise_dof = own.system.noise_dof;
   own.session.units.resize(own.system.units.size());
   drop_hidden(a);
-  for (int pass = 0; pass < kPasses; ++pass) {
-    compare(pass + 1 == kPasses, a);
-    if (pass + 1 == kPasses) break;
+  for (int pass = 0; pass < kCalibrationRounds; ++pass) {
+    compare(pass + 1 == kCalibrationRounds, a);
+    if (pass + 1 == kCalibrationRounds) break;
     move_state(a);
     a.sigma_mm *= std::sqrt(own.estimate.noise_square);
     own.system = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);

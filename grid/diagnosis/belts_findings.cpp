@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/belts/foretelling.hpp"
+#include "grid/belts/prediction.hpp"
 #include "grid/diagnosis/belts_report.hpp"
 #include "model/belts/belt_kinematics.hpp"
 #include "model/belts/belt_readings.hpp"
@@ -90,11 +90,11 @@ ToolError tool_error(const Explained& explained,
                      const model::BeltMachine& machine,
                      const Eigen::MatrixXd& covariance) {
   std::vector<model::belts::ResolvedBeltEffect> effects;
-  for (const BeltCause& own : explained.beside.causes) {
+  for (const BeltCause& own : explained.given.causes) {
     effects.push_back(
         {model::belts::belt_effect_of(*own.cause.effect), own.cause.side, own.values});
   }
-  const std::vector<FramePoint>& places = explained.beside.frame.state.places;
+  const std::vector<FramePoint>& places = explained.given.frame.state.places;
   ToolError error;
   const auto of = [&](const model::BeltMachine& by) {
     return shape_error_mm(believed(by, machine, effects, places), places);
@@ -107,38 +107,38 @@ ToolError tool_error(const Explained& explained,
 }
 
 /// Of all readings, none set aside.
-double rms_of_all_mm(const MeasuredBelts& belts, const FrameBeside& beside) {
-  belts::AnchorFit from = beside.frame;
+double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
+  belts::AnchorFit from = given.frame;
   from.counting.assign(belts.points.size(), {true, true, true, true});
-  const auto fitted = settle_beside(belts, beside.causes, from);
-  const FrameBeside& at = fitted ? *fitted : beside;
-  const MeasuredBelts freed = without_effects(belts, at.causes, at.frame.state);
-  const Eigen::VectorXd left = belts::reading_lines(freed, at.frame.state).residual_mm;
+  const auto fitted = fit_given_causes(belts, given.causes, from);
+  const FitGivenCauses& at = fitted ? *fitted : given;
+  const MeasuredBelts without_causes = without_effects(belts, at.causes, at.frame.state);
+  const Eigen::VectorXd left = belts::reading_lines(without_causes, at.frame.state).residual_mm;
   return std::sqrt(left.squaredNorm() / static_cast<double>(left.size()));
 }
 
-std::optional<BeltPrediction> foretold_by_halves(const MeasuredBelts& belts,
+std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
                                                  const Explained& explained) {
   const std::size_t count = belts.points.size();
   if (count < 2 * kFewestBeltPoints) return std::nullopt;
   const std::vector<std::size_t> order = belts::in_order(belts);
-  std::vector<double> off_mm;
+  std::vector<double> residual_mm;
   for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
-    belts::AnchorFit from = explained.beside.frame;
+    belts::AnchorFit from = explained.given.frame;
     for (std::size_t i = half; i < count; i += 2)
       from.counting[order[i]] = {false, false, false, false};
-    const auto fitted = settle_beside(belts, explained.beside.causes, from);
+    const auto fitted = fit_given_causes(belts, explained.given.causes, from);
     if (!fitted || fitted->frame.checks < 1) return std::nullopt;
-    const MeasuredBelts freed = without_effects(belts, fitted->causes, fitted->frame.state);
+    const MeasuredBelts without_causes = without_effects(belts, fitted->causes, fitted->frame.state);
     for (std::size_t i = half; i < count; i += 2) {
-      belts::foretell(freed,
+      belts::predict_point(without_causes,
                       order[i],
                       fitted->frame.state.anchors,
-                      explained.beside.frame.counting[order[i]],
-                      off_mm);
+                      explained.given.frame.counting[order[i]],
+                      residual_mm);
     }
   }
-  return belts::summed(off_mm);
+  return belts::summed(residual_mm);
 }
 
 }  // namespace
@@ -146,9 +146,9 @@ std::optional<BeltPrediction> foretold_by_halves(const MeasuredBelts& belts,
 Explained explained(const BeltsAnalysis& a) {
   belts::AnchorFit from = a.state.frame;
   from.counting = decided_counting(a);
-  auto beside = settle_beside(a.belts, decided_causes(a.analysis), from);
-  Explained result{beside ? *std::move(beside) : FrameBeside{from, a.state.causes}, {}};
-  result.freed = without_effects(a.belts, result.beside.causes, result.beside.frame.state);
+  auto given = fit_given_causes(a.belts, decided_causes(a.analysis), from);
+  Explained result{given ? *std::move(given) : FitGivenCauses{from, a.state.causes}, {}};
+  result.without_causes = without_effects(a.belts, result.given.causes, result.given.frame.state);
   return result;
 }
 
@@ -156,7 +156,7 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
                              const Explained& explained,
                              const MeasuredBelts& belts,
                              const BeltsFit& alone) {
-  const belts::AnchorFit& frame = explained.beside.frame;
+  const belts::AnchorFit& frame = explained.given.frame;
   BeltsFindings found;
   found.machine = belts::with_anchors(belts.machine, frame.state.anchors);
   const Eigen::MatrixXd& covariance = a.analysis.estimate.setting_covariance;
@@ -168,27 +168,27 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
                             frame.state.anchors[at],
                             std::sqrt(covariance(at, at))};
   }
-  found.spread_before_mm = alone.spread_mm;
+  found.spread_before_mm = alone.residual_sigma_mm;
   found.rms_before_mm = rms_of_all_mm(a.belts, {a.alone, {}});
-  found.rms_mm = rms_of_all_mm(a.belts, explained.beside);
-  const belts::FitDiagnostics view(explained.freed, frame);
+  found.rms_mm = rms_of_all_mm(a.belts, explained.given);
+  const belts::FitDiagnostics view(explained.without_causes, frame);
   double good_square = 0.0;
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     BeltPlacePicture place{frame.state.places[k], belts.points[k].order, {}, {}, {}};
     for (const Belt belt : kBelts) {
       const BeltResidual left = view.residual(k, belt);
-      place.before_mm[belt] = alone.places[k].belts[belt].off_mm;
-      place.after_mm[belt] = left.off_mm;
+      place.before_mm[belt] = alone.places[k].belts[belt].residual_mm;
+      place.after_mm[belt] = left.residual_mm;
       place.bad[belt] = !frame.counting[k][belt];
-      if (left.counts) good_square += left.off_mm * left.off_mm;
+      if (left.counts) good_square += left.residual_mm * left.residual_mm;
     }
     found.places.push_back(place);
   }
   const auto values = static_cast<Eigen::Index>(a.analysis.estimate.free.size());
   found.checks = static_cast<int>(std::max<Eigen::Index>(frame.checks - values, 1));
-  found.spread_mm = std::sqrt(good_square / found.checks);
-  found.foretold_before = alone.half_left_out;
-  found.foretold = foretold_by_halves(a.belts, explained);
+  found.residual_sigma_mm = std::sqrt(good_square / found.checks);
+  found.prediction_before = alone.half_left_out;
+  found.prediction = prediction_by_halves(a.belts, explained);
   found.tool = tool_error(explained, belts, alone, found.machine, covariance);
   found.scale = alone.scale;
   found.firmware_fit = belts.firmware_fit;
@@ -202,7 +202,7 @@ Unexplained unexplained(const BeltsAnalysis& a) {
   if (own.noise == nullptr) return result;
   const KeptRows& kept = own.comparison.marginalised_systems[own.decision.marginalised].kept;
   const Eigen::VectorXd all = kept(own.estimate.left);
-  const Eigen::VectorXd taken = all - kept(own.estimate.left_beside_discrepancy);
+  const Eigen::VectorXd taken = all - kept(own.estimate.left_given_discrepancy);
   result.rms_mm = a.sigma_mm * std::sqrt(taken.squaredNorm() / static_cast<double>(taken.size()));
   result.signal_to_noise =
       result.rms_mm / a.sigma_mm * std::sqrt(static_cast<double>(own.system.e.size()));
@@ -231,11 +231,11 @@ double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt w
 
 /// The belt that may be off in place of a bad one: on the line between two anchors the other two belts
 /// alone say how far beside it the place is, and nothing says which of them is off.
-std::optional<Belt> looks_alike(const belts::FitDiagnostics& view, std::size_t point, Belt bad) {
+std::optional<Belt> equally_likely_belt(const belts::FitDiagnostics& view, std::size_t point, Belt bad) {
   // Odds of twenty to one tell them apart.
-  const double told = left_without(view, point, bad) + 2.0 * std::log(20.0);
+  const double limit = left_without(view, point, bad) + 2.0 * std::log(20.0);
   std::optional<Belt> other;
-  double least = told;
+  double least = limit;
   for (const Belt belt : kBelts) {
     if (belt == bad) continue;
     if (const double left = left_without(view, point, belt); left < least) {
@@ -249,25 +249,25 @@ std::optional<Belt> looks_alike(const belts::FitDiagnostics& view, std::size_t p
 }  // namespace
 
 std::vector<Outlier> bad_belts(const Explained& explained) {
-  const belts::FitDiagnostics view(explained.freed, explained.beside.frame);
+  const belts::FitDiagnostics view(explained.without_causes, explained.given.frame);
   std::vector<Outlier> result;
-  for (std::size_t k = 0; k < explained.freed.points.size(); ++k) {
+  for (std::size_t k = 0; k < explained.without_causes.points.size(); ++k) {
     std::vector<Belt> bad;
     Outlier outlier;
     outlier.of = Observations::belts;
     outlier.index = k;
     for (const Belt belt : kBelts) {
-      if (explained.beside.frame.counting[k][belt]) continue;
+      if (explained.given.frame.counting[k][belt]) continue;
       bad.push_back(belt);
       const BeltResidual own = view.residual(k, belt);
-      if (std::abs(own.beside_mm) <= std::abs(outlier.off_mm)) continue;
-      outlier.off_mm = own.beside_mm;
+      if (std::abs(own.deleted_residual_mm) <= std::abs(outlier.residual_mm)) continue;
+      outlier.residual_mm = own.deleted_residual_mm;
       outlier.distance = std::abs(own.sigmas);
     }
     if (bad.empty()) continue;
     if (bad.size() == 1) {
       outlier.belt = bad.front();
-      outlier.or_belt = looks_alike(view, k, bad.front());
+      outlier.or_belt = equally_likely_belt(view, k, bad.front());
     }
     result.push_back(outlier);
   }

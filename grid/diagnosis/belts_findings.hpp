@@ -50,13 +50,13 @@ struct BeltsFindings {
   std::array<DiagnosedCoordinate, 5> coordinates;
   /// sqrt(sum r^2 / checks): what one belt's reading is off by.
   double spread_before_mm = 0.0;
-  double spread_mm = 0.0;
+  double residual_sigma_mm = 0.0;
   /// Over all readings, none set aside, as the machine's own message counts.
   double rms_before_mm = 0.0;
   double rms_mm = 0.0;
   int checks = 0;
-  std::optional<BeltPrediction> foretold_before;  ///< either half of the places by the other
-  std::optional<BeltPrediction> foretold;
+  std::optional<BeltPrediction> prediction_before;  ///< either half of the places by the other
+  std::optional<BeltPrediction> prediction;
   ToolError tool;
   std::optional<BeltScale> scale;
   std::optional<FirmwareFit> firmware_fit;

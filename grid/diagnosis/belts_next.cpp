@@ -181,7 +181,7 @@ std::optional<double> all_once_more(const BeltsAnalysis& a) {
 
 BeltsNext next_measurements(const BeltsAnalysis& a) {
   BeltsNext result;
-  const std::vector<Alternative> alternatives = leading_alternatives(a.analysis);
+  const std::vector<Alternative> alternatives = alternatives_of_best(a.analysis);
   if (is_left_alone(a.analysis, alternatives) || alternatives.back().group == 0 ||
       a.analysis.decision.verdict == Verdict::named) {
     return result;

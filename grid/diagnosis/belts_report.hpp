@@ -13,8 +13,8 @@ namespace chaintrue::grid::diagnosis {
 /// Anchors, places and sizes at rest with the causes that were decided on, and the readings without
 /// what these add.
 struct Explained {
-  FrameBeside beside;
-  MeasuredBelts freed;
+  FitGivenCauses given;
+  MeasuredBelts without_causes;
 };
 [[nodiscard]] Explained explained(const BeltsAnalysis& analysis);
 

@@ -13,7 +13,7 @@
 
 #include <vector>
 
-#include "grid/diagnosis/belts_beside.hpp"
+#include "grid/diagnosis/belts_given_causes.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -43,29 +43,29 @@ std::vector<std::string> bad_belts(const Diagnosis& d) {
                                        model::words(*bad.belt),
                                        bad.index + 1,
                                        or_else(bad),
-                                       std::abs(bad.off_mm),
-                                       bad.off_mm > 0.0 ? "long" : "short")
+                                       std::abs(bad.residual_mm),
+                                       bad.residual_mm > 0.0 ? "long" : "short")
                          : fmt::format("point {}, where more than one belt disagrees", bad.index + 1));
   }
   return result;
 }
 
-std::string gain_words(const BeltsFindings& found) {
+std::string improvement_words(const BeltsFindings& found) {
   std::string text =
       fmt::format(" What one belt's reading is off by falls from {:.2f} to {:.2f} mm",
                   found.spread_before_mm,
-                  found.spread_mm);
-  if (found.foretold && found.foretold_before) {
+                  found.residual_sigma_mm);
+  if (found.prediction && found.prediction_before) {
     text += fmt::format(
         "; the lower belts, foretold by the upper two at places left out, from {:.2f} to {:.2f} mm",
-        found.foretold_before->rms_mm,
-        found.foretold->rms_mm);
+        found.prediction_before->rms_mm,
+        found.prediction->rms_mm);
   }
   return text + ".";
 }
 
 /// " Besides, 0.4 mm of each reading ..."
-std::string beside_belts_words(const Diagnosis& d) {
+std::string alongside_belts_words(const Diagnosis& d) {
   if (!d.unexplained || d.unexplained->probability <= kDiscrepancyLikely) return "";
   return fmt::format(
       " Besides, {:.2f} mm a belt follow a pattern over some {:.0f} mm of the sheet that no listed "
@@ -99,15 +99,15 @@ std::string listed_words(const Diagnosis& d, std::string_view last) {
 std::string sentence(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::named:
-      return named_belt_words(d) + beside_belts_words(d) + gain_words(*d.belts);
+      return named_belt_words(d) + alongside_belts_words(d) + improvement_words(*d.belts);
     case Verdict::named_set:
       return fmt::format("One of {} causes, which these lengths do not tell apart: {}.",
                          d.causes.size(),
                          listed_words(d, "or")) +
-             beside_belts_words(d) + gain_words(*d.belts);
+             alongside_belts_words(d) + improvement_words(*d.belts);
     case Verdict::several_causes:
       return fmt::format("{} causes act together: {}.", d.causes.size(), listed_words(d, "and")) +
-             beside_belts_words(d) + gain_words(*d.belts);
+             alongside_belts_words(d) + improvement_words(*d.belts);
     case Verdict::outliers:
       return fmt::format("Nothing is wrong but {} of the readings: {}. Without {} the frame fits.",
                          d.outliers.size(),
@@ -125,7 +125,7 @@ std::string sentence(const Diagnosis& d) {
           "mm "
           "a belt, has no listed cause.",
           d.belts->places.size(),
-          d.belts->spread_mm);
+          d.belts->residual_sigma_mm);
   }
 }
 
@@ -248,12 +248,12 @@ std::string firmware_words(const MeasuredBelts& belts, const BeltsFit& alone, co
                     alone.rms_mm,
                     readings,
                     alone.checks,
-                    alone.spread_mm,
+                    alone.residual_sigma_mm,
                     d.causes.empty()
                         ? ""
                         : fmt::format(", with {} beside the anchors by {:.2f} mm",
                                       d.causes.size() == 1 ? "the cause" : "the causes",
-                                      d.belts->spread_mm));
+                                      d.belts->residual_sigma_mm));
 }
 
 }  // namespace

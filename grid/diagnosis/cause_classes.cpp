@@ -17,7 +17,7 @@ namespace {
 
 /// The most telling regressor of each cause: the longest, and the nearest to the data among those
 /// of a cause with places.
-std::vector<std::pair<CauseId, int>> leading_regressors(const RegressorSystem& system,
+std::vector<std::pair<CauseId, int>> best_regressors(const RegressorSystem& system,
                                                         const MarginalisedSystem& marginalised) {
   std::vector<std::pair<CauseId, int>> result;
   double best = -1.0;
@@ -179,7 +179,7 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
   std::vector<CauseClass> classes;
   std::vector<Representative> first;
   std::vector<bool> mixed;  // whole numbers and any amounts
-  for (const auto& [cause, column] : leading_regressors(system, marginalised)) {
+  for (const auto& [cause, column] : best_regressors(system, marginalised)) {
     Representative own{seen(marginalised.kept(system.g.col(column))),
                        marginalised.g.col(column),
                        cause,

@@ -101,8 +101,8 @@ bool falls_beyond_its_error(const std::vector<HeldOutSquare>& squares) {
 
 /// Each block's naming repeated without it, the map's own smooth correction in both.
 bool naming_holds(const Diagnosis& found) {
-  return found.gain &&
-         found.gain->extended_and_surface.rms_mm < found.gain->surface_only.rms_mm;
+  return found.improvement &&
+         found.improvement->extended_and_surface.rms_mm < found.improvement->surface_only.rms_mm;
 }
 
 bool scale_was_read(const Measured& measured) {

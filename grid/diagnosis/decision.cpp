@@ -41,7 +41,7 @@ class Decider {
     // A pattern is itself beyond what noise does, and hides from a test against noise alone.
     const bool beyond_noise = seen || result_.discrepancy > kDiscrepancyLikely;
     if (beyond_noise && result_.caused > kCaused) {
-      name_leading();
+      name_best();
     } else {
       abstain();
     }
@@ -119,7 +119,7 @@ class Decider {
   }
 
   /// The number of causes is settled first, then which.
-  [[nodiscard]] const Grouped* leading_group() {
+  [[nodiscard]] const Grouped* best_group() {
     std::map<std::size_t, double> by_count;
     for (const auto& [key, grouped] : groups_) by_count[key.size()] += grouped.probability;
     std::size_t count = 1;
@@ -131,7 +131,7 @@ class Decider {
       if (key.size() != count) continue;
       if (best == nullptr || grouped.probability > best->probability) {
         best = &grouped;
-        leading_key_ = key;
+        best_key_ = key;
       }
     }
     return best;
@@ -153,22 +153,22 @@ class Decider {
 
   /// Of several causes those are spoken of that are likelier than not; a partner that could be any
   /// of many is left over.
-  const Grouped* without_doubtful(const Grouped* leading) {
-    if (leading_key_.size() < 2) return leading;
+  const Grouped* without_doubtful(const Grouped* best_model) {
+    if (best_key_.size() < 2) return best_model;
     Key sure;
-    for (const std::size_t k : leading_key_) {
-      const bool beside = result_.discrepancy > kDiscrepancyLikely;
-      if (marginal(k) >= (beside ? kNamedBesideDiscrepancy : kLikelierThanNot)) sure.push_back(k);
+    for (const std::size_t k : best_key_) {
+      const bool given_discrepancy = result_.discrepancy > kDiscrepancyLikely;
+      if (marginal(k) >= (given_discrepancy ? kNamedGivenDiscrepancy : kLikelierThanNot)) sure.push_back(k);
     }
     const auto found = groups_.find(sure);
-    if (sure.empty() || found == groups_.end()) return leading;
-    leading_key_ = sure;
+    if (sure.empty() || found == groups_.end()) return best_model;
+    best_key_ = sure;
     return &found->second;
   }
 
-  void name_leading() {
-    const Grouped* leading = without_doubtful(leading_group());
-    if (leading == nullptr) {
+  void name_best() {
+    const Grouped* best_model = without_doubtful(best_group());
+    if (best_model == nullptr) {
       abstain();
       return;
     }
@@ -178,12 +178,12 @@ class Decider {
       abstain();
       return;
     }
-    name_causes(*leading);
+    name_causes(*best_model);
   }
 
   /// A pattern beside a cause takes of its probability, not of its right to be named.
   [[nodiscard]] double enough_to_name() const {
-    return result_.discrepancy > kDiscrepancyLikely ? kNamedBesideDiscrepancy : kNamedAlone;
+    return result_.discrepancy > kDiscrepancyLikely ? kNamedGivenDiscrepancy : kNamedAlone;
   }
 
   /// What the table of hypotheses gives as good as surely is never missing among the causes.
@@ -205,7 +205,7 @@ class Decider {
     std::sort(sure.begin(), sure.end());
     const Grouped* home = likeliest_with(sure);
     if (home == nullptr) return;
-    leading_key_ = sure;
+    best_key_ = sure;
     result_.listed.clear();
     name_causes(*home);
     keep_only(sure);
@@ -229,14 +229,14 @@ class Decider {
     });
   }
 
-  void name_causes(const Grouped& leading) {
-    if (leading_key_.size() > 1) {
+  void name_causes(const Grouped& best_model) {
+    if (best_key_.size() > 1) {
       result_.verdict = Verdict::several_causes;
-      result_.listed = leading_key_;
+      result_.listed = best_key_;
       std::stable_sort(result_.listed.begin(),
                        result_.listed.end(),
                        [&](std::size_t a, std::size_t b) { return marginal(a) > marginal(b); });
-      take(leading);
+      take(best_model);
       return;
     }
     const ClassProbability& top = result_.marginal.front();
@@ -245,17 +245,17 @@ class Decider {
       // fitted is what is named.
       const Key named = {top.index};
       const auto alone = groups_.find(named);
-      const Grouped* own = leading_key_ == named  ? &leading
+      const Grouped* own = best_key_ == named  ? &best_model
                            : alone != groups_.end() ? &alone->second
                                                     : likeliest_with(named);
       take(*own);
       keep_only(named);
-      leading_key_ = named;
+      best_key_ = named;
       result_.verdict = Verdict::named;
       result_.listed = named;
       return;
     }
-    take(leading);
+    take(best_model);
     result_.verdict = Verdict::named_set;
     // Which, given that one cause acts.
     std::vector<ClassProbability> alone;
@@ -308,7 +308,7 @@ class Decider {
   const ModelComparison& comparison_;
   const std::vector<bool>& excluded_;
   std::map<Key, Grouped> groups_;
-  Key leading_key_;
+  Key best_key_;
   Decision result_;
 };
 

@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/gain.hpp"
+#include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/diagnosis/normal_plot.hpp"
 #include "grid/diagnosis/single_reading.hpp"
-#include "grid/diagnosis/slips.hpp"
+#include "grid/diagnosis/gross_errors.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/estimation/estimate.hpp"
 
@@ -152,9 +152,9 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   const std::vector<std::string> sessions = names_of_sessions(measured);
   d.bed_parts = bed_part_findings(a);
   d.sessions = session_findings(a, sessions);
-  if (options.gain) d.gain = measure_gain(a);
+  if (options.improvement) d.improvement = measure_improvement(a);
   tell(options.progress, kPlanning);
-  extend(a, d);
+  apply_causes(a, d);
   if (options.next_measurements) d.next_measurements = next_measurements(a);
   put_into_words(a, d);
   note_zeros(sessions, a, d);

@@ -33,7 +33,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
   const auto analysed = analyse(belts, options);
   if (!analysed) return tl::unexpected(analysed.error());
   const Analysis& a = analysed->analysis;
-  const Explained beside = explained(*analysed);
+  const Explained given = explained(*analysed);
   Diagnosis d;
   d.observations = Observations::belts;
   d.grid_name = belts.name;
@@ -50,8 +50,8 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
   d.unexplained = unexplained(*analysed);
   d.normal_plot = normal_plot(a);
   d.bed_parts = bed_part_findings(a);
-  d.outliers = bad_belts(beside);
-  d.belts = belts_findings(*analysed, beside, belts, *alone);
+  d.outliers = bad_belts(given);
+  d.belts = belts_findings(*analysed, given, belts, *alone);
   const BeltsNext next = options.next_measurements ? next_measurements(*analysed) : BeltsNext{};
   if (options.next_measurements)
     d.next_measurements = measurements_of(next, belts, *alone, a.decision);

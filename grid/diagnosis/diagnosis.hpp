@@ -125,7 +125,7 @@ struct BudgetLine {
 /// The mean square of the tool's error as the machine was delivered, split into what makes it:
 /// largest first, what cannot be split last. The lines add up to the whole.
 struct ErrorBudget {
-  double as_delivered_mm = 0.0;  ///< rms at the good points (or of the good distances)
+  double uncalibrated_mm = 0.0;  ///< rms at the good points (or of the good distances)
   std::vector<BudgetLine> lines;
 };
 
@@ -143,8 +143,8 @@ struct Change {
 struct Trend {
   std::string since;  ///< the earlier file
   std::vector<Change> changes;
-  std::optional<double> as_delivered_before_mm{};  ///< of the budgets, where they are
-  std::optional<double> as_delivered_mm{};
+  std::optional<double> uncalibrated_before_mm{};  ///< of the budgets, where they are
+  std::optional<double> uncalibrated_mm{};
 };
 
 struct Outlier {
@@ -157,7 +157,7 @@ struct Outlier {
   Eigen::Vector2d shift_mm = Eigen::Vector2d::Zero();
   double distance = 0.0;  ///< in sigmas
   /// Of a distance or a belt: read less what all the others make of it.
-  double off_mm = 0.0;
+  double residual_mm = 0.0;
 };
 
 struct NotTestable {
@@ -189,9 +189,9 @@ struct HeldOut {
   double high_mm = 0.0;
 };
 
-struct Gain {
+struct HeldOutImprovement {
   std::string scheme;  ///< how points were held out, in words
-  HeldOut as_delivered;
+  HeldOut uncalibrated;
   std::optional<HeldOut> placed;  ///< the sheet's placement alone; where it was placed by hand
   HeldOut calibrated;
   HeldOut extended;
@@ -199,7 +199,7 @@ struct Gain {
   HeldOut surface_only;
   double noise_floor_mm = 0.0;
   /// By how much the mean square of the tool's error falls over the measured area, as the points
-  /// have it (expected_gain.hpp). Blocks held out say more, since there both models extrapolate and
+  /// have it (expected_improvement.hpp). Blocks held out say more, since there both models extrapolate and
   /// the poorer one farther.
   double drop_mm2 = 0.0;
   /// That drop over the mean square before it, the noise of the readings in neither.
@@ -270,7 +270,7 @@ struct Separation {
 struct Transfer {
   std::string to;  ///< the other grid's name
   std::size_t points = 0;
-  HeldOut as_delivered;
+  HeldOut uncalibrated;
   HeldOut calibrated;
   HeldOut extended;
   HeldOut extended_and_surface;
@@ -306,7 +306,7 @@ struct PartFinding {
   double towards_rad = 0.0;  ///< where the quarter lies, from the middle; from x towards y
   std::string session;       ///< of one session its name; of a quarter empty
   std::size_t units = 0;     ///< of a quarter those left out, of a session its own
-  Hypothesis leading;        ///< the likeliest cause, or "nothing" where none is likelier than not
+  Hypothesis best_models;        ///< the likeliest cause, or "nothing" where none is likelier than not
   std::vector<Hypothesis> named;  ///< what is named, with its probability here
 };
 
@@ -336,7 +336,7 @@ struct Diagnosis {
   std::vector<NotTestable> not_testable;
   std::vector<Bound> bounds;
   std::vector<CalibratedSetting> settings;
-  std::optional<Gain> gain;
+  std::optional<HeldOutImprovement> improvement;
   std::vector<NextMeasurement> next_measurements;
   /// The machine with its settings calibrated and every named cause that belongs into it; never an
   /// effect of the paper or of the visit. Of belts it says nothing: `belts` has theirs.

@@ -236,10 +236,10 @@ DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system,
 
 DiscrepancyBasis::~DiscrepancyBasis() = default;
 
-DiscrepancyBasis::Beside DiscrepancyBasis::beside(std::size_t kernel,
+DiscrepancyBasis::GivenKernel DiscrepancyBasis::given(std::size_t kernel,
                                                   const NormalEquations& plain) {
   const Kernel& own = kernels_.at(kernel);
-  Beside result;
+  GivenKernel result;
   result.plain_ = &plain;
   result.trace_ = marginalised_.discrepancy_trace.at(kernel);
   const auto lines = static_cast<Eigen::Index>(plain.columns.size()) + 1;
@@ -248,7 +248,7 @@ DiscrepancyBasis::Beside DiscrepancyBasis::beside(std::size_t kernel,
     return result;
   }
   result.on_ = own.tridiagonal.diagonal();
-  result.beside_ = own.tridiagonal.subDiagonal();
+  result.subdiagonal_ = own.tridiagonal.subDiagonal();
   Eigen::MatrixXd with(result.on_.size(), lines);
   Eigen::Index row = 0;
   for (const Block& block : own.blocks) {
@@ -261,7 +261,7 @@ DiscrepancyBasis::Beside DiscrepancyBasis::beside(std::size_t kernel,
   return result;
 }
 
-DiscrepancyBasis::Beside::Half DiscrepancyBasis::Beside::half(double strength) const {
+DiscrepancyBasis::GivenKernel::Half DiscrepancyBasis::GivenKernel::half(double strength) const {
   // J + 1 / s^2 = L D L', L with ones on its diagonal and one entry beside each
   const double shift = trace_ / (strength * strength);
   const Eigen::Index r = on_.size();
@@ -269,7 +269,7 @@ DiscrepancyBasis::Beside::Half DiscrepancyBasis::Beside::half(double strength) c
   double d = 0.0;
   for (Eigen::Index k = 0; k < r; ++k) {
     const double own = on_(k) + shift;
-    const double before = k > 0 ? beside_(k - 1) : 0.0;
+    const double before = k > 0 ? subdiagonal_(k - 1) : 0.0;
     if (k > 0) result.above(k) = before / std::sqrt(d);
     // J is positive but for rounding
     d = std::max(k > 0 ? own - before * before / d : own, shift);
@@ -279,14 +279,14 @@ DiscrepancyBasis::Beside::Half DiscrepancyBasis::Beside::half(double strength) c
   return result;
 }
 
-void DiscrepancyBasis::Beside::apply(const Half& half, Eigen::MatrixXd& lines) {
+void DiscrepancyBasis::GivenKernel::apply(const Half& half, Eigen::MatrixXd& lines) {
   for (Eigen::Index k = 0; k < lines.cols(); ++k) {
     if (k > 0) lines.col(k) -= half.above(k) * lines.col(k - 1);
     lines.col(k) *= half.on(k);
   }
 }
 
-DiscrepancyBasis::Beside::Diagonal DiscrepancyBasis::Beside::diagonal(double strength) const {
+DiscrepancyBasis::GivenKernel::Diagonal DiscrepancyBasis::GivenKernel::diagonal(double strength) const {
   const Half own = half(strength);
   Eigen::MatrixXd lines = rotated_;
   apply(own, lines);
@@ -300,7 +300,7 @@ DiscrepancyBasis::Beside::Diagonal DiscrepancyBasis::Beside::diagonal(double str
   return result;
 }
 
-NormalEquations DiscrepancyBasis::Beside::equations(double strength,
+NormalEquations DiscrepancyBasis::GivenKernel::equations(double strength,
                                                     std::vector<int> columns) const {
   std::vector<Eigen::Index> at;
   std::vector<Eigen::Index> line = {0};

@@ -36,7 +36,7 @@ class DiscrepancyBasis {
   ~DiscrepancyBasis();
 
   /// Inner products of the residual and of some columns with what turns a kernel tridiagonal.
-  class Beside {
+  class GivenKernel {
    public:
     /// Inner products of the residual with itself and with each column, and each column's square.
     struct Diagonal {
@@ -63,11 +63,11 @@ class DiscrepancyBasis {
     const NormalEquations* plain_ = nullptr;  ///< without a discrepancy
     double trace_ = 0.0;
     Eigen::ArrayXd on_;        ///< r, J's diagonal
-    Eigen::ArrayXd beside_;    ///< r - 1, the one beside it
+    Eigen::ArrayXd subdiagonal_;    ///< r - 1, the one beside it
     Eigen::MatrixXd rotated_;  ///< E'BQ, (1 + columns) x r
   };
   /// `plain`: normal equations of the columns without a discrepancy; kept by reference.
-  [[nodiscard]] Beside beside(std::size_t kernel, const NormalEquations& plain);
+  [[nodiscard]] GivenKernel given(std::size_t kernel, const NormalEquations& plain);
 
  private:
   class Fields;

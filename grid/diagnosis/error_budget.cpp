@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/other_places.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -97,16 +97,16 @@ class Budget {
   [[nodiscard]] ErrorBudget measure() {
     const auto stated = linearise(a_.session, stated_state(a_.session), {});
     if (!stated || units_.empty()) return {};
-    Shifts delivered;
-    for (const std::size_t u : units_) delivered.push_back(error_of_unit(*stated, stated->e, u));
+    Shifts before_calibration;
+    for (const std::size_t u : units_) before_calibration.push_back(error_of_unit(*stated, stated->e, u));
     ErrorBudget budget;
-    budget.as_delivered_mm = std::sqrt(mean_square(delivered));
+    budget.uncalibrated_mm = std::sqrt(mean_square(before_calibration));
     // Every part is what the error would lose with it; together they are the error.
-    Shifts settings = delivered;
+    Shifts settings = before_calibration;
     add_causes(budget, settings);
-    const Shifts pattern = shifts_of(a_.estimate.left - a_.estimate.left_beside_discrepancy);
+    const Shifts pattern = shifts_of(a_.estimate.left - a_.estimate.left_given_discrepancy);
     const Shifts noise =
-        shifts_of(left_of_machine(a_.system, a_.estimate, a_.estimate.left_beside_discrepancy));
+        shifts_of(left_of_machine(a_.system, a_.estimate, a_.estimate.left_given_discrepancy));
     take_away(pattern, settings);
     take_away(noise, settings);
     add({.what = BudgetLine::What::settings, .part_mm = settings_over_a_part()}, settings, budget);
@@ -185,7 +185,7 @@ class Budget {
 
   /// Shares, what the parts have in common, and the order.
   static void finish(ErrorBudget& budget) {
-    const double whole = budget.as_delivered_mm * budget.as_delivered_mm;
+    const double whole = budget.uncalibrated_mm * budget.uncalibrated_mm;
     double sum = 0.0;
     for (const BudgetLine& line : budget.lines) sum += line.mean_square_mm2;
     std::stable_sort(

@@ -48,19 +48,19 @@ void take_discrepancy_out(const RegressorSystem& system,
                           Estimate& estimate) {
   if (estimate.discrepancy.kernel.of_lengths()) {
     const double square = estimate.discrepancy.sigma_mm * estimate.discrepancy.sigma_mm;
-    estimate.left_beside_discrepancy -=
+    estimate.left_given_discrepancy -=
         square * (discrepancy_covariance(
                       system, system, marginalised.kept, estimate.discrepancy.kernel) *
                   estimate.discrepancy_weights);
     return;
   }
-  estimate.left_beside_discrepancy(marginalised.kept.rows()) = estimate.discrepancy_weights;
+  estimate.left_given_discrepancy(marginalised.kept.rows()) = estimate.discrepancy_weights;
   for (std::size_t u = 0; u < system.units.size(); ++u) {
     if (!marginalised.outliers[u]) continue;
     const SystemUnit& unit = system.units[u];
     for (const observation::PlaceColumns& seen : unit.places) {
       const DiscrepancyPlace place = discrepancy_place(system.places[seen.place]);
-      estimate.left_beside_discrepancy.segment(unit.first_row, unit.rows) -=
+      estimate.left_given_discrepancy.segment(unit.first_row, unit.rows) -=
           seen.by_chain * discrepancy_at(system, marginalised, estimate, place);
     }
   }
@@ -152,7 +152,7 @@ Estimate estimate(const RegressorSystem& system,
     left -= system.g.col(regressors[result.free[k]]) * result.coefficient(at);
   }
   result.left = left;
-  result.left_beside_discrepancy = left;
+  result.left_given_discrepancy = left;
   const Eigen::VectorXd kept = marginalised.kept(left);
   double quadratic = kept.squaredNorm();
   if (noise != nullptr) {

@@ -23,7 +23,7 @@ struct Estimate {
   Eigen::VectorXd coefficient_sigma;
   double noise_square = 1.0;                ///< s^2
   Eigen::VectorXd left;                     ///< n whitened rows, the discrepancy not taken out
-  Eigen::VectorXd left_beside_discrepancy;  ///< the same with the discrepancy taken out
+  Eigen::VectorXd left_given_discrepancy;  ///< the same with the discrepancy taken out
   Discrepancy discrepancy;
   Eigen::VectorXd discrepancy_weights;  ///< N, a kept row each; empty without a discrepancy
   /// Covariance of setting_change and of the free coefficients, in that order.

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "grid/diagnosis/constants.hpp"
-#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/best_model.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -364,17 +364,17 @@ Outlier outlying_distance(const Analysis& a, const NumberedUnit& own, const Syst
   const Eigen::RowVectorXd by_setting = a.system.by_setting.row(row);
   const double variance = a.estimate.noise_square +
                           by_setting.dot(a.estimate.setting_covariance * by_setting.transpose());
-  const double off = a.estimate.left_beside_discrepancy(row);
+  const double off = a.estimate.left_given_discrepancy(row);
   Outlier outlier;
   outlier.of = Observations::distances;
   outlier.index = own.index;
-  outlier.off_mm = off * unit.sigma();
+  outlier.residual_mm = off * unit.sigma();
   outlier.distance = std::abs(off) / std::sqrt(variance);
   return outlier;
 }
 
 Outlier outlying_point(const Analysis& a, const NumberedUnit& own, const SystemUnit& unit) {
-  const Eigen::Vector2d chains = unit.unwhitened(a.estimate.left_beside_discrepancy);
+  const Eigen::Vector2d chains = unit.unwhitened(a.estimate.left_given_discrepancy);
   Outlier outlier;
   outlier.index = own.index;
   outlier.shift_mm = tool_shift(a.system.places[unit.places.front().place], chains);
@@ -388,7 +388,7 @@ Outlier outlying_point(const Analysis& a, const NumberedUnit& own, const SystemU
 std::vector<Outlier> outliers_found(const Analysis& a) {
   std::vector<bool> outliers = marginalised_system(a).outliers;
   // A link counted wrong is an outlier with a name.
-  set_slips_aside(a, outliers);
+  reject_slips(a, outliers);
   std::vector<Outlier> result;
   for (std::size_t u = 0; u < outliers.size(); ++u) {
     if (!outliers[u]) continue;

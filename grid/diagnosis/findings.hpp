@@ -33,7 +33,7 @@ namespace chaintrue::grid::diagnosis {
 
 /// Sets the machine and the corrections of the data from the causes; a class that may lie on the
 /// paper as well only where the options accept it.
-void extend(const Analysis& analysis, Diagnosis& diagnosis);
+void apply_causes(const Analysis& analysis, Diagnosis& diagnosis);
 
 /// Quarters without which the answer is another one, and causes of one session alone; empty where there
 /// are none of either.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/noise_draws.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -97,11 +97,11 @@ LeftOver left_over(const Analysis& a) {
   result.p_value = p_of_structure(a);
   if (a.decision.best_discrepancy >= 0) {
     const MarginalisedSystem& marginalised = marginalised_system(a);
-    const Estimate beside =
+    const Estimate given =
         estimate(a.system, marginalised, a.decision.regressors, a.decision.best_discrepancy);
-    const Eigen::VectorXd discrepancy = beside.left - beside.left_beside_discrepancy;
+    const Eigen::VectorXd discrepancy = given.left - given.left_given_discrepancy;
     result.signal_to_noise =
-        length_in_noise(a.system, marginalised.kept, discrepancy) / std::sqrt(beside.noise_square);
+        length_in_noise(a.system, marginalised.kept, discrepancy) / std::sqrt(given.noise_square);
   }
   // A distance joins two places and follows neither.
   if (result.p_value >= kFalseAlarm || !a.session.reads_chains()) return result;

@@ -35,7 +35,7 @@ std::vector<std::vector<int>> first_hypotheses(const RegressorSystem& system,
   const SingleScores scores = single_scores(system, marginalised, noise, marginalised.e, false);
   std::vector<std::vector<int>> hypotheses = {{}};
   for (std::size_t k = 0; k < scores.causes.size(); ++k) {
-    if (options.told && !(scores.causes[k] == *options.told)) continue;
+    if (options.given_cause && !(scores.causes[k] == *options.given_cause)) continue;
     if (scores.best_regressor[k] >= 0) hypotheses.push_back({scores.best_regressor[k]});
   }
   hypotheses.insert(hypotheses.end(), options.hypotheses.begin(), options.hypotheses.end());
@@ -209,13 +209,13 @@ class Comparer {
     }
     if (options_.discrepancies) {
       if (options_.search.of_a_cause > 0) {
-        look_beside_likeliest(searches);
+        look_alongside_likeliest(searches);
         searches.clear();
       }
       for (SetSearch& search : searches) {
         // What looks like outliers without a discrepancy may be part of one.
         const bool all = search.outliers() == excluded_;
-        if (all || search.best() > best - kWorthDiscrepancies) look_beside(search);
+        if (all || search.best() > best - kWorthDiscrepancies) look_alongside(search);
       }
     }
     sort_by_weight(comparison_);
@@ -228,24 +228,24 @@ class Comparer {
     std::move(models.begin(), models.end(), std::back_inserter(comparison_.models));
   }
 
-  void look_beside_likeliest(std::vector<SetSearch>& searches) {
+  void look_alongside_likeliest(std::vector<SetSearch>& searches) {
     std::vector<std::size_t> order(searches.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return searches[a].best() > searches[b].best();
     });
-    order.resize(std::min(order.size(), options_.search.sets_beside));
-    for (const std::size_t k : order) look_beside(searches[k]);
+    order.resize(std::min(order.size(), options_.search.sets_given));
+    for (const std::size_t k : order) look_alongside(searches[k]);
   }
 
-  void look_beside(SetSearch& search) {
+  void look_alongside(SetSearch& search) {
     const bool first = comparison_.kernels.empty();
     const bool all_again = options_.search.of_a_cause > 0;
-    const std::vector<std::size_t> kernels = !first && !all_again ? leading_kernels(comparison_)
+    const std::vector<std::size_t> kernels = !first && !all_again ? best_kernels(comparison_)
                                              : !options_.kernels.empty() ? options_.kernels
                                                                          : all_kernels(system_);
     std::vector<double> weight;
-    take(search.run_beside_discrepancies(kernels, weight));
+    take(search.run_given_discrepancies(kernels, weight));
     if (first) comparison_.kernels = by_weight(kernels, weight);
   }
 
@@ -257,10 +257,10 @@ class Comparer {
 
 }  // namespace
 
-std::vector<std::size_t> leading_kernels(const ModelComparison& comparison) {
-  std::vector<std::size_t> leading = comparison.kernels;
-  leading.resize(std::min(leading.size(), kLeadingKernels));
-  return leading;
+std::vector<std::size_t> best_kernels(const ModelComparison& comparison) {
+  std::vector<std::size_t> likeliest = comparison.kernels;
+  likeliest.resize(std::min(likeliest.size(), kBestKernels));
+  return likeliest;
 }
 
 ModelComparison compare_models(const RegressorSystem& system,

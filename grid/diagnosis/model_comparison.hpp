@@ -50,7 +50,7 @@ struct SearchLimits {
   std::size_t of_a_cause = 0;
   /// With a beam: sets of outliers that are tried beside discrepancies, the likeliest, and every so
   /// many of the strengths, the last among them.
-  std::size_t sets_beside = 1;
+  std::size_t sets_given = 1;
   std::size_t strength_step = 1;
   /// What sets in within so many visits is one event, whatever it is called. 0: nothing is.
   double one_event_visits = 0.0;
@@ -62,7 +62,7 @@ struct ComparisonOptions {
   /// Kernels of the discrepancy to try (numbers in the system's family); empty: all.
   std::vector<std::size_t> kernels{};
   /// Nothing but this cause acts.
-  std::optional<CauseId> told{};
+  std::optional<CauseId> given_cause{};
   SearchLimits search{};
   /// Sets of regressors that look for outliers besides nothing and each cause alone.
   std::vector<std::vector<int>> hypotheses{};
@@ -75,7 +75,7 @@ struct ComparisonOptions {
 
 /// The weightiest kernels of a comparison, for others of the same session: as many as hold the
 /// weight of a discrepancy at any of its causes.
-[[nodiscard]] std::vector<std::size_t> leading_kernels(const ModelComparison& comparison);
+[[nodiscard]] std::vector<std::size_t> best_kernels(const ModelComparison& comparison);
 
 /// Most causes in one set.
 inline constexpr std::size_t kMostCauses = 4;

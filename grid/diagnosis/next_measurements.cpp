@@ -36,7 +36,7 @@ void add_link_reading(const Analysis& a, std::vector<NextMeasurement>& list) {
 }
 
 /// Of the most probable group.
-double leading_share(const std::vector<Alternative>& alternatives) {
+double share_of_best(const std::vector<Alternative>& alternatives) {
   double sum = 0.0;
   for (const Alternative& one : alternatives) sum += one.group == 0 ? one.probability : 0.0;
   return sum;
@@ -46,7 +46,7 @@ double leading_share(const std::vector<Alternative>& alternatives) {
 
 bool is_left_alone(const Analysis& a, const std::vector<Alternative>& alternatives) {
   return alternatives.empty() ||
-         (a.decision.listed.empty() && leading_share(alternatives) > kLeftAlone);
+         (a.decision.listed.empty() && share_of_best(alternatives) > kLeftAlone);
 }
 
 std::vector<NextMeasurement> most_telling(const Analysis& a,

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "grid/diagnosis/next_candidates.hpp"
-#include "grid/diagnosis/outlook.hpp"
+#include "grid/diagnosis/expected_discrimination.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

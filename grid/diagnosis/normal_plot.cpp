@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/noise_draws.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -64,7 +64,7 @@ std::optional<NormalPlot> normal_plot(const Analysis& a) {
   const Eigen::Index rows = rows_of_units(a);
   if (rows < kFewestRows) return std::nullopt;
   const Eigen::VectorXd& left =
-      a.decision.discrepancy_left ? a.estimate.left_beside_discrepancy : a.estimate.left;
+      a.decision.discrepancy_left ? a.estimate.left_given_discrepancy : a.estimate.left;
   NormalPlot plot;
   plot.values = shape_of(marginalised.kept(left).head(rows));
   constexpr std::uint64_t kStream = 64;

@@ -24,14 +24,14 @@ struct Steps {
 
 struct DiagnosisOptions {
   std::uint64_t seed = 1;
-  bool gain = true;  ///< held-out errors, naming repeated in each fold
+  bool improvement = true;  ///< held-out errors, naming repeated in each fold
   bool next_measurements = true;
   bool stability = true;       ///< the naming without each point, column and row of marks
   bool order_assumed = false;  ///< the points' order was assumed by somebody, not measured
   /// Chain or paper, which no points tell apart: the person has it that it is the chain.
   bool accept_class = false;
   /// Nothing but this cause is looked for: what somebody who knew it would find.
-  std::optional<CauseId> told{};
+  std::optional<CauseId> given_cause{};
   Steps steps;
   Progress progress{};
 };

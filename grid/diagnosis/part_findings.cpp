@@ -36,13 +36,13 @@ PartFinding finding_of(const Analysis& a, const PartPosterior& part) {
   PartFinding result;
   result.towards_rad = part.left_out.towards_rad;
   result.units = part.left_out.units.size();
-  result.leading = {"nothing", "", 1.0 - part.caused};
+  result.best_models = {"nothing", "", 1.0 - part.caused};
   double most = kHolds;
   for (const CauseClass& members : a.decision.classes) {
     const double p = probability_of_class(part, members);
     if (p > most) {
       most = p;
-      result.leading = hypothesis_of(members.front(), p);
+      result.best_models = hypothesis_of(members.front(), p);
     }
   }
   for (const std::size_t index : a.decision.listed) {
@@ -99,9 +99,9 @@ std::string words_of_quarters(const Diagnosis& d) {
       if (own.probability < kHolds && (lost == nullptr || own.probability < lost->probability))
         lost = &own;
     }
-    const bool other = !is_named(part, part.leading);
+    const bool other = !is_named(part, part.best_models);
     std::string answer = other || lost == nullptr
-                             ? answer_words(d, part.leading)
+                             ? answer_words(d, part.best_models)
                              : fmt::format("{} is not likely ({})",
                                            cause_words(d, *lost),
                                            percent(lost->probability));

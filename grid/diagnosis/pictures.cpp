@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/best_model.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

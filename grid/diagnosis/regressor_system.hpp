@@ -93,7 +93,7 @@ struct CausePrior {
   /// say in it.
   double shares = 1.0;
   /// Times the odds that causes act where there is a smooth pattern that nobody listed.
-  double odds_given_discrepancy = kCauseOddsBesideDiscrepancy;
+  double odds_given_discrepancy = kCauseOddsGivenDiscrepancy;
 };
 
 /// A linearised system with its regressors, and what is known of its unknowns beforehand.

@@ -222,7 +222,7 @@ class Builder {
 std::string untestable(const ObservationSet& session, CauseId cause) {
   std::string reason;
   for (const ObservationPart& part : session.parts) {
-    if (!part.observation->may_slip()) continue;
+    if (!part.observation->may_be_outlier()) continue;
     const std::string own = part.observation->untestable(*cause.effect, cause.side);
     if (own.empty()) return "";
     if (reason.empty()) reason = own;

@@ -11,8 +11,8 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr int kRounds = 8;
-constexpr double kSettled = 1e-3;           // of a size: a hundredth of its sigma at strength 10
-constexpr double kSettledSettingMm = 1e-3;  // of a setting
+constexpr double kConverged = 1e-3;           // of a size: a hundredth of its sigma at strength 10
+constexpr double kConvergedSettingMm = 1e-3;  // of a setting
 constexpr int kSteps = 5;                   // of the search for a size
 constexpr double kLongestStep = 0.5;        // of a size
 
@@ -68,7 +68,7 @@ class Round {
       const auto there = length(which, now);
       if (!there || now == last) break;
       const double slope = (*there - last_length) / (now - last);
-      if (std::abs(*there - asked) < 0.1 * kSettled || !(std::abs(slope) > 0.0)) break;
+      if (std::abs(*there - asked) < 0.1 * kConverged || !(std::abs(slope) > 0.0)) break;
       const double most = kLongestStep * std::abs(now);
       const double change = std::clamp((asked - *there) / slope, -most, most);
       last = now;
@@ -186,14 +186,14 @@ Relinearised relinearise(const Analysis& a) {
         marginalised.discrepancy_trace;  // the discrepancy stays as strong as it was found
     const Round here(session, result.state, *about, std::move(there), discrepancy);
     const auto settings = static_cast<Eigen::Index>(session.settings.size());
-    bool settled =
-        here.estimate().setting_change.head(settings).cwiseAbs().maxCoeff() < kSettledSettingMm;
+    bool converged =
+        here.estimate().setting_change.head(settings).cwiseAbs().maxCoeff() < kConvergedSettingMm;
     std::vector<Regressor> moved = own;
     for (std::size_t k = 0; k < own.size(); ++k) {
       if (own[k].fixed) continue;
       moved[k].values.front() = here.size(k);
-      settled = settled && std::abs(moved[k].values.front() - own[k].values.front()) <
-                               kSettled * std::abs(own[k].values.front());
+      converged = converged && std::abs(moved[k].values.front() - own[k].values.front()) <
+                               kConverged * std::abs(own[k].values.front());
       // Beside a discrepancy the best of the places tried has to do: e has the discrepancy in it.
       if (has_continuous_place(own[k]) && discrepancy < 0)
         moved[k].values.back() = here.place(k, reaches[k]);
@@ -203,13 +203,13 @@ Relinearised relinearise(const Analysis& a) {
     if (!model::problems_of(next.machine).empty()) break;
     result.state = std::move(next);
     own = std::move(moved);
-    if (settled) break;
+    if (converged) break;
   }
   for (std::size_t k = 0; k < own.size(); ++k) {
     const double first =
         system.regressors[static_cast<std::size_t>(a.decision.regressors[k])].values.front();
     // A secant over next to nothing has no direction.
-    if (own[k].fixed || !(std::abs(own[k].values.front()) > kSettled * std::abs(first))) continue;
+    if (own[k].fixed || !(std::abs(own[k].values.front()) > kConverged * std::abs(first))) continue;
     result.refinements.push_back({own[k].cause, own[k].values, own[k].log_prior});
   }
   return result;

@@ -8,7 +8,7 @@
 #include <limits>
 #include <set>
 
-#include "grid/diagnosis/beside_discrepancies.hpp"
+#include "grid/diagnosis/given_discrepancies.hpp"
 #include "grid/diagnosis/ties.hpp"
 #include "grid/statistics.hpp"
 
@@ -60,15 +60,15 @@ std::vector<int> best_of_each_cause(const RegressorSystem& system,
   std::set<int> chosen;
   const Eigen::MatrixXd all = marginalised.g.dense();
   add_best(system, all, marginalised.e, of_a_cause, chosen);
-  std::vector<std::pair<double, int>> leading;
+  std::vector<std::pair<double, int>> likeliest;
   for (const int k : chosen) {
     if (system.regressors[static_cast<std::size_t>(k)].fixed) continue;
     const auto g = all.col(k);
-    leading.emplace_back(std::abs(g.dot(marginalised.e)) / g.norm(), k);
+    likeliest.emplace_back(std::abs(g.dot(marginalised.e)) / g.norm(), k);
   }
-  std::sort(leading.rbegin(), leading.rend());
+  std::sort(likeliest.rbegin(), likeliest.rend());
   std::vector<CauseId> taken;
-  for (const auto& [score, k] : leading) {
+  for (const auto& [score, k] : likeliest) {
     const CauseId& cause = system.regressors[static_cast<std::size_t>(k)].cause;
     if (taken.size() == kTakenOut) break;
     if (std::find(taken.begin(), taken.end(), cause) != taken.end()) continue;
@@ -79,7 +79,7 @@ std::vector<int> best_of_each_cause(const RegressorSystem& system,
   }
   std::erase_if(chosen, [&](int k) {
     const CauseId& cause = system.regressors[static_cast<std::size_t>(k)].cause;
-    return options.told && !(cause == *options.told);
+    return options.given_cause && !(cause == *options.given_cause);
   });
   return {chosen.begin(), chosen.end()};
 }
@@ -109,33 +109,33 @@ class SetSearch::Search {
     }
     consider({});
     singles();
-    if (!options_.told) {
+    if (!options_.given_cause) {
       pairs();
       grow();
     }
     return collector_.take();
   }
 
-  std::vector<CandidateModel> run_beside_discrepancies(const std::vector<std::size_t>& kernels,
+  std::vector<CandidateModel> run_given_discrepancies(const std::vector<std::size_t>& kernels,
                                                        std::vector<double>& kernel_weight) {
     std::stable_sort(scored_.begin(), scored_.end(), heavier);
-    std::vector<std::vector<int>> leading;
+    std::vector<std::vector<int>> likeliest;
     std::array<std::size_t, kMostCauses + 1> taken{};
     std::array<double, kMostCauses + 1> last{};
     for (const WeighedSet& s : scored_) {
       const std::size_t size = s.set.size();
-      if (size < 2 || (taken[size] >= kSetsBesideDiscrepancy && !tied(s.weight, last[size])))
+      if (size < 2 || (taken[size] >= kSetsGivenDiscrepancy && !tied(s.weight, last[size])))
         continue;
-      if (taken[size] < kSetsBesideDiscrepancy) last[size] = s.weight;
+      if (taken[size] < kSetsGivenDiscrepancy) last[size] = s.weight;
       ++taken[size];
       std::vector<int> regressors;
       for (const Eigen::Index i : s.set) {
         regressors.push_back(equations_.columns[static_cast<std::size_t>(i)]);
       }
-      leading.push_back(std::move(regressors));
+      likeliest.push_back(std::move(regressors));
     }
-    kernel_weight = search_beside_discrepancies(
-        system_, marginalised_, options_, equations_, leading, kernels, collector_);
+    kernel_weight = search_given_discrepancies(
+        system_, marginalised_, options_, equations_, likeliest, kernels, collector_);
     return collector_.take();
   }
 
@@ -160,7 +160,7 @@ class SetSearch::Search {
     const Eigen::VectorXd square = marginalised_.g.squared_norms();
     for (int k = 0; k < count; ++k) {
       const Regressor& d = system_.regressors[static_cast<std::size_t>(k)];
-      if (options_.told && !(d.cause == *options_.told)) continue;
+      if (options_.given_cause && !(d.cause == *options_.given_cause)) continue;
       if (!(square(k) > kLeastSquare)) continue;
       (d.fixed ? fixed : at_a_visit(d) ? shifts : kept).push_back(k);
     }
@@ -168,25 +168,25 @@ class SetSearch::Search {
     std::stable_sort(
         shifts.begin(), shifts.end(), [&](int a, int b) { return explained(a) > explained(b); });
     shifts.resize(count_with_ties(shifts, kKeptShifts, explained));
-    std::vector<int> leading = kept;
+    std::vector<int> likeliest = kept;
     kept.insert(kept.end(), shifts.begin(), shifts.end());
     if (fixed.size() <= kKeptFixed) {
       kept.insert(kept.end(), fixed.begin(), fixed.end());
       return kept;
     }
     std::stable_sort(
-        leading.begin(), leading.end(), [&](int a, int b) { return explained(a) > explained(b); });
-    leading.resize(count_with_ties(leading, 8, explained));
+        likeliest.begin(), likeliest.end(), [&](int a, int b) { return explained(a) > explained(b); });
+    likeliest.resize(count_with_ties(likeliest, 8, explained));
     const RegressorColumns& g = marginalised_.g;
-    const Eigen::MatrixXd cross = g.distinct().transpose() * g.dense(leading);
+    const Eigen::MatrixXd cross = g.distinct().transpose() * g.dense(likeliest);
     std::vector<std::pair<double, int>> gains;
     for (std::size_t f = 0; f < fixed.size(); ++f) {
       const int k = fixed[f];
       double best = 2.0 * c(k) - square(k);
-      for (std::size_t l = 0; l < leading.size(); ++l) {
-        const double ll = square(leading[l]);
+      for (std::size_t l = 0; l < likeliest.size(); ++l) {
+        const double ll = square(likeliest[l]);
         const double x = g.factor(k) * cross(g.index(k), static_cast<Eigen::Index>(l));
-        best = std::max(best, 2.0 * (c(k) - x * c(leading[l]) / ll) - (square(k) - x * x / ll));
+        best = std::max(best, 2.0 * (c(k) - x * c(likeliest[l]) / ll) - (square(k) - x * x / ll));
       }
       gains.emplace_back(-best, k);
     }
@@ -341,9 +341,9 @@ SetSearch::~SetSearch() = default;
 SetSearch::SetSearch(SetSearch&&) noexcept = default;
 SetSearch& SetSearch::operator=(SetSearch&&) noexcept = default;
 std::vector<CandidateModel> SetSearch::run() { return search_->run(); }
-std::vector<CandidateModel> SetSearch::run_beside_discrepancies(
+std::vector<CandidateModel> SetSearch::run_given_discrepancies(
     const std::vector<std::size_t>& kernels, std::vector<double>& kernel_weight) {
-  return search_->run_beside_discrepancies(kernels, kernel_weight);
+  return search_->run_given_discrepancies(kernels, kernel_weight);
 }
 double SetSearch::best() const { return search_->best(); }
 const std::vector<bool>& SetSearch::outliers() const { return search_->outliers(); }

@@ -26,7 +26,7 @@ class SetSearch {
 
   [[nodiscard]] std::vector<CandidateModel> run();
   /// After run(). Of these kernels; sets what each was seen to weigh.
-  [[nodiscard]] std::vector<CandidateModel> run_beside_discrepancies(
+  [[nodiscard]] std::vector<CandidateModel> run_given_discrepancies(
       const std::vector<std::size_t>& kernels, std::vector<double>& kernel_weight);
   /// Largest weight so far.
   [[nodiscard]] double best() const;

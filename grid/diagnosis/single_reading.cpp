@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -68,7 +68,7 @@ bool may_be_refused(const Analysis& a) {
 
 std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stability>& stability,
                                                       Analysis& a) {
-  if (!stability || a.options.told || !may_be_refused(a)) return std::nullopt;
+  if (!stability || a.options.given_cause || !may_be_refused(a)) return std::nullopt;
   const auto reading = made_by(a.session, *stability);
   if (!reading) return std::nullopt;
   const ClassProbability leader = a.decision.marginal.front();
@@ -78,8 +78,8 @@ std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stabil
   a.comparison = compare_models(a.system,
                                 aside,
                                 {.steps = a.options.steps,
-                                 .kernels = leading_kernels(a.comparison),
-                                 .told = a.options.told});
+                                 .kernels = best_kernels(a.comparison),
+                                 .given_cause = a.options.given_cause});
   decide_for(false, a);
   return refusal_words(a.session, *reading, cause, leader.probability);
 }

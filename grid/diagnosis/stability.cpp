@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "grid/diagnosis/downdating.hpp"
-#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/best_model.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -187,7 +187,7 @@ std::optional<Stability> examine_stability(const Analysis& a) {
     std::vector<bool> excluded(a.session.units.size(), false);
     for (const std::size_t u : group.units) excluded[u] = true;
     const bool seen =
-        a.null.p_value(without.score) < kFalseAlarm || a.options.told.has_value();
+        a.null.p_value(without.score) < kFalseAlarm || a.options.given_cause.has_value();
     const Decision decision =
         decide(a.system, without.comparison, excluded, seen, a.decision.classes);
     const double log_odds = statement.log_odds(without.comparison);

@@ -41,9 +41,9 @@ struct LeftOut {
 /// has a stability.
 [[nodiscard]] std::string stability_in_words(const Diagnosis& diagnosis);
 /// Points without each of which the verdict would not name the same (indices into the grid's).
-[[nodiscard]] std::vector<std::size_t> points_it_rests_on(const Diagnosis& diagnosis);
+[[nodiscard]] std::vector<std::size_t> influential_points(const Diagnosis& diagnosis);
 /// What the name rests on: " The name rests on point 17: without it ...", or nothing where it
 /// stands.
-[[nodiscard]] std::string rests_on(const Diagnosis& diagnosis);
+[[nodiscard]] std::string influence_in_words(const Diagnosis& diagnosis);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -100,7 +100,7 @@ bool lies_on(const Diagnosis& diagnosis, const Removal& line, std::size_t point)
 
 }  // namespace
 
-std::vector<std::size_t> points_it_rests_on(const Diagnosis& diagnosis) {
+std::vector<std::size_t> influential_points(const Diagnosis& diagnosis) {
   std::vector<std::size_t> points;
   if (!diagnosis.stability) return points;
   for (const Removal* removal : of_kind(*diagnosis.stability, Removal::What::point, true)) {
@@ -141,10 +141,10 @@ std::string stability_in_words(const Diagnosis& diagnosis) {
                     percent(stability.probability));
 }
 
-std::string rests_on(const Diagnosis& diagnosis) {
+std::string influence_in_words(const Diagnosis& diagnosis) {
   if (!diagnosis.stability) return "";
   std::string text;
-  const auto points = points_it_rests_on(diagnosis);
+  const auto points = influential_points(diagnosis);
   for (const Kind& kind : kKinds) {
     auto changes = of_kind(*diagnosis.stability, kind.what, true);
     // A line is worth a word where it is not one point of it alone.

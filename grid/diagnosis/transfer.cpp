@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/as_delivered.hpp"
+#include "grid/diagnosis/uncalibrated.hpp"
 #include "grid/diagnosis/diagnose.hpp"
-#include "grid/diagnosis/gain.hpp"
-#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/held_out_improvement.hpp"
+#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 
@@ -91,7 +91,7 @@ HeldOut summary(const ObservationSet& to,
   return summarise(tool, block_numbers(to), seed);
 }
 
-double floor_of(const RegressorSystem& system) {
+double noise_floor_of(const RegressorSystem& system) {
   double sum = 0.0;
   for (std::size_t u = 0; u < system.units.size(); ++u) sum += noise_of_unit_mm2(system, u).trace();
   return std::sqrt(sum / static_cast<double>(system.units.size()));
@@ -135,12 +135,12 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   };
   Transfer result;
   result.points = second->places.size();
-  result.as_delivered =
-      summary(*second, *stated, Placed(*stated)(as_delivered(*second, *stated)), options.seed);
+  result.uncalibrated =
+      summary(*second, *stated, Placed(*stated)(uncalibrated(*second, *stated)), options.seed);
   result.calibrated = predicted_by({}, -1);
   result.extended = predicted_by(a.decision.regressors, -1);
   result.extended_and_surface = predicted_by(a.decision.regressors, a.decision.best_discrepancy);
-  result.noise_floor_mm = floor_of(*system);
+  result.noise_floor_mm = noise_floor_of(*system);
   return result;
 }
 

@@ -58,8 +58,8 @@ Trend trend(const Diagnosis& before, const Diagnosis& now, std::string since) {
                                              : 0.5;
     result.changes.push_back(change);
   }
-  if (before.budget) result.as_delivered_before_mm = before.budget->as_delivered_mm;
-  if (now.budget) result.as_delivered_mm = now.budget->as_delivered_mm;
+  if (before.budget) result.uncalibrated_before_mm = before.budget->uncalibrated_mm;
+  if (now.budget) result.uncalibrated_mm = now.budget->uncalibrated_mm;
   return result;
 }
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/best_model.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -112,11 +112,11 @@ Unexplained unexplained(const Analysis& a) {
   result.probability = std::min(a.decision.discrepancy, 1.0);
   if (a.decision.best_discrepancy < 0) return result;
   const MarginalisedSystem& marginalised = marginalised_system(a);
-  const Estimate beside =
+  const Estimate given =
       estimate(a.system, marginalised, a.decision.regressors, a.decision.best_discrepancy);
-  const Eigen::VectorXd pattern = beside.left - beside.left_beside_discrepancy;
+  const Eigen::VectorXd pattern = given.left - given.left_given_discrepancy;
   result.signal_to_noise =
-      length_in_noise(a.system, marginalised.kept, pattern) / std::sqrt(beside.noise_square);
+      length_in_noise(a.system, marginalised.kept, pattern) / std::sqrt(given.noise_square);
   const double own = mean_square_mm2(a, pattern);
   result.rms_mm = std::sqrt(own);
   const Estimate plain = estimate_of(a, {});

@@ -25,23 +25,23 @@ std::string sized(const CauseId& cause, const std::vector<ParameterEstimate>& pa
 /// What is held out: distances where no chain was read at marks.
 bool speaks_of_distances(const Diagnosis& d) { return d.observations == Observations::distances; }
 
-std::string gain_words(const Diagnosis& d) {
-  if (!d.gain) return "";
-  if (d.gain->extended.rms_mm >= d.gain->calibrated.rms_mm) {
+std::string improvement_words(const Diagnosis& d) {
+  if (!d.improvement) return "";
+  if (d.improvement->extended.rms_mm >= d.improvement->calibrated.rms_mm) {
     return fmt::format(
         " Held out, naming it does not make {} truer ({:.2f} mm with and without; noise "
         "alone "
         "makes {:.2f} mm): the machine is not extended.",
         speaks_of_distances(d) ? "distances" : "the tool",
-        d.gain->calibrated.rms_mm,
-        d.gain->noise_floor_mm);
+        d.improvement->calibrated.rms_mm,
+        d.improvement->noise_floor_mm);
   }
   return fmt::format(
       " Held out, the {} error falls from {:.2f} to {:.2f} mm; noise alone makes {:.2f} mm.",
       speaks_of_distances(d) ? "distances'" : "tool's",
-      d.gain->calibrated.rms_mm,
-      d.gain->extended.rms_mm,
-      d.gain->noise_floor_mm);
+      d.improvement->calibrated.rms_mm,
+      d.improvement->extended.rms_mm,
+      d.improvement->noise_floor_mm);
 }
 
 std::string assumed_words(const Diagnosis& d) {
@@ -54,8 +54,8 @@ std::string assumed_words(const Diagnosis& d) {
 std::string distance_words(const Diagnosis& d, const Outlier& bad) {
   return fmt::format("{} (read {:.1f} mm too {})",
                      words_of_ends(d.distances.at(bad.index)),
-                     std::abs(bad.off_mm),
-                     bad.off_mm > 0.0 ? "long" : "short");
+                     std::abs(bad.residual_mm),
+                     bad.residual_mm > 0.0 ? "long" : "short");
 }
 
 /// The outliers by number, or by their ends.
@@ -71,7 +71,7 @@ std::vector<std::string> bad_ones(const Diagnosis& d) {
 }
 
 /// "; besides, a pattern of 0.4 mm that follows x, which no listed cause makes".
-std::string besides_words(const Diagnosis& d) {
+std::string alongside_words(const Diagnosis& d) {
   if (!d.unexplained || d.unexplained->probability <= kDiscrepancyLikely) return "";
   const Unexplained& left = *d.unexplained;
   return fmt::format(" Besides, a pattern of {:.2f} mm{}, which no listed cause makes: {}.",
@@ -93,7 +93,7 @@ std::string named_words(const Diagnosis& d) {
                         name(d.observations),
                         sized(other.cause, other.parameters));
   }
-  return text + besides_words(d) + assumed_words(d) + gain_words(d);
+  return text + alongside_words(d) + assumed_words(d) + improvement_words(d);
 }
 
 std::string set_words(const Diagnosis& d) {
@@ -105,7 +105,7 @@ std::string set_words(const Diagnosis& d) {
                      d.causes.size(),
                      name(d.observations),
                      joined(parts, "or")) +
-         besides_words(d) + assumed_words(d) + gain_words(d);
+         alongside_words(d) + assumed_words(d) + improvement_words(d);
 }
 
 std::string several_words(const Diagnosis& d) {
@@ -114,7 +114,7 @@ std::string several_words(const Diagnosis& d) {
     parts.push_back(fmt::format("{}, {}", sized(c.cause, c.parameters), percent(c.probability)));
   }
   return fmt::format("{} causes act together: {}.", d.causes.size(), joined(parts, "and")) +
-         besides_words(d) + assumed_words(d) + gain_words(d);
+         alongside_words(d) + assumed_words(d) + improvement_words(d);
 }
 
 std::string unknown_words(const Diagnosis& d) {
@@ -186,7 +186,7 @@ std::string sentence(const Diagnosis& d, std::size_t units) {
 
 /// Before a part is changed for the sake of one reading, that is read again.
 void say_what_to_read_again(Diagnosis& d) {
-  const std::vector<std::size_t> points = points_it_rests_on(d);
+  const std::vector<std::size_t> points = influential_points(d);
   if (points.size() != 1) return;
   const bool is_bad = std::any_of(d.outliers.begin(), d.outliers.end(), [&](const Outlier& b) {
     return b.of == Observations::points && b.index == points.front();
@@ -276,7 +276,7 @@ std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
         "This does not prove the machine perfect: causes smaller than their bounds below would "
         "not have shown.";
   }
-  text += rests_on(d);
+  text += influence_in_words(d);
   if (speaks_of_distances(d)) {
     text +=
         " Distances do not know in which order the holes were cut, nor where the machine stands as "
@@ -291,7 +291,7 @@ std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
 
 void put_into_words(const Analysis& a, Diagnosis& d) {
   const ObservationSet& session = a.session;
-  if (!a.settled) {
+  if (!a.converged) {
     d.notes.emplace_back(
         "Calibrating had not come to rest after its last pass: the settings are uncertain by more "
         "than their sigmas. Look for a reading that is far off, or for a setting stated wrongly.");

@@ -19,17 +19,17 @@ using model::Side;
 using Reason = EstimationFailure::Reason;
 
 /// A weight that changes by this much moves nothing by more than a few hundredths of its sigma.
-constexpr double kSettledWeight = 1e-2;
+constexpr double kConvergedWeight = 1e-2;
 /// Passes with soft weights only, so that several bad units cannot hide each other.
-constexpr int kSoftPasses = 4;
+constexpr int kSoftRounds = 4;
 
 /// A step of 3e-3 stated sigmas changes no length by more than some 1e-3 mm. Where places follow
 /// from what is estimated, holes lie where the last step put them; distances converge more slowly, one
 /// of them being rejected at a time.
 Settling settling_of(const EstimationInput& input, bool places_move) {
   if (input.fixed_weights) return {12, 1e-6, true, 0};
-  return places_move ? Settling{40, 1e-3, true, kSoftPasses + 2}
-                     : Settling{25, 3e-3, false, kSoftPasses + 2};
+  return places_move ? Settling{40, 1e-3, true, kSoftRounds + 2}
+                     : Settling{25, 3e-3, false, kSoftRounds + 2};
 }
 
 EstimationFailure failure_of(const interp::FitFailure& refusal) {
@@ -113,18 +113,18 @@ bool Estimator::update_weights(int pass) {
     const auto at = static_cast<Eigen::Index>(u);
     if (rule.worst_first && weights_[at] == 0.0) continue;
     const bool bad =
-        !rule.worst_first && pass >= kSoftPasses && distances_[at] > rule.rejected_beyond;
+        !rule.worst_first && pass >= kSoftRounds && distances_[at] > rule.rejected_beyond;
     next[at] = bad ? 0.0 : std::min(1.0, rule.full_weight_within / std::max(distances_[at], 1e-12));
     change = std::max(change, std::abs(next[at] - weights_[at]));
   }
   weights_ = std::move(next);
-  if (pass >= kSoftPasses) {
+  if (pass >= kSoftRounds) {
     if (const auto worst = worst_alone()) {
       weights_[static_cast<Eigen::Index>(*worst)] = 0.0;
       return true;
     }
   }
-  return change > kSettledWeight;
+  return change > kConvergedWeight;
 }
 
 void Estimator::begin_weights() {
@@ -189,10 +189,10 @@ tl::expected<void, EstimationFailure> Estimator::approach() {
   return {};
 }
 
-tl::expected<void, EstimationFailure> Estimator::settle() {
+tl::expected<void, EstimationFailure> Estimator::converge() {
   Settling settling = settling_of(input_, problem_->places_move());
   if (input_.most_passes > 0) settling.most_passes = input_.most_passes;
-  settled_ = false;
+  converged_ = false;
   Smoothing smoothing = Smoothing::choose;
   for (int pass = 0; pass < settling.most_passes; ++pass) {
     WorkStep work = input_.step;
@@ -200,7 +200,7 @@ tl::expected<void, EstimationFailure> Estimator::settle() {
     tell(input_.progress, work);
     // Once all but the smoothing has converged, the iteration that chooses it may be the last.
     const bool last = pass + 1 == settling.most_passes;
-    const bool perhaps_last = settled_ || last || !problem_->has_surface();
+    const bool perhaps_last = converged_ || last || !problem_->has_surface();
     if (perhaps_last) smoothing = Smoothing::choose;
     if (!is_linearised_) {
       if (auto done = problem_->linearise(state_); !done) return tl::unexpected(done.error());
@@ -218,15 +218,15 @@ tl::expected<void, EstimationFailure> Estimator::settle() {
     const double step = step_to(next, settling);
     state_ = std::move(next);
     const Eigen::VectorXd solved_with = weights_;
-    settled_ =
-        !update_weights(pass) && step < settling.step_sigmas && pass + 1 >= settling.fewest_passes;
-    if (perhaps_last && (settled_ || last)) {
+    converged_ =
+        !update_weights(pass) && step < settling.step_sigmas && pass + 1 >= settling.fewest_rounds;
+    if (perhaps_last && (converged_ || last)) {
       // What is reported of the units belongs to the weights that the fit was solved with.
       weights_ = solved_with;
       break;
     }
     // Otherwise chosen anew only when the bad units are first rejected.
-    smoothing = pass == kSoftPasses ? Smoothing::choose : Smoothing::keep;
+    smoothing = pass == kSoftRounds ? Smoothing::choose : Smoothing::keep;
   }
   return {};
 }
@@ -254,12 +254,12 @@ tl::expected<void, EstimationFailure> Estimator::choose_surface() {
   problem_ = std::move(bent);
   state_ = std::move(state);
   weights_.resize(0);
-  return settle();
+  return converge();
 }
 
 tl::expected<Estimate, EstimationFailure> Estimator::run() {
   if (auto done = approach(); !done) return tl::unexpected(done.error());
-  if (auto done = settle(); !done) return tl::unexpected(done.error());
+  if (auto done = converge(); !done) return tl::unexpected(done.error());
   if (input_.reading_limits) reject_readings();
   if (input_.surface == SurfaceUse::on_evidence) {
     if (auto done = choose_surface(); !done) return tl::unexpected(done.error());

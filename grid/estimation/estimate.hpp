@@ -148,7 +148,7 @@ struct UnitEstimate {
 struct ReadingEstimate {
   std::size_t observation = 0;
   observation::UnitReading reading;  ///< its unit into the observation's
-  double off_mm = 0.0;               ///< read less what all others make of it
+  double residual_mm = 0.0;               ///< read less what all others make of it
   double sigmas = 0.0;
 };
 
@@ -197,7 +197,7 @@ struct Estimate {
   std::vector<ObservationEstimate> observations;
   std::vector<ReadingEstimate> rejected_readings;
   /// False where settings or weights still moved after the last pass.
-  bool settled = true;
+  bool converged = true;
   /// With the values found; of two chains that of `machine`. Its parameters are the first of
   /// map_unknowns and of covariance.
   std::shared_ptr<const model::Mechanism> mechanism = nullptr;

@@ -30,9 +30,9 @@ void Estimator::fill_units(Estimate& estimate) const {
     UnitEstimate own{unit.observation, unit.unit, weights_[at], distance, {}, {}, {}, {}};
     own.residual =
         back * (problem_->response().segment(unit.first_row, unit.rows) - rows * fit_.coefficients);
-    const LeftOut::Seen seen = left_out.seen(u);
-    own.left_out = back * seen.residual;
-    own.left_out_covariance = back * seen.covariance * back.transpose();
+    const LeftOut::Conditioned conditioned = left_out.conditioned(u);
+    own.left_out = back * conditioned.residual;
+    own.left_out_covariance = back * conditioned.covariance * back.transpose();
     estimate.units.push_back(std::move(own));
   }
   const Eigen::VectorXd residual = problem_->response() - problem_->design() * fit_.coefficients;
@@ -42,7 +42,7 @@ void Estimator::fill_units(Estimate& estimate) const {
     for (const Eigen::Index i : problem_->rejected(u)) {
       const ReadingShift shift = shift_of(rows, unit, problem_->rejected(u), i);
       estimate.rejected_readings.push_back(
-          {unit.observation, {unit.unit, i}, shift.off_mm, shift.sigmas});
+          {unit.observation, {unit.unit, i}, shift.residual_mm, shift.sigmas});
     }
   }
   for (const UnitGroup& group : input_.held_out_together) {
@@ -120,7 +120,7 @@ tl::expected<Estimate, EstimationFailure> Estimator::result() const {
       {},
       {},
       {},
-      settled_,
+      converged_,
       std::move(found)};
   fill_covariances(estimate);
   fill_units(estimate);

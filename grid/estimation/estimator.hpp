@@ -23,7 +23,7 @@ struct Settling {
   int most_passes;
   double step_sigmas;  ///< of the stated sigmas
   bool scales_count;
-  int fewest_passes;
+  int fewest_rounds;
 };
 
 class Estimator {
@@ -43,7 +43,7 @@ class Estimator {
                           Smoothing smoothing,
                           bool correct_covariance) const;
   tl::expected<void, EstimationFailure> approach();
-  tl::expected<void, EstimationFailure> settle();
+  tl::expected<void, EstimationFailure> converge();
   void begin_weights();
   /// A reading with its unit among the problem's.
   struct Shift {
@@ -52,7 +52,7 @@ class Estimator {
   };
   [[nodiscard]] std::optional<Shift> worst_reading() const;
   [[nodiscard]] std::optional<Shift> best_rejected() const;
-  [[nodiscard]] bool settle_without(RejectedReadings rejected);
+  [[nodiscard]] bool converge_without(RejectedReadings rejected);
   void reject_readings();
   [[nodiscard]] double step_to(const State& next, const Settling& settling) const;
   [[nodiscard]] bool update_weights(int pass);
@@ -70,7 +70,7 @@ class Estimator {
   Eigen::VectorXd distances_;
   interp::PenalisedFit fit_;
   std::vector<std::vector<model::MarkPoint>> as_stated_;
-  bool settled_ = false;
+  bool converged_ = false;
   bool is_linearised_ = false;  ///< the problem is about the state
   double surface_log_evidence_ = 0.0;
 };

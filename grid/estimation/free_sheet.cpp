@@ -60,7 +60,7 @@ void add_free_directions(const PlacesOnSheet& places, FreeDirections& free) {
   free.following.bottomRows(more) = following;
 }
 
-std::vector<MarkPoint> laid_as_a_whole(const PlacesOnSheet& places) {
+std::vector<MarkPoint> placed_as_a_whole(const PlacesOnSheet& places) {
   std::vector<MarkPoint> marks = places.marks;
   if (places.free_columns.empty()) return marks;
   const Eigen::MatrixXd motion = whole_motion(places.commanded)(places.free_rows, Eigen::all);

@@ -44,6 +44,6 @@ struct PlacesOnSheet {
 void add_free_directions(const PlacesOnSheet& places, FreeDirections& free);
 
 /// Where the marks would be with the free directions put right and all else as it is.
-[[nodiscard]] std::vector<model::MarkPoint> laid_as_a_whole(const PlacesOnSheet& places);
+[[nodiscard]] std::vector<model::MarkPoint> placed_as_a_whole(const PlacesOnSheet& places);
 
 }  // namespace chaintrue::grid::estimation

@@ -115,9 +115,9 @@ void JointProblem::add_surface_prior(interp::PenalisedProblem& problem,
       .setConstant(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
   // One smoothness for both chains: the same causes act on both surfaces.
   interp::Penalty penalty;
-  penalty.first_column = unknowns_->bend(Side::left);
-  penalty.matrix = Eigen::MatrixXd::Identity(2 * surface.bends, 2 * surface.bends);
-  penalty.rank = 2 * surface.bends;
+  penalty.first_column = unknowns_->first_penalised_of(Side::left);
+  penalty.matrix = Eigen::MatrixXd::Identity(2 * surface.penalised, 2 * surface.penalised);
+  penalty.rank = 2 * surface.penalised;
   // Where the splines' own penalty would weigh as much as the data.
   for (std::size_t u = 0; u < units_.size(); ++u) {
     const double weight = weights[static_cast<Eigen::Index>(u)];

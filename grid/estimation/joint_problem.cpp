@@ -154,7 +154,7 @@ void JointProblem::observe(std::vector<MarkPoint> places) {
   SurfaceColumns surface;
   if (has_surface_) {
     observed_.emplace(basis_, input_.bending_order, surface_marks_);
-    surface = {observed_->polynomials(), observed_->bends()};
+    surface = {observed_->polynomials(), observed_->penalised()};
   }
   unknowns_.emplace(set_, surface);
 }
@@ -213,7 +213,7 @@ void JointProblem::add_chain_columns(const LinearisedSystem& system,
       const auto row = static_cast<Eigen::Index>(place.place);
       own.middleCols(unknowns_->polynomial(side), observed_->polynomials()) +=
           by_chain * observed_->polynomial_rows().row(row);
-      own.middleCols(unknowns_->bend(side), observed_->bends()) +=
+      own.middleCols(unknowns_->first_penalised_of(side), observed_->penalised()) +=
           by_chain * observed_->bend_rows().row(row);
     }
     if (!is_linear_in_correction(observation) || input_.fixed_weights)
@@ -243,7 +243,7 @@ Eigen::MatrixXd JointProblem::lengths_by_unknown(std::size_t place,
     const auto own = static_cast<Eigen::Index>(place);
     rows.row(row).segment(unknowns_->polynomial(side), observed_->polynomials()) =
         observed_->polynomial_rows().row(own);
-    rows.row(row).segment(unknowns_->bend(side), observed_->bends()) =
+    rows.row(row).segment(unknowns_->first_penalised_of(side), observed_->penalised()) =
         observed_->bend_rows().row(own);
   }
   return rows;
@@ -279,7 +279,7 @@ void JointProblem::eliminate_free_directions(const LinearisedSystem& system,
       now(unknowns_->columns_of(k)) = from[k].settings;
       places.moved.segment<2>(row) = to_mark * (lengths * now + correction_at(p, at, state));
     }
-    laid_marks_[k] = laid_as_a_whole(places);
+    laid_marks_[k] = placed_as_a_whole(places);
     add_free_directions(places, free_);
   }
   if (free_.columns.empty()) return;
@@ -320,7 +320,7 @@ State JointProblem::state_of(const interp::PenalisedFit& fit) const {
     state.surface.coefficients[side] =
         observed_->polynomial_coefficients() *
             all.segment(unknowns_->polynomial(side), observed_->polynomials()) +
-        observed_->bend_coefficients() * all.segment(unknowns_->bend(side), observed_->bends());
+        observed_->penalised_basis() * all.segment(unknowns_->first_penalised_of(side), observed_->penalised());
   }
   return state;
 }
@@ -337,8 +337,8 @@ Eigen::MatrixXd JointProblem::map_covariance(const interp::PenalisedFit& fit,
                      columns.basis,
                      observed_->polynomials()) = observed_->polynomial_coefficients();
     to_splines.block(
-        columns.spline(side), unknowns_->bend(side), columns.basis, observed_->bends()) =
-        observed_->bend_coefficients();
+        columns.spline(side), unknowns_->first_penalised_of(side), columns.basis, observed_->penalised()) =
+        observed_->penalised_basis();
   }
   Eigen::MatrixXd result = to_splines * covariance(fit) * to_splines.transpose();
   if (!has_surface_) return result;

@@ -83,7 +83,7 @@ std::optional<interp::PenalisedFit> LeftOut::fit_without(const UnitGroup& group)
   return rest ? std::optional(*std::move(rest)) : std::nullopt;
 }
 
-LeftOut::Seen LeftOut::seen(std::size_t unit) const {
+LeftOut::Conditioned LeftOut::conditioned(std::size_t unit) const {
   const auto at = static_cast<Eigen::Index>(unit);
   const bool by_formula =
       weights_[at] == 0.0 ||
@@ -91,10 +91,10 @@ LeftOut::Seen LeftOut::seen(std::size_t unit) const {
   if (!by_formula) {
     if (const auto rest = fit_without({unit})) {
       const Eigen::MatrixXd rows = rows_of(unit);
-      Seen seen{response_of(unit) - rows * rest->coefficients,
+      Conditioned conditioned{response_of(unit) - rows * rest->coefficients,
                 rows * rest->covariance * rows.transpose()};
-      seen.covariance.diagonal().array() += fit_.sigma2;
-      return seen;
+      conditioned.covariance.diagonal().array() += fit_.sigma2;
+      return conditioned;
     }
   }
   return {residual(unit), covariance(unit)};

@@ -32,13 +32,13 @@ class LeftOut {
   /// The same for groups, too.
   void prepare_all();
 
-  struct Seen {
+  struct Conditioned {
     Eigen::VectorXd residual;
     Eigen::MatrixXd covariance;
   };
   /// Residual and covariance of a unit. Where the unit all but determines what the fit says of it,
   /// I - w X C X' / s^2 is rounding: the rest is then fitted anew, at the smoothing of the whole.
-  [[nodiscard]] Seen seen(std::size_t unit) const;
+  [[nodiscard]] Conditioned conditioned(std::size_t unit) const;
   /// The whitened residual of a unit with it left out. Rejected readings are not in the fit.
   [[nodiscard]] Eigen::VectorXd residual(std::size_t unit) const;
   /// Those of a group of units with all of them left out. \throws std::logic_error before

@@ -52,7 +52,7 @@ class Assembly {
           system_.by_setting(own, part.zero_columns) += unit.places.back().by_chain;
       }
       if (line.units[u].by_reading.size() > 0) unit.by_reading = w * line.units[u].by_reading;
-      take(std::move(unit), observation.may_slip());
+      take(std::move(unit), observation.may_be_outlier());
     }
   }
 
@@ -73,8 +73,8 @@ class Assembly {
     }
   }
 
-  void take(SystemUnit unit, bool may_slip) {
-    if (!may_slip) {
+  void take(SystemUnit unit, bool may_be_outlier) {
+    if (!may_be_outlier) {
       system_.certain.push_back(std::move(unit));
       return;
     }

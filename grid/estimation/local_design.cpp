@@ -14,20 +14,20 @@ LocalDesign::LocalDesign(const Eigen::MatrixXd& design,
                          const interp::BsplineBasis& basis,
                          const std::vector<model::MarkPoint>& marks)
     : units_(units), rows_(static_cast<std::size_t>(design.rows())) {
-  const Eigen::Index bends = observed.bends();
-  const Eigen::Index first_bend = unknowns.bend(Side::left);
-  const Eigen::Index plain = unknowns.total() - 2 * bends;
+  const Eigen::Index penalised = observed.penalised();
+  const Eigen::Index first_bend = unknowns.first_penalised_of(Side::left);
+  const Eigen::Index plain = unknowns.total() - 2 * penalised;
   const auto splines = [&](Side side) { return plain + row_of(side) * basis.size(); };
   to_unknowns_ = Eigen::MatrixXd::Zero(plain + 2 * basis.size(), unknowns.total());
   std::vector<Eigen::Index> columns;
   for (Eigen::Index k = 0; k < unknowns.total(); ++k) {
-    if (k >= first_bend && k < first_bend + 2 * bends) continue;
+    if (k >= first_bend && k < first_bend + 2 * penalised) continue;
     to_unknowns_(static_cast<Eigen::Index>(columns.size()), k) = 1.0;
     columns.push_back(k);
   }
   for (const Side side : model::kSides) {
-    to_unknowns_.block(splines(side), unknowns.bend(side), basis.size(), bends) =
-        observed.bend_coefficients();
+    to_unknowns_.block(splines(side), unknowns.first_penalised_of(side), basis.size(), penalised) =
+        observed.penalised_basis();
   }
   for (Eigen::Index k = 0; k < plain; ++k) {
     const auto column = design.col(columns[static_cast<std::size_t>(k)]);

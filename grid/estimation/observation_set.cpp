@@ -21,7 +21,7 @@ void append(ObservationPart part, ObservationSet& set) {
   for (const observation::Place& place : own.places()) {
     set.places.push_back({number, place.index, place.mark, place.lengths, place.order});
   }
-  if (own.may_slip()) {
+  if (own.may_be_outlier()) {
     for (const observation::Unit& unit : own.units()) {
       set.units.push_back({number, unit.index, part.first_row + unit.first_row, unit.rows});
     }
@@ -176,7 +176,7 @@ bool ObservationSet::knows(std::size_t column) const {
 std::string_view ObservationSet::units_word() const {
   std::string_view word;
   for (const ObservationPart& part : parts) {
-    if (!part.observation->may_slip()) continue;
+    if (!part.observation->may_be_outlier()) continue;
     const std::string_view own = part.observation->kind().units;
     word = word.empty() || word == own ? own : "readings";
   }

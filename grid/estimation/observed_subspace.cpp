@@ -45,7 +45,7 @@ ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis,
     }
   }
   if (points >= size) {
-    bends_ = root;
+    penalised_basis_ = root;
     null_space_.resize(size, 0);
     return;
   }
@@ -53,7 +53,7 @@ ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis,
   // do not.
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(bend_rows_.transpose());
   const Eigen::MatrixXd turned = root * qr.householderQ();
-  bends_ = turned.leftCols(points);
+  penalised_basis_ = turned.leftCols(points);
   null_space_ = turned.rightCols(size - points);
   bend_rows_ =
       Eigen::MatrixXd(qr.matrixQR().topRows(points).triangularView<Eigen::Upper>()).transpose();

@@ -34,13 +34,13 @@ class ObservedSubspace {
                    const std::vector<model::MarkPoint>& marks);
 
   [[nodiscard]] Eigen::Index polynomials() const { return polynomials_.cols(); }
-  [[nodiscard]] Eigen::Index bends() const { return bends_.cols(); }
+  [[nodiscard]] Eigen::Index penalised() const { return penalised_basis_.cols(); }
   /// phi(q)' F and phi(q)' B, a row a mark.
   [[nodiscard]] const Eigen::MatrixXd& polynomial_rows() const { return polynomial_rows_; }
   [[nodiscard]] const Eigen::MatrixXd& bend_rows() const { return bend_rows_; }
   /// F and B.
   [[nodiscard]] const Eigen::MatrixXd& polynomial_coefficients() const { return polynomials_; }
-  [[nodiscard]] const Eigen::MatrixXd& bend_coefficients() const { return bends_; }
+  [[nodiscard]] const Eigen::MatrixXd& penalised_basis() const { return penalised_basis_; }
   /// B2, a basis of the null space; no columns where the points observe everything.
   [[nodiscard]] const Eigen::MatrixXd& null_space_coefficients() const { return null_space_; }
   /// Trace of P.
@@ -50,7 +50,7 @@ class ObservedSubspace {
 
  private:
   Eigen::MatrixXd polynomials_;
-  Eigen::MatrixXd bends_;
+  Eigen::MatrixXd penalised_basis_;
   Eigen::MatrixXd null_space_;
   Eigen::MatrixXd polynomial_rows_;
   Eigen::MatrixXd bend_rows_;

@@ -50,7 +50,7 @@ ReadingShift shift_of(const FittedRows& rows,
   const double s2 = rows.fit.sigma2;
   const double n = rows.dof;
   if (!counts) {
-    shift.off_mm = r / own;
+    shift.residual_mm = r / own;
     if (n >= 1.0) shift.sigmas = normal_deviate(r / std::sqrt(s2 * own + spread), n);
     return shift;
   }
@@ -59,7 +59,7 @@ ReadingShift shift_of(const FittedRows& rows,
   // place takes.
   const double whole = unit.whitening.matrix().row(0).squaredNorm();
   if (kept < kOwnWord * whole || n < 2.0) return shift;
-  shift.off_mm = r / kept;
+  shift.residual_mm = r / kept;
   shift.sigmas = deleted_deviate(r, kept, s2, n);
   return shift;
 }

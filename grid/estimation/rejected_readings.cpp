@@ -42,7 +42,7 @@ std::optional<Estimator::Shift> Estimator::best_rejected() const {
 }
 
 /// Fits again with these readings rejected; false, and nothing changed, where that has no answer.
-bool Estimator::settle_without(RejectedReadings rejected) {
+bool Estimator::converge_without(RejectedReadings rejected) {
   std::vector<std::vector<observation::UnitReading>> of_observation(input_.observations.size());
   for (std::size_t u = 0; u < rejected.size(); ++u) {
     const SystemUnit& unit = problem_->units()[u];
@@ -59,7 +59,7 @@ bool Estimator::settle_without(RejectedReadings rejected) {
   auto problem =
       std::exchange(problem_, std::make_unique<JointProblem>(input_, false, std::move(rejected)));
   is_linearised_ = false;
-  if (settle()) return true;
+  if (converge()) return true;
   problem_ = std::move(problem);
   input_.observations = before;
   fit_ = std::move(fit);
@@ -83,7 +83,7 @@ void Estimator::reject_readings() {
     if (!worst || worst->sigmas < limits.rejected_beyond) break;
     RejectedReadings more = of_now();
     more[worst->at.unit].push_back(worst->at.reading);
-    if (!settle_without(std::move(more))) break;
+    if (!converge_without(std::move(more))) break;
   }
   // What was rejected while a worse one was still in may fit after all.
   for (std::size_t back = 0; back < most; ++back) {
@@ -92,10 +92,10 @@ void Estimator::reject_readings() {
     const RejectedReadings now = of_now();
     RejectedReadings fewer = now;
     std::erase(fewer[best->at.unit], best->at.reading);
-    if (!settle_without(std::move(fewer))) break;
+    if (!converge_without(std::move(fewer))) break;
     const auto worst = worst_reading();
     if (!worst || worst->sigmas < limits.rejected_beyond) continue;
-    if (!settle_without(now)) break;
+    if (!converge_without(now)) break;
     break;
   }
 }

@@ -16,7 +16,7 @@ Unknowns::Unknowns(const ObservationSet& set, SurfaceColumns surface)
       of_set_(static_cast<std::size_t>(set.stated_value.size())) {
   const bool frame_is_laid = !set.parts.empty() && set.parts.front().sheet.has_value();
   settings_ = parameters() + (frame_is_laid ? kSheet : 0);
-  total_ = settings_ + scales() + 2 * (surface.polynomials + surface.bends);
+  total_ = settings_ + scales() + 2 * (surface.polynomials + surface.penalised);
   for (std::size_t i = 0; i < set.parts.size(); ++i) {
     sheet_.push_back(-1);
     if (set.parts[i].sheet) {

@@ -25,7 +25,7 @@ namespace chaintrue::grid::estimation {
 /// How many columns a surface has for each chain: polynomials and the penalised basis.
 struct SurfaceColumns {
   Eigen::Index polynomials = 0;
-  Eigen::Index bends = 0;
+  Eigen::Index penalised = 0;
 };
 
 class Unknowns {
@@ -42,8 +42,8 @@ class Unknowns {
   [[nodiscard]] Eigen::Index polynomial(model::Side side) const {
     return settings_ + 2 + row_of(side) * surface_.polynomials;
   }
-  [[nodiscard]] Eigen::Index bend(model::Side side) const {
-    return settings_ + 2 + 2 * surface_.polynomials + row_of(side) * surface_.bends;
+  [[nodiscard]] Eigen::Index first_penalised_of(model::Side side) const {
+    return settings_ + 2 + 2 * surface_.polynomials + row_of(side) * surface_.penalised;
   }
   [[nodiscard]] const SurfaceColumns& surface() const { return surface_; }
   /// Where the columns of an observation's sheet begin; -1: it has none.

@@ -28,7 +28,7 @@ const Record<AnchorCoordinate>& fitted_coordinate_record() {
           .required("fitted_mm", &AnchorCoordinate::fitted_mm, number(kMillimetres))
           .required("sigma_mm", &AnchorCoordinate::sigma_mm, number(kSigmaMm))
           .required("rests_on",
-                    &AnchorCoordinate::rests_on,
+                    &AnchorCoordinate::variance_share,
                     object(per_belt_record<double>(number(kAnyNumber))));
   return record;
 }
@@ -50,7 +50,7 @@ const Record<BadBeltReading>& bad_record() {
     Record<BadBeltReading> bad("a bad reading");
     add_point(bad)
         .required("belt", &BadBeltReading::belt, belt_word())
-        .required("off_mm", &BadBeltReading::off_mm, number(kMillimetres));
+        .required("off_mm", &BadBeltReading::residual_mm, number(kMillimetres));
     return bad;
   }();
   return record;
@@ -59,10 +59,10 @@ const Record<BadBeltReading>& bad_record() {
 const Record<BeltResidual>& residual_record() {
   static const auto record =
       Record<BeltResidual>("a reading's residual")
-          .required("off_mm", &BeltResidual::off_mm, number(kMillimetres))
+          .required("off_mm", &BeltResidual::residual_mm, number(kMillimetres))
           .required("counts", &BeltResidual::counts, boolean())
           .required("sigmas", &BeltResidual::sigmas, number(kAnyNumber))
-          .required("beside_mm", &BeltResidual::beside_mm, number(kMillimetres));
+          .required("beside_mm", &BeltResidual::deleted_residual_mm, number(kMillimetres));
   return record;
 }
 
@@ -160,12 +160,12 @@ struct StatedBeltPrediction {
   std::optional<BeltPrediction> half_left_out;
 };
 
-const Record<StatedBeltPrediction>& both_foretold_record() {
+const Record<StatedBeltPrediction>& both_predictions_record() {
   static const auto record =
       Record<StatedBeltPrediction>("what was foretold")
-          .required("one_left_out", &StatedBeltPrediction::one_left_out, object(foretold_record()))
+          .required("one_left_out", &StatedBeltPrediction::one_left_out, object(prediction_record()))
           .optional(
-              "half_left_out", &StatedBeltPrediction::half_left_out, object(foretold_record()));
+              "half_left_out", &StatedBeltPrediction::half_left_out, object(prediction_record()));
   return record;
 }
 
@@ -187,7 +187,7 @@ void add_fit(Record<BeltsFit>& record) {
               {"five rows of five numbers", list(list(number(kSquare), 5), 5).expected.schema},
               read_covariance,
               written_covariance)
-      .required("spread_mm", &BeltsFit::spread_mm, number(kSigmaMm))
+      .required("spread_mm", &BeltsFit::residual_sigma_mm, number(kSigmaMm))
       .required("checks", &BeltsFit::checks, integer(0, 4 * kMostPlaces))
       .required("rms_mm", &BeltsFit::rms_mm, number(kSigmaMm))
       .required(
@@ -195,16 +195,16 @@ void add_fit(Record<BeltsFit>& record) {
       .custom(
           "foretold",
           true,
-          both_foretold_record().expected(),
+          both_predictions_record().expected(),
           [](const Cursor& at, BeltsFit& fit) {
-            const auto found = both_foretold_record().read(at);
+            const auto found = both_predictions_record().read(at);
             if (!found) return;
             fit.one_left_out = found->one_left_out;
             fit.half_left_out = found->half_left_out;
           },
           [](const BeltsFit& fit) {
             return std::optional<Json>(
-                both_foretold_record().write({fit.one_left_out, fit.half_left_out}));
+                both_predictions_record().write({fit.one_left_out, fit.half_left_out}));
           })
       .optional("scale", &BeltsFit::scale, object(scale_record()))
       .sparse("bad", &BeltsFit::bad, list(object(bad_record())))
@@ -236,7 +236,7 @@ const Record<FittedAnchors>& fitted_anchors_record() {
     Record<FittedAnchors> anchors("a chaintrue_anchors file", kAnchorsFormat);
     anchors.sparse("name", &FittedAnchors::name, text())
         .required("fit", &FittedAnchors::fit, object(fit_record()))
-        .optional("holes", &FittedAnchors::holes, object(holes_beside_belts_record()));
+        .optional("holes", &FittedAnchors::holes, object(holes_with_belts_record()));
     add_content_hash(anchors).check([](const Cursor& at, FittedAnchors&) {
       if (at.clean()) check_content(at, kAnchorsFormat);
     });

@@ -39,7 +39,7 @@ namespace chaintrue::grid::files {
 struct FittedAnchors {
   std::string name;
   BeltsFit fit;
-  std::optional<HolesBesideBelts> holes = std::nullopt;  ///< if holes were fitted as well
+  std::optional<HolesWithBelts> holes = std::nullopt;  ///< if holes were fitted as well
 };
 
 /// `file` is the name used in messages; assumptions are added to `warnings`. \throws InputError

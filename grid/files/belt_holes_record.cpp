@@ -55,7 +55,7 @@ const Record<BeltTapedDistance>& taped_distance_record() {
               [](const BeltTapedDistance& distance) { return std::optional<Json>(distance.set); })
           .required("between", &BeltTapedDistance::words, text())
           .required("measured_mm", &BeltTapedDistance::measured_mm, number(kMillimetres))
-          .required("off_mm", &BeltTapedDistance::off_mm, number(kMillimetres))
+          .required("off_mm", &BeltTapedDistance::residual_mm, number(kMillimetres))
           .required("left_out_mm", &BeltTapedDistance::left_out_mm, number(kMillimetres))
           .required("left_out_sigma_mm", &BeltTapedDistance::left_out_sigma_mm, number(kSigmaMm))
           .required("set_aside", &BeltTapedDistance::rejected, boolean());
@@ -126,7 +126,7 @@ const Record<StatedSheet>& stated_sheet_record() {
   return record;
 }
 
-void read_holes_covariance(const Cursor& at, HolesBesideBelts& holes) {
+void read_holes_covariance(const Cursor& at, HolesWithBelts& holes) {
   const auto rows = list(list(number(kAnyNumber))).read(at);
   if (!rows || !at.clean()) return;
   const auto size = static_cast<Eigen::Index>(rows->size());
@@ -139,14 +139,14 @@ void read_holes_covariance(const Cursor& at, HolesBesideBelts& holes) {
   }
 }
 
-std::optional<Json> written_holes_covariance(const HolesBesideBelts& holes) {
+std::optional<Json> written_holes_covariance(const HolesWithBelts& holes) {
   Json rows = Json::array();
   for (const auto& row : holes.covariance.rowwise())
     rows.push_back(std::vector<double>(row.begin(), row.end()));
   return rows;
 }
 
-void check_together(const Cursor& at, const HolesBesideBelts& holes) {
+void check_together(const Cursor& at, const HolesWithBelts& holes) {
   if (!at.clean()) return;
   constexpr std::size_t kFewestHoles = 3;
   if (holes.holes.size() < kFewestHoles) at.child("holes").expect("three holes at least");
@@ -162,23 +162,23 @@ void check_together(const Cursor& at, const HolesBesideBelts& holes) {
 
 }  // namespace
 
-const Record<HolesBesideBelts>& holes_beside_belts_record() {
+const Record<HolesWithBelts>& holes_with_belts_record() {
   static const auto record =
-      Record<HolesBesideBelts>("what holes tell beside belts")
-          .required("machine", &HolesBesideBelts::machine, object(belt_machine_record()))
-          .required("holes", &HolesBesideBelts::holes, list(object(belt_hole_record())))
+      Record<HolesWithBelts>("what holes tell beside belts")
+          .required("machine", &HolesWithBelts::machine, object(belt_machine_record()))
+          .required("holes", &HolesWithBelts::holes, list(object(belt_hole_record())))
           .required(
-              "distances", &HolesBesideBelts::distances, list(object(taped_distance_record())))
-          .required("noise_factor", &HolesBesideBelts::noise_factor, number(kFactor))
-          .required("left_out_rms_mm", &HolesBesideBelts::left_out_rms_mm, number(kSigmaMm))
+              "distances", &HolesWithBelts::distances, list(object(taped_distance_record())))
+          .required("noise_factor", &HolesWithBelts::noise_factor, number(kFactor))
+          .required("left_out_rms_mm", &HolesWithBelts::left_out_rms_mm, number(kSigmaMm))
           .custom(
               "displacement",
               false,
               displacement_record().expected(),
-              [](const Cursor& at, HolesBesideBelts& holes) {
+              [](const Cursor& at, HolesWithBelts& holes) {
                 holes.displacement = read_displacement(at);
               },
-              [](const HolesBesideBelts& holes) {
+              [](const HolesWithBelts& holes) {
                 return holes.displacement
                            ? std::optional<Json>(written_displacement(*holes.displacement))
                            : std::nullopt;
@@ -187,11 +187,11 @@ const Record<HolesBesideBelts>& holes_beside_belts_record() {
               "sheet",
               false,
               stated_sheet_record().expected(),
-              [](const Cursor& at, HolesBesideBelts& holes) {
+              [](const Cursor& at, HolesWithBelts& holes) {
                 if (const auto sheet = stated_sheet_record().read(at))
                   holes.sheet = Eigen::Vector3d(sheet->x_mm, sheet->y_mm, sheet->rotation_rad);
               },
-              [](const HolesBesideBelts& holes) -> std::optional<Json> {
+              [](const HolesWithBelts& holes) -> std::optional<Json> {
                 if (!holes.sheet) return std::nullopt;
                 return stated_sheet_record().write(
                     {holes.sheet->x(), holes.sheet->y(), holes.sheet->z()});
@@ -201,7 +201,7 @@ const Record<HolesBesideBelts>& holes_beside_belts_record() {
                   {"rows of numbers", list(list(number(kAnyNumber))).expected.schema},
                   read_holes_covariance,
                   written_holes_covariance)
-          .check([](const Cursor& at, HolesBesideBelts& holes) { check_together(at, holes); });
+          .check([](const Cursor& at, HolesWithBelts& holes) { check_together(at, holes); });
   return record;
 }
 

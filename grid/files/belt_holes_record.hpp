@@ -9,6 +9,6 @@
 
 namespace chaintrue::grid::files {
 
-[[nodiscard]] const Record<HolesBesideBelts>& holes_beside_belts_record();
+[[nodiscard]] const Record<HolesWithBelts>& holes_with_belts_record();
 
 }  // namespace chaintrue::grid::files

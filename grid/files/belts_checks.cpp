@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "grid/belts/belt_slips.hpp"
+#include "grid/belts/belt_checks.hpp"
 #include "grid/belts/belts_fit.hpp"
 
 namespace chaintrue::grid::files {
@@ -126,7 +126,7 @@ void check_swap(const MeasuredBelts& belts, const BeltPlaces& places, Problems& 
   // Mirrored frames agree as well as true ones; the misfit of other permutations can be of any
   // size.
   constexpr double kMirroredMm = 15.0;
-  constexpr double kMostTold = 1000.0;
+  constexpr double kMostReported = 1000.0;
   problems.add(
       places.points,
       found,
@@ -137,8 +137,8 @@ void check_swap(const MeasuredBelts& belts, const BeltPlaces& places, Problems& 
           swap->as_stated_mm < kMirroredMm
               ? std::string("make a mirror image of the frame")
               : fmt::format("contradict each other by {}{:.0f} mm",
-                            swap->as_stated_mm > kMostTold ? "more than " : "",
-                            std::min(swap->as_stated_mm, kMostTold))));
+                            swap->as_stated_mm > kMostReported ? "more than " : "",
+                            std::min(swap->as_stated_mm, kMostReported))));
 }
 
 void check_readings(const MeasuredBelts& belts,
@@ -166,7 +166,7 @@ void check_nowhere(const MeasuredBelts& belts,
                  fmt::format("four lengths that end at one place; with the anchors that the other "
                              "points make, the best place is off by {:.0f} mm: is a digit lost, or "
                              "is it of another frame? Correct it or leave the point out",
-                             nowhere.off_mm));
+                             nowhere.residual_mm));
   }
 }
 

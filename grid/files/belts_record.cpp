@@ -267,7 +267,7 @@ const Record<FirmwareFit>& firmware_fit_record() {
   return record;
 }
 
-const Record<BeltPrediction>& foretold_record() {
+const Record<BeltPrediction>& prediction_record() {
   static const auto record =
       Record<BeltPrediction>("what was foretold")
           .custom(

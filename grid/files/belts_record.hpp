@@ -34,7 +34,7 @@ const Record<model::PerBelt<V>>& per_belt_record(const Value<V>& value) {
   return choice<Belt>({{"tl", Belt::tl}, {"tr", Belt::tr}, {"bl", Belt::bl}, {"br", Belt::br}});
 }
 
-[[nodiscard]] const Record<BeltPrediction>& foretold_record();
+[[nodiscard]] const Record<BeltPrediction>& prediction_record();
 [[nodiscard]] const Record<BeltScale>& scale_record();
 [[nodiscard]] const Record<FirmwareFit>& firmware_fit_record();
 

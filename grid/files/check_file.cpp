@@ -12,7 +12,7 @@ Json verdict_of(const Check& check) {
   json["verdict"] = std::string(name(check.verdict));
   json["decided"] = check.decided;
   json["sentence"] = check.sentence;
-  json["not_told_apart"] = check.not_told_apart;
+  json["not_told_apart"] = check.not_separable;
   for (const CheckVerdict verdict :
        {CheckVerdict::valid, CheckVerdict::valid_after_rezeroing, CheckVerdict::measure_again}) {
     json["probability"][std::string(name(verdict))] =

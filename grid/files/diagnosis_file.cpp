@@ -57,7 +57,7 @@ const Record<StatedTape>& stated_tape_record() {
 struct Shift {
   std::optional<double> x_mm;
   std::optional<double> y_mm;
-  std::optional<double> off_mm;
+  std::optional<double> residual_mm;
   double sigmas = 0.0;
   std::optional<model::Belt> belt{};
   std::optional<model::Belt> or_belt{};
@@ -68,13 +68,13 @@ const Record<Shift>& shift_record() {
       Record<Shift>("a bad point's shift")
           .optional("x_mm", &Shift::x_mm, number(kMillimetres))
           .optional("y_mm", &Shift::y_mm, number(kMillimetres))
-          .optional("off_mm", &Shift::off_mm, number(kMillimetres))
+          .optional("off_mm", &Shift::residual_mm, number(kMillimetres))
           .required("sigmas", &Shift::sigmas, number(kNotNegative))
           .optional("belt", &Shift::belt, belt_word())
           .optional("or_belt", &Shift::or_belt, belt_word())
           .check([](const Cursor& at, Shift& shift) {
             const bool of_point = shift.x_mm && shift.y_mm;
-            if (at.clean() && of_point == shift.off_mm.has_value())
+            if (at.clean() && of_point == shift.residual_mm.has_value())
               at.expect("x_mm and y_mm of a point, or off_mm of a distance or of a belt");
           });
   return record;
@@ -134,7 +134,7 @@ void outlier_keys(Record<Diagnosis>& record) {
         for (std::size_t i = 0; i < read->size(); ++i) {
           const Shift& shift = (*read)[i];
           object.outliers[i].shift_mm = {shift.x_mm.value_or(0.0), shift.y_mm.value_or(0.0)};
-          object.outliers[i].off_mm = shift.off_mm.value_or(0.0);
+          object.outliers[i].residual_mm = shift.residual_mm.value_or(0.0);
           object.outliers[i].distance = shift.sigmas;
           object.outliers[i].belt = shift.belt;
           object.outliers[i].or_belt = shift.or_belt;
@@ -145,7 +145,7 @@ void outlier_keys(Record<Diagnosis>& record) {
         for (const Outlier& bad : object.outliers) {
           json.push_back(shift_record().write(
               bad.of != Observations::points
-                  ? Shift{{}, {}, bad.off_mm, bad.distance, bad.belt, bad.or_belt}
+                  ? Shift{{}, {}, bad.residual_mm, bad.distance, bad.belt, bad.or_belt}
                   : Shift{bad.shift_mm.x() + 0.0, bad.shift_mm.y() + 0.0, {}, bad.distance}));
         }
         return std::optional<Json>(std::move(json));
@@ -214,7 +214,7 @@ Record<Diagnosis> make_diagnosis_record() {
   record.required("not_testable", &Diagnosis::not_testable, list(object(not_testable_record())))
       .required("bounds", &Diagnosis::bounds, list(object(bound_record())))
       .required("settings", &Diagnosis::settings, list(object(calibrated_setting_record())))
-      .optional("gain", &Diagnosis::gain, object(gain_record()))
+      .optional("gain", &Diagnosis::improvement, object(improvement_record()))
       .required("next_measurements",
                 &Diagnosis::next_measurements,
                 list(object(next_measurement_record())))

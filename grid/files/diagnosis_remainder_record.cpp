@@ -72,7 +72,7 @@ const Record<Unexplained>& unexplained_record() {
 const Record<ErrorBudget>& error_budget_record() {
   static const auto record =
       Record<ErrorBudget>("what the error is made of")
-          .required("as_delivered_mm", &ErrorBudget::as_delivered_mm, number(kNotNegative))
+          .required("as_delivered_mm", &ErrorBudget::uncalibrated_mm, number(kNotNegative))
           .required("parts", &ErrorBudget::lines, list(object(budget_line_record())));
   return record;
 }
@@ -111,8 +111,8 @@ const Record<diagnosis::Trend>& trend_record() {
       Record<Trend>("what changed since an earlier diagnosis")
           .required("since", &Trend::since, text())
           .required("changes", &Trend::changes, list(object(change_record())))
-          .optional("as_delivered_before_mm", &Trend::as_delivered_before_mm, number(kNotNegative))
-          .optional("as_delivered_mm", &Trend::as_delivered_mm, number(kNotNegative));
+          .optional("as_delivered_before_mm", &Trend::uncalibrated_before_mm, number(kNotNegative))
+          .optional("as_delivered_mm", &Trend::uncalibrated_mm, number(kNotNegative));
   return record;
 }
 

@@ -140,11 +140,11 @@ void tell_units(Json& schema) {
     for (Json& element : schema) tell_units(element);
   } else if (schema.is_object()) {
     if (schema.contains("unit") && schema["unit"].is_string()) {
-      const std::string told = fmt::format("In {}.", schema["unit"].get<std::string>());
+      const std::string description = fmt::format("In {}.", schema["unit"].get<std::string>());
       schema["description"] =
           schema.contains("description")
-              ? fmt::format("{} {}", schema["description"].get<std::string>(), told)
-              : told;
+              ? fmt::format("{} {}", schema["description"].get<std::string>(), description)
+              : description;
       schema.erase("unit");
     }
     for (auto& [key, value] : schema.items()) tell_units(value);
@@ -274,7 +274,7 @@ class Tables {
     if (!schema.contains("properties")) return;
     if (!schema.contains("title")) return add(schema["additionalProperties"]);
     const std::string noun = noun_of(schema);
-    if (!told_.insert(noun).second) return;
+    if (!described_.insert(noun).second) return;
     table(noun, schema);
     for (const auto& [key, property] : schema["properties"].items()) add(property);
   }
@@ -298,7 +298,7 @@ class Tables {
   }
 
   std::string& text_;
-  std::set<std::string> told_;
+  std::set<std::string> described_;
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <map>
 
-#include "grid/input_checks/point_slips.hpp"
+#include "grid/input_checks/point_checks.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -264,13 +264,13 @@ bool warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Pr
 }
 
 /// Errors of the whole file, and of rows. True where no further check is useful.
-bool check_slips(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
+bool check_entries(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
   if (!grid.machine) {
     if (check_unit(grid, places, problems) || check_axes(grid, places, problems)) return true;
     check_sides(grid, places, problems);
     return false;
   }
-  const input_checks::Findings found = input_checks::point_slips(grid);
+  const input_checks::Findings found = input_checks::check_points(grid);
   if (found.whole && found.whole->is_doubtful) {
     problems.warn(places.all,
                   fmt::format("{}, where one would expect {}", found.whole->found, found.whole->expected));
@@ -337,7 +337,7 @@ void check_points_together(const MeasuredGrid& grid,
                  "a machine with the controller that was commanded (\"machine\", \"machine_file\" "
                  "or --machine)");
   }
-  if (count == 0 || check_slips(grid, places, problems)) return;
+  if (count == 0 || check_entries(grid, places, problems)) return;
   const bool is_tiny = count >= kSpanFrom && warn_of_a_tiny_area(grid, places, problems);
   if (fewest_points < kSpanFrom || count < fewest_points) return;
   if (const double width = width_across_best_line(grid.points); width < kRepeatDistanceMm) {

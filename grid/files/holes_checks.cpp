@@ -10,8 +10,8 @@
 #include <set>
 
 #include "grid/files/number_text.hpp"
-#include "grid/input_checks/distance_slips.hpp"
-#include "grid/input_checks/number_slips.hpp"
+#include "grid/input_checks/distance_checks.hpp"
+#include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -67,10 +67,10 @@ bool check_other_unit(const MeasuredHoles& set, const HolesPlaces& places, Probl
 
 /// Where an error of the whole file was found it is reported; what is asked about single distances is
 /// returned.
-std::vector<input_checks::RowFinding> check_slips(const MeasuredHoles& set,
+std::vector<input_checks::RowFinding> check_entries(const MeasuredHoles& set,
                                                   const HolesPlaces& places,
                                                   Problems& problems) {
-  input_checks::Findings found = input_checks::distance_slips(set);
+  input_checks::Findings found = input_checks::check_distances(set);
   if (found.whole) {
     problems.add(found.whole->from_row ? places.distance(*found.whole->from_row, "distance_mm")
                                        : places.distances,
@@ -208,16 +208,16 @@ void check_enough(const MeasuredHoles& set,
 }
 
 /// Without the offset the map would be distorted by the same amount.
-void check_hook(const MeasuredHoles& set,
+void check_tape_zero(const MeasuredHoles& set,
                 bool is_stated,
                 const HolesPlaces& places,
                 Problems& problems) {
-  const auto offset = suspected_hook_offset_mm(set);
+  const auto offset = suspected_tape_zero_offset_mm(set);
   if (!offset) return;
   const std::string found = fmt::format("distances all about {:.1f} mm {} than commanded",
                                         std::abs(*offset),
                                         *offset > 0.0 ? "longer" : "shorter");
-  double total_mm = set.tape.hook_offset_mm + *offset;
+  double total_mm = set.tape.tape_zero_offset_mm + *offset;
   // Tapes are held at a mark; what the machine is off by adds a millimetre or two.
   constexpr double kAtTheMarkMm = 3.0;
   const double mark_mm =
@@ -282,11 +282,11 @@ void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problem
   std::vector<std::string> rounded;
   for (const HoleDistance& distance : set.distances) {
     if (distance.edge) continue;
-    const double beside_mm = std::abs(distance.distance_mm - commanded_mm(set, distance));
+    const double difference_mm = std::abs(distance.distance_mm - commanded_mm(set, distance));
     // A tape is read to half a millimetre.
     const bool by_eye = 2.0 * distance.distance_mm == std::round(2.0 * distance.distance_mm);
-    if (beside_mm < kSameMm && !by_eye) exact.push_back(words_of(set, distance));
-    if (distance.distance_mm == std::round(commanded_mm(set, distance)) || beside_mm < kSameMm)
+    if (difference_mm < kSameMm && !by_eye) exact.push_back(words_of(set, distance));
+    if (distance.distance_mm == std::round(commanded_mm(set, distance)) || difference_mm < kSameMm)
       rounded.push_back(words_of(set, distance));
   }
   const bool most = 2 * rounded.size() > set.distances.size();
@@ -360,18 +360,18 @@ std::vector<HoleDistance> resolved_distances(const std::vector<StatedDistance>& 
 
 void check_holes_together(const MeasuredHoles& set,
                           std::size_t fewest_distances,
-                          bool hook_is_stated,
+                          bool tape_zero_is_stated,
                           const HolesPlaces& places,
                           Problems& problems) {
   check_apart(set, places, problems);
   if (problems.any()) return;
-  const auto asked = check_slips(set, places, problems);
+  const auto asked = check_entries(set, places, problems);
   if (problems.any() || check_other_unit(set, places, problems)) return;
   check_triangles(set, asked, places, problems);
   for (const input_checks::RowFinding& row : asked)
     problems.warn(places.distance(row.row, "distance_mm"), row.sentence);
   check_enough(set, fewest_distances, places, problems);
-  if (!problems.any()) check_hook(set, hook_is_stated, places, problems);
+  if (!problems.any()) check_tape_zero(set, tape_zero_is_stated, places, problems);
 }
 
 }  // namespace chaintrue::grid::files

@@ -56,7 +56,7 @@ void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problem
 /// before.
 void check_holes_together(const MeasuredHoles& set,
                           std::size_t fewest_distances,
-                          bool hook_is_stated,
+                          bool tape_zero_is_stated,
                           const HolesPlaces& places,
                           Problems& problems);
 

@@ -47,8 +47,8 @@ ReadHoles finish(StatedHoles stated,
   read.belt_machine = std::move(stated.belt_machine);
   set.tape = stated.tape;
   set.tape.sigma_mm = options.tape_sigma_mm.value_or(set.tape.sigma_mm);
-  set.tape.hook_offset_mm = options.hook_offset_mm.value_or(set.tape.hook_offset_mm);
-  if (options.hook_sigma_mm) set.tape.hook_sigma_mm = options.hook_sigma_mm;
+  set.tape.tape_zero_offset_mm = options.tape_zero_offset_mm.value_or(set.tape.tape_zero_offset_mm);
+  if (options.tape_zero_offset_sigma_mm) set.tape.tape_zero_offset_sigma_mm = options.tape_zero_offset_sigma_mm;
   set.hole_sigma_mm = options.hole_sigma_mm.value_or(stated.hole_sigma_mm);
   set.noise_dof = stated.noise_dof;
   set.sheet = stated.sheet;
@@ -57,9 +57,9 @@ ReadHoles finish(StatedHoles stated,
   check_names(set.holes, places, problems);
   set.distances = resolved_distances(stated.distances, set.holes, places, problems);
   if (!problems.any()) {
-    const bool hook_is_stated =
-        options.hook_offset_mm || stated.hook_is_stated || set.tape.hook_offset_mm != 0.0;
-    check_holes_together(set, options.fewest_distances, hook_is_stated, places, problems);
+    const bool tape_zero_is_stated =
+        options.tape_zero_offset_mm || stated.tape_zero_is_stated || set.tape.tape_zero_offset_mm != 0.0;
+    check_holes_together(set, options.fewest_distances, tape_zero_is_stated, places, problems);
   }
   problems.throw_if_any();
   warn_of_copies(set, places, problems);

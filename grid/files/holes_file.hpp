@@ -47,8 +47,8 @@ namespace chaintrue::grid::files {
 struct HolesOptions {
   std::optional<model::Machine> machine;
   std::optional<double> tape_sigma_mm;
-  std::optional<double> hook_offset_mm;
-  std::optional<double> hook_sigma_mm;
+  std::optional<double> tape_zero_offset_mm;
+  std::optional<double> tape_zero_offset_sigma_mm;
   std::optional<double> hole_sigma_mm;
   /// A few distances that only check a map pass 1.
   std::size_t fewest_distances = kFewestHoleDistances;

@@ -19,8 +19,8 @@ const Record<Tape>& tape_record() {
   static const auto record =
       Record<Tape>("the tape")
           .optional("sigma_mm", &Tape::sigma_mm, number(kTapeSigmaMm))
-          .optional("hook_offset_mm", &Tape::hook_offset_mm, number(kHookOffsetMm))
-          .optional("hook_sigma_mm", &Tape::hook_sigma_mm, number(kHoleSigmaMm));
+          .optional("hook_offset_mm", &Tape::tape_zero_offset_mm, number(kTapeZeroOffsetMm))
+          .optional("hook_sigma_mm", &Tape::tape_zero_offset_sigma_mm, number(kHoleSigmaMm));
   return record;
 }
 
@@ -193,7 +193,7 @@ const Record<StatedHoles>& holes_record() {
               list_writer(distance_record(), &StatedHoles::distances))
           .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
           .check([](const Cursor& at, StatedHoles& stated) {
-            stated.hook_is_stated = at.has("tape") && at.child("tape").json().is_object() &&
+            stated.tape_zero_is_stated = at.has("tape") && at.child("tape").json().is_object() &&
                                     at.child("tape").has("hook_offset_mm");
             if (stated.machine && !stated.machine_file.empty()) {
               at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");

@@ -26,7 +26,7 @@ struct StatedHoles {
   std::string machine_file;
   Tape tape;
   /// The tape's zero offset is stated, be it 0.
-  bool hook_is_stated = false;
+  bool tape_zero_is_stated = false;
   double hole_sigma_mm = MeasuredHoles{}.hole_sigma_mm;
   double noise_dof = MeasuredHoles{}.noise_dof;
   SheetSize sheet;

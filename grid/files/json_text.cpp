@@ -67,7 +67,7 @@ QuotedText quote_what_is_no_number(std::string_view source) {
 
 /// The likely reason why the text is not JSON, from the characters around the place; empty if none
 /// is recognised.
-std::string likely_slip(std::string_view text, std::size_t offset) {
+std::string likely_error(std::string_view text, std::size_t offset) {
   const std::string_view rest = text.substr(std::min(offset, text.size()));
   std::string_view before = text.substr(0, std::min(offset, text.size()));
   while (!before.empty() &&
@@ -164,7 +164,7 @@ class Builder : public nlohmann::json_sax<Json> {
                           source_.original_offset(position - std::min<std::size_t>(position, 1)));
     problems_.add(line_and_column_of(original_, token.offset),
                   token.text,
-                  expected_by_parser(error.what()) + likely_slip(original_, token.offset));
+                  expected_by_parser(error.what()) + likely_error(original_, token.offset));
     return false;
   }
 

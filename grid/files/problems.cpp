@@ -16,7 +16,7 @@ bool is_continuation_byte(char c) { return (static_cast<unsigned char>(c) & 0xC0
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 /// Levenshtein distance, case-insensitive.
-std::size_t slips_between(std::string_view a, std::string_view b) {
+std::size_t errors_between(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -139,11 +139,11 @@ std::string line_and_column_of(std::string_view text, std::size_t offset) {
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   constexpr std::size_t kLongestCompared = 100;
   if (word.size() > kLongestCompared) return {};
-  const std::size_t most_slips = std::max<std::size_t>(2, word.size() / 3);
+  const std::size_t most_errors = std::max<std::size_t>(2, word.size() / 3);
   std::string best;
-  std::size_t fewest = most_slips + 1;
+  std::size_t fewest = most_errors + 1;
   for (const std::string& candidate : candidates) {
-    const std::size_t slips = is_without_unit(word, candidate) ? 0 : slips_between(word, candidate);
+    const std::size_t slips = is_without_unit(word, candidate) ? 0 : errors_between(word, candidate);
     if (slips < fewest && slips < candidate.size()) {
       fewest = slips;
       best = candidate;

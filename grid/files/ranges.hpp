@@ -14,7 +14,7 @@ inline constexpr Range kNoiseDof{"", 1.0, 1e9};
 /// One sigma of a tape reading.
 inline constexpr Range kTapeSigmaMm{"mm", 0.001, 100.0};
 /// Tape zero offset: reading less distance.
-inline constexpr Range kHookOffsetMm{"mm", -1000.0, 1000.0};
+inline constexpr Range kTapeZeroOffsetMm{"mm", -1000.0, 1000.0};
 /// One sigma of that, and of a hole about the position that its chains give.
 inline constexpr Range kHoleSigmaMm{"mm", 0.0, 100.0};
 /// Width over which a map fades out beyond its points.

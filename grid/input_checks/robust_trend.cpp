@@ -32,10 +32,10 @@ double median_of_finite(const Eigen::VectorXd& values) {
 
 }  // namespace
 
-double RobustTrend::median_off_mm() const { return median_of_finite(off_mm); }
+double RobustTrend::median_residual_mm() const { return median_of_finite(residual_mm); }
 
-double log_density_of(double off_mm, double scale_mm, Eigen::Index components) {
-  return -0.5 * static_cast<double>(components + 1) * std::log1p(std::pow(off_mm / scale_mm, 2));
+double log_density_of(double residual_mm, double scale_mm, Eigen::Index components) {
+  return -0.5 * static_cast<double>(components + 1) * std::log1p(std::pow(residual_mm / scale_mm, 2));
 }
 
 RobustTrend robust_trend(const Eigen::MatrixXd& basis,
@@ -48,15 +48,15 @@ RobustTrend robust_trend(const Eigen::MatrixXd& basis,
   };
   RobustTrend trend;
   trend.coefficients = Eigen::MatrixXd::Zero(basis.cols(), components);
-  trend.off_mm = Eigen::VectorXd::Constant(n, infinity());
+  trend.residual_mm = Eigen::VectorXd::Constant(n, infinity());
   const auto take_residuals = [&] {
     for (Eigen::Index i = 0; i < n; ++i) {
       if (is_there(i))
-        trend.off_mm[i] = (readings_mm.row(i) - basis.row(i) * trend.coefficients).norm();
+        trend.residual_mm[i] = (readings_mm.row(i) - basis.row(i) * trend.coefficients).norm();
     }
   };
   take_residuals();
-  const double start_mm = trend.median_off_mm();
+  const double start_mm = trend.median_residual_mm();
   trend.scale_mm = std::max(kLeastScaleMm, std::isfinite(start_mm) ? start_mm : kLeastScaleMm);
   const Eigen::MatrixXd prior = prior_sigma_mm.cwiseAbs2().cwiseInverse().asDiagonal();
   const auto dof = static_cast<double>(components + 1);
@@ -67,11 +67,11 @@ RobustTrend robust_trend(const Eigen::MatrixXd& basis,
     double sum = 0.0;
     double count = 0.0;
     for (Eigen::Index i = 0; i < n; ++i) {
-      if (!std::isfinite(trend.off_mm[i])) continue;
-      const double weight = dof / (1.0 + trend.off_mm[i] * trend.off_mm[i] / variance);
+      if (!std::isfinite(trend.residual_mm[i])) continue;
+      const double weight = dof / (1.0 + trend.residual_mm[i] * trend.residual_mm[i] / variance);
       normal.noalias() += weight / variance * basis.row(i).transpose() * basis.row(i);
       right.noalias() += weight / variance * basis.row(i).transpose() * readings_mm.row(i);
-      sum += weight * trend.off_mm[i] * trend.off_mm[i];
+      sum += weight * trend.residual_mm[i] * trend.residual_mm[i];
       count += static_cast<double>(components);
     }
     if (count == 0.0) break;
@@ -81,10 +81,10 @@ RobustTrend robust_trend(const Eigen::MatrixXd& basis,
   }
   const double normaliser =
       components == 1 ? std::log(std::numbers::pi) : std::log(2.0 * std::numbers::pi);
-  for (const double off_mm : trend.off_mm) {
+  for (const double residual_mm : trend.residual_mm) {
     trend.log_likelihood +=
-        std::isfinite(off_mm)
-            ? log_density_of(off_mm, trend.scale_mm, components) - normaliser -
+        std::isfinite(residual_mm)
+            ? log_density_of(residual_mm, trend.scale_mm, components) - normaliser -
                   static_cast<double>(components) * std::log(trend.scale_mm)
             : -static_cast<double>(components) * std::log(kAnywhereMm);
   }

@@ -16,12 +16,12 @@ namespace chaintrue::grid::input_checks {
 
 struct RobustTrend {
   Eigen::MatrixXd coefficients;   ///< (basis, component)
-  Eigen::VectorXd off_mm;         ///< |r_i - B_i beta|; of a row that is missing infinity
+  Eigen::VectorXd residual_mm;         ///< |r_i - B_i beta|; of a row that is missing infinity
   double scale_mm = 0.0;          ///< s
   double log_likelihood = 0.0;    ///< of (1) at its maximum, the prior's factor relative to beta = 0
   double prior_chi_square = 0.0;  ///< sum_j (beta_j / sigma_j)^2
   /// Of the rows that are not missing; infinity where all are.
-  [[nodiscard]] double median_off_mm() const;
+  [[nodiscard]] double median_residual_mm() const;
 };
 
 /// A row that is not finite is missing, and counts as one that is anywhere on the bed. \pre as many
@@ -31,6 +31,6 @@ struct RobustTrend {
                                        const Eigen::MatrixXd& readings_mm);
 
 /// Of one reading that is off by this, relative to one that is not off at all.
-[[nodiscard]] double log_density_of(double off_mm, double scale_mm, Eigen::Index components);
+[[nodiscard]] double log_density_of(double residual_mm, double scale_mm, Eigen::Index components);
 
 }  // namespace chaintrue::grid::input_checks

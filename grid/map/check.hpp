@@ -80,7 +80,7 @@ struct Check {
   std::vector<CheckUnit> units;  ///< in the order of the file
   std::string sentence;
   /// What these readings cannot tell apart; empty where all is clear.
-  std::string not_told_apart;
+  std::string not_separable;
   /// What was taken out of the readings, and what could not be; whole sentences.
   std::vector<std::string> notes;
   /// All of it is of the map for other settings than its own (check_settings.hpp).

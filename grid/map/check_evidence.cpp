@@ -108,19 +108,19 @@ ReadingCovariance with_unknown(const CheckReadings& readings) {
   std::vector<Eigen::Triplet<double>> shared;
   Eigen::Index columns = 0;
   for (Eigen::Index length = 0; length < readings.by_length.cols(); ++length) {
-    std::vector<std::pair<Eigen::Index, double>> seen;
+    std::vector<std::pair<Eigen::Index, double>> conditioned;
     for (Eigen::SparseMatrix<double>::InnerIterator at(readings.by_length, length); at; ++at)
-      seen.emplace_back(at.row(), kUnknownSigmaMm * at.value());
-    if (seen.empty()) continue;
-    const std::size_t unit = unit_of[static_cast<std::size_t>(seen.front().first)];
-    if (unit == unit_of[static_cast<std::size_t>(seen.back().first)]) {
-      for (const auto& [i, by_i] : seen) {
-        for (const auto& [j, by_j] : seen)
+      conditioned.emplace_back(at.row(), kUnknownSigmaMm * at.value());
+    if (conditioned.empty()) continue;
+    const std::size_t unit = unit_of[static_cast<std::size_t>(conditioned.front().first)];
+    if (unit == unit_of[static_cast<std::size_t>(conditioned.back().first)]) {
+      for (const auto& [i, by_i] : conditioned) {
+        for (const auto& [j, by_j] : conditioned)
           k.own[unit](i - first_row[unit], j - first_row[unit]) += by_i * by_j;
       }
       continue;
     }
-    for (const auto& [i, by_i] : seen) shared.emplace_back(i, columns, by_i);
+    for (const auto& [i, by_i] : conditioned) shared.emplace_back(i, columns, by_i);
     ++columns;
   }
   if (columns == 0) return k;
@@ -142,7 +142,7 @@ class Evidence {
   explicit Evidence(const CheckReadings& readings)
       : readings_(readings),
         nothing_(readings.covariance),
-        residual_(nothing_.seen(readings.residual_mm)),
+        residual_(nothing_.conditioned(readings.residual_mm)),
         pulled_(nothing_.pulled(residual_)),
         precision_(nothing_.precision_of_units()) {
     Eigen::Index row = 0;
@@ -176,7 +176,7 @@ class Evidence {
   /// Every place may have changed by itself.
   [[nodiscard]] double of_unknown() const {
     const FactoredCovariance all(with_unknown(readings_));
-    return log_density(all.log_root_det(), all.seen(readings_.residual_mm).squaredNorm());
+    return log_density(all.log_root_det(), all.conditioned(readings_.residual_mm).squaredNorm());
   }
 
   /// The readings of a unit say nothing: kOutlierSigmaMm is added to their noise.
@@ -185,18 +185,18 @@ class Evidence {
     Eigen::MatrixXd m = kOutlierSigmaMm * kOutlierSigmaMm * precision;
     m.diagonal().array() += 1.0;
     const Eigen::LLT<Eigen::MatrixXd> factor(m);
-    const Eigen::VectorXd seen =
+    const Eigen::VectorXd conditioned =
         kOutlierSigmaMm * pulled_.segment(first_row_[unit], precision.rows());
     return log_density(nothing_.log_root_det() + log_root_det(factor),
-                       residual_.squaredNorm() - seen.dot(factor.solve(seen)));
+                       residual_.squaredNorm() - conditioned.dot(factor.solve(conditioned)));
   }
 
   [[nodiscard]] double of_change(Proposal& proposal) const {
     const Eigen::VectorXd y = proposal.mean.size() == 0
                                   ? residual_
-                                  : Eigen::VectorXd(residual_ - nothing_.seen(proposal.mean));
+                                  : Eigen::VectorXd(residual_ - nothing_.conditioned(proposal.mean));
     if (proposal.by_q.cols() == 0) return log_density(nothing_.log_root_det(), y.squaredNorm());
-    const Eigen::MatrixXd u = nothing_.seen(proposal.by_q * proposal.sigma.asDiagonal());
+    const Eigen::MatrixXd u = nothing_.conditioned(proposal.by_q * proposal.sigma.asDiagonal());
     Eigen::MatrixXd m = u.transpose() * u;
     m.diagonal().array() += 1.0;
     const Eigen::LLT<Eigen::MatrixXd> factor(m);

@@ -64,7 +64,7 @@ class Gathered {
         part.placement.x_mm, part.placement.y_mm, part.placement.rotation_rad);
     for (std::size_t i = 0; i < part.points.size(); ++i) {
       const ChainLengths& read = part.points[i].point.lengths;
-      const ChainLengths& told = at_.lengths[first + i];
+      const ChainLengths& mapped = at_.lengths[first + i];
       const Eigen::Matrix2d& by_mark = at_.by_mark[first + i];
       Eigen::MatrixXd own =
           observation::covariance_of({part.noise.length_mm, part.noise.position_mm}, by_mark) /
@@ -75,7 +75,7 @@ class Gathered {
       const auto chain = 2 * static_cast<Eigen::Index>(first + i);
       for (Eigen::Index side = 0; side < 2; ++side)
         by_length_.emplace_back(row() + side, chain + side, 1.0);
-      Eigen::Vector2d residual(read.left_mm - told.left_mm, read.right_mm - told.right_mm);
+      Eigen::Vector2d residual(read.left_mm - mapped.left_mm, read.right_mm - mapped.right_mm);
       if (part.sheet) {
         const Eigen::Matrix<double, 2, 3> by_sheet =
             by_mark * part.placement.sensitivity(part.points[i].point.mark);
@@ -116,7 +116,7 @@ class Gathered {
     }
     shared_columns_ +=
         (at_.covariance.empty() ? 2 : 4) * static_cast<Eigen::Index>(set.holes.size());
-    add_size_and_hook(set, geometry, before);
+    add_size_and_tape_zero(set, geometry, before);
     if (!part.sheet) return;
     // A hole's mark on a sheet that moved goes the other way; edges see it, a turn to first order.
     Eigen::Matrix<double, Eigen::Dynamic, 3> by_sheet =
@@ -158,19 +158,19 @@ class Gathered {
       shared_.emplace_back(at_row, shared_columns_ + holes + column + axis, seen[axis]);
   }
 
-  void add_size_and_hook(const MeasuredHoles& set,
+  void add_size_and_tape_zero(const MeasuredHoles& set,
                          const observation::DistanceGeometry& geometry,
                          Eigen::Index before) {
-    const double hook_sigma_mm = tape_zero_sigma_mm(set.tape);
+    const double tape_zero_offset_sigma_mm = tape_zero_sigma_mm(set.tape);
     for (Eigen::Index k = 0; k < geometry.by_size.rows(); ++k) {
       for (Eigen::Index axis = 0; axis < 2; ++axis) {
         const double by_size = set.sheet.size_sigma_mm * geometry.by_size(k, axis);
         if (by_size != 0.0) shared_.emplace_back(before + k, shared_columns_ + axis, by_size);
       }
-      if (hook_sigma_mm != 0.0)
-        shared_.emplace_back(before + k, shared_columns_ + 2, hook_sigma_mm);
+      if (tape_zero_offset_sigma_mm != 0.0)
+        shared_.emplace_back(before + k, shared_columns_ + 2, tape_zero_offset_sigma_mm);
     }
-    shared_columns_ += hook_sigma_mm != 0.0 ? 3 : 2;
+    shared_columns_ += tape_zero_offset_sigma_mm != 0.0 ? 3 : 2;
   }
 
   const MapAt& at_;

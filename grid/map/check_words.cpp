@@ -53,7 +53,7 @@ std::string sentence_of(const Check& check, const CheckWords& words) {
   return sentence;
 }
 
-std::string not_told_apart_of(const Check& check, const CheckWords& words) {
+std::string not_separable_of(const Check& check, const CheckWords& words) {
   if (check.hypotheses.front().probability >= kDecided) return {};
   constexpr double kWorthNaming = 0.05;
   std::vector<std::string> others;
@@ -172,7 +172,7 @@ Check judged(const CheckReadings& readings, const CheckWords& words) {
     return a.index < b.index;
   });
   check.sentence = sentence_of(check, words);
-  check.not_told_apart = not_told_apart_of(check, words);
+  check.not_separable = not_separable_of(check, words);
   check.notes = readings.notes;
   return check;
 }

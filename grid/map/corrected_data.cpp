@@ -125,7 +125,7 @@ MeasuredHoles with_true_tape(MeasuredHoles set) {
   if (!set.machine || !model::effects::problems_of_effects(*set.machine).empty()) return set;
   const double factor = observation::tape_factor(*set.machine);
   for (HoleDistance& distance : set.distances)
-    distance.distance_mm = set.tape.hook_offset_mm + length_of(set, distance) / factor;
+    distance.distance_mm = set.tape.tape_zero_offset_mm + length_of(set, distance) / factor;
   set.machine = with_effects_that(*set.machine, [](const Effect& effect) {
     return !is_of_the_paper(effect) && !model::effects::depends_on_visit(effect);
   });

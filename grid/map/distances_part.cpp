@@ -32,9 +32,9 @@ class DistancesPart final : public FitPart {
         "distances join",
         bad,
         all);
-    if (const auto hook = suspected_hook_offset_mm(set())) {
+    if (const auto tape_zero = suspected_tape_zero_offset_mm(set())) {
       sentence += fmt::format(", and whether the tape's hook offset ({:.0f} mm?) was left out",
-                              std::round(*hook));
+                              std::round(*tape_zero));
     }
     return sentence;
   }

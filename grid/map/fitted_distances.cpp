@@ -60,7 +60,7 @@ void note_set_aside(const MeasuredHoles& set,
   }
 }
 
-std::string tape_zero_sentence(const FoundHook& zero) {
+std::string tape_zero_sentence(const FoundTapeZero& zero) {
   return fmt::format(
       "Every tape distance reads {:.1f} +- {:.1f} mm too {}, which is taken off: {}",
       std::abs(zero.mm),
@@ -103,7 +103,7 @@ FittedDistances fitted_distances(const observation::TapeDistances& distances,
   // After the sheet's size (tape_distances.hpp).
   constexpr Eigen::Index kTapeZero = 2;
   if (tape_zero_sigma_mm(set.tape) > 0.0)
-    fit.hook = FoundHook{own.nuisance[kTapeZero], own.nuisance_sigma[kTapeZero]};
+    fit.tape_zero = FoundTapeZero{own.nuisance[kTapeZero], own.nuisance_sigma[kTapeZero]};
   fit.left_out_all = summary_of(fit.distances, true);
   fit.left_out_good = summary_of(fit.distances, false);
   return fit;
@@ -113,11 +113,11 @@ MapPoint map_point(const FittedHole& hole) {
   MapPoint point;
   point.mark = hole.place;
   point.lengths = hole.lengths;
-  const auto beside = [&hole](MarkPoint from) {
+  const auto shifted = [&hole](MarkPoint from) {
     return Eigen::Vector2d(hole.place.x_mm - from.x_mm, hole.place.y_mm - from.y_mm);
   };
-  point.as_stated_mm = point.sheet_placed_mm = beside(hole.as_stated);
-  point.mapped_mm = point.left_out_mm = beside(hole.predicted);
+  point.as_stated_mm = point.sheet_placed_mm = shifted(hole.as_stated);
+  point.mapped_mm = point.left_out_mm = shifted(hole.predicted);
   return point;
 }
 
@@ -135,24 +135,24 @@ DistancesUsed distances_used(const std::vector<FittedDistance>& distances, doubl
 std::vector<std::string> distance_notes(const MeasuredHoles& set, const FittedDistances& fit) {
   std::vector<std::string> notes;
   note_set_aside(set, fit, notes);
-  if (const auto hook = suspected_hook_offset_mm(set)) {
+  if (const auto tape_zero = suspected_tape_zero_offset_mm(set)) {
     notes.push_back(
         fmt::format("All distances are about {:.1f} mm {} than commanded, short ones like long "
                     "ones: was the tape's hook offset left out or taken off twice?",
-                    std::abs(*hook),
-                    *hook > 0.0 ? "longer" : "shorter"));
-  } else if (fit.hook && std::abs(fit.hook->mm) >= kTapeZeroSigmas * fit.hook->sigma_mm) {
-    notes.push_back(tape_zero_sentence(*fit.hook));
+                    std::abs(*tape_zero),
+                    *tape_zero > 0.0 ? "longer" : "shorter"));
+  } else if (fit.tape_zero && std::abs(fit.tape_zero->mm) >= kTapeZeroSigmas * fit.tape_zero->sigma_mm) {
+    notes.push_back(tape_zero_sentence(*fit.tape_zero));
   }
   return notes;
 }
 
 interp::Rectangle holes_domain(const model::Bed& bed) {
-  constexpr double kBesideMm = 50.0;
-  return {-0.5 * bed.width_mm - kBesideMm,
-          0.5 * bed.width_mm + kBesideMm,
-          -0.5 * bed.height_mm - kBesideMm,
-          0.5 * bed.height_mm + kBesideMm};
+  constexpr double kMarginMm = 50.0;
+  return {-0.5 * bed.width_mm - kMarginMm,
+          0.5 * bed.width_mm + kMarginMm,
+          -0.5 * bed.height_mm - kMarginMm,
+          0.5 * bed.height_mm + kMarginMm};
 }
 
 }  // namespace chaintrue::grid

@@ -29,7 +29,7 @@ struct FittedDistance {
 
 /// By how much the readings of a file are all too long, where the tape's zero offset was not known
 /// exactly.
-struct FoundHook {
+struct FoundTapeZero {
   double mm = 0.0;
   double sigma_mm = 0.0;
 };
@@ -46,7 +46,7 @@ struct FittedDistances {
   std::size_t file = 0;  ///< the observation's number
   std::vector<FittedDistance> distances;
   std::vector<FittedHole> holes;
-  std::optional<FoundHook> hook;
+  std::optional<FoundTapeZero> tape_zero;
   ErrorSummary left_out_all;   ///< every reading
   ErrorSummary left_out_good;  ///< those that fit
 };

@@ -224,7 +224,7 @@ std::vector<std::string> notes_of(const Parts& parts,
               "is the calibrated machine. What no setting explains is not in its expected "
               "error.");
   }
-  if (!fitting.estimate.settled) {
+  if (!fitting.estimate.converged) {
     notes.push_back(fmt::format(
         "The fit had not quite settled after its last pass: some {} hover between good and "
         "bad. Measure the ones with the largest errors again.",

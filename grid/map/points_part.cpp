@@ -226,7 +226,7 @@ class PointsPart final : public FitPart {
       weights[static_cast<Eigen::Index>(i)] = points[i].bad ? 0.0 : 1.0;
     input.fixed_weights = weights;
     const auto plain = estimation::estimate(input);
-    if (!plain || !plain->settled) return fit;
+    if (!plain || !plain->converged) return fit;
     estimation::Estimate& estimate = fit.estimate;
     const Eigen::Index known = estimate.columns.settings + 2;
     const Eigen::VectorXd change = plain->map_unknowns - estimate.map_unknowns;

@@ -105,7 +105,7 @@ Eigen::MatrixXd FactoredCovariance::by_columns(const Eigen::MatrixXd& white) con
   return result;
 }
 
-Eigen::MatrixXd FactoredCovariance::seen(const Eigen::MatrixXd& y) const {
+Eigen::MatrixXd FactoredCovariance::conditioned(const Eigen::MatrixXd& y) const {
   const Eigen::MatrixXd white = white_ * y;
   const Eigen::MatrixXd z = factor_.solve(by_columns(white));
   Eigen::MatrixXd result(white.rows() + z.rows(), y.cols());
@@ -115,8 +115,8 @@ Eigen::MatrixXd FactoredCovariance::seen(const Eigen::MatrixXd& y) const {
   return result;
 }
 
-Eigen::VectorXd FactoredCovariance::pulled(const Eigen::VectorXd& seen) const {
-  return white_.transpose() * seen.head(white_.rows());
+Eigen::VectorXd FactoredCovariance::pulled(const Eigen::VectorXd& conditioned) const {
+  return white_.transpose() * conditioned.head(white_.rows());
 }
 
 std::vector<Eigen::MatrixXd> FactoredCovariance::precision_of_units() const {

@@ -48,11 +48,11 @@ class FactoredCovariance {
   explicit FactoredCovariance(const ReadingCovariance& covariance);
 
   /// Y of (2), for each column of y (n x any).
-  [[nodiscard]] Eigen::MatrixXd seen(const Eigen::MatrixXd& y) const;
+  [[nodiscard]] Eigen::MatrixXd conditioned(const Eigen::MatrixXd& y) const;
   /// log |K|^1/2
   [[nodiscard]] double log_root_det() const { return log_root_det_; }
   /// K^-1 y from one Y.
-  [[nodiscard]] Eigen::VectorXd pulled(const Eigen::VectorXd& seen) const;
+  [[nodiscard]] Eigen::VectorXd pulled(const Eigen::VectorXd& conditioned) const;
   /// The diagonal blocks of K^-1, by units.
   [[nodiscard]] std::vector<Eigen::MatrixXd> precision_of_units() const;
 

@@ -117,7 +117,7 @@ std::optional<ControllerSettings> improved(const Machine& machine,
   if (!errors) return std::nullopt;
   const auto unknowns = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd by_setting(errors->size(), unknowns);
-  Eigen::VectorXd beside(unknowns);  // of the settings in force, in sigmas
+  Eigen::VectorXd prior_pull(unknowns);  // of the settings in force, in sigmas
   for (Eigen::Index k = 0; k < unknowns; ++k) {
     const FreeSetting& setting = free[static_cast<std::size_t>(k)];
     ControllerSettings more = now;
@@ -128,12 +128,12 @@ std::optional<ControllerSettings> improved(const Machine& machine,
     const auto down = tool_errors(machine, less, places);
     if (!up || !down) return std::nullopt;
     by_setting.col(k) = (*up - *down) * (setting.sigma / (2.0 * setting.step));
-    beside[k] =
+    prior_pull[k] =
         (*(now.*setting.value) - *(machine.controller.settings.*setting.value)) / setting.sigma;
   }
   Eigen::MatrixXd normal = weight * by_setting.transpose() * by_setting;
   normal.diagonal().array() += 1.0;
-  const Eigen::VectorXd right = -weight * by_setting.transpose() * *errors - beside;
+  const Eigen::VectorXd right = -weight * by_setting.transpose() * *errors - prior_pull;
   const Eigen::VectorXd step = normal.llt().solve(right);
   ControllerSettings better = now;
   for (Eigen::Index k = 0; k < unknowns; ++k) {

@@ -41,7 +41,7 @@ class ChainLengthReadings final : public Observation {
   [[nodiscard]] const Kind& kind() const override { return chain_lengths; }
   [[nodiscard]] bool ordered() const override { return ordered_; }
   [[nodiscard]] double noise_dof() const override { return noise_dof_; }
-  [[nodiscard]] bool may_slip() const override { return true; }
+  [[nodiscard]] bool may_be_outlier() const override { return true; }
   [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
       const View& view) const override;
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(

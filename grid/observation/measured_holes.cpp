@@ -29,7 +29,7 @@ double sigma_of(const MeasuredHoles& set, const HoleDistance& distance) {
 }
 
 double length_of(const MeasuredHoles& set, const HoleDistance& distance) {
-  return distance.distance_mm - set.tape.hook_offset_mm;
+  return distance.distance_mm - set.tape.tape_zero_offset_mm;
 }
 
 std::string words_of(const MeasuredHoles& set, const HoleDistance& distance) {
@@ -60,7 +60,7 @@ double commanded_mm(const MeasuredHoles& set, const HoleDistance& distance) {
   return half_height + from.y_mm;
 }
 
-std::optional<double> suspected_hook_offset_mm(const MeasuredHoles& set) {
+std::optional<double> suspected_tape_zero_offset_mm(const MeasuredHoles& set) {
   constexpr std::size_t kFewest = 3;
   constexpr double kLeastMm = 8.0;  // tapes are held to a hook or a mark at 10 mm or more
   std::vector<double> excess;
@@ -77,15 +77,15 @@ std::optional<double> suspected_hook_offset_mm(const MeasuredHoles& set) {
   if (std::abs(middle) < kLeastMm) return std::nullopt;
   // An error of scale grows with the distance; an offset is the same for all.
   const double scale = median(ratio);
-  std::vector<double> beside_scale;
+  std::vector<double> residual_of_scale;
   for (std::size_t i = 0; i < excess.size(); ++i) {
-    beside_scale.push_back(std::abs(excess[i] - scale * commanded[i]));
+    residual_of_scale.push_back(std::abs(excess[i] - scale * commanded[i]));
     excess[i] = std::abs(excess[i] - middle);
   }
   constexpr double kAlike = 0.25;
   constexpr double kClearlyBetter = 0.5;
   const double spread = median(excess);
-  if (spread > kAlike * std::abs(middle) || spread > kClearlyBetter * median(beside_scale))
+  if (spread > kAlike * std::abs(middle) || spread > kClearlyBetter * median(residual_of_scale))
     return std::nullopt;
   return middle;
 }

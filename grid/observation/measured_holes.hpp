@@ -52,11 +52,11 @@ struct Tape {
   double sigma_mm = 0.5;
   /// Every reading is longer than the distance by this much (the hook was not used, or a mark at
   /// 100 mm was held to the hole).
-  double hook_offset_mm = 0.0;
+  double tape_zero_offset_mm = 0.0;
   /// How well that is known, one sigma: a hook with play, edges of holes taken for their centres.
   /// All readings of a set share it: what was measured on another day, the tape held anew, is a set
   /// of its own. Absent: exactly.
-  std::optional<double> hook_sigma_mm = std::nullopt;
+  std::optional<double> tape_zero_offset_sigma_mm = std::nullopt;
 };
 
 /// The sheet whose edges were measured. Absent sizes are the bed's.
@@ -94,7 +94,7 @@ struct MeasuredHoles {
 /// The amount by which nearly all distances are longer than commanded, equally for short and long
 /// ones; nothing where there is none above 8 mm. It suggests a zero offset that was not stated (or
 /// stated twice, where negative).
-[[nodiscard]] std::optional<double> suspected_hook_offset_mm(const MeasuredHoles& set);
+[[nodiscard]] std::optional<double> suspected_tape_zero_offset_mm(const MeasuredHoles& set);
 
 /// A distance-only set tells the motors' spacing, both chain zeros and both chains' scales; fewer
 /// distances than these leave the answer to what was stated.

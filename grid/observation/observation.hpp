@@ -196,7 +196,7 @@ class Observation {
   /// How well the noise is known, degrees of freedom.
   [[nodiscard]] virtual double noise_dof() const = 0;
   /// Whether units may be outliers; not what was measured with care, once, and is stated with a sigma.
-  [[nodiscard]] virtual bool may_slip() const = 0;
+  [[nodiscard]] virtual bool may_be_outlier() const = 0;
 
   /// The same rows, with these readings left out of what is linearised about: a position that is
   /// found from the others alone. Null of a kind whose units are outliers as a whole.

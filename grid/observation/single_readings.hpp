@@ -28,7 +28,7 @@ class SingleReadings final : public Observation {
   [[nodiscard]] const Kind& kind() const override { return single_readings; }
   [[nodiscard]] bool ordered() const override { return false; }
   [[nodiscard]] double noise_dof() const override;
-  [[nodiscard]] bool may_slip() const override { return false; }
+  [[nodiscard]] bool may_be_outlier() const override { return false; }
   [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
       const View& view) const override;
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(

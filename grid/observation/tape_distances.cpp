@@ -45,7 +45,7 @@ EdgeRow edge_row(const MeasuredHoles& set, SheetEdge edge) {
   return {height_mm, 1, 1.0};
 }
 
-Eigen::MatrixXd hook_covariance(const MeasuredHoles& set) {
+Eigen::MatrixXd tape_zero_covariance(const MeasuredHoles& set) {
   const auto count = static_cast<Eigen::Index>(set.distances.size());
   return Eigen::MatrixXd::Constant(count, count, std::pow(tape_zero_sigma_mm(set.tape), 2));
 }
@@ -154,7 +154,7 @@ DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& g
       set.hole_sigma_mm * set.hole_sigma_mm * geometry.by_mark * geometry.by_mark.transpose();
   noise.size_mm2 =
       std::pow(set.sheet.size_sigma_mm, 2) * geometry.by_size * geometry.by_size.transpose();
-  noise.hook_mm2 = hook_covariance(set);
+  noise.tape_zero_mm2 = tape_zero_covariance(set);
   return noise;
 }
 
@@ -300,7 +300,7 @@ tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& vi
   const double factor = tape_factor(view.chains().machine());
   const DistanceGeometry geometry = distance_geometry(set_, marks_of(*states));
   const Eigen::MatrixXd by_mark = factor * geometry.by_mark;
-  const Eigen::VectorXd by_hook = Eigen::VectorXd::Ones(rows());
+  const Eigen::VectorXd by_tape_zero = Eigen::VectorXd::Ones(rows());
   Linearisation line;
   line.predicted = factor * geometry.predicted_mm;
   line.by_setting = Eigen::MatrixXd::Zero(rows(), static_cast<Eigen::Index>(settings.size()));
@@ -312,7 +312,7 @@ tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& vi
     }
   }
   line.by_nuisance.resize(rows(), nuisance_sigma_.size());
-  line.by_nuisance << factor * geometry.by_size, by_hook, by_mark;
+  line.by_nuisance << factor * geometry.by_size, by_tape_zero, by_mark;
   for (Eigen::Index k = 0; k < rows(); ++k) {
     const double sigma = sigma_of(set_, set_.distances[static_cast<std::size_t>(k)]);
     UnitState unit{Eigen::MatrixXd::Constant(1, 1, sigma * sigma), {}};

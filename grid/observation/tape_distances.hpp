@@ -49,7 +49,7 @@ struct DistanceNoise {
   Eigen::VectorXd tape_mm2;
   Eigen::MatrixXd holes_mm2;
   Eigen::MatrixXd size_mm2;
-  Eigen::MatrixXd hook_mm2;
+  Eigen::MatrixXd tape_zero_mm2;
 };
 [[nodiscard]] DistanceNoise distance_noise(const MeasuredHoles& set,
                                            const DistanceGeometry& geometry);
@@ -100,7 +100,7 @@ class TapeDistances final : public Observation {
   }
   [[nodiscard]] bool ordered() const override { return false; }
   [[nodiscard]] double noise_dof() const override { return set_.noise_dof; }
-  [[nodiscard]] bool may_slip() const override { return true; }
+  [[nodiscard]] bool may_be_outlier() const override { return true; }
   [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
       const View& view) const override;
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(

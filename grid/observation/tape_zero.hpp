@@ -13,7 +13,7 @@ inline constexpr double kAssumedTapeZeroMm = 3.0;
 
 /// Zero where somebody states that it is known exactly.
 [[nodiscard]] inline double tape_zero_sigma_mm(const Tape& tape) {
-  return tape.hook_sigma_mm.value_or(kAssumedTapeZeroMm);
+  return tape.tape_zero_offset_sigma_mm.value_or(kAssumedTapeZeroMm);
 }
 
 }  // namespace chaintrue::grid

@@ -48,7 +48,7 @@ class Separation {
       : readings_(readings), covariance_(readings.covariance.dense()) {}
 
   /// (1), both chains.
-  [[nodiscard]] model::PerSide<double> told2(const std::vector<std::size_t>& points) const {
+  [[nodiscard]] model::PerSide<double> squared_sigmas(const std::vector<std::size_t>& points) const {
     std::vector<Eigen::Index> rows;
     for (const std::size_t point : points) {
       rows.push_back(2 * static_cast<Eigen::Index>(point));
@@ -71,8 +71,8 @@ class Separation {
 
   /// Harmonic mean of both chains': near the smaller one, and increased by either.
   [[nodiscard]] double together(const std::vector<std::size_t>& points) const {
-    const model::PerSide<double> told = told2(points);
-    return 2.0 / (1.0 / told.left + 1.0 / told.right);
+    const model::PerSide<double> answer = squared_sigmas(points);
+    return 2.0 / (1.0 / answer.left + 1.0 / answer.right);
   }
 
  private:
@@ -134,13 +134,13 @@ tl::expected<CheckReadings, PlanFailure> readings_at(const CompensationMap& map,
   MeasuredGrid grid;
   grid.noise = StatedNoise{request.length_mm, request.position_mm};
   for (const MarkPoint& mark : marks) {
-    const auto told = map.query(mark);
-    if (!told) {
+    const auto answer = map.query(mark);
+    if (!answer) {
       return tl::unexpected(PlanFailure{
           PlanFailure::Reason::unreachable,
-          fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, explain(told.error()))});
+          fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, explain(answer.error()))});
     }
-    grid.points.push_back({mark, told->lengths, {}, {}});
+    grid.points.push_back({mark, answer->lengths, {}, {}});
   }
   auto readings = check_readings(map, grid);
   if (!readings) {
@@ -160,7 +160,7 @@ model::PerSide<double> roots(const model::PerSide<double>& squares) {
 
 }  // namespace
 
-tl::expected<model::PerSide<double>, PlanFailure> told_sigmas(const CompensationMap& map,
+tl::expected<model::PerSide<double>, PlanFailure> expected_sigmas(const CompensationMap& map,
                                                               const std::vector<MarkPoint>& marks,
                                                               const CheckPlanRequest& request) {
   if (map.machine() == nullptr) return tl::unexpected(no_machine());
@@ -168,7 +168,7 @@ tl::expected<model::PerSide<double>, PlanFailure> told_sigmas(const Compensation
   if (!readings) return tl::unexpected(readings.error());
   std::vector<std::size_t> all(marks.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  return roots(Separation(*readings).told2(all));
+  return roots(Separation(*readings).squared_sigmas(all));
 }
 
 tl::expected<CheckPlan, PlanFailure> plan_check(const CompensationMap& map,
@@ -187,7 +187,7 @@ tl::expected<CheckPlan, PlanFailure> plan_check(const CompensationMap& map,
   const std::vector<std::size_t> chosen = choose(separation, places.size(), request.points);
   CheckPlan plan;
   for (const std::size_t k : chosen) plan.marks.push_back(places[k]);
-  plan.told_sigmas = roots(separation.told2(chosen));
+  plan.expected_sigmas = roots(separation.squared_sigmas(chosen));
   return plan;
 }
 

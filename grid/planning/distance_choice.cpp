@@ -79,7 +79,7 @@ DistanceChooser::Measurable DistanceChooser::measurable(const Holes& holes,
   Measurable all;
   all.by_unknown = geometry.by_mark * marks_by_unknown;
   const Eigen::MatrixXd cross = prior_ * all.by_unknown.transpose();
-  all.known = all.by_unknown * cross + noise.holes_mm2 + noise.size_mm2 + noise.hook_mm2;
+  all.known = all.by_unknown * cross + noise.holes_mm2 + noise.size_mm2 + noise.tape_zero_mm2;
   all.pull = root_ * cross;
   all.distances = std::move(set.distances);
   return all;

@@ -51,11 +51,11 @@ class Planner {
                                     mark.y_mm,
                                     model::explain(reading.error()))});
       }
-      const model::ChainLengths beside = synthetic::unmodelled(model::identity_placement(mark));
+      const model::ChainLengths disturbance = synthetic::unmodelled(model::identity_placement(mark));
       grid.points.push_back(
           {mark,
-           model::ChainLengths{reading->lengths.left_mm + kDisturbanceMm * beside.left_mm,
-                               reading->lengths.right_mm + kDisturbanceMm * beside.right_mm},
+           model::ChainLengths{reading->lengths.left_mm + kDisturbanceMm * disturbance.left_mm,
+                               reading->lengths.right_mm + kDisturbanceMm * disturbance.right_mm},
            std::nullopt,
            std::nullopt});
     }

@@ -54,7 +54,7 @@ double draw(Random& random, const SyntheticNoise& noise, double sigma) {
 }
 
 // Up to `radius` away, evenly over the disc.
-MarkPoint beside(MarkPoint place, double radius_mm, Random& random) {
+MarkPoint jittered(MarkPoint place, double radius_mm, Random& random) {
   if (radius_mm == 0.0) return place;
   for (;;) {
     const double x = random.uniform(-1.0, 1.0);
@@ -233,7 +233,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   put_in_order(pattern, spec.order, order_random);
   std::vector<Visit> visits;
   for (const MarkPoint& intended : session_of(pattern, spec.repeats, repeat_random)) {
-    const MarkPoint place = beside(intended, spec.jitter_mm, jitter_random);
+    const MarkPoint place = jittered(intended, spec.jitter_mm, jitter_random);
     visits.push_back({answer.sheet.to_bed(place), static_cast<int>(visits.size())});
     answer.places.push_back(visits.back().position);
   }

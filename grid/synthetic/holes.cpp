@@ -78,7 +78,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
   for (std::size_t k = 0; k < made.set.distances.size(); ++k) {
     HoleDistance& distance = made.set.distances[k];
     double reading = tape * geometry.predicted_mm[static_cast<Eigen::Index>(k)] +
-                     design.tape.hook_offset_mm + sigma_of(design, distance) * tape_noise.normal();
+                     design.tape.tape_zero_offset_mm + sigma_of(design, distance) * tape_noise.normal();
     if (spec.rounding_mm > 0.0) reading = spec.rounding_mm * std::round(reading / spec.rounding_mm);
     distance.distance_mm = reading;
   }

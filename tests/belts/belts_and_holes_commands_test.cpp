@@ -59,7 +59,7 @@ class BeltAndHoleCommands : public testing_support::CommandFixture {
   }
   /// Rms distance of the cut shape, after a best-fit placement, from the intended rectangle: for
   /// each of its points the nearest point of the outline.
-  [[nodiscard]] double off_mm(const std::string& program,
+  [[nodiscard]] double residual_mm(const std::string& program,
                               const model::BeltMachine& believed) const {
     std::vector<BedPoint> cut;
     BedPoint least{1e9, 1e9};
@@ -86,7 +86,7 @@ class BeltAndHoleCommands : public testing_support::CommandFixture {
   }
 
   const grid::SimulatedHoles set_ =
-      grid::simulate_with_holes({.seed = 41, .beside_mm = 3.0, .tape_mm = 0.2, .hole_mm = 0.1});
+      grid::simulate_with_holes({.seed = 41, .unmodelled_mm = 3.0, .tape_mm = 0.2, .hole_mm = 0.1});
 };
 
 TEST_F(BeltAndHoleCommands, OneFitWhicheverFileComesFirst) {
@@ -112,8 +112,8 @@ TEST_F(BeltAndHoleCommands, ACompensatedProgramCutsTrueOnTheUnmodifiedController
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("run on a simulated maslow4 controller: the tool stays within"));
   const model::BeltMachine& believed = set_.holes.machine;
-  const double before = off_mm(content_of(folder_ / "part.nc"), believed);
-  const double after = off_mm(content_of(folder_ / "part.true.nc"), believed);
+  const double before = residual_mm(content_of(folder_ / "part.nc"), believed);
+  const double after = residual_mm(content_of(folder_ / "part.true.nc"), believed);
   std::cout << "tool off the outline, mm: " << before << " as it is, " << after << " compensated\n";
   const std::string words = "along the cuts (one sigma): ";
   const std::size_t at = made.err.find(words);
@@ -142,8 +142,8 @@ TEST_F(BeltAndHoleCommands, OnceThePastedAnchorsAreInForceTheBendAloneIsLeft) {
   ASSERT_EQ(made.code, 0) << made.err;
   const auto found = grid::files::parse_anchors(content_of(folder_ / "anchors.json"), "a.json");
   const model::BeltMachine pasted = grid::files::machine_as_pasted(found.fit);
-  const double before = off_mm(content_of(folder_ / "part.nc"), pasted);
-  const double after = off_mm(content_of(folder_ / "part.true.nc"), pasted);
+  const double before = residual_mm(content_of(folder_ / "part.nc"), pasted);
+  const double after = residual_mm(content_of(folder_ / "part.true.nc"), pasted);
   std::cout << "tool off the outline, mm: " << before << " with the pasted anchors, " << after
             << " compensated\n";
   EXPECT_LT(after, 1.0);  // as above

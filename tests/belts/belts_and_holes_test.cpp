@@ -58,7 +58,7 @@ double anchors_off_mm(const SimulatedHoles& truth, const BeltsFit& fit) {
 struct Errors {
   std::vector<double> tool_mm;
   std::vector<double> anchors_mm;
-  void add(const SimulatedHoles& truth, const BeltsFit& fit, const HolesBesideBelts* holes) {
+  void add(const SimulatedHoles& truth, const BeltsFit& fit, const HolesWithBelts* holes) {
     tool_mm.push_back(error_mm(truth, BeltMap(fit, holes)));
     anchors_mm.push_back(anchors_off_mm(truth, fit));
   }
@@ -107,7 +107,7 @@ TEST(BeltsAndHoles, TogetherTheyBeatEither) {
 
 TEST(BeltsAndHoles, WhatHangsBesideItsBeltsIsInTheMap) {
   const Compared straight = compared({}, 20);
-  const Compared bent = compared({.beside_mm = 4.0}, 20);
+  const Compared bent = compared({.unmodelled_mm = 4.0}, 20);
   // A displacement needs odds of twenty to one: one machine in twenty shows a false one.
   EXPECT_LE(straight.bent, 3);
   EXPECT_GE(bent.bent, 17);
@@ -186,7 +186,7 @@ TEST(BeltsAndHoles, TheSheetsEdgesLayTheFrame) {
 }
 
 TEST(BeltMap, LengthsAndToolAreInverse) {
-  const SimulatedHoles set = simulate_with_holes({.seed = 9, .beside_mm = 4.0});
+  const SimulatedHoles set = simulate_with_holes({.seed = 9, .unmodelled_mm = 4.0});
   const auto fit = fit_belts_and_holes(set.belts, {set.holes});
   ASSERT_TRUE(fit && fit->holes.displacement);
   const BeltMap map(fit->belts, &fit->holes);

@@ -69,7 +69,7 @@ TEST_P(BeltsFitOfLengths, AnchorsAreOffByAsMuchAsIsSaid) {
     ASSERT_TRUE(fit) << "seed " << seed << ": " << fit.error().sentence;
     const AnchorVector error = off(*fit, set);
     square += error.dot(fit->covariance_mm2.llt().solve(error));
-    spread_square += fit->spread_mm * fit->spread_mm;
+    spread_square += fit->residual_sigma_mm * fit->residual_sigma_mm;
     const FittedPlace& place = fit->places[17];
     const Eigen::Vector2d away(place.at.x_mm - set.places[17].x_mm,
                                place.at.y_mm - set.places[17].y_mm);
@@ -90,7 +90,7 @@ TEST(BeltsFit, TheSpreadDividesByTheChecksAndTheRmsByTheReadings) {
   ASSERT_TRUE(fit->bad.empty());
   EXPECT_EQ(fit->checks, 2 * 81 - 5);
   // One sum of squares with two denominators, to rounding.
-  EXPECT_NEAR(fit->rms_mm * std::sqrt(4.0 * 81), fit->spread_mm * std::sqrt(2.0 * 81 - 5), 1e-9);
+  EXPECT_NEAR(fit->rms_mm * std::sqrt(4.0 * 81), fit->residual_sigma_mm * std::sqrt(2.0 * 81 - 5), 1e-9);
 }
 
 TEST(BeltsFit, WhatACoordinateRestsOnIsWholeAndMirrored) {
@@ -98,13 +98,13 @@ TEST(BeltsFit, WhatACoordinateRestsOnIsWholeAndMirrored) {
   const auto fit = fit_belts(set.belts);
   ASSERT_TRUE(fit);
   for (const AnchorCoordinate& c : fit->coordinates) {
-    const auto& share = c.rests_on;
+    const auto& share = c.variance_share;
     EXPECT_NEAR(share.tl + share.tr + share.bl + share.br, 1.0, 1e-12) << c.name;  // rounding
     for (const Belt belt : model::kBelts) EXPECT_GE(share[belt], 0.0) << c.name;
   }
   // An anchor's own belt has the largest share.
-  EXPECT_GT(fit->coordinates[0].rests_on.tl, fit->coordinates[0].rests_on.tr);
-  EXPECT_GT(fit->coordinates[2].rests_on.tr, fit->coordinates[2].rests_on.tl);
+  EXPECT_GT(fit->coordinates[0].variance_share.tl, fit->coordinates[0].variance_share.tr);
+  EXPECT_GT(fit->coordinates[2].variance_share.tr, fit->coordinates[2].variance_share.tl);
 }
 
 TEST(BeltsFit, TheOrderOfThePointsChangesNothing) {
@@ -133,7 +133,7 @@ TEST(BeltsFit, AReadingEightyMillimetresOffIsNamedByPlaceAndBelt) {
     // The prediction by all other readings has a sigma of some noise, 1.5 mm where two belts are
     // parallel.
     if (worst.point == point && worst.belt == belt) {
-      EXPECT_NEAR(std::abs(worst.off_mm), 80.0, 8.0) << "seed " << seed;
+      EXPECT_NEAR(std::abs(worst.residual_mm), 80.0, 8.0) << "seed " << seed;
     }
   }
   // The required detection rate of bad readings.
@@ -152,7 +152,7 @@ TEST(BeltsFit, SeveralBadReadingsDoNotHideOneAnother) {
   EXPECT_EQ(fit->bad[0].point, 60U);
   EXPECT_EQ(fit->bad[3].point, 31U);
   // 157 checks less four, at 0.5 mm: within four sigmas.
-  EXPECT_NEAR(fit->spread_mm, 0.5, 4.0 * 0.5 / std::sqrt(2.0 * 153.0));
+  EXPECT_NEAR(fit->residual_sigma_mm, 0.5, 4.0 * 0.5 / std::sqrt(2.0 * 153.0));
 }
 
 TEST(BeltsFit, APlaceOfWhichFewReadingsAgreeIsNamed) {
@@ -195,7 +195,7 @@ TEST(BeltsFit, OnePlaceLeftOutIsAFitWithoutIt) {
   SimulatedBelts set = simulate({.seed = 22, .columns = 4, .rows = 4});
   const auto fit = fit_belts(set.belts);
   ASSERT_TRUE(fit && fit->bad.empty());
-  std::vector<double> off_mm;
+  std::vector<double> residual_mm;
   for (std::size_t k = 0; k < set.belts.points.size(); ++k) {
     MeasuredBelts others = set.belts;
     others.points.erase(others.points.begin() + static_cast<std::ptrdiff_t>(k));
@@ -203,13 +203,13 @@ TEST(BeltsFit, OnePlaceLeftOutIsAFitWithoutIt) {
     ASSERT_TRUE(without && without->bad.empty());
     const auto& lengths = set.belts.points[k].lengths_mm;
     const auto place = model::place_of_upper(without->machine, lengths.tl, lengths.tr);
-    const auto foretold = model::lengths_at(without->machine, place.value());
-    off_mm.push_back(lengths.bl - foretold->bl);
-    off_mm.push_back(lengths.br - foretold->br);
+    const auto prediction = model::lengths_at(without->machine, place.value());
+    residual_mm.push_back(lengths.bl - prediction->bl);
+    residual_mm.push_back(lengths.br - prediction->br);
   }
   // Anchors move by 3 mm at most when one position is left out: second order of that over 1 m, 0.01
   // mm.
-  EXPECT_NEAR(fit->one_left_out.rms_mm, rms(off_mm), 0.01);
+  EXPECT_NEAR(fit->one_left_out.rms_mm, rms(residual_mm), 0.01);
 }
 
 TEST(BeltsFit, BeltsAloneKnowNoScaleAndATapeTellsIt) {
@@ -226,7 +226,7 @@ TEST(BeltsFit, BeltsAloneKnowNoScaleAndATapeTellsIt) {
   // The two costs converge with the same tolerance as above.
   EXPECT_LT((anchors_of(scaled->machine) - 1.005 * anchors_of(fit->machine)).cwiseAbs().maxCoeff(),
             1e-4);
-  EXPECT_NEAR(scaled->spread_mm, 1.005 * fit->spread_mm, 1e-6);
+  EXPECT_NEAR(scaled->residual_sigma_mm, 1.005 * fit->residual_sigma_mm, 1e-6);
   EXPECT_FALSE(scaled->scale);
   // A tape between the lower anchors of that frame.
   longer.distances.push_back({Belt::bl, Belt::br, set.truth.anchors.br.x_mm, 1.0});
@@ -320,7 +320,7 @@ TEST(BeltsFit, ATapeThatContradictsTheBeltsDoesNotMakeThemSeemLessSure) {
   const auto fit = fit_belts(set.belts);
   ASSERT_TRUE(alone && fit && fit->scale);
   // One sum of squares from two starts.
-  EXPECT_NEAR(fit->spread_mm, alone->spread_mm, 1e-6);
+  EXPECT_NEAR(fit->residual_sigma_mm, alone->residual_sigma_mm, 1e-6);
   EXPECT_TRUE(fit->bad.empty() && fit->bad_points.empty());
   // 15 mm apart for the two spans, and both are reported.
   EXPECT_GT(fit->scale->residuals_mm[1] - fit->scale->residuals_mm[0], 10.0);

@@ -94,9 +94,9 @@ TEST_P(HiddenCause, IsNamedWithItsBeltAndItsSize) {
     EXPECT_NEAR(
         cause.parameters[0].value, hidden.value, std::max(4.0 * cause.parameters[0].sigma, 1e-9))
         << "seed " << seed;
-    EXPECT_LT(found.belts->spread_mm, found.belts->spread_before_mm);
-    ASSERT_TRUE(found.belts->foretold && found.belts->foretold_before);
-    EXPECT_LT(found.belts->foretold->rms_mm, found.belts->foretold_before->rms_mm);
+    EXPECT_LT(found.belts->residual_sigma_mm, found.belts->spread_before_mm);
+    ASSERT_TRUE(found.belts->prediction && found.belts->prediction_before);
+    EXPECT_LT(found.belts->prediction->rms_mm, found.belts->prediction_before->rms_mm);
   }
 }
 
@@ -121,7 +121,7 @@ TEST(BeltsDiagnosis, OneReadingFarOffIsNamedByItsPointAndBelt) {
     EXPECT_EQ(found.outliers[0].belt, Belt::tr);
     EXPECT_FALSE(found.outliers[0].or_belt);
     // The position of a bad reading is known to about its noise.
-    EXPECT_NEAR(found.outliers[0].off_mm, 80.0, 5.0 * session.noise_mm);
+    EXPECT_NEAR(found.outliers[0].residual_mm, 80.0, 5.0 * session.noise_mm);
     EXPECT_EQ(found.causes.size(), stretched ? 1U : 0U) << found.sentence;
     EXPECT_THAT(found.sentence + found.what_to_do.back() + found.what_to_do.front() +
                     (found.what_to_do.size() > 1 ? found.what_to_do[1] : ""),

@@ -88,9 +88,9 @@ inline std::vector<GoldenSet> simulated_golden_sets() {
   for (const bool few : {false, true}) {
     for (const double beside : {0.0, 3.0}) {
       SimulatedHoles own =
-          simulate_with_holes({.seed = 5, .beside_mm = beside, .few_holes = few});
+          simulate_with_holes({.seed = 5, .unmodelled_mm = beside, .few_holes = few});
       // The stored numbers are of a tape whose zero is known exactly.
-      own.holes.set.tape.hook_sigma_mm = 0.0;
+      own.holes.set.tape.tape_zero_offset_sigma_mm = 0.0;
       sets.push_back(
           {fmt::format("holes_{}_{}", few ? "few" : "many", beside > 0.0 ? "beside" : "straight"),
            own.belts,
@@ -102,7 +102,7 @@ inline std::vector<GoldenSet> simulated_golden_sets() {
   const SimulatedHoles own = simulate_with_holes({.seed = 6});
   wrong.belts = own.belts;
   wrong.holes = {own.holes};
-  wrong.holes.front().set.tape.hook_sigma_mm = 0.0;
+  wrong.holes.front().set.tape.tape_zero_offset_sigma_mm = 0.0;
   wrong.holes.front().set.distances[4].distance_mm += 25.0;
   sets.push_back(wrong);
   wrong.name = "holes_alone";
@@ -150,16 +150,16 @@ inline void add_belts(const BeltsFit& fit, GoldenNumbers& numbers) {
   for (const AnchorCoordinate& own : fit.coordinates) {
     numbers.emplace_back(own.name, own.fitted_mm);
     numbers.emplace_back("sigma of " + own.name, own.sigma_mm);
-    numbers.emplace_back("share of tl in " + own.name, own.rests_on.tl);
+    numbers.emplace_back("share of tl in " + own.name, own.variance_share.tl);
   }
-  numbers.emplace_back("spread_mm", fit.spread_mm);
+  numbers.emplace_back("spread_mm", fit.residual_sigma_mm);
   numbers.emplace_back("checks", fit.checks);
   numbers.emplace_back("rms_mm", fit.rms_mm);
   numbers.emplace_back("bad", static_cast<double>(fit.bad.size()));
   for (const BadBeltReading& bad : fit.bad) {
     numbers.emplace_back("bad reading",
                          static_cast<double>(10 * bad.point) + static_cast<double>(bad.belt));
-    numbers.emplace_back("off_mm", bad.off_mm);
+    numbers.emplace_back("off_mm", bad.residual_mm);
   }
   for (const std::size_t point : fit.bad_points)
     numbers.emplace_back("bad point", static_cast<double>(point));
@@ -174,9 +174,9 @@ inline void add_belts(const BeltsFit& fit, GoldenNumbers& numbers) {
     numbers.emplace_back(fmt::format("x of {}", k), place.at.x_mm);
     numbers.emplace_back(fmt::format("y of {}", k), place.at.y_mm);
     numbers.emplace_back(fmt::format("covariance of {}", k), place.covariance_mm2.sum());
-    numbers.emplace_back(fmt::format("left of {} br", k), place.belts.br.off_mm);
+    numbers.emplace_back(fmt::format("left of {} br", k), place.belts.br.residual_mm);
     numbers.emplace_back(fmt::format("sigmas of {} br", k), place.belts.br.sigmas);
-    numbers.emplace_back(fmt::format("deleted of {} br", k), place.belts.br.beside_mm);
+    numbers.emplace_back(fmt::format("deleted of {} br", k), place.belts.br.deleted_residual_mm);
   }
   numbers.emplace_back("one left out", fit.one_left_out.rms_mm);
   if (fit.half_left_out) numbers.emplace_back("half left out", fit.half_left_out->rms_mm);
@@ -199,7 +199,7 @@ inline GoldenNumbers numbers_of(const GoldenSet& set) {
   numbers.emplace_back("covariance", fit->holes.covariance.trace());
   numbers.emplace_back("distances left out", fit->holes.left_out_rms_mm);
   for (const BeltTapedDistance& own : fit->holes.distances) {
-    numbers.emplace_back("left of " + own.words, own.off_mm);
+    numbers.emplace_back("left of " + own.words, own.residual_mm);
     numbers.emplace_back("left out of " + own.words, own.left_out_mm);
     numbers.emplace_back("rejected " + own.words, own.rejected ? 1.0 : 0.0);
   }

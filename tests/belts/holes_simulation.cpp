@@ -33,15 +33,15 @@ BedPoint SimulatedHoles::tool(double left_mm, double right_mm) const {
   // Half a wave over the frame, as from a beam that yields.
   const double x = at.real() / 1500.0;
   const double y = at.imag() / 1300.0;
-  return {at.real() + beside_mm * std::sin(2.0 * x) * std::cos(y),
-          at.imag() + beside_mm * std::cos(1.5 * x) * std::sin(2.0 * y)};
+  return {at.real() + unmodelled_mm * std::sin(2.0 * x) * std::cos(y),
+          at.imag() + unmodelled_mm * std::cos(1.5 * x) * std::sin(2.0 * y)};
 }
 
 SimulatedHoles simulate_with_holes(const HolesSimulation& simulation) {
   synthetic::Random random(simulation.seed);
   SimulatedHoles result;
   result.scale = simulation.scale;
-  result.beside_mm = simulation.beside_mm;
+  result.unmodelled_mm = simulation.unmodelled_mm;
   model::BeltMachine& truth = result.truth;
   truth = belts::with_anchors(truth, {-27.6, 2064.9, 2924.3, 2066.5, 2953.2});
   belts::AnchorVector stated = belts::anchors_of(truth);

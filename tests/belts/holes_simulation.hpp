@@ -21,7 +21,7 @@ struct HolesSimulation {
   /// True millimetres over those that the belts count.
   double scale = 1.004;
   /// Largest displacement of the tool from its upper belts, mm; 0: none.
-  double beside_mm = 0.0;
+  double unmodelled_mm = 0.0;
   double tape_mm = 0.5;
   double hole_mm = 0.3;
   /// Five holes and their ten distances instead of nine and 24.
@@ -35,7 +35,7 @@ struct SimulatedHoles {
   BeltHoles holes;
   model::BeltMachine truth;  ///< in the belts' own millimetres
   double scale = 1.0;
-  double beside_mm = 0.0;
+  double unmodelled_mm = 0.0;
   /// The tool's true position in the true frame, mm, for these horizontal spans of the upper belts,
   /// in the belts' own millimetres.
   [[nodiscard]] model::BedPoint tool(double left_mm, double right_mm) const;

@@ -46,7 +46,7 @@ Slopes slopes_at(const MeasuredBelts& measured, const BeltsFit& fit) {
     slopes.by_anchor[column] += slope.x();
     if (belt != Belt::br) slopes.by_anchor[column + 1] += slope.y();
   };
-  const double variance = fit.spread_mm * fit.spread_mm;
+  const double variance = fit.residual_sigma_mm * fit.residual_sigma_mm;
   for (std::size_t k = 0; k < measured.points.size(); ++k) {
     for (const Belt belt : kBelts) {
       if (!fit.places[k].belts[belt].counts) continue;
@@ -101,7 +101,7 @@ TEST(OneEstimator, EndsWhereNoAnchorAndNoPlaceLowersTheSumOfSquares) {
           1e-4);
     }
     // A place is found to 1e-9 mm, about the next to last state of the anchors.
-    EXPECT_LT(slopes.by_place * fit->spread_mm, 1e-5);
+    EXPECT_LT(slopes.by_place * fit->residual_sigma_mm, 1e-5);
   }
 }
 
@@ -121,7 +121,7 @@ TEST(OneEstimator, FindsTheSameFromACentimetreAside) {
     start += (belts::AnchorVector() << 9.0, -11.0, -8.0, 10.0, 12.0).finished();
     const auto estimate = belts::estimate_anchors(set.belts, counting, start);
     ASSERT_TRUE(estimate) << estimate.error().sentence;
-    EXPECT_TRUE(estimate->settled);
+    EXPECT_TRUE(estimate->converged);
     for (std::size_t i = 0; i < fit->coordinates.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       const double sigma = std::sqrt(estimate->covariance(row, row));
@@ -130,7 +130,7 @@ TEST(OneEstimator, FindsTheSameFromACentimetreAside) {
       EXPECT_NEAR(estimate->mechanism->values()[row], fit->coordinates[i].fitted_mm, tolerance_mm);
       EXPECT_NEAR(sigma, fit->coordinates[i].sigma_mm, tolerance_mm);
     }
-    EXPECT_NEAR(estimate->noise_factor, fit->spread_mm, 1e-6);
+    EXPECT_NEAR(estimate->noise_factor, fit->residual_sigma_mm, 1e-6);
   }
 }
 
@@ -198,7 +198,7 @@ TEST(OneEstimator, TheLoopForUnitsRejectsThePlacesOfWhichAReadingIsRejected) {
         belts::anchor_input(set.belts, all, belts::anchors_of(fit->machine));
     input.fixed_weights.reset();
     const auto estimate = estimation::estimate(input);
-    ASSERT_TRUE(estimate && estimate->settled);
+    ASSERT_TRUE(estimate && estimate->converged);
     std::vector<std::size_t> rejected;
     for (const estimation::UnitEstimate& unit : estimate->units) {
       if (unit.is_rejected())

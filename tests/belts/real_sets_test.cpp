@@ -151,7 +151,7 @@ struct RealCause {
   const char* file;
   int run;
   double rms_mm;       ///< at most, with one cause in addition to the anchors
-  double foretold_mm;  ///< at most, each half predicted by the other
+  double predicted_mm;  ///< at most, each half predicted by the other
 };
 void PrintTo(const RealCause& set, std::ostream* out) { *out << set.name; }
 
@@ -187,8 +187,8 @@ TEST_P(RealBeltCauses, PulledBeltsStretchAndNothingElseIsNamed) {
   ASSERT_EQ(found->causes.size(), 1U) << found->sentence;
   EXPECT_EQ(found->causes[0].cause.effect->id, "belt_stretch") << found->sentence;
   EXPECT_LT(found->belts->rms_mm, GetParam().rms_mm + 0.005) << "to the digits of what is asked";
-  ASSERT_TRUE(found->belts->foretold);
-  EXPECT_LT(found->belts->foretold->rms_mm, GetParam().foretold_mm);
+  ASSERT_TRUE(found->belts->prediction);
+  EXPECT_LT(found->belts->prediction->rms_mm, GetParam().predicted_mm);
   // Four owners' sets, computed by another program: 0.30 to 0.54 %; with a pattern the sigma states
   // how well they are known.
   const auto& size = found->causes[0].parameters[0];

@@ -190,7 +190,7 @@ TEST_F(DiagnoseCommand, TellsHowWellItPredictsAnotherGrid) {
   ASSERT_TRUE(found.transferred.has_value());
   EXPECT_EQ(found.transferred->to, "later");
   EXPECT_EQ(found.transferred->points, 24U);
-  EXPECT_LT(found.transferred->extended.rms_mm, found.transferred->as_delivered.rms_mm);
+  EXPECT_LT(found.transferred->extended.rms_mm, found.transferred->uncalibrated.rms_mm);
   EXPECT_THAT(told.out, HasSubstr("Error of the tool on \"later\", 24 points"));
   EXPECT_THAT(content_of(folder_ / "d.html"), HasSubstr("Error of the tool on &quot;later&quot;, 24 points that had no part"));
 }

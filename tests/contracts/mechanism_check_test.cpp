@@ -111,7 +111,7 @@ class CalibratedMechanism : public testing::TestWithParam<Hung> {
     input.fixed_weights =
         Eigen::VectorXd::Ones(static_cast<Eigen::Index>(readings->units().size()));
     const auto found = estimation::estimate(input);
-    EXPECT_TRUE(found && found->settled);
+    EXPECT_TRUE(found && found->converged);
     const Eigen::Index p = truth->values().size();
     return {found->mechanism,
             found->covariance.topLeftCorner(p, p),

@@ -70,7 +70,7 @@ Calibrations calibrate(const model::Mechanism& truth,
     const auto found = estimate(input);
     EXPECT_TRUE(found) << "seed " << seed;
     if (!found) continue;
-    EXPECT_TRUE(found->settled) << "seed " << seed;
+    EXPECT_TRUE(found->converged) << "seed " << seed;
     const Eigen::Index p = truth.values().size();
     const Eigen::VectorXd error = found->mechanism->values() - truth.values();
     mean.parameters += error.dot(found->covariance.topLeftCorner(p, p).ldlt().solve(error)) / sets;

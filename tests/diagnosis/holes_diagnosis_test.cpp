@@ -27,7 +27,7 @@ bool is_long() { return std::getenv("CHAINTRUE_LONG") != nullptr; }
 
 DiagnosisOptions quick() {
   DiagnosisOptions options;
-  options.gain = false;
+  options.improvement = false;
   options.next_measurements = false;
   options.stability = false;
   return options;
@@ -191,7 +191,7 @@ TEST(HolesDiagnosis, AdditionsToTheChainsMoveDistancesAsThePathDoes) {
 TEST(HolesDiagnosis, NeitherTheOrderOfTheFileNorTheDirectionOfTheTapeMatters) {
   const MeasuredHoles set = holes({{"chain_pitch_error", "left", {{"elongation", 0.0015}}}}, 5);
   DiagnosisOptions all = quick();
-  all.gain = all.next_measurements = true;
+  all.improvement = all.next_measurements = true;
   const Diagnosis first = diagnosed(set, all);
   synthetic::Random random(11, 1);
   for (int turn = 0; turn < 3; ++turn) {
@@ -216,7 +216,7 @@ TEST(HolesDiagnosis, NeitherTheOrderOfTheFileNorTheDirectionOfTheTapeMatters) {
     ASSERT_EQ(again.causes.size(), first.causes.size());
     // Sums in another order: the last digits of some thousand terms.
     EXPECT_NEAR(again.causes[0].parameters[0].value, first.causes[0].parameters[0].value, 1e-12);
-    EXPECT_NEAR(again.gain->extended.rms_mm, first.gain->extended.rms_mm, 1e-9);
+    EXPECT_NEAR(again.improvement->extended.rms_mm, first.improvement->extended.rms_mm, 1e-9);
     for (std::size_t k = 0; k < distance.size(); ++k) {
       EXPECT_NEAR(again.distances[distance[k]].before_mm, first.distances[k].before_mm, 1e-9);
     }
@@ -233,7 +233,7 @@ TEST(HolesDiagnosis, TheFileHoldsAllOfIt) {
   const Diagnosis again = files::parse_diagnosis(text, "d.json");
   EXPECT_EQ(files::write_diagnosis(again), text);
   EXPECT_EQ(again.observations, Observations::distances);
-  EXPECT_EQ(again.outliers[0].off_mm, found.outliers[0].off_mm);
+  EXPECT_EQ(again.outliers[0].residual_mm, found.outliers[0].residual_mm);
   std::string spoilt = text;
   spoilt.replace(spoilt.find("\"off_mm\""), 8, "\"of_mmm\"");
   EXPECT_THROW((void)files::parse_diagnosis(spoilt, "d.json"), files::InputError);
@@ -270,8 +270,8 @@ TEST(HolesDiagnosis, EdgesPlaceTheSheet) {
   ASSERT_NE(sheet, found.settings.end());
   EXPECT_LT(sheet->sigma, 4.0) << "mm: the motors' 3 mm and the sheet move together";
   EXPECT_NEAR(sheet->calibrated, kShiftMm, 3.0 * sheet->sigma);
-  ASSERT_TRUE(found.gain && found.gain->placed);
-  EXPECT_LT(found.gain->placed->rms_mm, 0.5 * found.gain->as_delivered.rms_mm);
+  ASSERT_TRUE(found.improvement && found.improvement->placed);
+  EXPECT_LT(found.improvement->placed->rms_mm, 0.5 * found.improvement->uncalibrated.rms_mm);
 }
 
 TEST(HolesDiagnosis, ADistanceThatIsOffIsNamedWithItsAmount) {
@@ -291,7 +291,7 @@ TEST(HolesDiagnosis, ADistanceThatIsOffIsNamedWithItsAmount) {
       }
       right += found.verdict == Verdict::outliers;
       // Sigma of the tape, of both holes and of the prediction by the others: about 1 mm.
-      EXPECT_NEAR(bad.off_mm, -12.0, 4.0);
+      EXPECT_NEAR(bad.residual_mm, -12.0, 4.0);
       EXPECT_THAT(found.sentence, HasSubstr("mm too short"));
     }
   }

@@ -106,8 +106,8 @@ TEST(MixedDiagnosis, FillsTheWholeAnswer) {
   ASSERT_TRUE(found->normal_plot);
   EXPECT_EQ(found->normal_plot->values.size(),
             2 * found->points.size() + found->distances.size());
-  ASSERT_TRUE(found->gain);
-  EXPECT_LT(found->gain->extended.rms_mm, found->gain->calibrated.rms_mm);
+  ASSERT_TRUE(found->improvement);
+  EXPECT_LT(found->improvement->extended.rms_mm, found->improvement->calibrated.rms_mm);
   EXPECT_TRUE(found->stated_noise);
   EXPECT_TRUE(found->stated_tape);
 }

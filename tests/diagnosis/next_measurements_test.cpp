@@ -9,10 +9,10 @@
 #include <map>
 #include <set>
 
-#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/next_candidates.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
-#include "grid/diagnosis/outlook.hpp"
+#include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/synthetic/random.hpp"
 #include "tests/diagnosis/sessions.hpp"
 #include "tests/holes/hole_sets.hpp"
@@ -304,8 +304,8 @@ TEST(NextMeasurements, OfAMixTheChosenOneLowersTheConfusionMost) {
             truth.probability * confusion_left(with.read(next.all[c], truth), a, *alternatives);
       }
       // The reading at its expected value represents the mean over all possible readings.
-      const double foretold = expected_discrimination(*alternatives, next.all[c].rows).confusion;
-      EXPECT_NEAR(left.back(), foretold, 0.2 * foretold) << next.all[c].measurement.what;
+      const double prediction = expected_discrimination(*alternatives, next.all[c].rows).confusion;
+      EXPECT_NEAR(left.back(), prediction, 0.2 * prediction) << next.all[c].measurement.what;
     }
     // Equal if two are equally good.
     EXPECT_LE(left.front(), 1.02 * *std::min_element(left.begin(), left.end())) << chosen.what;

@@ -47,7 +47,7 @@ TEST(NormalPlot, IsTheSameForNoiseOfAnySize) {
   ASSERT_TRUE(a);
   const auto one = normal_plot(*a);
   a->estimate.left *= 4.0;  // a power of two: no rounding
-  a->estimate.left_beside_discrepancy *= 4.0;
+  a->estimate.left_given_discrepancy *= 4.0;
   const auto other = normal_plot(*a);
   ASSERT_TRUE(one && other);
   EXPECT_EQ(one->values, other->values);
@@ -76,7 +76,7 @@ TEST(NormalPlot, WhatIsNoNoiseLeavesTheBand) {
   auto a = analyse(session, {});
   ASSERT_TRUE(a);
   // Many small ones and a few large ones.
-  for (Eigen::VectorXd* left : {&a->estimate.left, &a->estimate.left_beside_discrepancy}) {
+  for (Eigen::VectorXd* left : {&a->estimate.left, &a->estimate.left_given_discrepancy}) {
     *left = left->array().cube().matrix();
   }
   const auto plot = normal_plot(*a);

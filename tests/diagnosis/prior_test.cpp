@@ -29,7 +29,7 @@ RegressorSystem system_of_flat_frame() {
   spec.noise_mm = 0.3;
   spec.seed = 4;
   const MeasuredBelts belts = synthetic::simulate_belts(machine, machine, spec).value();
-  const auto alone = belts::settle_robustly(belts);
+  const auto alone = belts::fit_anchors_robustly(belts);
   EXPECT_TRUE(alone);
   return system_of(belts, {*alone, {}}, candidates(belts).testable, 0.3);
 }

@@ -56,7 +56,7 @@ class RealScans : public testing::Test {
 
   static Diagnosis diagnosed(const MeasuredGrid& grid) {
     DiagnosisOptions options;
-    options.gain = false;
+    options.improvement = false;
     options.next_measurements = false;
     const auto answer = diagnose(grid, options);
     EXPECT_TRUE(answer);
@@ -116,18 +116,18 @@ TEST_F(RealScans, OneScanPredictsTheOther) {
   MeasuredGrid second = scan(kFull);
   std::erase_if(second.points, [](const MeasuredPoint& p) { return p.mark.y_mm < -1.0; });
   const Diagnosis d = diagnosed(first);
-  const auto told = transfer(first, d, second);
-  ASSERT_TRUE(told);
+  const auto given_cause = transfer(first, d, second);
+  ASSERT_TRUE(given_cause);
   fmt::print(
       "predicted: {:.2f} mm as stated, {:.2f} calibrated, {:.2f} with the causes, {:.2f} with "
       "the surface\n",
-      told->as_delivered.rms_mm,
-      told->calibrated.rms_mm,
-      told->extended.rms_mm,
-      told->extended_and_surface.rms_mm);
+      given_cause->uncalibrated.rms_mm,
+      given_cause->calibrated.rms_mm,
+      given_cause->extended.rms_mm,
+      given_cause->extended_and_surface.rms_mm);
   // A day apart: a pattern of the machine or of the banner is in both scans.
-  EXPECT_LT(told->extended.rms_mm, 0.6 * told->calibrated.rms_mm);
-  EXPECT_LT(told->extended_and_surface.rms_mm, told->extended.rms_mm);
+  EXPECT_LT(given_cause->extended.rms_mm, 0.6 * given_cause->calibrated.rms_mm);
+  EXPECT_LT(given_cause->extended_and_surface.rms_mm, given_cause->extended.rms_mm);
 }
 
 TEST_F(RealScans, APlantedEffectIsFound) {

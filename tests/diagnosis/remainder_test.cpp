@@ -12,8 +12,8 @@
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/discrepancy_basis.hpp"
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/leading.hpp"
-#include "grid/diagnosis/outlook.hpp"
+#include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/diagnosis/trend.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "tests/diagnosis/sessions.hpp"
@@ -74,7 +74,7 @@ TEST(Discrepancy, LowRankIsTheDenseCovariance) {
     const int discrepancy = static_cast<int>(kernel) * strengths + 1;
     const double strength = a.system.discrepancies->strength_of(discrepancy);
     SCOPED_TRACE(kernel);
-    const auto own = basis.beside(kernel, plain).equations(strength, plain.columns);
+    const auto own = basis.given(kernel, plain).equations(strength, plain.columns);
     const Discrepancy process = discrepancy_of(a.system, marginalised, discrepancy);
     Eigen::MatrixXd v = discrepancy_covariance(a.system, marginalised.kept, process.kernel);
     v = marginalised.root.solve(v);
@@ -96,7 +96,7 @@ TEST(Discrepancy, LowRankIsTheDenseCovariance) {
       EXPECT_NEAR(own.gg(k, k), g.dot(llt.solve(g)), tolerance * g.squaredNorm());
       EXPECT_EQ(own.prior_square(k), plain.gg(k, k));
     }
-    EXPECT_NEAR(basis.beside(kernel, plain).diagonal(strength).ee, own.ee, 1e-9 * own.ee);
+    EXPECT_NEAR(basis.given(kernel, plain).diagonal(strength).ee, own.ee, 1e-9 * own.ee);
   }
 }
 
@@ -143,17 +143,17 @@ TEST(Remainder, ExpectsOfMeasuredRowsWhatTheFitMakesOfThem) {
   const Analysis a = analysis_of(with_dent(session_of({kLongLeft}, 11, 10, 6)));
   const auto alternatives = alternatives_about(a, a.session);
   ASSERT_TRUE(alternatives);
-  int beside = 0;
+  int given = 0;
   for (const Alternative& one : *alternatives) {
-    beside += one.discrepancy >= 0 ? 1 : 0;
+    given += one.discrepancy >= 0 ? 1 : 0;
     const Estimate fitted =
         estimate(a.system, marginalised_system(a), one.regressors, one.discrepancy);
-    const Eigen::VectorXd expected = a.system.e - fitted.left_beside_discrepancy;
+    const Eigen::VectorXd expected = a.system.e - fitted.left_given_discrepancy;
     for (const Eigen::Index row : marginalised_system(a).kept.rows()) {
       EXPECT_NEAR(one.mean(row), expected(row), 1e-6);  // a millionth of the noise
     }
   }
-  EXPECT_GE(beside, 1);
+  EXPECT_GE(given, 1);
 }
 
 TEST(Remainder, IsNotToldWhereThereIsNone) {
@@ -175,7 +175,7 @@ TEST(Budget, PartsAddUpToTheError) {
       sum += line.mean_square_mm2;
       share += line.share;
     }
-    const double whole = std::pow(found->budget->as_delivered_mm, 2);
+    const double whole = std::pow(found->budget->uncalibrated_mm, 2);
     EXPECT_NEAR(sum, whole, 1e-9 * whole);  // rounding
     EXPECT_NEAR(share, 1.0, 1e-9);
     EXPECT_EQ(found->budget->lines.back().what, BudgetLine::What::inseparable);

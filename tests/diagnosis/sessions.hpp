@@ -31,7 +31,7 @@ inline MeasuredGrid session_of(const std::vector<model::AppliedEffect>& hidden,
 
 inline DiagnosisOptions verdict_alone() {
   DiagnosisOptions options;
-  options.gain = false;
+  options.improvement = false;
   options.next_measurements = false;
   return options;
 }

@@ -18,7 +18,7 @@ using testing::Not;
 using testing_support::session_of;
 using testing_support::verdict_alone;
 
-constexpr const char* kUnsettled = "Calibrating had not come to rest";
+constexpr const char* kNotConverged = "Calibrating had not come to rest";
 
 Analysis analysis_of_grid(const MeasuredGrid& grid) {
   return analyse(observations_of(grid).value(), verdict_alone()).value();
@@ -26,13 +26,13 @@ Analysis analysis_of_grid(const MeasuredGrid& grid) {
 
 TEST(Settling, WhatDidNotComeToRestIsSaid) {
   Analysis a = analysis_of_grid(session_of({}, 1, 5, 4));
-  Diagnosis settled;
-  put_into_words(a, settled);
-  EXPECT_THAT(settled.notes, Not(Contains(HasSubstr(kUnsettled))));
-  a.settled = false;
-  Diagnosis unsettled;
-  put_into_words(a, unsettled);
-  EXPECT_THAT(unsettled.notes, Contains(HasSubstr(kUnsettled)));
+  Diagnosis converged;
+  put_into_words(a, converged);
+  EXPECT_THAT(converged.notes, Not(Contains(HasSubstr(kNotConverged))));
+  a.converged = false;
+  Diagnosis not_converged;
+  put_into_words(a, not_converged);
+  EXPECT_THAT(not_converged.notes, Contains(HasSubstr(kNotConverged)));
 }
 
 TEST(Settling, ATurnOfTheSheetCountsAsItsEdgeMoves) {
@@ -40,7 +40,7 @@ TEST(Settling, ATurnOfTheSheetCountsAsItsEdgeMoves) {
   MeasuredGrid grid = session_of({}, 2, 5, 4);
   grid.sheet = SheetUncertainty{20.0, 10.0};
   const Analysis a = analysis_of_grid(grid);
-  ASSERT_TRUE(a.settled);
+  ASSERT_TRUE(a.converged);
   auto again = linearise(a.session, a.state, a.options.steps).value();
   again.g = RegressorColumns(a.session.rows);
   Steps projected = a.options.steps;

@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/downdating.hpp"
-#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/normal_plot.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "tests/diagnosis/sessions.hpp"
@@ -172,14 +172,14 @@ TEST(Stability, OnePointMakesNoName) {
   spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
   spec.stated = StatedNoise{0.2, 0.3, 12.0};
   int refused = 0;
-  for (const auto& [seed, point, off_mm] : {std::tuple(1U, 21U, 2.0),
+  for (const auto& [seed, point, residual_mm] : {std::tuple(1U, 21U, 2.0),
                                             std::tuple(1U, 21U, 1.5),
                                             std::tuple(2U, 27U, -3.0),
                                             std::tuple(2U, 27U, -2.0)}) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", point " << point + 1);
     spec.seed = seed;
     MeasuredGrid grid = synthetic::generate(model::Machine{}, spec).value().grid;
-    grid.points[point].lengths->right_mm += off_mm;
+    grid.points[point].lengths->right_mm += residual_mm;
     const auto found = diagnose(grid, verdict_alone());
     ASSERT_TRUE(found);
     EXPECT_NE(found->verdict, Verdict::named) << found->sentence;

@@ -10,7 +10,7 @@
 
 #include "grid/map/joint_fit.hpp"
 #include "grid/map/fitted_points.hpp"
-#include "grid/planning/passes.hpp"
+#include "grid/planning/calibration_rounds.hpp"
 #include "tests/holes/hole_sets.hpp"
 
 namespace chaintrue::grid {
@@ -167,7 +167,7 @@ TEST(Estimate, WhatIsToldOfTheUnitsBelongsToTheWeightsOfTheFitAlsoUnsettled) {
     input.most_passes = 5;
     const auto cut_short = estimation::estimate(input);
     ASSERT_TRUE(cut_short);
-    EXPECT_FALSE(cut_short->settled);
+    EXPECT_FALSE(cut_short->converged);
     EXPECT_FALSE(cut_short->units[3].is_rejected()) << "the fit has it";
     // A fit with the reported weights gives the same result, up to the remaining change.
     Eigen::VectorXd weights(static_cast<Eigen::Index>(cut_short->units.size()));
@@ -201,11 +201,11 @@ TEST(Estimate, AUnitLeftOutIsSeenAsByAFitWithoutIt) {
     const auto without = estimation::estimate(input);
     ASSERT_TRUE(without);
     const auto& told = whole->units[static_cast<std::size_t>(out)];
-    const auto& seen = without->units[static_cast<std::size_t>(out)];
+    const auto& conditioned = without->units[static_cast<std::size_t>(out)];
     // The two differ by the curvature of the model over the change by one outlier group, a few 1e-3
     // mm.
-    EXPECT_LT((told.left_out - seen.left_out).cwiseAbs().maxCoeff(), 0.01);
-    EXPECT_NEAR(told.distance, seen.distance, 0.02);
+    EXPECT_LT((told.left_out - conditioned.left_out).cwiseAbs().maxCoeff(), 0.01);
+    EXPECT_NEAR(told.distance, conditioned.distance, 0.02);
   }
 }
 

@@ -153,7 +153,7 @@ TEST(Oracle, LeavesNoiseBehind) {
     Record record;
     record.notes = set.notes;
     record.noise = set.noise;
-    const auto fitted = fit_told(set.machine, set.answer.hidden, record);
+    const auto fitted = fit_given(set.machine, set.answer.hidden, record);
     ASSERT_TRUE(fitted);
     std::vector<Vec2> marks;
     std::vector<int> numbers;
@@ -190,7 +190,7 @@ TEST(HiddenMachine, CanBeMeasuredAgain) {
 }
 
 TEST(Draw, PatternsStandBesideCausesAsTheRulesHaveThem) {
-  for (const Mix mix : {Mix::beside, Mix::two_beside, Mix::pattern, Mix::near}) {
+  for (const Mix mix : {Mix::alongside, Mix::two_alongside, Mix::pattern, Mix::near}) {
     for (const PatternGroup group :
          {PatternGroup::smooth, PatternGroup::short_scale, PatternGroup::other}) {
       Recipe own = recipe(mix, 60);
@@ -201,8 +201,8 @@ TEST(Draw, PatternsStandBesideCausesAsTheRulesHaveThem) {
         ASSERT_TRUE(set.answer.pattern);
         const SizedPattern& p = *set.answer.pattern;
         EXPECT_GE(p.delta, 6.0);
-        EXPECT_EQ(set.answer.hidden.size(), mix == Mix::beside       ? 1U
-                                            : mix == Mix::two_beside ? 2U
+        EXPECT_EQ(set.answer.hidden.size(), mix == Mix::alongside       ? 1U
+                                            : mix == Mix::two_alongside ? 2U
                                                                      : 0U);
         EXPECT_NEAR(std::hypot(p.pattern.entry[0], p.pattern.entry[1]), 1.0, 1e-12);  // rounding
         if (mix == Mix::near) {

@@ -58,14 +58,14 @@ TEST(DiagnosisFile, ReadsBackWhatItWrote) {
       EXPECT_EQ(read.causes[i].rival, said.causes[i].rival);
       EXPECT_EQ(read.causes[i].same_as.size(), said.causes[i].same_as.size());
     }
-    EXPECT_EQ(read.gain.has_value(), said.gain.has_value());
+    EXPECT_EQ(read.improvement.has_value(), said.improvement.has_value());
     EXPECT_EQ(read.transferred.has_value(), said.transferred.has_value());
     EXPECT_EQ(read.stability.has_value(), said.stability.has_value());
     EXPECT_EQ(read.normal_plot.has_value(), said.normal_plot.has_value());
   }
   const Diagnosis read = parse_diagnosis(write_diagnosis(sample_diagnosis()), "diagnosis.json");
-  EXPECT_EQ(read.gain->placed->high_mm, 2.44);
-  EXPECT_EQ(read.gain->border.surface_only_mm, 0.95);
+  EXPECT_EQ(read.improvement->placed->high_mm, 2.44);
+  EXPECT_EQ(read.improvement->border.surface_only_mm, 0.95);
   EXPECT_EQ(read.transferred->extended.low_mm, 0.30);
   const auto& removals = read.stability->removals;
   EXPECT_EQ(removals[2].index, 2U);

@@ -63,20 +63,20 @@ std::vector<PointPicture> sample_points(const model::Machine& machine) {
   return points;
 }
 
-diagnosis::Gain sample_gain() {
-  diagnosis::Gain gain;
-  gain.scheme = "eight blocks of the bed, each foretold by the others";
-  gain.as_delivered = {3.91, 6.40, 3.42, 4.38};
-  gain.placed = diagnosis::HeldOut{2.20, 3.90, 1.95, 2.44};
-  gain.calibrated = {0.94, 1.71, 0.81, 1.08};
-  gain.extended = {0.31, 0.55, 0.27, 0.36};
-  gain.extended_and_surface = {0.30, 0.53, 0.26, 0.35};
-  gain.surface_only = {0.52, 0.99, 0.44, 0.61};
-  gain.noise_floor_mm = 0.29;
-  gain.border = {1.40, 0.34, 0.36, 0.95};
-  gain.folds = 8;
-  gain.folds_agree = 7;
-  return gain;
+diagnosis::HeldOutImprovement sample_improvement() {
+  diagnosis::HeldOutImprovement improvement;
+  improvement.scheme = "eight blocks of the bed, each foretold by the others";
+  improvement.uncalibrated = {3.91, 6.40, 3.42, 4.38};
+  improvement.placed = diagnosis::HeldOut{2.20, 3.90, 1.95, 2.44};
+  improvement.calibrated = {0.94, 1.71, 0.81, 1.08};
+  improvement.extended = {0.31, 0.55, 0.27, 0.36};
+  improvement.extended_and_surface = {0.30, 0.53, 0.26, 0.35};
+  improvement.surface_only = {0.52, 0.99, 0.44, 0.61};
+  improvement.noise_floor_mm = 0.29;
+  improvement.border = {1.40, 0.34, 0.36, 0.95};
+  improvement.folds = 8;
+  improvement.folds_agree = 7;
+  return improvement;
 }
 
 void add_causes(Diagnosis& found) {
@@ -188,7 +188,7 @@ Diagnosis sample_diagnosis() {
   found.settings = {{model::Setting::motor_left_x_mm, -1489.2, 3.0, -1490.1, 0.4, false},
                     {model::Setting::chain_zero_right_mm, 0.0, 1.0, 6.2, 0.3, true},
                     {model::Setting::sheet_rotation_rad, 0.0, 0.01, 0.0021, 0.0003, false}};
-  found.gain = sample_gain();
+  found.improvement = sample_improvement();
   found.points = sample_points(found.extended_machine);
   add_causes(found);
   add_follow_up(found);
@@ -237,7 +237,7 @@ Diagnosis quiet_diagnosis() {
   found.next_measurements.clear();
   found.data_corrections.clear();
   found.extended_machine.effects.clear();
-  found.gain.reset();
+  found.improvement.reset();
   found.transferred.reset();
   found.stability.reset();
   found.bed_parts.clear();

@@ -363,9 +363,9 @@ TEST_F(HolesCommands, DiagnoseRefusesWhatIsSaidOfPointsAlone) {
   EXPECT_EQ(machineless.code, 3);
   EXPECT_THAT(machineless.err, HasSubstr("give --machine"));
   // A tape zero offset of 40 mm that was not stated.
-  const Outcome hook = run("diagnose " + holes_ + " --hook-offset-mm -40");
-  EXPECT_EQ(hook.code, 3);
-  EXPECT_THAT(hook.err, HasSubstr("all distances are about 40 mm longer than commanded"));
+  const Outcome tape_zero = run("diagnose " + holes_ + " --hook-offset-mm -40");
+  EXPECT_EQ(tape_zero.code, 3);
+  EXPECT_THAT(tape_zero.err, HasSubstr("all distances are about 40 mm longer than commanded"));
 }
 
 TEST_F(HolesCommands, BadInputExitsWithThreeAndWritesNothing) {

@@ -56,15 +56,15 @@ TEST(HolesFile, CsvAndJsonSayTheSame) {
 
 TEST(HolesFile, KeepsAWholeSetWithItsMachine) {
   MeasuredHoles set = testing_support::nine_holes();
-  set.tape.hook_offset_mm = 40.0;
-  set.tape.hook_sigma_mm = 0.5;
+  set.tape.tape_zero_offset_mm = 40.0;
+  set.tape.tape_zero_offset_sigma_mm = 0.5;
   for (HoleDistance& distance : set.distances) distance.distance_mm += 40.0;
   set.sheet.width_mm = 2440.0;
   const std::string text = write_holes(set);
   const ReadHoles read = parse_holes(text, "set.json");
   EXPECT_EQ(write_holes(read.holes), text);
-  EXPECT_DOUBLE_EQ(read.holes.tape.hook_offset_mm, 40.0);
-  EXPECT_EQ(read.holes.tape.hook_sigma_mm, set.tape.hook_sigma_mm);
+  EXPECT_DOUBLE_EQ(read.holes.tape.tape_zero_offset_mm, 40.0);
+  EXPECT_EQ(read.holes.tape.tape_zero_offset_sigma_mm, set.tape.tape_zero_offset_sigma_mm);
   EXPECT_EQ(read.holes.machine->motors.left.x_mm, set.machine->motors.left.x_mm);
 }
 
@@ -72,7 +72,7 @@ TEST(HolesFile, OptionsStandInForWhatACsvCannotSay) {
   HolesOptions options;
   options.machine = testing_support::classic();
   options.tape_sigma_mm = 0.8;
-  options.hook_offset_mm = 0.0;
+  options.tape_zero_offset_mm = 0.0;
   options.hole_sigma_mm = 0.1;
   const MeasuredHoles set = parse_holes(kCsv, "holes.csv", options).holes;
   EXPECT_DOUBLE_EQ(sigma_of(set, set.distances[0]), 0.8);
@@ -143,12 +143,12 @@ TEST(HolesFile, AForgottenHookOffsetIsRefused) {
   }
   HolesOptions options;
   // A stated offset of zero is accepted, with a warning.
-  options.hook_offset_mm = 0.0;
+  options.tape_zero_offset_mm = 0.0;
   EXPECT_THAT(parse_holes(long_by_40, "holes.csv", options).warnings[0].message(),
               HasSubstr("state 40 mm"));
-  options.hook_offset_mm = 40.0;
+  options.tape_zero_offset_mm = 40.0;
   EXPECT_THAT(parse_holes(long_by_40, "holes.csv", options).warnings, IsEmpty());
-  options.hook_offset_mm = 80.0;
+  options.tape_zero_offset_mm = 80.0;
   EXPECT_THAT(parse_holes(long_by_40, "holes.csv", options).warnings[0].message(),
               HasSubstr("taken off twice"));
 }

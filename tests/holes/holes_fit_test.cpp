@@ -110,7 +110,7 @@ TEST(HolesFit, ALeftOutPredictionIsThatOfAFitWithoutTheReading) {
   design.hole_sigma_mm = 0.0;  // so that a hole's own error does not correlate readings
   design.noise_dof = 1e9;      // so that the noise is not estimated again
   design.tape.sigma_mm = 2.0;  // and no reading is an outlier
-  design.tape.hook_sigma_mm = 0.0;  // so that the distance of two holes is what is predicted
+  design.tape.tape_zero_offset_sigma_mm = 0.0;  // so that the distance of two holes is what is predicted
   MeasuredHoles quiet = design;
   quiet.tape.sigma_mm = 0.5;
   auto made = synthetic::simulate_holes(quiet, usual_holes(13));
@@ -226,10 +226,10 @@ TEST(HolesFit, ABadReadingIsNamedAndSetAside) {
 
 TEST(HolesFit, AHookOffsetLeftOutIsSaidWhereTheFitFails) {
   MeasuredHoles design = nine_holes();
-  design.tape.hook_offset_mm = 40.0;
+  design.tape.tape_zero_offset_mm = 40.0;
   auto made = synthetic::simulate_holes(design, usual_holes(3));
   EXPECT_TRUE(joint_fit(made->set)) << "stated, it does no harm";
-  made->set.tape.hook_offset_mm = 0.0;
+  made->set.tape.tape_zero_offset_mm = 0.0;
   const auto fit = joint_fit(made->set);
   const std::string words = fit ? testing::PrintToString(fit->map.contents().notes) : fit.error().sentence;
   EXPECT_THAT(words, HasSubstr("hook offset"));

@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "grid/estimation/estimate.hpp"
-#include "grid/planning/passes.hpp"
+#include "grid/planning/calibration_rounds.hpp"
 #include "grid/planning/seen_effects.hpp"
 #include "grid/synthetic/random.hpp"
 #include "tests/holes/hole_sets.hpp"
@@ -202,16 +202,16 @@ TEST(HolesPlan, NumbersOutOfRangeThrow) {
                std::invalid_argument);
 }
 
-TEST(HolesPasses, ConvergeInAtMostThree) {
+TEST(HolesRounds, ConvergeInAtMostThree) {
   int converged = 0;
   double worst_mm = 0.0;
   constexpr int kMachines = 20;
   for (std::uint64_t seed = 1; seed <= kMachines; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
-    SimulatedPassesRequest request;
+    SimulatedRoundsRequest request;
     request.most = 4;
     request.seed = seed;
-    const auto result = simulate_passes(classic(), request);
+    const auto result = simulate_rounds(classic(), request);
     ASSERT_TRUE(result) << result.error().sentence;
     const HolesPass& last = result->passes.back();
     converged += !last.next_pays && last.number <= 3;
@@ -227,20 +227,20 @@ TEST(HolesPasses, ConvergeInAtMostThree) {
   EXPECT_LT(worst_mm, 0.6) << "four times the expected 0.15 mm";
 }
 
-TEST(HolesPasses, ANearerAnswerIsAskedForOnlyWhereItPays) {
-  SimulatedPassesRequest request;
+TEST(HolesRounds, ANearerAnswerIsAskedForOnlyWhereItPays) {
+  SimulatedRoundsRequest request;
   request.worthwhile_mm = 1e-6;
   request.most = 4;
-  const auto result = simulate_passes(classic(), request);
+  const auto result = simulate_rounds(classic(), request);
   EXPECT_EQ(result->passes.size(), 4u);
   EXPECT_TRUE(result->passes.back().next_pays);
 }
 
-TEST(HolesPasses, AReadingOfTheMachineCountsAndOnceHoweverManyPassesStateIt) {
+TEST(HolesRounds, AReadingOfTheMachineCountsAndOnceHoweverManyPassesStateIt) {
   MeasuredHoles first = synthetic::simulate_holes(testing_support::nine_holes(),
                                                   testing_support::usual_holes(4))->set;
   const auto spacing_after = [&](const MeasuredHoles& second) {
-    HolesPasses passes(*first.machine);
+    HolesRounds passes(*first.machine);
     EXPECT_TRUE(passes.add(first));
     EXPECT_TRUE(passes.add(second));
     const model::Machine& machine = passes.fit()->estimate.machine;
@@ -254,8 +254,8 @@ TEST(HolesPasses, AReadingOfTheMachineCountsAndOnceHoweverManyPassesStateIt) {
   EXPECT_EQ(spacing_after(first), spacing_after(silent)) << "the same reading once more";
 }
 
-TEST(HolesPasses, AnotherMachineIsRefused) {
-  HolesPasses passes(classic());
+TEST(HolesRounds, AnotherMachineIsRefused) {
+  HolesRounds passes(classic());
   MeasuredHoles set = testing_support::nine_holes();
   set.machine->motors.left.x_mm -= 5.0;
   const auto pass = passes.add(set);

@@ -189,8 +189,8 @@ TEST(CheckPlan, NoSinglePointMovedTellsMore) {
   const auto plan = plan_check(one.map, request);
   ASSERT_TRUE(plan);
   ASSERT_EQ(plan->marks.size(), 5u);
-  const double best = together(plan->told_sigmas);
-  EXPECT_GT(best, together(*told_sigmas(one.map, kFive, request)));
+  const double best = together(plan->expected_sigmas);
+  EXPECT_GT(best, together(*expected_sigmas(one.map, kFive, request)));
   Random random(11);
   constexpr int kTries = 200;
   for (int k = 0; k < kTries; ++k) {
@@ -198,7 +198,7 @@ TEST(CheckPlan, NoSinglePointMovedTellsMore) {
     moved[static_cast<std::size_t>(k) % moved.size()] = {random.uniform(-1200.0, 1200.0),
                                                          random.uniform(-590.0, 590.0)};
     // Positions off the lattice may be slightly better: moved by a third of its spacing.
-    EXPECT_LT(together(*told_sigmas(one.map, moved, request)), 1.02 * best) << "try " << k;
+    EXPECT_LT(together(*expected_sigmas(one.map, moved, request)), 1.02 * best) << "try " << k;
   }
 }
 
@@ -207,7 +207,7 @@ TEST(CheckPlan, WithPoorReadingsGrowthIsAllOfTheLengthsOverTheNoise) {
   // this signature: told = e |l| / sigma, l the lengths at the points.
   const MeasuredMachine& one = machines()[2];
   constexpr double kPoorMm = 200.0;
-  const auto told = told_sigmas(one.map, kFive, {.length_mm = kPoorMm});
+  const auto told = expected_sigmas(one.map, kFive, {.length_mm = kPoorMm});
   ASSERT_TRUE(told);
   const model::ReadingModel model(one.truth);
   model::PerSide<double> squares;
@@ -226,9 +226,9 @@ TEST(CheckPlan, WithPoorReadingsGrowthIsAllOfTheLengthsOverTheNoise) {
 
 TEST(CheckPlan, MorePointsAndFinerReadingsTellMore) {
   const CompensationMap& map = machines()[3].map;
-  const double five = together(plan_check(map, {})->told_sigmas);
-  EXPECT_GT(together(plan_check(map, {.points = 7})->told_sigmas), five);
-  EXPECT_GT(together(plan_check(map, {.length_mm = 0.1})->told_sigmas), five);
+  const double five = together(plan_check(map, {})->expected_sigmas);
+  EXPECT_GT(together(plan_check(map, {.points = 7})->expected_sigmas), five);
+  EXPECT_GT(together(plan_check(map, {.length_mm = 0.1})->expected_sigmas), five);
 }
 
 TEST(CheckPlan, NumbersOutOfRangeThrow) {
@@ -259,7 +259,7 @@ TEST(MapCheck, WhatOnePointCannotTellIsSaid) {
   grid.points.resize(1);
   const auto check = check_map(machines()[0].map, grid);
   ASSERT_TRUE(check);
-  EXPECT_THAT(check->not_told_apart, HasSubstr("These points cannot tell apart"));
+  EXPECT_THAT(check->not_separable, HasSubstr("These points cannot tell apart"));
   EXPECT_FALSE(check->is_valid_as_it_is());
 }
 

@@ -56,14 +56,14 @@ TEST(ReadingCovariance, IsFactoredAsTheWholeMatrixIs) {
       const FactoredCovariance factored(k);
       Random random(seed, 20);
       const Eigen::MatrixXd y = normal(random, k.rows(), 3);
-      const Eigen::MatrixXd seen = factored.seen(y);
+      const Eigen::MatrixXd conditioned = factored.conditioned(y);
       const Eigen::MatrixXd inverse = dense.inverse();
       // Rounding of matrices of condition 1e4 at most.
       constexpr double kRounding = 1e-10;
       EXPECT_LT((k.diagonal() - dense.diagonal()).cwiseAbs().maxCoeff(), kRounding);
-      EXPECT_LT((seen.transpose() * seen - y.transpose() * inverse * y).cwiseAbs().maxCoeff(),
+      EXPECT_LT((conditioned.transpose() * conditioned - y.transpose() * inverse * y).cwiseAbs().maxCoeff(),
                 kRounding * static_cast<double>(k.rows()) * 10.0);
-      EXPECT_LT((factored.pulled(seen.col(1)) - inverse * y.col(1)).cwiseAbs().maxCoeff(),
+      EXPECT_LT((factored.pulled(conditioned.col(1)) - inverse * y.col(1)).cwiseAbs().maxCoeff(),
                 kRounding * 10.0);
       EXPECT_NEAR(factored.log_root_det(), 0.5 * std::log(dense.determinant()), 1e-9) << "rounding";
       Eigen::Index row = 0;
@@ -89,7 +89,7 @@ TEST(ReadingCovariance, ReadingsFarBetterThanTheMapLoseNoDigits) {
     Random random(seed, 21);
     const Eigen::VectorXd z = normal(random, 7, 1);
     // (kFineMm / 0.1)^2 is neglected in the limit; 1e-8 covers it, with rounding over 90 rows.
-    EXPECT_NEAR(factored.seen(k.of_map * z).squaredNorm(), z.squaredNorm(), 1e-8);
+    EXPECT_NEAR(factored.conditioned(k.of_map * z).squaredNorm(), z.squaredNorm(), 1e-8);
     for (const Eigen::MatrixXd& own : factored.precision_of_units())
       EXPECT_GT(own.diagonal().minCoeff(), 0.0);
   }

@@ -85,7 +85,7 @@ double tape_sigma_mm(double step_mm) { return std::sqrt((step_mm * step_mm + 0.2
 
 /// Sigma of the tape zero offset: 101 mm were subtracted in sets a and b, 40 mm in the others; half
 /// a millimetre is a hook's play, or a hole's edge taken for its middle.
-constexpr double kRealHookSigmaMm = 0.5;
+constexpr double kRealTapeZeroOffsetSigmaMm = 0.5;
 /// A hole's own error, the value with the best mutual prediction of these readings (below).
 constexpr double kHoleSigmaMm = 0.7;
 
@@ -96,7 +96,7 @@ MeasuredHoles set_of(const Line& line) {
   set.machine = machine_of(line);
   // Set a was read to whole millimetres, the others to halves.
   set.tape.sigma_mm = tape_sigma_mm(set.name == "a" ? 1.0 : 0.5);
-  set.tape.hook_sigma_mm = kRealHookSigmaMm;
+  set.tape.tape_zero_offset_sigma_mm = kRealTapeZeroOffsetSigmaMm;
   set.hole_sigma_mm = kHoleSigmaMm;
   const bool nine = !line.at("dH0H5").empty();
   for (std::size_t i = 0; i < (nine ? 9u : 5u); ++i)
@@ -144,8 +144,8 @@ void add(Pool& pool, const JointFit& fit) {
 double log_predictive_density(const JointFit& fit) {
   constexpr double kSlips = 0.02;
   constexpr double kSlipMm = 5.0;
-  const auto density = [](double off_mm, double sigma_mm) {
-    return std::exp(-0.5 * off_mm * off_mm / (sigma_mm * sigma_mm)) / sigma_mm;
+  const auto density = [](double residual_mm, double sigma_mm) {
+    return std::exp(-0.5 * residual_mm * residual_mm / (sigma_mm * sigma_mm)) / sigma_mm;
   };
   double sum = 0.0;
   for (const FittedDistance& one : distances_of(fit)) {
@@ -206,8 +206,8 @@ TEST_F(RealSets, DistancesArePredictedLeftOut) {
       fmt::print("  left out {:.3f}, those that fit {:.3f}, hook {:+.2f} +- {:.2f} mm\n",
                  one.left_out_all.rms_mm,
                  one.left_out_good.rms_mm,
-                 one.hook->mm,
-                 one.hook->sigma_mm);
+                 one.tape_zero->mm,
+                 one.tape_zero->sigma_mm);
     }
   }
   fmt::print("alone: all {:.3f}, those that fit {:.3f} ({} of {})\n",
@@ -255,14 +255,14 @@ TEST_F(RealSets, TheTapeOfTheLastSetIsNamedNotAReading) {
   // other set needs one.
   const auto last = joint_fit(second_frame(kHoleSigmaMm));
   ASSERT_TRUE(last);
-  EXPECT_LT(last->distances.front().hook->mm + 1.96 * last->distances.front().hook->sigma_mm, 0.0);
+  EXPECT_LT(last->distances.front().tape_zero->mm + 1.96 * last->distances.front().tape_zero->sigma_mm, 0.0);
   const auto first = joint_fit(first_frame(kHoleSigmaMm));
   ASSERT_TRUE(first);
   ASSERT_EQ(first->distances.size(), 4u);
   for (const FittedDistances& one : first->distances)
-    EXPECT_LT(std::abs(one.hook->mm), 1.96 * one.hook->sigma_mm);
+    EXPECT_LT(std::abs(one.tape_zero->mm), 1.96 * one.tape_zero->sigma_mm);
   MeasuredHoles known = with_hole_sigma(sets_[4], kHoleSigmaMm);
-  known.tape.hook_sigma_mm = 0.0;
+  known.tape.tape_zero_offset_sigma_mm = 0.0;
   EXPECT_GT(joint_fit(known)->distances.front().left_out_all.rms_mm, 1.5 * last->distances.front().left_out_all.rms_mm);
 }
 
@@ -284,11 +284,11 @@ TEST_F(RealSets, WhatADiagnosisSaysOfEach) {
       if (one.probability > 0.1)
         fmt::print("  {} {} {:.2f}\n", one.effect, one.side, one.probability);
     }
-    if (found->gain) {
+    if (found->improvement) {
       fmt::print("  held out: calibrated {:.2f}, extended {:.2f}, noise {:.2f} mm\n",
-                 found->gain->calibrated.rms_mm,
-                 found->gain->extended.rms_mm,
-                 found->gain->noise_floor_mm);
+                 found->improvement->calibrated.rms_mm,
+                 found->improvement->extended.rms_mm,
+                 found->improvement->noise_floor_mm);
     }
   }
 }

@@ -18,16 +18,16 @@ using testing::HasSubstr;
 using testing_support::nine_holes;
 using testing_support::usual_holes;
 
-TEST(UnknownHook, EachFileHasOneOfItsOwn) {
+TEST(UnknownTapeZero, EachFileHasOneOfItsOwn) {
   MeasuredHoles first = synthetic::simulate_holes(nine_holes(), usual_holes(8))->set;
-  first.tape.hook_sigma_mm = 5.0;
+  first.tape.tape_zero_offset_sigma_mm = 5.0;
   MeasuredHoles second = first;
   for (HoleDistance& distance : second.distances) distance.distance_mm += 3.0;
   const auto fit = joint_fit({{"first", first}, {"second", second}});
   ASSERT_TRUE(fit) << fit.error().sentence;
   // The same readings except for the tape zero offset: a part of 3 mm^2 x sigma^2 / 5 mm^2 goes to
   // neither.
-  EXPECT_NEAR(fit->distances[1].hook->mm - fit->distances[0].hook->mm, 3.0, 0.05);
+  EXPECT_NEAR(fit->distances[1].tape_zero->mm - fit->distances[0].tape_zero->mm, 3.0, 0.05);
 }
 
 TEST(JointFit, TwoSetsTellMoreThanEither) {
@@ -118,44 +118,44 @@ TEST(SessionZeros, HolesShareThoseOfTheMachine) {
   EXPECT_TRUE(fit->estimate.observations[2].zeros);
 }
 
-TEST(UnknownHook, WhatIsAddedToEveryReadingIsTheHooks) {
+TEST(UnknownTapeZero, WhatIsAddedToEveryReadingIsTheHooks) {
   auto made = synthetic::simulate_holes(nine_holes(), usual_holes(12));
-  made->set.tape.hook_sigma_mm = 1000.0;
+  made->set.tape.tape_zero_offset_sigma_mm = 1000.0;
   const auto before = joint_fit(made->set);
   for (HoleDistance& distance : made->set.distances) distance.distance_mm += 3.0;
   const auto after = joint_fit(made->set);
   ASSERT_TRUE(before && after);
-  ASSERT_TRUE(before->distances.front().hook);
+  ASSERT_TRUE(before->distances.front().tape_zero);
   // An offset known to a metre is practically unknown: a millionth of the shift remains.
-  EXPECT_NEAR(after->distances.front().hook->mm - before->distances.front().hook->mm, 3.0, 1e-3);
+  EXPECT_NEAR(after->distances.front().tape_zero->mm - before->distances.front().tape_zero->mm, 3.0, 1e-3);
   for (std::size_t k = 0; k < before->distances.front().distances.size(); ++k) {
     EXPECT_NEAR(after->distances.front().distances[k].left_out_mm, before->distances.front().distances[k].left_out_mm, 1e-3)
         << "the passes settle to 1e-3 sigmas";
   }
 }
 
-TEST(UnknownHook, ItsIntervalsCoverAsTheySay) {
+TEST(UnknownTapeZero, ItsIntervalsCoverAsTheySay) {
   constexpr int kSets = 300;
-  constexpr double kHookSigmaMm = 0.8;
+  constexpr double kTapeZeroOffsetSigmaMm = 0.8;
   synthetic::Random random(21);
   int covered = 0;
   for (std::uint64_t seed = 1; seed <= kSets; ++seed) {
     auto made = synthetic::simulate_holes(nine_holes(), usual_holes(seed));
-    const double hook_mm = kHookSigmaMm * random.normal();
-    for (HoleDistance& distance : made->set.distances) distance.distance_mm += hook_mm;
-    made->set.tape.hook_sigma_mm = kHookSigmaMm;
+    const double tape_zero_mm = kTapeZeroOffsetSigmaMm * random.normal();
+    for (HoleDistance& distance : made->set.distances) distance.distance_mm += tape_zero_mm;
+    made->set.tape.tape_zero_offset_sigma_mm = kTapeZeroOffsetSigmaMm;
     const auto fit = joint_fit(made->set);
     ASSERT_TRUE(fit) << "seed " << seed;
-    covered += std::abs(fit->distances.front().hook->mm - hook_mm) < 1.96 * fit->distances.front().hook->sigma_mm;
+    covered += std::abs(fit->distances.front().tape_zero->mm - tape_zero_mm) < 1.96 * fit->distances.front().tape_zero->sigma_mm;
   }
   // 95 % of 300, three standard deviations of so many draws either way.
   EXPECT_NEAR(covered / static_cast<double>(kSets), 0.95, 0.04);
 }
 
-TEST(UnknownHook, OneThatIsOffIsSpokenOf) {
+TEST(UnknownTapeZero, OneThatIsOffIsSpokenOf) {
   auto made = synthetic::simulate_holes(nine_holes(), usual_holes(14));
   for (HoleDistance& distance : made->set.distances) distance.distance_mm += 4.0;
-  made->set.tape.hook_sigma_mm = 2.0;
+  made->set.tape.tape_zero_offset_sigma_mm = 2.0;
   const auto fit = joint_fit(made->set);
   ASSERT_TRUE(fit);
   EXPECT_THAT(fit->map.contents().notes, testing::Contains(HasSubstr("Every tape distance reads")));
@@ -170,11 +170,11 @@ TEST(TapeZero, OneThatNobodyStatedIsTakenOffAndSaid) {
       for (HoleDistance& distance : made->set.distances) distance.distance_mm += zero_mm;
       const auto fit = joint_fit(made->set);
       ASSERT_TRUE(sound && fit) << zero_mm;
-      const FoundHook& found = *fit->distances.front().hook;
+      const FoundTapeZero& found = *fit->distances.front().tape_zero;
       // What the prior of 3 mm leaves to the machine: the share of its variance that is not learnt.
       const double left = std::pow(found.sigma_mm / 3.0, 2);
       EXPECT_LT(left, 0.1) << "twenty distances tell it";
-      EXPECT_NEAR(found.mm - sound->distances.front().hook->mm, (1.0 - left) * zero_mm, 0.02 * std::abs(zero_mm));
+      EXPECT_NEAR(found.mm - sound->distances.front().tape_zero->mm, (1.0 - left) * zero_mm, 0.02 * std::abs(zero_mm));
       EXPECT_THAT(fit->map.contents().notes,
                   testing::Contains(testing::AllOf(
                       HasSubstr("Every tape distance reads"),

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "grid/input_checks/number_slips.hpp"
+#include "grid/input_checks/number_checks.hpp"
 #include "input_slips/judge/kinds.hpp"
 
 namespace chaintrue::slips {
@@ -18,7 +18,7 @@ TEST_P(EveryKind, IsNamed) {
   const Kind& kind = kinds()[GetParam()];
   const Outcome outcome = try_kind(kind, 1);
   EXPECT_TRUE(outcome.is_named) << word(kind.way) << ", " << kind.id << ": "
-                                << ::testing::PrintToString(outcome.told.messages) << ", expected "
+                                << ::testing::PrintToString(outcome.reported.messages) << ", expected "
                                 << outcome.expected.place << " "
                                 << outcome.expected.words.front();
 }
@@ -35,7 +35,7 @@ TEST_P(CleanSession, IsReadWithoutAWord) {
 
 TEST(NumberSlips, OfferWhatMayHaveBeenMeant) {
   const auto question_for = [](double written, double meant) {
-    for (const auto& slip : grid::input_checks::number_slips(written, true)) {
+    for (const auto& slip : grid::input_checks::number_errors(written, true)) {
       if (slip.value == meant) return slip.question;
     }
     return std::string("nothing");

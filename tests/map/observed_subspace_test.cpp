@@ -31,8 +31,8 @@ TEST_P(ObservedSubspaceOf, HasThePriorAndTheRowsOfTheSplines) {
   const interp::BsplineBasis basis({-1200.0, 1200.0, -600.0, 600.0}, 7, 4);
   const auto marks = places(points);
   const ObservedSubspace observed(basis, order, marks);
-  EXPECT_EQ(observed.bends(), std::min<Eigen::Index>(points, basis.size()));
-  const Eigen::MatrixXd b = observed.bend_coefficients();
+  EXPECT_EQ(observed.penalised(), std::min<Eigen::Index>(points, basis.size()));
+  const Eigen::MatrixXd b = observed.penalised_basis();
   const Eigen::MatrixXd null_space = observed.null_space_coefficients();
   for (std::size_t i = 0; i < marks.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);

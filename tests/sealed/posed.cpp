@@ -25,7 +25,7 @@ grid::MeasuredGrid read(const generator::SealedSet& set) {
 
 grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid) {
   grid::diagnosis::DiagnosisOptions how;
-  how.gain = false;
+  how.improvement = false;
   how.next_measurements = false;
   auto found = grid::diagnosis::diagnose(grid, how);
   if (!found) {

@@ -64,7 +64,7 @@ TEST(Rates, TheFrozenTableIsOfTheFrozenOutcomes) {
 
 // A nearly certain entry of the table is among the causes, for every verdict.
 TEST(Rates, TheTableNeverContradictsTheSentence) {
-  for (const Mix mix : {Mix::beside, Mix::two_beside, Mix::unlisted, Mix::near}) {
+  for (const Mix mix : {Mix::alongside, Mix::two_alongside, Mix::unlisted, Mix::near}) {
     TrialOptions options;
     options.recipe.kind = mix;
     options.recipe.points = 28;

@@ -159,7 +159,7 @@ TEST(Road, WhatHappenedInOneSessionIsTakenOutOfThatOneAlone) {
 
 grid::diagnosis::Diagnosis named_in(const generator::SealedSet& set) {
   grid::diagnosis::DiagnosisOptions options;
-  options.gain = options.stability = options.next_measurements = false;
+  options.improvement = options.stability = options.next_measurements = false;
   auto found = grid::diagnosis::diagnose(
       grid::files::parse_grid(set.grid_text, "sealed.json").grid, options);
   EXPECT_TRUE(found) << found.error().sentence;

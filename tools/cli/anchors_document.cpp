@@ -30,7 +30,7 @@ BeltsFindings findings_of(const grid::BeltsFit& fit) {
     BeltPlacePicture& picture = found.places.emplace_back();
     picture.at = place.at;
     for (const Belt belt : kBelts) {
-      picture.before_mm[belt] = place.belts[belt].off_mm;
+      picture.before_mm[belt] = place.belts[belt].residual_mm;
       picture.bad[belt] = !place.belts[belt].counts;
     }
   }
@@ -43,8 +43,8 @@ void put_the_verdict(const grid::BeltsFit& fit, report::Document& page) {
   for (const auto& c : fit.coordinates) worst = std::max(worst, c.sigma_mm);
   page.verdict = {fmt::format("The anchors are known to {:.2g} mm at worst.", worst), Detail::page};
   if (!fit.places.empty()) {
-    page.verdict.text += fmt::format(" One belt's reading is off by {:.2f} mm.", fit.spread_mm);
-    page.figures = {{fmt::format("{:.2f} mm", fit.spread_mm), "one belt is off by"},
+    page.verdict.text += fmt::format(" One belt's reading is off by {:.2f} mm.", fit.residual_sigma_mm);
+    page.figures = {{fmt::format("{:.2f} mm", fit.residual_sigma_mm), "one belt is off by"},
                     {fmt::format("{:.2f} mm", fit.rms_mm), "rms as the machine counts"}};
     page.advice.push_back(
         {"Ask why what is left is left: chaintrue diagnose of the same belts.", Detail::page});

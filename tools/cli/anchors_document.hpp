@@ -13,7 +13,7 @@ namespace chaintrue::cli {
 /// What was fitted, and to what; null where it is not at hand.
 struct FittedBelts {
   const grid::BeltsFit& fit;
-  const grid::HolesBesideBelts* holes = nullptr;
+  const grid::HolesWithBelts* holes = nullptr;
   /// Their taped distances and the machine's own message are not in the file of the anchors.
   const grid::MeasuredBelts* belts = nullptr;
 };

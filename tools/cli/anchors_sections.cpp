@@ -43,15 +43,15 @@ void say_what_was_left_out(const BeltsFit& fit, Section& section) {
 void say_bad_readings(const BeltsFit& fit, Section& section) {
   const double turn_mm = fit.machine.belt_turn_mm;
   for (const grid::BadBeltReading& bad : fit.bad) {
-    const double turns = bad.off_mm / turn_mm;
+    const double turns = bad.residual_mm / turn_mm;
     // To within a twentieth of a turn: a bad reading is that by chance one time in ten.
     const bool is_whole = std::abs(turns) > 0.5 && std::abs(turns - std::round(turns)) < 0.05;
     say(section,
         fmt::format("Set aside: the {} belt at point {}, {:.1f} mm {} than all others make it{}.",
                     model::words(bad.belt),
                     bad.point + 1,
-                    std::abs(bad.off_mm),
-                    bad.off_mm > 0.0 ? "longer" : "shorter",
+                    std::abs(bad.residual_mm),
+                    bad.residual_mm > 0.0 ? "longer" : "shorter",
                     is_whole ? fmt::format(", {:.0f} whole turn{} of the encoder",
                                            std::abs(std::round(turns)),
                                            std::abs(turns) < 1.5 ? "" : "s")
@@ -111,7 +111,7 @@ void say_the_scale(const FittedBelts& fitted, Section& section) {
   section.blocks.emplace_back(std::move(taped));
 }
 
-void say_the_holes(const grid::HolesBesideBelts& holes, Section& section) {
+void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
   say(section,
       fmt::format("Holes: {} distances, each foretold by all others to {:.2f} mm rms; tape and "
                   "holes err {:.2g} times what was stated.",
@@ -154,7 +154,7 @@ Section agreement_section(const FittedBelts& fitted) {
                   "{} checks that are left over).",
                   fit.places.size(),
                   readings,
-                  fit.spread_mm,
+                  fit.residual_sigma_mm,
                   fit.checks));
   say(section,
       fmt::format("In the words of the machine (Find Anchors fit: rms) that is {:.2f} mm: it "
@@ -190,7 +190,7 @@ Section fitted_anchors_section(const BeltsFit& fit) {
     row.cells = {coordinate_title(c.name), c.fitted_mm, c.sigma_mm, c.stated_mm};
     row.cells.emplace_back(c.stated_mm ? std::optional(c.fitted_mm - *c.stated_mm) : std::nullopt);
     for (const Belt belt : kBelts)
-      row.cells.emplace_back(fmt::format("{:.0f}%", 100.0 * c.rests_on[belt]));
+      row.cells.emplace_back(fmt::format("{:.0f}%", 100.0 * c.variance_share[belt]));
   }
   return {"The anchors, mm", {std::move(table)}};
 }
@@ -221,7 +221,7 @@ Section places_section(const BeltsFit& fit) {
     row.cells = {static_cast<double>(k + 1), place.at.x_mm, place.at.y_mm};
     for (const Belt belt : kBelts) {
       const auto& residual = place.belts[belt];
-      row.cells.emplace_back(fmt::format("{:+.2f}{}", residual.off_mm, residual.counts ? ' ' : '*'));
+      row.cells.emplace_back(fmt::format("{:+.2f}{}", residual.residual_mm, residual.counts ? ' ' : '*'));
     }
   }
   Section section{"Place by place", {std::move(table)}, true, Detail::verbose};
@@ -229,7 +229,7 @@ Section places_section(const BeltsFit& fit) {
   return section;
 }
 
-Section taped_section(const grid::HolesBesideBelts& holes) {
+Section taped_section(const grid::HolesWithBelts& holes) {
   Table table{
       .columns = {{.heading = "Distance", .width = 14},
                   {.heading = "taped", .is_number = true, .digits = 1, .width = 8},
@@ -244,7 +244,7 @@ Section taped_section(const grid::HolesBesideBelts& holes) {
     report::Row& row = table.rows.emplace_back();
     row.cells = {distance.words,
                  distance.measured_mm,
-                 distance.off_mm,
+                 distance.residual_mm,
                  distance.left_out_mm,
                  distance.left_out_sigma_mm};
     row.is_flagged = distance.rejected;

@@ -15,6 +15,6 @@ namespace chaintrue::cli {
 /// Each place with what its belts are off by.
 [[nodiscard]] report::Section places_section(const grid::BeltsFit& fit);
 /// Each distance with what it is off by.
-[[nodiscard]] report::Section taped_section(const grid::HolesBesideBelts& holes);
+[[nodiscard]] report::Section taped_section(const grid::HolesWithBelts& holes);
 
 }  // namespace chaintrue::cli

@@ -21,7 +21,7 @@ report::Document document_of(const grid::Check& check, Table table) {
   report::Document document;
   document.title = "Check";
   document.verdict = {check.sentence};
-  document.remarks = {"What is not told apart", {Paragraph{check.not_told_apart}}};
+  document.remarks = {"What is not told apart", {Paragraph{check.not_separable}}};
   document.sections = {
       {"How sure",
        {Paragraph{fmt::format("Still valid {:.1f} %, valid after re-zeroing {:.1f} %, to be "

@@ -207,14 +207,14 @@ Outcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
   return found;
 }
 
-std::string page_beside(const std::string& path) {
+std::string page_alongside(const std::string& path) {
   return std::filesystem::path(path).replace_extension(".html").string();
 }
 
 /// The page, where there is none; what to measure next, where that tells more; else a map.
 void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   if (!command.output.empty() && command.report.empty())
-    return say_next({"report", command.output, "-o", page_beside(command.output)});
+    return say_next({"report", command.output, "-o", page_alongside(command.output)});
   std::vector<std::string> words;
   const bool parts_causes = std::any_of(
       found.next_measurements.begin(), found.next_measurements.end(), [&](const auto& next) {

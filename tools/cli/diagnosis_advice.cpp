@@ -62,7 +62,7 @@ std::string outlier_in_words(const Diagnosis& found, const grid::diagnosis::Outl
   if (is_distance(found, bad)) {
     return fmt::format("{}: read {} ({:.1f} sigmas)",
                        distance_name(found, bad.index),
-                       off_in_words(bad.off_mm),
+                       off_in_words(bad.residual_mm),
                        bad.distance);
   }
   return fmt::format(

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tools/cli/diagnosis_charts.hpp"
-#include "tools/cli/diagnosis_gain.hpp"
+#include "tools/cli/diagnosis_improvement.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/report/bed_chart.hpp"
 
@@ -20,7 +20,7 @@ using report::DataTable;
 namespace {
 
 /// The surest that the bars show; the rest is below a percent.
-std::vector<Hypothesis> leading_hypotheses(const Diagnosis& found) {
+std::vector<Hypothesis> likeliest_hypotheses(const Diagnosis& found) {
   constexpr double kLeast = 0.002;
   constexpr std::size_t kMost = 12;
   std::vector<Hypothesis> leading;
@@ -40,7 +40,7 @@ Chart probability_chart(const Diagnosis& found) {
                   "Each for itself: causes can act together, so these need not add up to 100 %. "
                   "Below 0.2 % is left out. Blue: what the verdict names."};
   DataTable table{"hypotheses", {"what", "probability", "text", "is_named"}, {}};
-  for (const Hypothesis& hypothesis : leading_hypotheses(found)) {
+  for (const Hypothesis& hypothesis : likeliest_hypotheses(found)) {
     std::string what = hypothesis_title(hypothesis);
     bool is_named = false;
     for (const auto& cause : found.causes) {
@@ -55,20 +55,20 @@ Chart probability_chart(const Diagnosis& found) {
   return chart;
 }
 
-Chart gain_chart(const Diagnosis& found) {
+Chart improvement_chart(const Diagnosis& found) {
   Chart chart{
       .specification = "gain_bars",
-      .title = is_gain_of_distances(*found.gain) ? "Error of distances held out, rms"
+      .title = is_improvement_of_distances(*found.improvement) ? "Error of distances held out, rms"
                                                  : "Error of the tool at points held out, rms",
       .caption =
-          "The thin line on a bar is its 90 % interval. Held out: " + found.gain->scheme + "."};
+          "The thin line on a bar is its 90 % interval. Held out: " + found.improvement->scheme + "."};
   DataTable table{"rows", {"what", "rms_mm", "low_mm", "high_mm", "most_mm", "color"}, {}};
   const auto color_of = [&](const grid::diagnosis::HeldOut* row) {
-    if (row == &found.gain->extended || row == &found.gain->extended_and_surface)
+    if (row == &found.improvement->extended || row == &found.improvement->extended_and_surface)
       return report::kAfterColor;
-    return row == &found.gain->surface_only ? report::kNeutralColor : report::kBeforeColor;
+    return row == &found.improvement->surface_only ? report::kNeutralColor : report::kBeforeColor;
   };
-  for (const GainRow& row : gain_rows(found)) {
+  for (const ImprovementRow& row : improvement_rows(found)) {
     table.rows.push_back({std::string(row.what),
                           row.held_out->rms_mm,
                           row.held_out->low_mm,
@@ -77,7 +77,7 @@ Chart gain_chart(const Diagnosis& found) {
                           std::string(color_of(row.held_out))});
   }
   chart.data.push_back(std::move(table));
-  chart.signals = {{"floor_mm", found.gain->noise_floor_mm}};
+  chart.signals = {{"floor_mm", found.improvement->noise_floor_mm}};
   return chart;
 }
 

@@ -50,7 +50,7 @@ Section anchors_section(const Diagnosis& found) {
   return {"The anchors, mm", {std::move(table)}};
 }
 
-Section belts_gain_section(const Diagnosis& found) {
+Section belts_improvement_section(const Diagnosis& found) {
   const BeltsFindings& belts = *found.belts;
   Table table{.columns = {{.heading = "mm", .width = 39},
                           {.heading = "anchors alone", .is_number = true, .width = 13},
@@ -59,12 +59,12 @@ Section belts_gain_section(const Diagnosis& found) {
   const auto row = [&table](const char* what, double before, double after) {
     table.rows.push_back({{what, before, after}});
   };
-  row("one belt's reading is off by", belts.spread_before_mm, belts.spread_mm);
+  row("one belt's reading is off by", belts.spread_before_mm, belts.residual_sigma_mm);
   row("rms over all readings", belts.rms_before_mm, belts.rms_mm);
-  if (belts.foretold && belts.foretold_before) {
+  if (belts.prediction && belts.prediction_before) {
     row("lower belts foretold at places left out",
-        belts.foretold_before->rms_mm,
-        belts.foretold->rms_mm);
+        belts.prediction_before->rms_mm,
+        belts.prediction->rms_mm);
   }
   row("the tool, over the measured places", belts.tool.before_mm, belts.tool.after_mm);
   std::string text =
@@ -86,7 +86,7 @@ report::Light scale_light(const Diagnosis& found) {
 std::vector<report::Figure> figures_of_belts(const Diagnosis& found) {
   const BeltsFindings& belts = *found.belts;
   return {{fmt::format("{:.2f} mm", belts.spread_before_mm), "one belt is off by, anchors alone"},
-          {fmt::format("{:.2f} mm", belts.spread_mm), "with what is named"}};
+          {fmt::format("{:.2f} mm", belts.residual_sigma_mm), "with what is named"}};
 }
 
 }  // namespace chaintrue::cli

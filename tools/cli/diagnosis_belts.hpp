@@ -15,7 +15,7 @@ namespace chaintrue::cli {
 /// The anchors before and with the causes.
 [[nodiscard]] report::Section anchors_section(const grid::diagnosis::Diagnosis& found);
 /// What the belts and the tool are off by, before and with the causes.
-[[nodiscard]] report::Section belts_gain_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] report::Section belts_improvement_section(const grid::diagnosis::Diagnosis& found);
 [[nodiscard]] report::Light scale_light(const grid::diagnosis::Diagnosis& found);
 [[nodiscard]] std::vector<report::Figure> figures_of_belts(const grid::diagnosis::Diagnosis& found);
 

@@ -8,7 +8,7 @@
 #include "tools/cli/diagnosis_belts.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_checks.hpp"
-#include "tools/cli/diagnosis_gain.hpp"
+#include "tools/cli/diagnosis_improvement.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 
@@ -99,7 +99,7 @@ void put_the_verdict(const Diagnosis& found, report::Document& document) {
        fmt::format("{}{}", lights.named, left && !found.causes.empty() ? "; not all of it" : "")},
       data_light(found),
       found.belts ? scale_light(found) : corrected_light(found)};
-  document.figures = found.belts ? figures_of_belts(found) : figures_of_gain(found);
+  document.figures = found.belts ? figures_of_belts(found) : figures_of_improvement(found);
   for (const std::string& line : found.what_to_do) document.advice.push_back({capitalised(line)});
   if (!found.not_proved.empty())
     document.not_proved = {"What this does not prove: " + found.not_proved};
@@ -132,10 +132,10 @@ void add_sections(const Diagnosis& found, Detail detail, std::vector<Section>& a
   sections.add(named, causes_section, found);
   sections.add_to_page(found.belts.has_value(), frame_section, found);
   sections.add(found.belts.has_value(), anchors_section, found);
-  sections.add(found.belts.has_value(), belts_gain_section, found);
+  sections.add(found.belts.has_value(), belts_improvement_section, found);
   sections.add_to_page(has_readings, arrows_section, found);
   sections.add_to_page(has_readings && named, signature_section, found);
-  sections.add(found.gain.has_value(), gain_section, found);
+  sections.add(found.improvement.has_value(), improvement_section, found);
   sections.add(found.transferred.has_value(), transfer_section, found);
   sections.add(!found.next_measurements.empty(), next_section, found);
   sections.add_to_page(has_readings, residuals_section, found);

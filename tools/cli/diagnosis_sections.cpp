@@ -62,7 +62,7 @@ std::string budget_words(const Diagnosis& found) {
       "As delivered the {} {:.2f} mm rms at these {}. The shares are of its square and add up; what "
       "two parts have in common at these {} belongs to neither.{}",
       of_distances ? "distances erred by" : "tool erred by",
-      found.budget->as_delivered_mm,
+      found.budget->uncalibrated_mm,
       name(found.observations),
       name(found.observations),
       of_distances ? ""
@@ -114,10 +114,10 @@ Section trend_section(const Diagnosis& found) {
     say(capitalised(grid::diagnosis::change_in_words(change)) + ".");
   }
   if (found.trend->changes.empty()) say("Neither diagnosis names a cause that both could test.");
-  if (found.trend->as_delivered_before_mm && found.trend->as_delivered_mm) {
+  if (found.trend->uncalibrated_before_mm && found.trend->uncalibrated_mm) {
     say(fmt::format("The error as delivered is {:.2f} mm rms, before {:.2f} mm.",
-                    *found.trend->as_delivered_mm,
-                    *found.trend->as_delivered_before_mm));
+                    *found.trend->uncalibrated_mm,
+                    *found.trend->uncalibrated_before_mm));
   }
   return section;
 }

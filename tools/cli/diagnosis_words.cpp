@@ -147,8 +147,8 @@ std::string distance_name(const grid::diagnosis::Diagnosis& found, std::size_t i
   return fmt::format("distance {}", index + 1);
 }
 
-std::string off_in_words(double off_mm) {
-  return fmt::format("{:.1f} mm too {}", std::abs(off_mm), off_mm > 0.0 ? "long" : "short");
+std::string off_in_words(double residual_mm) {
+  return fmt::format("{:.1f} mm too {}", std::abs(residual_mm), residual_mm > 0.0 ? "long" : "short");
 }
 
 std::string size_in_words(const grid::diagnosis::CauseId& cause,
@@ -251,8 +251,8 @@ std::string bad_belt_in_words(const grid::diagnosis::Outlier& bad) {
   std::string text = fmt::format("the {} belt at point {}: read {:.1f} mm too {} ({:.1f} sigmas)",
                                  model::words(*bad.belt),
                                  bad.index + 1,
-                                 std::abs(bad.off_mm),
-                                 bad.off_mm > 0.0 ? "long" : "short",
+                                 std::abs(bad.residual_mm),
+                                 bad.residual_mm > 0.0 ? "long" : "short",
                                  bad.distance);
   if (bad.or_belt) {
     text += fmt::format("; or the {} one, which looks the same at this place",

@@ -27,7 +27,7 @@ namespace chaintrue::cli {
 /// Whether distances between holes were measured in place of points.
 [[nodiscard]] bool is_of_distances(const grid::diagnosis::Diagnosis& found);
 /// "1.2 mm too short"
-[[nodiscard]] std::string off_in_words(double off_mm);
+[[nodiscard]] std::string off_in_words(double residual_mm);
 
 /// A parameter in a workshop unit: `elongation` 0.0012 is "0.12 % longer links"; without a sigma
 /// where it is 0.

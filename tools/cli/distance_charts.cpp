@@ -29,16 +29,16 @@ struct Ends {
 };
 
 /// The place of a hole, or of an edge next to another place; an unknown name gets that place.
-MarkPoint place_of(const Diagnosis& found, const std::string& name, const MarkPoint& beside) {
+MarkPoint place_of(const Diagnosis& found, const std::string& name, const MarkPoint& alongside) {
   for (const auto& hole : found.holes) {
     if (hole.name == name) return hole.mark;
   }
   const model::Bed& bed = found.extended_machine.bed;
-  if (name == "left") return {-0.5 * bed.width_mm, beside.y_mm};
-  if (name == "right") return {0.5 * bed.width_mm, beside.y_mm};
-  if (name == "top") return {beside.x_mm, 0.5 * bed.height_mm};
-  if (name == "bottom") return {beside.x_mm, -0.5 * bed.height_mm};
-  return beside;
+  if (name == "left") return {-0.5 * bed.width_mm, alongside.y_mm};
+  if (name == "right") return {0.5 * bed.width_mm, alongside.y_mm};
+  if (name == "top") return {alongside.x_mm, 0.5 * bed.height_mm};
+  if (name == "bottom") return {alongside.x_mm, -0.5 * bed.height_mm};
+  return alongside;
 }
 
 Ends ends_of(const Diagnosis& found, const DistancePicture& distance) {

@@ -71,7 +71,7 @@ model::Controller controller_of(const files::GroundcontrolText& settings,
 }
 
 /// Of a map whose controller bears no settings: all numbers of its calibrated machine.
-Exported of_unsettled(const grid::CompensationMap& map, const ExportCommand& command) {
+Exported of_not_converged(const grid::CompensationMap& map, const ExportCommand& command) {
   const model::Machine& machine = *map.machine();
   const std::string& path = command.input;
   Exported result = of_machine(machine, settings_page(path));
@@ -124,7 +124,7 @@ Exported of_map(const grid::CompensationMap& map,
                 const ExportCommand& command) {
   const model::Machine* machine = map.machine();
   if (machine != nullptr && !machine->controller.settings.motor_spacing_mm)
-    return of_unsettled(map, command);
+    return of_not_converged(map, command);
   const auto typed = grid::settings_to_type(map);
   if (!typed) throw files::InputError({{file, "", "this map", typed.error().sentence}});
   Exported result{

@@ -207,7 +207,7 @@ const model::BeltMachine* GcodeTarget::belts_in_force() const {
 
 GcodeTarget::Parts GcodeTarget::of_belts(const GcodeOptions& options) {
   const grid::files::FittedAnchors found = load_anchors(*options.map_file);
-  const grid::HolesBesideBelts* holes = found.holes ? &*found.holes : nullptr;
+  const grid::HolesWithBelts* holes = found.holes ? &*found.holes : nullptr;
   if (holes == nullptr && !found.fit.coordinates.front().stated_mm) {
     OptionProblems problems;
     problems.add("--map",

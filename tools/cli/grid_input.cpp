@@ -62,9 +62,9 @@ grid::MeasuredGrid grid_of(const InputFile& file,
 void check_tape(const TapeInput& tape) {
   OptionProblems problems;
   if (tape.sigma_mm) problems.require("--tape-sigma-mm", *tape.sigma_mm, 0.001, 100.0);
-  if (tape.hook_offset_mm)
-    problems.require("--hook-offset-mm", *tape.hook_offset_mm, -1000.0, 1000.0);
-  if (tape.hook_sigma_mm) problems.require("--hook-sigma-mm", *tape.hook_sigma_mm, 0.0, 100.0);
+  if (tape.tape_zero_offset_mm)
+    problems.require("--hook-offset-mm", *tape.tape_zero_offset_mm, -1000.0, 1000.0);
+  if (tape.tape_zero_offset_sigma_mm) problems.require("--hook-sigma-mm", *tape.tape_zero_offset_sigma_mm, 0.0, 100.0);
   if (tape.hole_sigma_mm) problems.require("--hole-sigma-mm", *tape.hole_sigma_mm, 0.0, 100.0);
   problems.throw_if_any();
 }
@@ -75,8 +75,8 @@ files::HolesOptions holes_options(const TapeInput& tape) {
   check_tape(tape);
   files::HolesOptions options;
   options.tape_sigma_mm = tape.sigma_mm;
-  options.hook_offset_mm = tape.hook_offset_mm;
-  options.hook_sigma_mm = tape.hook_sigma_mm;
+  options.tape_zero_offset_mm = tape.tape_zero_offset_mm;
+  options.tape_zero_offset_sigma_mm = tape.tape_zero_offset_sigma_mm;
   options.hole_sigma_mm = tape.hole_sigma_mm;
   return options;
 }
@@ -98,12 +98,12 @@ void add_tape_options(Verb verb, TapeInput& input) {
              "Of holes: one sigma of a tape reading");
   add_number(verb,
              "--hook-offset-mm",
-             input.hook_offset_mm,
-             grid::files::kHookOffsetMm,
+             input.tape_zero_offset_mm,
+             grid::files::kTapeZeroOffsetMm,
              "Of holes: every reading is longer than the distance by this much");
   add_number(verb,
              "--hook-sigma-mm",
-             input.hook_sigma_mm,
+             input.tape_zero_offset_sigma_mm,
              grid::files::kHoleSigmaMm,
              "Of holes: how well that is known, one sigma; to 3 mm where unsaid, exactly with 0");
   add_number(verb,

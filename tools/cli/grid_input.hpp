@@ -26,8 +26,8 @@ struct GridInput {
 /// What a tape's file may leave unsaid.
 struct TapeInput {
   std::optional<double> sigma_mm;
-  std::optional<double> hook_offset_mm;
-  std::optional<double> hook_sigma_mm;
+  std::optional<double> tape_zero_offset_mm;
+  std::optional<double> tape_zero_offset_sigma_mm;
   std::optional<double> hole_sigma_mm;
 };
 

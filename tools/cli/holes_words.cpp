@@ -114,7 +114,7 @@ std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequ
       request.edges ? "where the sheet lies counted in" : "the sheet laid as well as it can be",
       plan.expected_before_mm,
       request.edges ? " with the sheet laid as well as it can be" : "");
-  std::vector<std::string> untold;
+  std::vector<std::string> unreported;
   constexpr double kHardlyBetter = 0.7;
   for (const grid::PlannedKnowledge& known : plan.knowledge) {
     fmt::format_to(std::back_inserter(text),
@@ -123,12 +123,12 @@ std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequ
                    known.before,
                    known.after,
                    known.unit);
-    if (known.after > kHardlyBetter * known.before) untold.push_back(known.what);
+    if (known.after > kHardlyBetter * known.before) unreported.push_back(known.what);
   }
   fmt::format_to(
       std::back_inserter(text),
       "It tells little of: {}.{}\n",
-      listed(untold),
+      listed(unreported),
       request.edges ? "" : " Where the sheet lies takes distances to its edges: --edges.");
   std::vector<std::string> clear;
   std::vector<std::string> doubtful;

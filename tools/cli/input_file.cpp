@@ -102,9 +102,9 @@ void refuse_map_on_trust(const std::string& file) {
 }
 
 model::Machine read_machine_input(const std::string& path) {
-  static std::set<std::string> told;
+  static std::set<std::string> reported;
   files::ReadMachine read = files::read_machine_with_warnings(path);
-  if (told.insert(path).second) print_warnings(read.warnings);
+  if (reported.insert(path).second) print_warnings(read.warnings);
   return std::move(read.machine);
 }
 

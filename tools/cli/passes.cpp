@@ -14,7 +14,7 @@
 #include "grid/files/map_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/planning/passes.hpp"
+#include "grid/planning/calibration_rounds.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
@@ -33,7 +33,7 @@ namespace files = grid::files;
 struct PassesCommand {
   std::vector<std::string> sets;
   std::string machine;
-  grid::SimulatedPassesRequest request;
+  grid::SimulatedRoundsRequest request;
   std::string map;
   bool json = false;
 };
@@ -100,9 +100,9 @@ std::string ending(const grid::HolesPass& last, double worthwhile_mm, std::size_
 
 int simulate(const PassesCommand& command) {
   const model::Machine machine = read_machine_input(command.machine);
-  grid::SimulatedPassesRequest request = command.request;
+  grid::SimulatedRoundsRequest request = command.request;
   request.progress = shown_progress();
-  const auto result = grid::simulate_passes(machine, request);
+  const auto result = grid::simulate_rounds(machine, request);
   if (!result) {
     fmt::print(stderr, "chaintrue passes: {}\n", result.error().sentence);
     return kNotSupportedOrOutside;
@@ -148,7 +148,7 @@ int follow(const PassesCommand& command) {
     fmt::print(stderr, "{}: the holes name no machine: give --machine\n", command.sets.front());
     return kBadInput;
   }
-  grid::HolesPasses passes(*sets.front().machine, command.request.worthwhile_mm);
+  grid::HolesRounds passes(*sets.front().machine, command.request.worthwhile_mm);
   std::string text = heading(false);
   std::vector<grid::HolesPass> done;
   std::size_t used = 0;
@@ -183,7 +183,7 @@ int follow(const PassesCommand& command) {
 int run_passes(Verb verb, const PassesCommand& command) {
   refuse_what_does_nothing(verb, command.sets.empty() ? facts::simulated : facts::measured);
   OptionProblems problems;
-  const grid::SimulatedPassesRequest& request = command.request;
+  const grid::SimulatedRoundsRequest& request = command.request;
   problems.require("--passes", request.most, 1.0, 100.0);
   problems.require("--worthwhile-mm", request.worthwhile_mm, 0.0, 100.0);
   problems.require(
@@ -198,7 +198,7 @@ int run_passes(Verb verb, const PassesCommand& command) {
 
 void add_passes(Verb app, Run& run) {
   auto command = std::make_shared<PassesCommand>();
-  grid::SimulatedPassesRequest& request = command->request;
+  grid::SimulatedRoundsRequest& request = command->request;
   Verb verb =
       app.add_verb("passes", "Cut, measure, correct, and again, until the next pass would not pay");
   add_input(verb,

@@ -278,11 +278,11 @@ void take_place(files::PendingFile& pending,
   std::vector<files::OutputFile> all = {{path, ""}};
   all.insert(all.end(), others.begin(), others.end());
   all = looked_at(all);
-  std::vector<std::unique_ptr<files::PendingFile>> beside;
+  std::vector<std::unique_ptr<files::PendingFile>> alongside;
   std::vector<files::PendingFile*> together = {&pending};
   for (std::size_t i = 1; i < all.size(); ++i) {
     together.push_back(
-        beside.emplace_back(std::make_unique<files::PendingFile>(all[i].path)).get());
+        alongside.emplace_back(std::make_unique<files::PendingFile>(all[i].path)).get());
     together.back()->write(all[i].text);
   }
   take_places(together);

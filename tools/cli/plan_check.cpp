@@ -66,8 +66,8 @@ int plan_the_check(const grid::CompensationMap& map,
       "{:.1f} (right).\n",
       plan->marks.size(),
       100.0 * model::kPitchGrowthSigma,
-      plan->told_sigmas.left,
-      plan->told_sigmas.right);
+      plan->expected_sigmas.left,
+      plan->expected_sigmas.right);
   say_next({"check", options.map, wanted.list});
   return kDone;
 }

@@ -43,9 +43,9 @@ std::vector<SheetVisit> visits_of(const Sheet& sheet) {
 
 SheetOf sheet_of(const std::string& word, const model::Machine* machine) {
   if (!word.empty()) return word == "lengths" ? SheetOf::lengths : SheetOf::places;
-  const bool is_told =
+  const bool is_reported =
       machine == nullptr || machine->controller.kind == model::ControllerKind::ideal;
-  return is_told ? SheetOf::lengths : SheetOf::places;
+  return is_reported ? SheetOf::lengths : SheetOf::places;
 }
 
 void add_measure_option(Verb verb, std::string& word) {

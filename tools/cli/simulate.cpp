@@ -217,8 +217,8 @@ void add_holes_options(Verb verb, HolesOptions& o) {
              "Of --holes: one sigma of a hole beside where its chains put it, on each axis");
   add_number(verb,
              "--hook-offset-mm",
-             o.hook_offset_mm,
-             grid::files::kHookOffsetMm,
+             o.tape_zero_offset_mm,
+             grid::files::kTapeZeroOffsetMm,
              "Of --holes: added to every reading");
   add_number(verb,
              "--tape-rounding-mm",

@@ -27,7 +27,7 @@ void check_values(const SimulateOptions& options,
                   const model::Machine& stated,
                   OptionProblems& problems) {
   require_sound(problems, options.holes.plan);
-  problems.require("--hook-offset-mm", options.holes.hook_offset_mm, -1000.0, 1000.0);
+  problems.require("--hook-offset-mm", options.holes.tape_zero_offset_mm, -1000.0, 1000.0);
   problems.require("--tape-rounding-mm", options.holes.rounding_mm, 0.0, 100.0);
   if (options.margin_mm) {
     const double half = 0.5 * std::min(stated.bed.width_mm, stated.bed.height_mm);
@@ -92,7 +92,7 @@ int simulate_the_holes(const SimulateOptions& options, const model::Machine& sta
     problems.throw_if_any();
   }
   design.name = options.name.empty() ? fmt::format("simulated, seed {}", spec.seed) : options.name;
-  design.tape.hook_offset_mm = options.holes.hook_offset_mm;
+  design.tape.tape_zero_offset_mm = options.holes.tape_zero_offset_mm;
   const auto made = synthetic::simulate_holes(design, spec, truth);
   if (!made) {
     fmt::print(stderr, "chaintrue simulate: {}\n", made.error().sentence);

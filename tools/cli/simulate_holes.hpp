@@ -11,7 +11,7 @@ namespace chaintrue::cli {
 struct HolesOptions {
   /// 0 holes: a grid is simulated instead.
   grid::HolesPlanRequest plan{.holes = 0, .progress = {}};
-  double hook_offset_mm = 0.0;
+  double tape_zero_offset_mm = 0.0;
   double rounding_mm = 0.0;
 };
 

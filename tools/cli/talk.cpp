@@ -68,13 +68,13 @@ QuietTalk::QuietTalk(bool is_quiet) {
   ::dup2(kept_, STDERR_FILENO);
 }
 
-void QuietTalk::end(bool is_to_be_told) {
+void QuietTalk::end(bool is_to_be_reported) {
   if (heard_ < 0) return;
   std::fflush(stderr);
   ::dup2(heard_, STDERR_FILENO);
   ::close(heard_);
   heard_ = -1;
-  if (is_to_be_told && ::lseek(kept_, 0, SEEK_SET) == 0) {
+  if (is_to_be_reported && ::lseek(kept_, 0, SEEK_SET) == 0) {
     char buffer[4096];
     for (ssize_t count = 0; (count = ::read(kept_, buffer, sizeof buffer)) > 0;)
       std::fwrite(buffer, 1, static_cast<std::size_t>(count), stderr);

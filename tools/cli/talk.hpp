@@ -27,8 +27,8 @@ class QuietTalk {
   ~QuietTalk();
   QuietTalk(const QuietTalk&) = delete;
   QuietTalk& operator=(const QuietTalk&) = delete;
-  /// From here on messages are printed again; what was kept back is printed first if `is_to_be_told`.
-  void end(bool is_to_be_told);
+  /// From here on messages are printed again; what was kept back is printed first if `is_to_be_reported`.
+  void end(bool is_to_be_reported);
 
  private:
   int heard_ = -1;  ///< where standard error went

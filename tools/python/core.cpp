@@ -219,14 +219,14 @@ py::tuple inverse(const grid::CompensationMap& map, const Pairs& lengths, bool b
 grid::diagnosis::Diagnosis diagnose(const std::vector<grid::MeasuredGrid>& grids,
                                     const std::vector<grid::MeasuredHoles>& holes,
                                     std::uint64_t seed,
-                                    bool gain) {
+                                    bool improvement) {
   const py::gil_scoped_release others_may_work;
   grid::Measured measured;
   for (const grid::MeasuredGrid& grid : grids) measured.add(grid);
   for (const grid::MeasuredHoles& set : holes) measured.add(set);
   grid::diagnosis::DiagnosisOptions options;
   options.seed = seed;
-  options.gain = gain;
+  options.improvement = improvement;
   return value_or_throw(grid::diagnosis::diagnose(measured, options));
 }
 

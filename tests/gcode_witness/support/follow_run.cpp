@@ -172,7 +172,7 @@ FollowRun follow(const std::string& fixtures, const FollowOptions& options) {
     const std::string fault = judged(shop, program, tolerance_mm, seed, run);
     if (fault.empty()) continue;
     ++run.failed;
-    if (run.failures.size() >= options.most_told) continue;
+    if (run.failures.size() >= options.most_reported) continue;
     const std::string small = shrink(program, [&](const std::vector<std::string>& candidates) {
       std::vector<bool> same;
       for (const std::string& candidate : candidates) {

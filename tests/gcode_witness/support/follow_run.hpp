@@ -21,7 +21,7 @@ struct FollowRun {
 struct FollowOptions {
   std::uint64_t first_seed = 1;
   std::uint64_t count = 300;
-  std::size_t most_told = 5;
+  std::size_t most_reported = 5;
   /// 0 of 1, or a share of the seeds for one of several processes.
   std::uint64_t share = 0;
   std::uint64_t shares = 1;

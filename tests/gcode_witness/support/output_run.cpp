@@ -175,14 +175,14 @@ OutputRun compare_output(const std::string& fixtures,
                          std::uint64_t first_seed,
                          std::uint64_t count,
                          bool ask,
-                         std::size_t most_told) {
+                         std::size_t most_reported) {
   const Shop shop(measured_map(fixtures), model::ControllerKind::ideal);
   GeneratorOptions options;
   options.scope = Scope::path;
   OutputRun run;
   const auto fail = [&](std::uint64_t seed, const std::string& what, const std::string& program) {
     ++run.different;
-    if (run.failures.size() < most_told)
+    if (run.failures.size() < most_reported)
       run.failures.push_back(fmt::format("seed {}: {}\n{}", seed, what, program));
   };
   std::vector<Record> outputs;

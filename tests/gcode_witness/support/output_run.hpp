@@ -26,6 +26,6 @@ struct OutputRun {
                                        std::uint64_t first_seed,
                                        std::uint64_t count,
                                        bool ask,
-                                       std::size_t most_told);
+                                       std::size_t most_reported);
 
 }  // namespace chaintrue::witness

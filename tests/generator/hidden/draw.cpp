@@ -31,8 +31,8 @@ constexpr std::pair<Mix, std::string_view> kMixes[] = {
     {Mix::bad_points_and_effect, "bad_points_and_effect"},
     {Mix::no_order, "no_order"},
     {Mix::rounded, "rounded"},
-    {Mix::beside, "beside"},
-    {Mix::two_beside, "two_beside"},
+    {Mix::alongside, "beside"},
+    {Mix::two_alongside, "two_beside"},
     {Mix::pattern, "pattern"},
     {Mix::near, "near"},
 };
@@ -237,9 +237,9 @@ void draw_unlisted(const Yardstick& yardstick, Answer& answer, Dice& dice) {
 std::vector<Visit> true_visits(const std::vector<PlannedVisit>& planned, Dice& dice) {
   std::vector<Visit> visits;
   for (const PlannedVisit& p : planned) {
-    const double beside = p.repeat ? 2.0 : 8.0;
+    const double alongside = p.repeat ? 2.0 : 8.0;
     visits.push_back(
-        {{p.place.x + dice.uniform(-beside, beside), p.place.y + dice.uniform(-beside, beside)},
+        {{p.place.x + dice.uniform(-alongside, alongside), p.place.y + dice.uniform(-alongside, alongside)},
          static_cast<int>(visits.size())});
   }
   return visits;
@@ -303,10 +303,10 @@ std::size_t effects_in(Mix mix) {
     case Mix::no_order:
     case Mix::rounded:
     case Mix::bad_points_and_effect:
-    case Mix::beside:
+    case Mix::alongside:
       return 1;
     case Mix::two:
-    case Mix::two_beside:
+    case Mix::two_alongside:
       return 2;
     case Mix::three:
       return 3;
@@ -316,15 +316,15 @@ std::size_t effects_in(Mix mix) {
 }
 
 bool has_pattern(Mix mix) {
-  return mix == Mix::beside || mix == Mix::two_beside || mix == Mix::pattern || mix == Mix::near;
+  return mix == Mix::alongside || mix == Mix::two_alongside || mix == Mix::pattern || mix == Mix::near;
 }
 
 PatternRules rules_of(const Recipe& recipe) {
   PatternRules rules{.group = recipe.patterns};
   // Together with a cause, any strength of a height of 1 to 2 mm that is detectable; alone, as
   // required.
-  const bool beside = recipe.kind == Mix::beside || recipe.kind == Mix::two_beside;
-  if (beside) rules.most_delta = 1e9;
+  const bool alongside = recipe.kind == Mix::alongside || recipe.kind == Mix::two_alongside;
+  if (alongside) rules.most_delta = 1e9;
   rules.near = recipe.kind == Mix::near;
   if (rules.near) rules.group = PatternGroup::broad;
   return rules;

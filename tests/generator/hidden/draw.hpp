@@ -43,8 +43,8 @@ enum class Mix {
   bad_points_and_effect,  ///< the same with an effect of delta 12
   no_order,               ///< as single, without visiting numbers
   rounded,                ///< as single, read to 0.5 mm
-  beside,                 ///< as single, with a pattern that is not collinear with it
-  two_beside,             ///< as two, with a pattern
+  alongside,                 ///< as single, with a pattern that is not collinear with it
+  two_alongside,             ///< as two, with a pattern
   pattern,                ///< a pattern alone, delta 6 to 30
   near,                   ///< a pattern alone that is collinear with an effect of the catalogue
 };
@@ -160,11 +160,11 @@ struct SizedEffect {
 /// Same recipe and seed, same bytes. \throws std::runtime_error if no effect fits the recipe.
 [[nodiscard]] SealedSet draw_set(const Recipe& recipe, std::uint64_t seed);
 
-/// The same points in another session: as many visits in the same order, each up to `beside_mm`
+/// The same points in another session: as many visits in the same order, each up to `shift_mm`
 /// from its old position; for measuring held-out errors. Visits that cannot be made keep their
 /// position.
 [[nodiscard]] std::vector<Visit> fresh_session(const HiddenMachine& machine,
-                                               double beside_mm,
+                                               double shift_mm,
                                                Dice& dice);
 /// Positions over the rectangle of the marks, one at random in each cell of a grid.
 [[nodiscard]] std::vector<Visit> area_session(const HiddenMachine& machine, Dice& dice);

@@ -82,12 +82,12 @@ std::optional<HiddenMachine::Reading> HiddenMachine::read(std::string_view what,
   return std::nullopt;
 }
 
-std::vector<Visit> fresh_session(const HiddenMachine& machine, double beside_mm, Dice& dice) {
+std::vector<Visit> fresh_session(const HiddenMachine& machine, double shift_mm, Dice& dice) {
   std::vector<Visit> fresh = machine.visits();
   const TrueMachine with = altered(machine.truth(), machine.hidden());
   for (Visit& v : fresh) {
-    const Vec2 place{std::clamp(v.place.x + dice.uniform(-beside_mm, beside_mm), -1200.0, 1200.0),
-                     std::clamp(v.place.y + dice.uniform(-beside_mm, beside_mm), -600.0, 600.0)};
+    const Vec2 place{std::clamp(v.place.x + dice.uniform(-shift_mm, shift_mm), -1200.0, 1200.0),
+                     std::clamp(v.place.y + dice.uniform(-shift_mm, shift_mm), -600.0, 600.0)};
     if (come_to_rest(with, place)) v.place = place;
   }
   return fresh;

@@ -13,22 +13,22 @@ constexpr std::size_t kSettings = 6;
 /// The unknowns as one vector: motors, zeros, then sizes and places of the given effects.
 class Unknowns {
  public:
-  Unknowns(const HiddenMachine& machine, std::span<const Hidden> told)
-      : base_(machine.truth()), told_(told.begin(), told.end()) {
+  Unknowns(const HiddenMachine& machine, std::span<const Hidden> given)
+      : base_(machine.truth()), given_(given.begin(), given.end()) {
     base_.wheel = WheelShape::round;
   }
   [[nodiscard]] Eigen::VectorXd start() const {
     std::vector<double> x;
     for (const Vec2& axis : base_.axis) x.insert(x.end(), {axis.x, axis.y});
     x.insert(x.end(), base_.chain_zero_mm.begin(), base_.chain_zero_mm.end());
-    for (const Hidden& h : told_) {
+    for (const Hidden& h : given_) {
       if (size_is_free(h)) x.push_back(h.size / card(h.cause).usual);
       if (place_is_free(h)) x.push_back(h.place);
     }
     return Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
   }
   [[nodiscard]] Fitted at(const Eigen::VectorXd& x) const {
-    Fitted f{base_, told_};
+    Fitted f{base_, given_};
     for (std::size_t c = 0; c < 2; ++c) {
       const auto i = static_cast<Eigen::Index>(c);
       f.machine.axis[c] = {x[2 * i], x[2 * i + 1]};
@@ -50,7 +50,7 @@ class Unknowns {
     return place == Place::phase || place == Place::angle;
   }
   TrueMachine base_;
-  std::vector<Hidden> told_;
+  std::vector<Hidden> given_;
 };
 
 std::optional<Eigen::VectorXd> residual(const Fitted& fitted,
@@ -107,13 +107,13 @@ std::optional<std::vector<Lengths>> Fitted::predict(std::span<const Vec2> marks,
   return readings(with, effects, visits, *at_rest);
 }
 
-std::optional<Fitted> fit_told(const HiddenMachine& machine,
-                               std::span<const Hidden> told,
+std::optional<Fitted> fit_given(const HiddenMachine& machine,
+                               std::span<const Hidden> given,
                                const Record& record) {
   const auto yardstick =
       Yardstick::make(machine.truth(), machine.visits(), record.noise, record.sigmas);
   if (!yardstick) return std::nullopt;
-  const Unknowns unknowns(machine, told);
+  const Unknowns unknowns(machine, given);
   Eigen::VectorXd x = unknowns.start();
   const auto of = [&](const Eigen::VectorXd& at) {
     return residual(unknowns.at(at), machine.stated(), record, yardstick->slopes());
@@ -124,9 +124,9 @@ std::optional<Fitted> fit_told(const HiddenMachine& machine,
     Eigen::MatrixXd slope(r->size(), x.size());
     for (Eigen::Index k = 0; k < x.size(); ++k) {
       constexpr double kSmall = 1e-3;
-      Eigen::VectorXd beside = x;
-      beside[k] += kSmall;
-      const auto there = of(beside);
+      Eigen::VectorXd shifted = x;
+      shifted[k] += kSmall;
+      const auto there = of(shifted);
       if (!there) return std::nullopt;
       slope.col(k) = (*there - *r) / kSmall;
     }

@@ -30,8 +30,8 @@ struct Fitted {
                                                             std::span<const int> numbers) const;
 };
 
-[[nodiscard]] std::optional<Fitted> fit_told(const HiddenMachine& machine,
-                                             std::span<const Hidden> told,
+[[nodiscard]] std::optional<Fitted> fit_given(const HiddenMachine& machine,
+                                             std::span<const Hidden> given,
                                              const Record& record);
 
 }  // namespace chaintrue::generator

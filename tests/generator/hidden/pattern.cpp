@@ -84,7 +84,7 @@ std::vector<Lengths> extra_lengths(const Pattern& pattern,
 
 SizedPattern draw_pattern(const Yardstick& yardstick,
                           const PatternRules& rules,
-                          std::span<const Signature> beside,
+                          std::span<const Signature> alongside,
                           Dice& dice) {
   const auto rivals = rules.near ? yardstick.rivals() : std::vector<Rival>{};
   for (int n = 0; n < 20000; ++n) {
@@ -96,7 +96,7 @@ SizedPattern draw_pattern(const Yardstick& yardstick,
     const Signature own = yardstick.signature_of_lengths(extra);
     const double delta = own.norm();
     if (!(delta >= rules.least_delta && delta <= rules.most_delta)) continue;
-    double rho = largest_cosine(own, beside);
+    double rho = largest_cosine(own, alongside);
     for (const Rival& r : rivals) rho = std::max(rho, likeness(own, r));
     if (rules.near ? rho < 0.9 || rho > 0.98 : rho >= 0.5) continue;
     return {p, delta, rho};

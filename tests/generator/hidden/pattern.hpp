@@ -91,7 +91,7 @@ struct PatternRules {
 /// \throws std::runtime_error if 20 000 draws find none.
 [[nodiscard]] SizedPattern draw_pattern(const Yardstick& yardstick,
                                         const PatternRules& rules,
-                                        std::span<const Signature> beside,
+                                        std::span<const Signature> alongside,
                                         Dice& dice);
 
 }  // namespace chaintrue::generator

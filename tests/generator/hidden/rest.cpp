@@ -249,7 +249,7 @@ bool settle_on_teeth(const Setting& s, Unknowns q, Rest& rest) {
       return on_tooth(s, p, turn, links[static_cast<std::size_t>(side)], side);
     };
     if (!newton(s, q, closure, 0.5)) return false;
-    bool settled = true;
+    bool converged = true;
     for (int side = 0; side < 2; ++side) {
       const auto i = static_cast<std::size_t>(side);
       rest.chain[i] = state(s, pull_of(s, q, side), links[i] * s.wheel.side);
@@ -259,10 +259,10 @@ bool settle_on_teeth(const Setting& s, Unknowns q, Rest& rest) {
         const int more = beyond > 0.0 ? 1 : -1;
         links[i] += more;
         q.a[i] -= more * s.wheel.tooth_rad;
-        settled = false;
+        converged = false;
       }
     }
-    if (settled) return true;
+    if (converged) return true;
   }
   return false;
 }

@@ -29,7 +29,7 @@ void print_outcome(const Outcome& outcome) {
              outcome.expected.place,
              outcome.expected.words.front(),
              outcome.expected.refused ? ", refused" : "");
-  for (const std::string& message : outcome.told.messages) fmt::print("      {}\n", message);
+  for (const std::string& message : outcome.reported.messages) fmt::print("      {}\n", message);
 }
 
 }  // namespace

@@ -409,9 +409,9 @@ Outcome try_kind(const Kind& kind, std::uint64_t seed) {
   Dice dice(seed, kind.id);
   Outcome outcome;
   outcome.expected = kind.spoil(session, dice);
-  outcome.told = told_of(session);
-  const auto& said = outcome.told.messages;
-  outcome.is_named = (!outcome.expected.refused || outcome.told.is_refused) &&
+  outcome.reported = reported_of(session);
+  const auto& said = outcome.reported.messages;
+  outcome.is_named = (!outcome.expected.refused || outcome.reported.is_refused) &&
                      std::any_of(said.begin(), said.end(), [&](const std::string& message) {
                        return names(message, outcome.expected);
                      });
@@ -419,7 +419,7 @@ Outcome try_kind(const Kind& kind, std::uint64_t seed) {
 }
 
 std::vector<std::string> false_alarms(Way way, std::uint64_t seed) {
-  std::vector<std::string> messages = told_of(clean_session(way, seed)).messages;
+  std::vector<std::string> messages = reported_of(clean_session(way, seed)).messages;
   // Friction and drift part a mark's two visits as well: that they disagree is so, and names no slip.
   std::erase_if(messages, [](const std::string& message) {
     return message.find("measured also at") != std::string::npos &&

@@ -33,7 +33,7 @@ struct Kind {
 struct Outcome {
   bool is_named = false;
   Expected expected;
-  Told told;
+  Reported reported;
 };
 [[nodiscard]] Outcome try_kind(const Kind& kind, std::uint64_t seed);
 

@@ -168,7 +168,7 @@ Session clean_session(Way way, std::uint64_t seed) {
 namespace {
 
 /// Nobody states a hook that he does not know of.
-std::string without_hook(std::string text) {
+std::string without_tape_zero(std::string text) {
   const std::size_t from = text.find("\"hook_offset_mm\"");
   if (from == std::string::npos) return text;
   std::size_t to = text.find_first_of(",}", from);
@@ -179,25 +179,25 @@ std::string without_hook(std::string text) {
 
 }  // namespace
 
-Told told_of(const Session& session) {
-  Told told;
+Reported reported_of(const Session& session) {
+  Reported reported;
   const auto take = [&](const std::vector<grid::files::Warning>& warnings) {
-    for (const auto& warning : warnings) told.messages.push_back(warning.message());
+    for (const auto& warning : warnings) reported.messages.push_back(warning.message());
   };
   try {
     if (const auto* grid = std::get_if<grid::MeasuredGrid>(&session)) {
       take(grid::files::parse_grid(grid::files::write_grid(*grid), "file").warnings);
     } else if (const auto* set = std::get_if<grid::MeasuredHoles>(&session)) {
-      take(grid::files::parse_holes(without_hook(grid::files::write_holes(*set)), "file").warnings);
+      take(grid::files::parse_holes(without_tape_zero(grid::files::write_holes(*set)), "file").warnings);
     } else {
       const auto& belts = std::get<grid::MeasuredBelts>(session);
       take(grid::files::parse_belts(grid::files::write_belts(belts), "file").warnings);
     }
   } catch (const grid::files::InputError& error) {
-    told.is_refused = true;
-    for (const auto& problem : error.problems()) told.messages.push_back(problem.message());
+    reported.is_refused = true;
+    for (const auto& problem : error.problems()) reported.messages.push_back(problem.message());
   }
-  return told;
+  return reported;
 }
 
 }  // namespace chaintrue::slips

@@ -27,11 +27,11 @@ using Session = std::variant<grid::MeasuredGrid, grid::MeasuredHoles, grid::Meas
 /// lengths the last six of 34 points are second visits.
 [[nodiscard]] Session clean_session(Way way, std::uint64_t seed);
 
-struct Told {
+struct Reported {
   std::vector<std::string> messages;  ///< problems and warnings, with their places
   bool is_refused = false;
 };
 /// The session is written to a file and read.
-[[nodiscard]] Told told_of(const Session& session);
+[[nodiscard]] Reported reported_of(const Session& session);
 
 }  // namespace chaintrue::slips

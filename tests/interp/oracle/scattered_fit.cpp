@@ -238,13 +238,13 @@ class ScatteredFitter {
 
   // Hampel-type weights: full below the limit, then falling as the square. True where one moved.
   bool reweigh() {
-    constexpr double kSettled = 0.05;
+    constexpr double kConverged = 0.05;
     const std::vector<double> t = standardized();
     bool moved = false;
     for (std::size_t i = 0; i < t.size(); ++i) {
       const double ratio = options_.contradicted_from / std::max(std::abs(t[i]), 1e-300);
       const double weight = ratio >= 1.0 ? 1.0 : ratio * ratio;
-      moved = moved || std::abs(weight - weight_[i]) > kSettled;
+      moved = moved || std::abs(weight - weight_[i]) > kConverged;
       weight_[i] = weight;
     }
     return moved;

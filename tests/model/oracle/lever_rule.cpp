@@ -33,9 +33,9 @@ HungChain hang(const EquilibriumConstants& m, double h_n, double share_n, double
   for (int n = 0; n < 50; ++n) {
     chain.top_angle_rad = std::atan2(substitute + chain.free_mm, a);
     const double next = length_mm - m.wrap(chain.top_angle_rad);
-    const bool settled = std::abs(next - chain.free_mm) < 1e-13 * length_mm;
+    const bool converged = std::abs(next - chain.free_mm) < 1e-13 * length_mm;
     chain.free_mm = next;
-    if (settled) break;
+    if (converged) break;
   }
   const double top = substitute + chain.free_mm;
   chain.across_mm =

@@ -47,9 +47,9 @@ std::optional<Index> best_entry(const Regression& data, const Set& set) {
     // A column in the span of the set is left with rounding.
     constexpr double kInSpan = 1e-6;
     if (others.col(k).norm() < kInSpan * data.columns.col(k).norm()) continue;
-    const double gain = std::pow(others.col(k).dot(rest), 2) / others.col(k).squaredNorm();
-    if (gain <= most) continue;
-    most = gain;
+    const double improvement = std::pow(others.col(k).dot(rest), 2) / others.col(k).squaredNorm();
+    if (improvement <= most) continue;
+    most = improvement;
     best = k;
   }
   return best;
@@ -95,9 +95,9 @@ Set stepwise(const Regression& data, double threshold) {
 Set best_places(const Regression& data, std::size_t places) {
   std::map<std::string, std::vector<std::pair<double, Index>>> of;
   for (Index k = 0; k < data.columns.cols(); ++k) {
-    const double gain =
+    const double improvement =
         std::pow(data.columns.col(k).dot(data.y), 2) / data.columns.col(k).squaredNorm();
-    of[data.causes[static_cast<std::size_t>(k)]].emplace_back(-gain, k);
+    of[data.causes[static_cast<std::size_t>(k)]].emplace_back(-improvement, k);
   }
   Set best;
   for (auto& [cause, ranked] : of) {

@@ -136,7 +136,7 @@ Scan read_scan(const std::filesystem::path& scan, const std::filesystem::path& g
 
 grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid) {
   grid::diagnosis::DiagnosisOptions options;
-  options.gain = false;
+  options.improvement = false;
   options.next_measurements = false;
   options.accept_class = true;
   auto found = grid::diagnosis::diagnose(grid, options);

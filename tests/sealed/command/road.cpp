@@ -146,7 +146,7 @@ void print_machines(const Arguments& arguments) {
     recipe.cause.reset();
     recipe.kind = generator::Mix::nothing;
     run("nothing");
-    recipe.kind = generator::Mix::beside;
+    recipe.kind = generator::Mix::alongside;
     run("a cause and a pattern");
   }
   fmt::print("{}", all.line("all"));

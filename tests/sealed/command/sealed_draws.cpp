@@ -35,7 +35,7 @@ struct Arguments {
   std::string csv;
   std::string extent = "whole";
   std::string patterns = "smooth";
-  bool gain = false;
+  bool improvement = false;
   bool follow_up = false;
   bool other_machines = false;
   bool show = false;
@@ -82,7 +82,7 @@ TrialOptions options_of(const Arguments& arguments) {
     if (card.id == arguments.cause) options.recipe.cause = card.cause;
   }
   if (!arguments.ablation.empty()) options.steps.*kSteps.at(arguments.ablation) = false;
-  options.gain = arguments.gain;
+  options.improvement = arguments.improvement;
   options.follow_up = arguments.follow_up;
   return options;
 }
@@ -141,7 +141,7 @@ int main(int argc, char** argv) {
   app.add_option("--cause", arguments.cause, "this effect in place of a draw")->check(known_cause);
   app.add_option("--extent", arguments.extent, "whole, without_corners, left_side")
       ->check(CLI::IsMember(kExtents));
-  app.add_flag("--gain", arguments.gain, "held-out errors, reported and true");
+  app.add_flag("--gain", arguments.improvement, "held-out errors, reported and true");
   app.add_flag("--follow-up", arguments.follow_up, "measure on where a set is left");
   app.add_flag("--other-machines", arguments.other_machines, "draw the machine as well");
   app.add_option("--csv", arguments.csv, "a line a set, to this file");

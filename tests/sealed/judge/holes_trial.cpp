@@ -108,7 +108,7 @@ Trial run_holes_trial(bool long_chain, std::uint64_t seed) {
   const grid::MeasuredHoles set = hidden_holes(trial.answer.hidden, seed);
   trial.points = static_cast<int>(set.distances.size());
   grid::diagnosis::DiagnosisOptions options;
-  options.gain = options.next_measurements = options.stability = false;
+  options.improvement = options.next_measurements = options.stability = false;
   const auto found = grid::diagnosis::diagnose(set, options);
   if (!found) {
     trial.failed = true;

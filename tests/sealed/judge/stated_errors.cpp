@@ -75,7 +75,7 @@ void cut_and_tape(const CauseCard* card, double zero_mm, std::uint64_t seed, Sta
   row.way = "holes";
   CutHoles cut = cut_holes(usual_effect(card, 0, seed), seed);
   for (grid::HoleDistance& distance : cut.set.distances) distance.distance_mm += zero_mm;
-  if (row.kind == kKnownTapeZero) cut.set.tape.hook_sigma_mm = 0.0;
+  if (row.kind == kKnownTapeZero) cut.set.tape.tape_zero_offset_sigma_mm = 0.0;
   fit_both(grid::Measured(cut.set),
            [&](const grid::CompensationMap& map) { return map_errors_of_free_sheet(cut.machine, map); },
            row);

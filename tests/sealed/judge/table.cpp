@@ -273,8 +273,8 @@ std::string markdown(const TrialOptions& options, const std::vector<Trial>& tria
     case Mix::unlisted:
       about_unlisted(trials, rows);
       break;
-    case Mix::beside:
-    case Mix::two_beside:
+    case Mix::alongside:
+    case Mix::two_alongside:
     case Mix::pattern:
     case Mix::near:
       for (const auto& [what, share] : pattern_rows(trials)) rows.add(what, share);

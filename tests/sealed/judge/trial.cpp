@@ -67,7 +67,7 @@ Trial run_trial(const TrialOptions& options, std::uint64_t seed) {
   const grid::MeasuredGrid grid = grid::files::parse_grid(set.grid_text, "sealed.json").grid;
   grid::diagnosis::DiagnosisOptions how;
   how.stability = options.stability;
-  how.gain = options.gain;
+  how.improvement = options.improvement;
   how.next_measurements = options.follow_up;
   how.steps = options.steps;
   how.accept_class = true;  // as the oracle is given the cause, its class is accepted
@@ -84,7 +84,7 @@ Trial run_trial(const TrialOptions& options, std::uint64_t seed) {
     return trial;
   }
   take_over(*found, trial);
-  if (options.gain) trial.errors = true_errors(set, *found);
+  if (options.improvement) trial.errors = true_errors(set, *found);
   const bool ambiguous = trial.verdict == Verdict::named_set ||
                          (trial.verdict == Verdict::named && trial.causes.size() > 1);
   if (options.follow_up && ambiguous) {

@@ -18,7 +18,7 @@ struct TrialOptions {
   generator::Recipe recipe;
   grid::diagnosis::Steps steps;
   bool stability = true;   ///< names without each reading, and no name that depends on one
-  bool gain = false;       ///< held-out errors, reported and true
+  bool improvement = false;       ///< held-out errors, reported and true
   bool follow_up = false;  ///< measures what the diagnosis proposes, if it leaves a set of causes
   int follow_up_measurements = 8;
 };

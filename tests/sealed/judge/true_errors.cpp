@@ -90,7 +90,7 @@ std::optional<double> told(const generator::SealedSet& set,
       record.left_out.push_back(static_cast<std::size_t>(h.place));
     }
   }
-  auto fitted = generator::fit_told(set.machine, effects, record);
+  auto fitted = generator::fit_given(set.machine, effects, record);
   if (!fitted) return std::nullopt;
   fitted->effects = lasting(fitted->effects);
   const auto predicted = fitted->predict(fresh.marks, fresh.numbers);
@@ -138,9 +138,9 @@ std::optional<TrueErrors> true_errors(const generator::SealedSet& set,
   const auto oracle = told(set, *fresh, set.answer.hidden);
   if (!predicted || !calibrated || !oracle) return std::nullopt;
   TrueErrors errors{*calibrated, tool_rms_mm(*fresh, *predicted), *oracle};
-  if (found.gain) {
-    errors.reported_drop = found.gain->drop_mm2;
-    errors.reported_share = found.gain->drop_share;
+  if (found.improvement) {
+    errors.reported_drop = found.improvement->drop_mm2;
+    errors.reported_share = found.improvement->drop_share;
   }
   return errors;
 }

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/belts/belt_checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "grid/belts/anchor_estimate.hpp"
+#include "grid/belts/first_frames.hpp"
+#include "grid/input_checks/findings.hpp"
+#include "grid/input_checks/number_checks.hpp"
+#include "grid/input_checks/robust_trend.hpp"
+#include "grid/statistics.hpp"
+#include "model/belts/belt_kinematics.hpp"
+
+namespace chaintrue::grid {
+
+using model::Belt;
+using model::kBelts;
+
+namespace {
+
+/// Frames of real machines contradict themselves by 3 mm at most, with the arms left out; one of
+/// swapped belts by tens and hundreds.
+constexpr double kSoundMm = 15.0;
+/// A swap must be better by this much to be suspected.
+constexpr double kBetter = 4.0;
+/// Anchors that are known to a decimetre or two; a mirror image is off by a side of the frame.
+constexpr double kFarMm = 400.0;
+/// Far above what settling leaves, and far below any reading's noise.
+constexpr double kRoundingMm = 1e-6;
+/// As many points tell a swap as well as all.
+constexpr std::size_t kMostLookedAt = 16;
+
+using BeltPairs = std::vector<BeltPair>;
+
+/// One pair, its mirror image next to it; then two pairs at once, which leave a frame a frame and
+/// turn it over.
+const std::array<BeltPairs, 9>& swaps() {
+  static const std::array<BeltPairs, 9> kSwaps = {
+      BeltPairs{{Belt::tl, Belt::tr}},
+      BeltPairs{{Belt::bl, Belt::br}},
+      BeltPairs{{Belt::tl, Belt::bl}},
+      BeltPairs{{Belt::tr, Belt::br}},
+      BeltPairs{{Belt::tl, Belt::br}},
+      BeltPairs{{Belt::tr, Belt::bl}},
+      BeltPairs{{Belt::tl, Belt::tr}, {Belt::bl, Belt::br}},
+      BeltPairs{{Belt::tl, Belt::bl}, {Belt::tr, Belt::br}},
+      BeltPairs{{Belt::tl, Belt::br}, {Belt::tr, Belt::bl}}};
+  return kSwaps;
+}
+constexpr std::size_t kSinglePairs = 6;
+
+MeasuredBelts looked_at(const MeasuredBelts& belts) {
+  MeasuredBelts few = belts;
+  few.distances.clear();
+  few.points.clear();
+  const std::size_t count = std::min(belts.points.size(), kMostLookedAt);
+  for (std::size_t i = 0; i < count; ++i) {
+    few.points.push_back(belts.points[i * belts.points.size() / count]);
+  }
+  return few;
+}
+
+MeasuredBelts swapped(MeasuredBelts belts, const BeltPairs& pairs) {
+  for (BeltPoint& point : belts.points) {
+    for (const BeltPair& pair : pairs)
+      std::swap(point.lengths_mm[pair.first], point.lengths_mm[pair.second]);
+  }
+  return belts;
+}
+
+struct Frame {
+  double residual_sigma_mm = std::numeric_limits<double>::infinity();
+  /// From what the file states of anchors, or of commands; 0 where it states neither.
+  double far_mm = 0.0;
+  double far_from_commands_mm = 0.0;
+};
+
+double far_from_commands(const MeasuredBelts& belts, const std::vector<model::FramePoint>& places) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  std::vector<Eigen::Vector2d> off;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const auto& commanded = belts.points[k].commanded;
+    if (!commanded) continue;
+    off.emplace_back(places[k].x_mm - commanded->x_mm, places[k].y_mm - commanded->y_mm);
+    mean += off.back();
+  }
+  if (off.empty()) return 0.0;
+  mean /= static_cast<double>(off.size());
+  double square = 0.0;
+  for (const Eigen::Vector2d& one : off) square += (one - mean).squaredNorm();
+  return std::sqrt(square / static_cast<double>(off.size()));
+}
+
+/// A share of how far the commands themselves reach: mirrored ones are off by as much as that.
+bool are_commands_far(const MeasuredBelts& belts, double far_mm) {
+  std::vector<model::FramePoint> origin(belts.points.size());
+  const double reach_mm = far_from_commands(belts, origin);
+  return reach_mm > 0.0 && far_mm > 0.5 * reach_mm;
+}
+
+Frame frame_of(const MeasuredBelts& belts) {
+  Frame frame;
+  const auto fitted = belts::fit_anchors(belts);
+  // Of places on a line some anchors agree with any lengths.
+  if (!fitted || !fitted->is_sound || belts::are_on_a_line(fitted->state.places)) return frame;
+  frame.residual_sigma_mm = fitted->residual_sigma_mm;
+  frame.far_from_commands_mm = far_from_commands(belts, fitted->state.places);
+  if (belts.machine.anchors_known) {
+    frame.far_mm =
+        (fitted->state.anchors - belts::anchors_of(belts.machine)).cwiseAbs().maxCoeff();
+  } else {
+    frame.far_mm = frame.far_from_commands_mm;
+  }
+  return frame;
+}
+
+bool is_far(const MeasuredBelts& belts, const Frame& frame) {
+  return (belts.machine.anchors_known && frame.far_mm > kFarMm) ||
+         are_commands_far(belts, frame.far_from_commands_mm);
+}
+
+}  // namespace
+
+std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts) {
+  const MeasuredBelts few = looked_at(belts);
+  if (few.points.size() < kFewestBeltPoints) return std::nullopt;
+  const Frame as_stated = frame_of(few);
+  const bool is_frame = as_stated.residual_sigma_mm < kSoundMm;
+  if (is_frame && !is_far(few, as_stated)) return std::nullopt;
+  std::vector<Frame> frames;
+  for (const BeltPairs& pairs : swaps()) frames.push_back(frame_of(swapped(few, pairs)));
+  const auto is_better = [&](const Frame& frame) {
+    if (frame.residual_sigma_mm > kSoundMm || is_far(few, frame)) return false;
+    return is_frame || kBetter * frame.residual_sigma_mm < as_stated.residual_sigma_mm;
+  };
+  // Of pairs that are mirror images of each other the first: only rounding tells them apart.
+  const auto is_nearer = [](const Frame& a, const Frame& b) {
+    if (std::abs(a.far_mm - b.far_mm) > kRoundingMm) return a.far_mm < b.far_mm;
+    return a.residual_sigma_mm < b.residual_sigma_mm - kRoundingMm;
+  };
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    // Where one pair mends it nobody exchanged two.
+    if (i == kSinglePairs && best) break;
+    if (is_better(frames[i]) && (!best || is_nearer(frames[i], frames[*best]))) best = i;
+  }
+  if (!best) return std::nullopt;
+  SwappedBelts result{swaps()[*best], std::nullopt, as_stated.residual_sigma_mm, frames[*best].residual_sigma_mm};
+  if (*best >= kSinglePairs) return result;
+  const std::size_t mirrored = *best % 2 == 0 ? *best + 1 : *best - 1;
+  if (frames[*best].far_mm == 0.0 && is_better(frames[mirrored]))
+    result.or_else = swaps()[mirrored].front();
+  return result;
+}
+
+std::optional<belts::AnchorFit> frame_of_lengths(const MeasuredBelts& belts) {
+  MeasuredBelts untaped = belts;
+  untaped.distances.clear();
+  auto frame = belts::fit_anchors_robustly(untaped);
+  if (!frame || !frame->is_sound) return std::nullopt;
+  return frame;
+}
+
+std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
+    const belts::AnchorFit& frame) {
+  // A lost digit or another frame; what a machine or a hand is off by is for the fit to name.
+  constexpr double kNowhereMm = 100.0;
+  std::vector<NowherePoint> result;
+  const model::BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
+  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+    int aside = 0;
+    for (const Belt belt : kBelts) aside += frame.counting[k][belt] ? 0 : 1;
+    if (aside < 2) continue;
+    const auto place = belts::nearest_place(
+        machine, belts.points[k], model::PerBelt<bool>{true, true, true, true});
+    double residual_mm = 0.0;
+    for (const Belt belt : kBelts) {
+      const auto reading = model::reading_at(machine, belt, place);
+      if (reading)
+        residual_mm = std::max(residual_mm, std::abs(belts.points[k].lengths_mm[belt] - reading->length_mm));
+    }
+    if (residual_mm > kNowhereMm) result.push_back({k, residual_mm});
+  }
+  return result;
+}
+
+std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
+    const belts::AnchorFit& frame) {
+  std::vector<BeltQuestion> result;
+  const model::BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
+  const double scale_mm = std::max(frame.residual_sigma_mm, 0.5);
+  const double gross_mm =
+      std::max(input_checks::kGrossMm, input_checks::kGrossScales * scale_mm);
+  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+    for (const Belt belt : kBelts) {
+      if (frame.counting[k][belt]) continue;
+      model::PerBelt<bool> others{true, true, true, true};
+      others[belt] = false;
+      const auto place = belts::nearest_place(machine, belts.points[k], others);
+      const auto reading = model::reading_at(machine, belt, place);
+      const double read_mm = belts.points[k].lengths_mm[belt];
+      if (!reading || std::abs(reading->length_mm - read_mm) < gross_mm) continue;
+      double most = input_checks::log_density_of(reading->length_mm - read_mm, scale_mm, 1) +
+                    input_checks::kThreeTimes;
+      // The other belts tell which of the four numbers it is.
+      const double kOneOfFour = std::log(4.0);
+      std::string question;
+      for (const input_checks::NumberError& slip : input_checks::number_errors(read_mm, false)) {
+        const double likely =
+            input_checks::log_density_of(reading->length_mm - slip.value, scale_mm, 1) -
+            (slip.penalty - kOneOfFour);
+        if (likely <= most) continue;
+        most = likely;
+        question = slip.question;
+      }
+      if (question.empty()) continue;
+      result.push_back({k,
+                        belt,
+                        fmt::format("{} is {} off what the other belts tell: {}",
+                                    name(belt),
+                                    input_checks::length_in_words(
+                                        std::abs(reading->length_mm - read_mm)),
+                                    question)});
+    }
+  }
+  return result;
+}
+
+namespace {
+
+/// Where a tape ends, in the frame that the lengths alone make.
+std::optional<Eigen::Vector2d> end_of(const BeltEnd& end,
+                                      const MeasuredBelts& belts,
+                                      const belts::AnchorFit& frame) {
+  if (const auto* index = std::get_if<std::size_t>(&end)) {
+    if (*index >= frame.state.places.size()) return std::nullopt;
+    return Eigen::Vector2d(frame.state.places[*index].x_mm, frame.state.places[*index].y_mm);
+  }
+  if (const auto* belt = std::get_if<Belt>(&end)) {
+    const auto anchor = belts::with_anchors(belts.machine, frame.state.anchors).anchors[*belt];
+    return Eigen::Vector2d(anchor.x_mm, anchor.y_mm);
+  }
+  if (!belts.machine.anchors_known) return std::nullopt;
+  const model::FramePoint centre = model::centre_of(belts.machine);
+  const model::BedPoint at = std::get<CutHole>(end).commanded;
+  return Eigen::Vector2d(centre.x_mm + at.x_mm, centre.y_mm + at.y_mm);
+}
+
+}  // namespace
+
+std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
+    const belts::AnchorFit& frame) {
+  // A turn of the encoder is known to some per cent, and with it what a millimetre of belt is.
+  constexpr double kFarOff = 0.12;
+  constexpr double kNear = 0.06;
+  std::vector<DistanceQuestion> result;
+  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
+    const BeltDistance& distance = belts.distances[i];
+    const auto from = end_of(distance.from, belts, frame);
+    const auto to = end_of(distance.to, belts, frame);
+    if (!from || !to) continue;
+    const double by_belts_mm = (*to - *from).norm();
+    const auto off = [&](double value) { return std::abs(value / by_belts_mm - 1.0); };
+    if (by_belts_mm < input_checks::kGrossMm || off(distance.distance_mm) < kFarOff) continue;
+    const double d = distance.distance_mm;
+    std::vector<input_checks::NumberError> slips = {
+        {0.5 * d, fmt::format("was it taped twice over, {:.10g} mm?", 0.5 * d), 0.0},
+        {2.0 * d, fmt::format("was only half of it taped, of {:.10g} mm?", 2.0 * d), 0.0},
+        {10.0 * d, fmt::format("is it in centimetres, {:.10g} mm?", 10.0 * d), 0.0}};
+    for (input_checks::NumberError& slip : input_checks::number_errors(d, false))
+      slips.push_back(std::move(slip));
+    DistanceQuestion asked{i, by_belts_mm, "was it misread?"};
+    double least = std::numeric_limits<double>::infinity();
+    for (const input_checks::NumberError& slip : slips) {
+      const double cost = slip.penalty + off(slip.value) / kNear;
+      if (off(slip.value) > kNear || cost >= least) continue;
+      least = cost;
+      asked.question = slip.question;
+    }
+    result.push_back(std::move(asked));
+  }
+  return result;
+}
+
+std::optional<OtherUnit> suspected_unit(const MeasuredBelts& belts) {
+  std::vector<double> lengths;
+  for (const BeltPoint& point : belts.points) {
+    for (const Belt belt : kBelts) lengths.push_back(point.lengths_mm[belt]);
+  }
+  // Frames are two to five metres across, belts one to three metres long.
+  constexpr double kShortestMm = 500.0;
+  constexpr double kUsualMm = 1700.0;
+  if (lengths.empty() || median(lengths) > kShortestMm) return std::nullopt;
+  const double middle = median(lengths);
+  double usual_mm = kUsualMm;
+  if (belts.machine.anchors_known) {
+    const auto& a = belts.machine.anchors;
+    usual_mm = 0.5 * std::hypot(a.tr.x_mm - a.bl.x_mm, a.tr.y_mm - a.bl.y_mm);
+  }
+  const OtherUnit units[] = {{"inches", input_checks::kMmPerInch, middle},
+                             {"centimetres", 10.0, middle},
+                             {"metres", 1000.0, middle}};
+  return *std::min_element(std::begin(units), std::end(units), [&](const auto& a, const auto& b) {
+    const auto off = [&](const OtherUnit& unit) {
+      return std::abs(std::log(unit.factor * middle / usual_mm));
+    };
+    return off(a) < off(b);
+  });
+}
+
+}  // namespace chaintrue::grid

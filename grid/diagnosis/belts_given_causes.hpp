@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Anchors and places of a router on four belts with causes at work: the frame is fitted to readings
+/// that are freed of what the causes add there, and the causes' sizes beside it, until both settle.
+/// Private to grid/diagnosis.
+///
+/// Notation
+///   r_k, J_a, J_p  of the readings of place k: read less predicted, and d(predicted) by anchors and
+///        by the place (reading_lines)
+///   g_j  d(read)/d(size of cause j), a secant about the size at hand
+///   Q_k  of the readings of place k that count: an orthonormal basis of what no place makes,
+///        Q_k' J_p = 0. A place whose four readings count has two such directions, its two checks
+///
+///   min sum_k |Q_k' (r_k - J_a da - sum_j g_j ds_j)|^2                                      (1)
+///
+/// Source: G. Golub and V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413, for unknowns that are
+/// projected out.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "grid/belts/anchor_estimate.hpp"
+#include "grid/belts/fit_diagnostics.hpp"
+#include "grid/diagnosis/cause_id.hpp"
+#include "model/belts/effects/belt_effect.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// A cause of the belts' table with its values, in the effect's order.
+struct BeltCause {
+  CauseId cause;
+  std::vector<double> values;
+};
+
+/// The visit of a point: its number is 0 where the file has none.
+[[nodiscard]] model::belts::BeltVisit visit_of(const BeltPoint& point, model::Belt belt);
+
+/// What the causes add to what the machine prints, 4 N, mm: as row_of() has the rows. Of readings that
+/// such a machine cannot give 0.
+[[nodiscard]] Eigen::VectorXd added_by(const MeasuredBelts& belts,
+                                       const std::vector<BeltCause>& causes,
+                                       const belts::FrameState& state);
+
+/// The readings without that.
+[[nodiscard]] MeasuredBelts without_effects(const MeasuredBelts& belts,
+                                            const std::vector<BeltCause>& causes,
+                                            const belts::FrameState& state);
+
+/// Q of a place: 4 x (readings that count less 2), rows of readings that do not count 0.
+[[nodiscard]] Eigen::MatrixXd checks_of(const belts::ReadingLines& lines,
+                                        std::size_t point,
+                                        const model::PerBelt<bool>& counting);
+
+/// Anchors, places and sizes at rest.
+struct FitGivenCauses {
+  belts::AnchorFit frame;
+  std::vector<BeltCause> causes;
+};
+/// From a state near by; sizes that are whole numbers stay, others within their ranges. Empty where
+/// nothing settles.
+[[nodiscard]] std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
+                                                       std::vector<BeltCause> causes,
+                                                       const belts::AnchorFit& from);
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/best_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chaintrue::grid::diagnosis {
+
+const Regressor& regressor(const Analysis& a, int k) {
+  return a.system.regressors[static_cast<std::size_t>(k)];
+}
+
+const MarginalisedSystem& marginalised_system(const Analysis& a) {
+  return a.comparison.marginalised_systems[a.decision.marginalised];
+}
+
+int best_regressor(const Analysis& a, const CauseId& cause) {
+  for (const int k : a.decision.regressors) {
+    if (regressor(a, k).cause == cause) return k;
+  }
+  for (const CandidateModel& model : a.comparison.models) {
+    if (model.regressors.size() != 1) continue;
+    if (regressor(a, model.regressors.front()).cause == cause) return model.regressors.front();
+  }
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  int best = -1;
+  double most = -1.0;
+  for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+    if (!(a.system.regressors[k].cause == cause)) continue;
+    const auto g = marginalised.g.col(static_cast<Eigen::Index>(k));
+    const double score = g.squaredNorm() > 1e-12 ? std::abs(g.dot(marginalised.e)) / g.norm() : 0.0;
+    if (score > most) {
+      most = score;
+      best = static_cast<int>(k);
+    }
+  }
+  return best;
+}
+
+void reject_slips(const Analysis& a, std::vector<bool>& outliers) {
+  for (const int k : a.decision.regressors) {
+    const Regressor& own = regressor(a, k);
+    if (!own.slip) continue;
+    for (std::size_t u = 0; u < a.system.units.size(); ++u) {
+      const SystemUnit& unit = a.system.units[u];
+      if (!unit.reads_chains) continue;
+      const SystemPlace& place = a.system.places[unit.places.front().place];
+      if (place.ordered && place.order == static_cast<int>(own.values.back())) outliers[u] = true;
+    }
+  }
+}
+
+bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
+  for (const CauseClass& members : a.decision.classes) {
+    const auto in = [&](const CauseId& c) {
+      return std::find(members.begin(), members.end(), c) != members.end();
+    };
+    if (in(x)) return in(y);
+  }
+  return x == y;
+}
+
+Nearest nearest_other(const Analysis& a, int column) {
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const auto own = marginalised.g.col(column);
+  const auto excluded = [&](const CauseId& other) {
+    if (same_class(a, other, regressor(a, column).cause)) return true;
+    if (a.decision.verdict != Verdict::several_causes) return false;
+    return std::any_of(a.decision.regressors.begin(), a.decision.regressors.end(), [&](int k) {
+      return same_class(a, other, regressor(a, k).cause);
+    });
+  };
+  Nearest nearest;
+  for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+    const auto g = marginalised.g.col(static_cast<Eigen::Index>(k));
+    if (excluded(a.system.regressors[k].cause)) continue;
+    const double collinearity = collinearity_of(g, own);
+    if (collinearity > nearest.collinearity) nearest = {static_cast<int>(k), collinearity};
+  }
+  return nearest;
+}
+
+Shown shown(const Analysis& a) {
+  Shown result{a.decision.regressors, {}};
+  if (result.best.empty() && !a.decision.marginal.empty()) {
+    result.best = {
+        best_regressor(a, a.decision.classes[a.decision.marginal.front().index].front())};
+  }
+  if (result.best.empty()) return result;
+  int first = result.best.front();
+  if (!a.decision.listed.empty()) {
+    first = best_regressor(a, a.decision.classes[a.decision.listed.front()].front());
+  }
+  const Nearest other = nearest_other(a, first);
+  if (other.column >= 0) result.rival = {other.column};
+  return result;
+}
+
+Estimate estimate_with(const Analysis& a, std::vector<int> regressors) {
+  std::sort(regressors.begin(), regressors.end());
+  return estimate(a.system, marginalised_system(a), regressors, a.noise.get());
+}
+
+Estimate estimate_of(const Analysis& a, const std::vector<int>& regressors) {
+  return estimate(a.system, marginalised_system(a), regressors, -1);
+}
+
+}  // namespace chaintrue::grid::diagnosis

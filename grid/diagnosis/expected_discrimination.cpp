@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/expected_discrimination.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/normal.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr std::size_t kMostGroups = 6;
+constexpr double kLeastProbability = 0.01;  ///< of a group among all, and of a member in its group
+
+/// A cause by its class and its position there.
+using Member = std::pair<std::size_t, std::size_t>;
+
+Member member_of(const Analysis& a, const CauseId& cause) {
+  for (std::size_t k = 0; k < a.decision.classes.size(); ++k) {
+    const CauseClass& members = a.decision.classes[k];
+    const auto found = std::find(members.begin(), members.end(), cause);
+    if (found != members.end()) return {k, static_cast<std::size_t>(found - members.begin())};
+  }
+  return {a.decision.classes.size(), 0};
+}
+
+struct Group {
+  double probability = 0.0;
+  std::map<std::vector<Member>, Alternative> members;
+};
+
+/// By the classes of the causes, and in each group by the causes. Where nothing is named a pattern
+/// makes a group of its own.
+std::vector<Group> groups_of(const Analysis& a) {
+  std::map<std::pair<bool, std::vector<std::size_t>>, Group> groups;
+  const std::size_t named = a.decision.regressors.size();
+  for (const CandidateModel& model : a.comparison.models) {
+    if (named > 0 ? model.regressors.size() != named : model.regressors.size() > 1) continue;
+    std::vector<Member> causes;
+    for (const int k : model.regressors) causes.push_back(member_of(a, regressor(a, k).cause));
+    std::sort(causes.begin(), causes.end());
+    std::vector<std::size_t> classes;
+    for (const Member& cause : causes) classes.push_back(cause.first);
+    const bool pattern = named == 0 && model.discrepancy >= 0;
+    Group& group = groups[{pattern, std::move(classes)}];
+    Alternative& one = group.members[causes];
+    if (one.probability == 0.0) {
+      one.regressors = model.regressors;
+      one.discrepancy = model.discrepancy;
+    }
+    one.probability += a.comparison.probability(model);
+    group.probability += a.comparison.probability(model);
+  }
+  std::vector<Group> result;
+  for (auto& [key, group] : groups) result.push_back(std::move(group));
+  return result;
+}
+
+/// S with S S' = a positive semidefinite matrix of whitened rows, but for a hundredth of the noise.
+Eigen::MatrixXd square_root(const Eigen::MatrixXd& matrix) {
+  constexpr double kNegligible = 1e-4;
+  const Eigen::LDLT<Eigen::MatrixXd> ldlt(matrix);
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
+    if (ldlt.vectorD()(k) > kNegligible) columns.push_back(k);
+  }
+  const Eigen::MatrixXd lower = ldlt.matrixL();
+  const Eigen::MatrixXd result =
+      lower(Eigen::all, columns) * ldlt.vectorD()(columns).cwiseSqrt().asDiagonal();
+  return ldlt.transpositionsP().transpose() * result;
+}
+
+/// Adds the discrepancy of the estimate to what is expected of the rows of `system`, by kriging: K
+/// of the rows to come with those measured, C of these with their noise, X their design.
+///   mean + K C^-1 (what is left),  design - K C^-1 X,  and K** - K C^-1 K' of its own
+/// C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equation 2.41.
+/// \returns a square root of the last.
+Eigen::MatrixXd add_discrepancy(const Analysis& a,
+                                const RegressorSystem& system,
+                                const Estimate& fitted,
+                                Eigen::VectorXd& mean,
+                                Eigen::MatrixXd& design) {
+  const KeptRows& kept = marginalised_system(a).kept;
+  const DiscrepancyKernel& kernel = fitted.discrepancy.kernel;
+  const double square = fitted.discrepancy.sigma_mm * fitted.discrepancy.sigma_mm;
+  const Eigen::MatrixXd k = square * discrepancy_covariance(system, a.system, kept, kernel);
+  Eigen::MatrixXd c = square * discrepancy_covariance(a.system, kept, kernel);
+  c.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd> llt(c);
+  Eigen::MatrixXd x(c.rows(), design.cols());
+  const Eigen::Index settings = fitted.setting_change.size();
+  x.leftCols(settings) = kept.of(a.system.by_setting);
+  for (std::size_t i = 0; i < fitted.free.size(); ++i) {
+    x.col(settings + static_cast<Eigen::Index>(i)) =
+        kept(a.system.g.col(fitted.regressors[fitted.free[i]]));
+  }
+  mean += k * fitted.discrepancy_weights;
+  design -= k * llt.solve(x);
+  const Eigen::MatrixXd own =
+      square * discrepancy_covariance(system, system, KeptRows::all(system), kernel);
+  return square_root(own - k * llt.solve(k.transpose()));
+}
+
+/// What an alternative expects of every candidate.
+void predict(const Analysis& a,
+             const RegressorSystem& system,
+             const ColumnOf& column_of_cause,
+             Alternative& h) {
+  const Estimate fitted =
+      estimate(a.system, marginalised_system(a), h.regressors, h.discrepancy);
+  // Holes that are not cut yet have columns of their own, after all others.
+  const Eigen::Index settings = fitted.setting_change.size();
+  const Eigen::Index to_come = system.by_setting.cols() - settings;
+  h.mean = system.by_setting.leftCols(settings) * fitted.setting_change;
+  const auto free = static_cast<Eigen::Index>(fitted.free.size());
+  Eigen::MatrixXd design(system.by_setting.rows(), settings + free);
+  design.leftCols(settings) = system.by_setting.leftCols(settings);
+  Eigen::Index column = settings;
+  for (std::size_t k = 0; k < fitted.regressors.size(); ++k) {
+    const Regressor& d = a.system.regressors[static_cast<std::size_t>(fitted.regressors[k])];
+    const auto g = column_of_cause(d);
+    const Eigen::VectorXd column_of =
+        g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(system.by_setting.rows()));
+    h.mean += column_of * fitted.coefficient(static_cast<Eigen::Index>(k));
+    if (std::find(fitted.free.begin(), fitted.free.end(), k) != fitted.free.end()) {
+      design.col(column++) = column_of;
+    }
+  }
+  Eigen::MatrixXd of_pattern(design.rows(), 0);
+  if (h.discrepancy >= 0) of_pattern = add_discrepancy(a, system, fitted, h.mean, design);
+  const Eigen::LLT<Eigen::MatrixXd> llt(fitted.covariance);
+  h.spread.resize(design.rows(), design.cols() + to_come + of_pattern.cols());
+  h.spread.leftCols(design.cols()) = design * Eigen::MatrixXd(llt.matrixL());
+  h.spread.middleCols(design.cols(), to_come) =
+      system.by_setting.rightCols(to_come) * system.sigma.tail(to_come).asDiagonal();
+  h.spread.rightCols(of_pattern.cols()) = of_pattern;
+}
+
+/// D over these rows, for two alternatives.
+double distance(const Alternative& k, const Alternative& l, const std::vector<Eigen::Index>& rows) {
+  const Eigen::VectorXd difference = k.mean(rows) - l.mean(rows);
+  const Eigen::MatrixXd of_k = k.spread(rows, Eigen::all);
+  const Eigen::MatrixXd of_l = l.spread(rows, Eigen::all);
+  Eigen::MatrixXd covariance = 0.5 * (of_k * of_k.transpose() + of_l * of_l.transpose());
+  covariance.diagonal().array() += 1.0;
+  return difference.dot(covariance.llt().solve(difference));
+}
+
+/// D between all alternatives.
+Eigen::MatrixXd distances(const std::vector<Alternative>& alternatives,
+                          const std::vector<Eigen::Index>& rows) {
+  const auto count = static_cast<Eigen::Index>(alternatives.size());
+  Eigen::MatrixXd d = Eigen::MatrixXd::Zero(count, count);
+  if (rows.empty()) return d;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    for (Eigen::Index l = 0; l < k; ++l) {
+      d(k, l) = d(l, k) = distance(alternatives[static_cast<std::size_t>(k)],
+                                   alternatives[static_cast<std::size_t>(l)],
+                                   rows);
+    }
+  }
+  return d;
+}
+
+/// First and last but one alternative of each group.
+std::vector<std::pair<Eigen::Index, Eigen::Index>> groups_in(
+    const std::vector<Alternative>& alternatives) {
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> result;
+  for (std::size_t k = 0; k < alternatives.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    if (k == 0 || alternatives[k].group != alternatives[k - 1].group) result.emplace_back(at, at);
+    result.back().second = at + 1;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Alternative> alternatives_of_best(const Analysis& a) {
+  std::vector<Group> groups = groups_of(a);
+  double all = 0.0;
+  for (const Group& group : groups) all += group.probability;
+  std::erase_if(groups, [&](const Group& g) { return g.probability < kLeastProbability * all; });
+  std::stable_sort(groups.begin(), groups.end(), [](const Group& x, const Group& y) {
+    return x.probability > y.probability;
+  });
+  if (groups.size() > kMostGroups) groups.resize(kMostGroups);
+  std::vector<Alternative> result;
+  for (std::size_t number = 0; number < groups.size(); ++number) {
+    for (auto& [causes, one] : groups[number].members) {
+      if (one.probability < kLeastProbability * groups[number].probability) continue;
+      one.group = number;
+      result.push_back(std::move(one));
+    }
+  }
+  double sum = 0.0;
+  for (const Alternative& one : result) sum += one.probability;
+  for (Alternative& one : result) one.probability /= sum;
+  return result;
+}
+
+std::optional<std::vector<Alternative>> alternatives_about(const Analysis& a, const ObservationSet& next) {
+  const auto system = linearise(next, a.state, {});
+  if (!system) return std::nullopt;
+  return alternatives_about(a, *system, [&](const Regressor& d) {
+    return signature(next, a.state, *system, d.cause, d.values);
+  });
+}
+
+std::vector<Alternative> alternatives_about(const Analysis& a,
+                                            const RegressorSystem& next,
+                                            const ColumnOf& column) {
+  std::vector<Alternative> alternatives = alternatives_of_best(a);
+  for (Alternative& one : alternatives) predict(a, next, column, one);
+  return alternatives;
+}
+
+namespace {
+
+/// Log odds against a group, about N(mean, variance).
+struct Rival {
+  double mean = 0.0;
+  double variance = 0.0;
+};
+
+/// That all rivals together leave it named. What the one that takes most leaves is summed over its log
+/// odds; of the others, which the same readings refute, the likeliest to stay must leave the rest.
+double chance_of_all(const std::vector<Rival>& rivals) {
+  const double odds = (1.0 - kNamedAlone) / kNamedAlone;
+  const auto taken = [](const Rival& rival) { return rival.mean - 2.0 * std::sqrt(rival.variance); };
+  const auto most = std::min_element(
+      rivals.begin(), rivals.end(), [&](const Rival& a, const Rival& b) { return taken(a) < taken(b); });
+  constexpr double kWidest = 4.0;  // sigmas
+  constexpr int kSteps = 32;
+  double chance = 0.0;
+  double all = 0.0;
+  for (int step = 0; step < kSteps; ++step) {
+    const double z = kWidest * ((2.0 * step + 1.0) / kSteps - 1.0);
+    const double density = std::exp(-0.5 * z * z);
+    all += density;
+    const double left = odds - std::exp(-(most->mean + z * std::sqrt(most->variance)));
+    if (left <= 0.0) continue;
+    double of_others = 1.0;
+    for (auto rival = rivals.begin(); rival != rivals.end(); ++rival) {
+      if (rival == most) continue;
+      const double ahead = rival->mean + std::log(left);
+      const double alone = rival->variance > 1e-9
+                               ? 1.0 - normal_upper(ahead / std::sqrt(rival->variance))
+                               : (ahead > 0.0 ? 1.0 : 0.0);
+      of_others = std::min(of_others, alone);
+    }
+    chance += density * of_others;
+  }
+  return chance / all;
+}
+
+}  // namespace
+
+ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& alternatives,
+                                               const std::vector<Eigen::Index>& rows) {
+  const Eigen::MatrixXd d = distances(alternatives, rows);
+  const auto groups = groups_in(alternatives);
+  const auto p = [&](Eigen::Index k) {
+    return alternatives[static_cast<std::size_t>(k)].probability;
+  };
+  const auto sum = [](const auto& group, const auto& term) {
+    double total = 0.0;
+    for (Eigen::Index k = group.first; k < group.second; ++k) total += term(k);
+    return total;
+  };
+  ExpectedDiscrimination result;
+  for (const auto& own : groups) {
+    for (const auto& other : groups) {
+      if (other.first >= own.first) break;
+      const double mean = sum(own, [&](Eigen::Index k) {
+        return sum(other, [&](Eigen::Index l) { return p(k) * p(l) * std::exp(-d(k, l) / 8.0); });
+      });
+      result.confusion += mean / std::sqrt(sum(own, p) * sum(other, p));
+    }
+    result.named_alone += sum(own, [&](Eigen::Index k) {
+      const double weight =
+          sum(own, [&](Eigen::Index j) { return p(j) * std::exp(-0.5 * d(k, j)); });
+      std::vector<Rival> rivals;
+      for (const auto& other : groups) {
+        if (other.first == own.first) continue;
+        const auto against = [&](Eigen::Index l) { return 0.5 * d(k, l) - std::log(p(l)); };
+        Eigen::Index l = other.first;
+        for (Eigen::Index i = l; i < other.second; ++i) l = against(i) < against(l) ? i : l;
+        const double rival =
+            sum(other, [&](Eigen::Index i) { return p(i) * std::exp(-0.5 * (d(k, i) - d(k, l))); });
+        rivals.push_back({0.5 * d(k, l) + std::log(weight / rival), d(k, l)});
+      }
+      return rivals.empty() ? p(k) : p(k) * chance_of_all(rivals);
+    });
+  }
+  return result;
+}
+
+}  // namespace chaintrue::grid::diagnosis

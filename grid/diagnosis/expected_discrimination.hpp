@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// How well the leading explanations will be told apart once something more is measured.
+///
+/// Notation
+///   p_k       probability of alternative k, a set of causes and whether a discrepancy is beside it
+///   K, p_K    its group: alternatives that the verdict does not tell apart, and their sum; of causes
+///             of one class there is one alternative for each, since a reading may touch one of them
+///             and not the other (a link's pitch: the chain, and not the tape)
+///   m_k, S_k  mean and covariance of the new readings as k predicts them, settings and sizes
+///             uncertain
+///   D_kl      (m_k - m_l)' ((S_k + S_l) / 2)^-1 (m_k - m_l) over the readings asked for
+///
+///   confusion    sum over pairs of groups of sqrt(p_K p_L) times the mean of exp(-D_kl / 8) over
+///                their members: the Bhattacharyya bound where a group has one
+///   named_alone  sum over k of p_k P(odds of all other groups together < those of being named | k):
+///                summed over the log odds of the group that takes most, and of the others the one
+///                that is the likeliest to take the rest; log odds of K against L about
+///                N(D_kl / 2 + log(p_K' / p_L'), D_kl), l the member of L nearest to k, and p' what
+///                a group weighs once its members are told apart:
+///                p_K' = sum over j in K of p_j exp(-(D_kj - D_kk) / 2), likewise about l for L
+///
+/// A reading of which all alternatives expect the same changes neither.
+///
+/// Sources: T. Kailath, IEEE Trans. Commun. Technol. 15 (1967) 52, for the bound; G. Box and W.
+/// Hill, Technometrics 9 (1967) 57, for choosing experiments that tell models apart. Private to
+/// grid/diagnosis.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "grid/diagnosis/analysis.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+struct Alternative {
+  std::size_t group = 0;
+  std::vector<int> regressors;
+  int discrepancy = -1;      ///< beside them, as the most probable model of these causes has it
+  double probability = 0.0;  ///< of all alternatives together 1
+  Eigen::VectorXd mean;      ///< m_k, whitened, of every row of the session of candidates
+  Eigen::MatrixXd spread;    ///< rows x unknowns: a square root of S_k but for the noise
+};
+
+/// The sets of causes that the comparison leaves, each at its best places, groups one after the
+/// other and the most probable first; with what they expect of every row of `next`, which has the
+/// analysis' unknowns (NextCandidates). Where the verdict names causes these are the sets of as
+/// many; where it names none, those of none and of one, with and without a discrepancy. Nothing
+/// where a place of `next` cannot be reached.
+[[nodiscard]] std::optional<std::vector<Alternative>> alternatives_about(const Analysis& analysis,
+                                                                         const ObservationSet& next);
+
+/// The same of rows that are given as a system, of which `column` makes what a regressor adds there;
+/// nothing where such a machine cannot be.
+using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const Regressor&)>;
+[[nodiscard]] std::vector<Alternative> alternatives_about(const Analysis& analysis,
+                                                          const RegressorSystem& next,
+                                                          const ColumnOf& column);
+
+/// The same before anything is predicted: without means and spreads.
+[[nodiscard]] std::vector<Alternative> alternatives_of_best(const Analysis& analysis);
+
+struct ExpectedDiscrimination {
+  double confusion = 0.0;
+  double named_alone = 0.0;  ///< probability that the right group is named alone
+};
+/// With these rows measured.
+[[nodiscard]] ExpectedDiscrimination expected_discrimination(
+    const std::vector<Alternative>& alternatives, const std::vector<Eigen::Index>& rows);
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/given_discrepancies.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "grid/diagnosis/discrepancy_basis.hpp"
+#include "grid/diagnosis/ties.hpp"
+#include "grid/statistics.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// A discrepancy with what speaks for it before it is searched.
+struct Scouted {
+  int discrepancy = 0;
+  double weight = kMinusInfinity;
+  /// Regressors worth trying in it, alone: what they weigh, best first.
+  std::vector<std::pair<double, int>> singles;
+};
+
+class Scout {
+ public:
+  Scout(const RegressorSystem& system,
+        const NormalEquations& plain,
+        const std::vector<std::vector<int>>& best_models,
+        const ModelCollector& collector)
+      : system_(system), plain_(plain), best_models_(best_models), collector_(collector) {
+    for (const int k : plain.columns) {
+      prior_.push_back(collector.log_prior_of({k}, -1) + std::log(kDiscrepancyPrior));
+    }
+    prior_of_nothing_ = collector.log_prior_of({}, -1) + std::log(kDiscrepancyPrior);
+  }
+
+  /// `beside` of the columns that this scout knows.
+  [[nodiscard]] Scouted look_at(const DiscrepancyBasis::GivenKernel& given, int discrepancy) const {
+    const auto d = given.diagonal(family().strength_of(discrepancy));
+    const double share = family().log_share_of(discrepancy) - 0.5 * d.log_det;
+    Scouted result{
+        discrepancy, prior_of_nothing_ + share + collector_.noise().log_density(d.ee), {}};
+    std::vector<std::pair<double, int>> all;
+    for (std::size_t k = 0; k < plain_.columns.size(); ++k) {
+      all.emplace_back(prior_[k] + share + single(d, static_cast<Eigen::Index>(k)),
+                       plain_.columns[k]);
+    }
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+      return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+    all.resize(count_with_ties(
+        all, kSinglesGivenDiscrepancy, [](const auto& single) { return single.first; }));
+    if (!all.empty()) result.weight = std::max(result.weight, all.front().first);
+    result.singles = std::move(all);
+    for (const std::vector<int>& set : best_models_) {
+      result.weight = std::max(result.weight, together(given, discrepancy, set));
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] const DiscrepancyFamily& family() const { return *system_.discrepancies; }
+
+  /// log evidence of one regressor but for determinants that all share, its bounds let go.
+  [[nodiscard]] double single(const DiscrepancyBasis::GivenKernel::Diagonal& d, Eigen::Index k) const {
+    const Regressor& own =
+        system_.regressors[static_cast<std::size_t>(plain_.columns[static_cast<std::size_t>(k)])];
+    const NoiseDensity& noise = collector_.noise();
+    if (own.fixed) return noise.log_density_as_stated(d.ee - 2.0 * d.ge(k) + d.gg(k));
+    const double gg = std::max(d.gg(k), 0.0);
+    const double strength = plain_.prior_square(k) * d.ge(k) * d.ge(k) / std::max(gg * gg, 1e-12);
+    // The prior under which the size that fits is the likelier one.
+    const bool usual = strength < 8.0 * kUsualSignalToNoise * kUsualSignalToNoise;
+    const double sigma = usual ? kUsualSignalToNoise : kWideSignalToNoise;
+    const double precision = plain_.prior_square(k) / (sigma * sigma);
+    const double q = d.ee - d.ge(k) * d.ge(k) / (gg + precision);
+    return noise.log_density_as_stated(std::max(q, 0.0)) - 0.5 * std::log1p(gg / precision);
+  }
+
+  [[nodiscard]] double together(const DiscrepancyBasis::GivenKernel& given,
+                                int discrepancy,
+                                const std::vector<int>& set) const {
+    const NormalEquations equations = given.equations(family().strength_of(discrepancy), set);
+    ColumnSet all;
+    for (std::size_t k = 0; k < set.size(); ++k) all.push_back(static_cast<Eigen::Index>(k));
+    return set_evidence(equations, system_.regressors, all, collector_.noise()).log_evidence +
+           collector_.log_prior_of(set, discrepancy);
+  }
+
+  const RegressorSystem& system_;
+  const NormalEquations& plain_;
+  const std::vector<std::vector<int>>& best_models_;
+  const ModelCollector& collector_;
+  std::vector<double> prior_;
+  double prior_of_nothing_ = 0.0;
+};
+
+/// The sets beside one discrepancy, each weighed in full.
+class GivenDiscrepancySearch {
+ public:
+  GivenDiscrepancySearch(const RegressorSystem& system,
+               NormalEquations equations,
+               int discrepancy,
+               const SearchLimits& limits,
+               ModelCollector& collector)
+      : system_(system),
+        equations_(std::move(equations)),
+        discrepancy_(discrepancy),
+        limits_(limits),
+        collector_(collector) {}
+
+  void run(const std::vector<int>& singles, const std::vector<std::vector<int>>& best_models) {
+    consider({});
+    std::vector<WeighedSet> parents;
+    for (const int k : singles) {
+      const ColumnSet set = {equations_.position(k)};
+      parents.push_back({consider(set), set});
+    }
+    for (const std::vector<int>& regressors : best_models) {
+      ColumnSet set;
+      for (const int k : regressors) set.push_back(equations_.position(k));
+      if (known_.contains(set)) continue;
+      grown_[set.size()].push_back({consider(set), set});
+    }
+    const std::vector<WeighedSet> alone = parents;
+    for (std::size_t size = 2; size <= kMostCauses; ++size) {
+      std::stable_sort(parents.begin(), parents.end(), heavier);
+      if (parents.empty() || parents.front().weight < collector_.best() - kGrowWithin) return;
+      parents.resize(count_with_ties(parents, kBeamGivenDiscrepancy, weight_of));
+      for (const WeighedSet& parent : parents) extend(parent.set, alone);
+      parents = grown_[size];
+    }
+  }
+
+ private:
+  double consider(const ColumnSet& set) {
+    const double weight = collector_.consider(set, discrepancy_, equations_);
+    known_.emplace(set, weight);
+    return weight;
+  }
+
+  void extend(const ColumnSet& parent, const std::vector<WeighedSet>& alone) {
+    for (const WeighedSet& one : alone) {
+      const Eigen::Index own = one.set.front();
+      const bool fits = std::all_of(parent.begin(), parent.end(), [&](Eigen::Index p) {
+        return compatible(regressor(p), regressor(own), limits_);
+      });
+      if (!fits) continue;
+      ColumnSet set = parent;
+      set.insert(std::lower_bound(set.begin(), set.end(), own), own);
+      if (known_.contains(set)) continue;
+      grown_[set.size()].push_back({consider(set), set});
+    }
+  }
+
+  [[nodiscard]] const Regressor& regressor(Eigen::Index i) const {
+    return system_
+        .regressors[static_cast<std::size_t>(equations_.columns[static_cast<std::size_t>(i)])];
+  }
+
+  const RegressorSystem& system_;
+  NormalEquations equations_;
+  int discrepancy_;
+  const SearchLimits& limits_;
+  ModelCollector& collector_;
+  std::map<ColumnSet, double> known_;
+  std::array<std::vector<WeighedSet>, kMostCauses + 1> grown_;
+};
+
+/// Counts the places of each cause in a list that is sorted by score.
+class PlacesOfCauses {
+ public:
+  PlacesOfCauses(const RegressorSystem& system, int most) : system_(system), most_(most) {}
+
+  /// Whether this one is among the first `most` of its cause, or ties with the last of these.
+  [[nodiscard]] bool takes(int regressor, double score) {
+    const CauseId& cause = system_.regressors[static_cast<std::size_t>(regressor)].cause;
+    const auto known = std::find_if(
+        taken_.begin(), taken_.end(), [&](const Taken& own) { return own.cause == cause; });
+    Taken& own = known != taken_.end() ? *known : taken_.emplace_back(Taken{cause, 0, 0.0});
+    if (own.count == most_) return tied(score, own.last_score);
+    ++own.count;
+    own.last_score = score;
+    return true;
+  }
+
+ private:
+  struct Taken {
+    CauseId cause;
+    int count = 0;
+    double last_score = 0.0;
+  };
+  const RegressorSystem& system_;
+  int most_;
+  std::vector<Taken> taken_;
+};
+
+/// Of each cause its best places alone.
+std::vector<int> worth_trying(const RegressorSystem& system, const Scouted& scouted) {
+  PlacesOfCauses places(system, 2);
+  std::vector<int> result;
+  for (const auto& [weight, k] : scouted.singles) {
+    if (weight < scouted.weight - kNegligibleModel) break;
+    if (places.takes(k, weight)) result.push_back(k);
+  }
+  return result;
+}
+
+/// Of each cause the places that fit best where nothing acts beside it, and all that lead.
+std::vector<int> columns_to_scout(const RegressorSystem& system,
+                                  const NormalEquations& plain,
+                                  const std::vector<std::vector<int>>& best_models) {
+  PlacesOfCauses places(system, 4);
+  std::vector<std::pair<double, int>> order;
+  for (std::size_t k = 0; k < plain.columns.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    const bool fixed = system.regressors[static_cast<std::size_t>(plain.columns[k])].fixed;
+    const double gain = fixed ? 2.0 * plain.ge(at) - plain.gg(at, at)
+                              : plain.ge(at) * plain.ge(at) / plain.gg(at, at);
+    order.emplace_back(-gain, plain.columns[k]);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<int> result;
+  for (const auto& [gain, k] : order) {
+    if (places.takes(k, gain)) result.push_back(k);
+  }
+  for (const auto& set : best_models) result.insert(result.end(), set.begin(), set.end());
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+/// Those that hold a share of the weight, best first.
+std::vector<int> worth_searching(std::vector<Scouted> scouted) {
+  std::stable_sort(scouted.begin(), scouted.end(), [](const Scouted& a, const Scouted& b) {
+    return a.weight > b.weight;
+  });
+  scouted.resize(count_with_ties(
+      scouted, kMostDiscrepanciesSearched, [](const Scouted& own) { return own.weight; }));
+  std::vector<int> result;
+  for (const Scouted& one : scouted) {
+    if (one.weight < scouted.front().weight - kDiscrepanciesWithin) break;
+    result.push_back(one.discrepancy);
+  }
+  return result;
+}
+
+/// A beam of its own beside every discrepancy.
+std::vector<double> search_all_by_beam(const RegressorSystem& system,
+                                       DiscrepancyBasis& basis,
+                                       const SearchLimits& limits,
+                                       const NormalEquations& plain,
+                                       const std::vector<std::size_t>& kernels,
+                                       ModelCollector& collector) {
+  const DiscrepancyFamily& family = *system.discrepancies;
+  const std::size_t strengths = family.strengths.size();
+  for (const std::size_t kernel : kernels) {
+    const DiscrepancyBasis::GivenKernel given = basis.given(kernel, plain);
+    for (std::size_t s = limits.strength_step - 1; s < strengths; s += limits.strength_step) {
+      const auto discrepancy = static_cast<int>(kernel * strengths + s);
+      search_by_beam(system,
+                     given.equations(family.strength_of(discrepancy), plain.columns),
+                     discrepancy,
+                     limits,
+                     collector);
+    }
+  }
+  // All are tried with every set of outliers: none leads.
+  return std::vector<double>(kernels.size(), 0.0);
+}
+
+}  // namespace
+
+std::vector<double> search_given_discrepancies(const RegressorSystem& system,
+                                                MarginalisedSystem& marginalised,
+                                                const ComparisonOptions& options,
+                                                const NormalEquations& plain,
+                                                const std::vector<std::vector<int>>& best_models,
+                                                const std::vector<std::size_t>& kernels,
+                                                ModelCollector& collector) {
+  DiscrepancyBasis basis(system, marginalised, kernels);
+  if (options.search.of_a_cause > 0)
+    return search_all_by_beam(system, basis, options.search, plain, kernels, collector);
+  const NormalEquations few =
+      normal_equations(system, marginalised, columns_to_scout(system, plain, best_models));
+  const Scout first_look(system, few, best_models, collector);
+  const DiscrepancyFamily& family = *system.discrepancies;
+  const auto strengths = static_cast<int>(family.strengths.size());
+  std::vector<Scouted> scouted;
+  std::vector<double> of_kernel;
+  for (const std::size_t kernel : kernels) {
+    const DiscrepancyBasis::GivenKernel given = basis.given(kernel, few);
+    double best = kMinusInfinity;
+    for (int strength = 0; strength < strengths; ++strength) {
+      scouted.push_back(
+          first_look.look_at(given, static_cast<int>(kernel) * strengths + strength));
+      best = std::max(best, scouted.back().weight);
+    }
+    of_kernel.push_back(best);
+  }
+  const Scout closer_look(system, plain, best_models, collector);
+  std::map<std::size_t, DiscrepancyBasis::GivenKernel> all_columns;
+  for (const int discrepancy : worth_searching(std::move(scouted))) {
+    const std::size_t kernel = family.kernel_of(discrepancy);
+    if (!all_columns.contains(kernel)) all_columns.emplace(kernel, basis.given(kernel, plain));
+    const DiscrepancyBasis::GivenKernel& given = all_columns.at(kernel);
+    const std::vector<int> singles =
+        options.given_cause ? plain.columns
+                     : worth_trying(system, closer_look.look_at(given, discrepancy));
+    std::vector<int> used = singles;
+    for (const auto& set : best_models) used.insert(used.end(), set.begin(), set.end());
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    GivenDiscrepancySearch(system,
+                 given.equations(family.strength_of(discrepancy), used),
+                 discrepancy,
+                 options.search,
+                 collector)
+        .run(singles, best_models);
+  }
+  return of_kernel;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/held_out_improvement.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "grid/diagnosis/uncalibrated.hpp"
+#include "grid/diagnosis/expected_improvement.hpp"
+#include "grid/diagnosis/held_out_fold.hpp"
+#include "grid/diagnosis/held_out_blocks.hpp"
+#include "grid/diagnosis/best_model.hpp"
+#include "grid/statistics.hpp"
+#include "grid/synthetic/random.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr double kBorderShare = 0.9;  // of the half width of the points: beyond is the border
+
+struct Extent {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void take(double at) {
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+  /// Distance from the middle over the half width.
+  [[nodiscard]] double share(double at) const {
+    return std::abs(at - 0.5 * (low + high)) / std::max(0.5 * (high - low), 1.0);
+  }
+};
+
+/// Units of the held-out kind with a place beyond kBorderShare of the measured half width or
+/// height.
+std::vector<std::size_t> border(const Analysis& a, bool of_the_bed) {
+  Extent x;
+  Extent y;
+  const auto counts = [&](const SystemUnit& unit) { return unit.reads_chains == of_the_bed; };
+  for (const SystemUnit& unit : a.system.units) {
+    for (const observation::PlaceColumns& seen : unit.places) {
+      if (!counts(unit)) continue;
+      x.take(a.system.places[seen.place].mark.x_mm);
+      y.take(a.system.places[seen.place].mark.y_mm);
+    }
+  }
+  std::vector<std::size_t> result;
+  for (std::size_t u = 0; u < a.system.units.size(); ++u) {
+    const SystemUnit& unit = a.system.units[u];
+    const bool outside =
+        std::any_of(unit.places.begin(), unit.places.end(), [&](const observation::PlaceColumns& seen) {
+          const model::MarkPoint& mark = a.system.places[seen.place].mark;
+          return std::max(x.share(mark.x_mm), y.share(mark.y_mm)) > kBorderShare;
+        });
+    if (counts(unit) && outside) result.push_back(u);
+  }
+  return result;
+}
+
+bool names_agree(const Fold& fold, const Analysis& a) {
+  const auto leader = [](const std::vector<CauseClass>& named) {
+    std::vector<CauseId> ids;
+    for (const CauseClass& one : named) ids.push_back(one.front());
+    return ids;
+  };
+  std::vector<CauseId> whole;
+  for (const std::size_t index : a.decision.listed)
+    whole.push_back(a.decision.classes[index].front());
+  const std::vector<CauseId> here = leader(fold.named);
+  if (whole.empty() || here.empty()) return whole.empty() && here.empty();
+  return std::find(whole.begin(), whole.end(), here.front()) != whole.end();
+}
+
+/// Root mean square of what noise alone does to a reading, seen at the tool.
+double noise_floor(const Analysis& a, const std::vector<std::size_t>& units) {
+  double sum = 0.0;
+  for (const std::size_t u : units) sum += noise_of_unit_mm2(a.system, u).trace();
+  return std::sqrt(a.estimate.noise_square * sum / static_cast<double>(units.size()));
+}
+
+/// Errors of the machine as delivered, and with the sheets alone moved to where they fit.
+struct BeforeCalibration {
+  std::vector<Eigen::Vector2d> as_stated, placed;
+};
+
+BeforeCalibration before_calibration(const Analysis& a, const std::vector<std::size_t>& units) {
+  BeforeCalibration result;
+  const ObservationSet& session = a.session;
+  const auto stated = linearise(session, stated_state(session), {});
+  if (!stated) return result;
+  constexpr auto kOfMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
+  const auto sheet = static_cast<Eigen::Index>(session.settings.size()) - kOfMachine;
+  bool moves = false;
+  for (std::size_t k = model::kMachineSettings.size(); k < session.settings.size(); ++k) {
+    moves =
+        moves || (session.settings[k] != model::Setting::sheet_rotation_rad && session.knows(k));
+  }
+  const Eigen::VectorXd as_stated = uncalibrated(session, *stated);
+  Eigen::VectorXd placed = as_stated;
+  if (moves) {
+    const Eigen::MatrixXd by_sheet = stated->by_setting.middleCols(kOfMachine, sheet);
+    const auto& kept = marginalised_system(a).kept;
+    const Eigen::VectorXd sigma = stated->sigma.segment(kOfMachine, sheet);
+    const Eigen::MatrixXd scaled = kept.of(by_sheet) * sigma.asDiagonal();
+    Eigen::MatrixXd normal = scaled.transpose() * scaled;
+    normal.diagonal().array() += 1.0;
+    const Eigen::VectorXd x =
+        normal.llt().solve(scaled.transpose() * kept(as_stated));
+    placed -= by_sheet * sigma.cwiseProduct(x);
+  }
+  for (const std::size_t u : units) {
+    result.as_stated.push_back(error_of_unit(*stated, as_stated, u));
+    if (moves) result.placed.push_back(error_of_unit(*stated, placed, u));
+  }
+  return result;
+}
+
+void append(const Errors& fold, Errors& all) {
+  const auto join = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  join(all.calibrated, fold.calibrated);
+  join(all.surface_only, fold.surface_only);
+  join(all.extended, fold.extended);
+  join(all.extended_and_surface, fold.extended_and_surface);
+  join(all.fixed_naming, fold.fixed_naming);
+  join(all.fixed_naming_and_surface, fold.fixed_naming_and_surface);
+}
+
+/// Which errors speak of the extension: an extension that does not help on points it has not seen
+/// is not made.
+struct Extension {
+  const std::vector<Eigen::Vector2d>* machine = nullptr;
+  const std::vector<Eigen::Vector2d>* and_surface = nullptr;
+  bool helps = false;
+  bool naming_repeated = true;
+};
+
+Extension extension_of(const Analysis& a, const Errors& errors) {
+  if (!a.decision.listed.empty() && rms_length(errors.extended) < rms_length(errors.calibrated)) {
+    return {&errors.extended, &errors.extended_and_surface, true, true};
+  }
+  // A block without which these points leave two names, the wrong one first, says little against
+  // the name that all points give.
+  if (!a.decision.listed.empty() &&
+      rms_length(errors.fixed_naming) < rms_length(errors.calibrated)) {
+    return {&errors.fixed_naming, &errors.fixed_naming_and_surface, true, false};
+  }
+  return {&errors.calibrated, &errors.surface_only, false, true};
+}
+
+std::string scheme_of(const ObservationSet& session, const HeldOutBlocks& blocks, bool naming_repeated) {
+  return fmt::format(
+      "{}, each held out in turn, {}",
+      blocks.of_the_bed ? fmt::format("{} blocks of the bed", blocks.units.size())
+                        : fmt::format("all the distances of each of {} holes", blocks.units.size()),
+      naming_repeated ? "the naming repeated without it"
+                      : fmt::format("the causes that all {} name fitted without it, since not "
+                                    "every block left out leaves the same name",
+                                    session.units_word()));
+}
+
+}  // namespace
+
+HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
+                  const std::vector<std::size_t>& block,
+                  std::uint64_t seed) {
+  HeldOut result;
+  if (tool_mm.empty()) return result;
+  std::vector<double> size;
+  for (const auto& e : tool_mm) size.push_back(e.norm());
+  result.rms_mm = rms_length(tool_mm);
+  std::vector<double> sorted = size;
+  std::sort(sorted.begin(), sorted.end());
+  const auto at = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(sorted.size())));
+  result.percentile_95_mm = sorted[std::max<std::size_t>(at, 1) - 1];
+  const std::size_t blocks = 1 + *std::max_element(block.begin(), block.end());
+  std::vector<double> sum(blocks, 0.0);
+  std::vector<double> count(blocks, 0.0);
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    sum[block[i]] += size[i] * size[i];
+    count[block[i]] += 1.0;
+  }
+  constexpr int kDraws = 400;  // the 5th and 95th percentile to a tenth of the interval
+  constexpr std::uint64_t kStream = 62;
+  synthetic::Random random(seed, kStream);
+  std::vector<double> drawn;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    double s = 0.0;
+    double n = 0.0;
+    for (std::size_t b = 0; b < blocks; ++b) {
+      const std::size_t k = random.below(blocks);
+      s += sum[k];
+      n += count[k];
+    }
+    drawn.push_back(n > 0.0 ? std::sqrt(s / n) : 0.0);
+  }
+  std::sort(drawn.begin(), drawn.end());
+  result.low_mm = drawn[kDraws / 20];
+  result.high_mm = drawn[kDraws - 1 - kDraws / 20];
+  return result;
+}
+
+std::optional<HeldOutImprovement> measure_improvement(const Analysis& a) {
+  const HeldOutBlocks blocks = held_out_blocks(a.session);
+  if (blocks.units.empty()) return std::nullopt;
+  HeldOutImprovement improvement;
+  std::vector<std::size_t> units;
+  std::vector<std::size_t> number;
+  Errors all;
+  for (std::size_t b = 0; b < blocks.units.size(); ++b) {
+    const double share = static_cast<double>(b) / static_cast<double>(blocks.units.size());
+    tell(a.options.progress, {"what a name gains, block by block", 3, 4, share});
+    const Fold fold = hold_out(a, blocks.units[b]);
+    improvement.folds += 1;
+    improvement.folds_agree += names_agree(fold, a) ? 1 : 0;
+    units.insert(units.end(), fold.units.begin(), fold.units.end());
+    number.insert(number.end(), fold.units.size(), b);
+    append(fold.errors, all);
+  }
+  if (units.empty()) return std::nullopt;
+  const std::uint64_t seed = a.options.seed;
+  const BeforeCalibration before = before_calibration(a, units);
+  improvement.uncalibrated = summarise(before.as_stated, number, seed);
+  if (!before.placed.empty()) improvement.placed = summarise(before.placed, number, seed);
+  improvement.calibrated = summarise(all.calibrated, number, seed);
+  improvement.surface_only = summarise(all.surface_only, number, seed);
+  const Extension extension = extension_of(a, all);
+  improvement.scheme = scheme_of(a.session, blocks, extension.naming_repeated);
+  improvement.extended = summarise(*extension.machine, number, seed);
+  improvement.extended_and_surface = summarise(*extension.and_surface, number, seed);
+  improvement.noise_floor_mm = noise_floor(a, units);
+  if (extension.helps) {
+    const ExpectedImprovement expected = expected_improvement(a);
+    improvement.drop_mm2 = expected.drop_mm2;
+    improvement.drop_share = expected.share;
+  }
+  const auto edge = border(a, blocks.of_the_bed);
+  if (a.session.units.size() - edge.size() >= a.session.fewest_units) {
+    const Errors outer = hold_out(a, edge).errors;
+    improvement.border = {rms_length(outer.calibrated),
+                   rms_length(outer.extended),
+                   rms_length(outer.extended_and_surface),
+                   rms_length(outer.surface_only)};
+  }
+  return improvement;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/input_checks/distance_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "grid/input_checks/number_checks.hpp"
+#include "grid/input_checks/robust_trend.hpp"
+
+namespace chaintrue::grid::input_checks {
+namespace {
+
+/// Sheet right and up, its turn, three strains, the tape's zero offset.
+constexpr Eigen::Index kDistanceBasis = 7;
+/// One sigma of each: a sheet laid by hand; machines err by 3 mm a metre before they are calibrated.
+constexpr double kSheetMm = 10.0;
+constexpr double kPerMetreMm = 5.0;
+constexpr double kTapeZeroMm = 3.0;
+constexpr double kMetreMm = 1000.0;
+/// Chi-square of seven coefficients: one set in a thousand.
+constexpr double kOddDistances = 25.0;
+/// Half of the distances this far off, and no error that explains it.
+constexpr double kStrangeDistancesMm = 60.0;
+
+Eigen::RowVectorXd basis_of(const MeasuredHoles& set, const HoleDistance& distance) {
+  const model::BedPoint from = set.holes[distance.from].commanded;
+  Eigen::RowVectorXd basis = Eigen::RowVectorXd::Zero(kDistanceBasis);
+  basis[6] = 1.0;
+  if (!distance.edge) {
+    const model::BedPoint to = set.holes[distance.to].commanded;
+    const double length = std::max(1.0, std::hypot(to.x_mm - from.x_mm, to.y_mm - from.y_mm));
+    const double x = (to.x_mm - from.x_mm) / length;
+    const double y = (to.y_mm - from.y_mm) / length;
+    const double metres = length / kMetreMm;
+    basis[3] = metres * x * x;
+    basis[4] = metres * y * y;
+    basis[5] = metres * x * y;
+    return basis;
+  }
+  const double x = from.x_mm / kMetreMm;
+  const double y = from.y_mm / kMetreMm;
+  const bool is_sideways = *distance.edge == SheetEdge::left || *distance.edge == SheetEdge::right;
+  const double sign =
+      *distance.edge == SheetEdge::left || *distance.edge == SheetEdge::bottom ? 1.0 : -1.0;
+  basis[is_sideways ? 0 : 1] = sign;
+  basis[2] = is_sideways ? -sign * y : sign * x;
+  basis[is_sideways ? 3 : 4] = sign * (is_sideways ? x : y);
+  return basis;
+}
+
+Eigen::VectorXd distance_sigmas(const MeasuredHoles& set) {
+  Eigen::VectorXd sigma(kDistanceBasis);
+  const double tape_zero_mm = std::hypot(kTapeZeroMm, set.tape.tape_zero_offset_sigma_mm.value_or(0.0));
+  sigma << kSheetMm, kSheetMm, kSheetMm, kPerMetreMm, kPerMetreMm, kPerMetreMm, tape_zero_mm;
+  return sigma;
+}
+
+RobustTrend distances_trend(const MeasuredHoles& set) {
+  const auto n = static_cast<Eigen::Index>(set.distances.size());
+  Eigen::MatrixXd basis(n, kDistanceBasis);
+  Eigen::MatrixXd off(n, 1);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const HoleDistance& distance = set.distances[static_cast<std::size_t>(i)];
+    basis.row(i) = basis_of(set, distance);
+    off(i, 0) = length_of(set, distance) - commanded_mm(set, distance);
+  }
+  return robust_trend(basis, distance_sigmas(set), off);
+}
+
+Account distances_account(const MeasuredHoles& set) {
+  const RobustTrend trend = distances_trend(set);
+  return {trend.log_likelihood, trend.median_residual_mm(), trend.prior_chi_square};
+}
+
+class Attempts {
+ public:
+  explicit Attempts(const MeasuredHoles& set) : set_(set) {}
+
+  void add(std::string sentence, const std::function<void(MeasuredHoles&)>& mend) {
+    MeasuredHoles meant = set_;
+    mend(meant);
+    candidates_.push_back({std::move(sentence), distances_account(meant)});
+  }
+  [[nodiscard]] std::vector<Candidate>& candidates() { return candidates_; }
+
+ private:
+  const MeasuredHoles& set_;
+  std::vector<Candidate> candidates_;
+};
+
+void scale_distances(MeasuredHoles& set, double factor) {
+  for (HoleDistance& distance : set.distances) distance.distance_mm *= factor;
+}
+
+void scale_holes(MeasuredHoles& set, double factor) {
+  for (Hole& hole : set.holes) {
+    hole.commanded.x_mm *= factor;
+    hole.commanded.y_mm *= factor;
+  }
+}
+
+void add_units(Attempts& attempts) {
+  const auto unit = [&](const char* word, double factor) {
+    attempts.add(fmt::format("all numbers in mm; the distances look like {}, the holes' x_mm and "
+                             "y_mm like mm (multiply the distances by {:g})",
+                             word,
+                             factor),
+                 [=](MeasuredHoles& set) { scale_distances(set, factor); });
+    attempts.add(fmt::format("all numbers in mm; the holes' x_mm and y_mm look like {}, the "
+                             "distances like mm (multiply the holes by {:g})",
+                             word,
+                             factor),
+                 [=](MeasuredHoles& set) { scale_holes(set, factor); });
+  };
+  unit("inches", kMmPerInch);
+  unit("centimetres", 10.0);
+  unit("metres", 1000.0);
+}
+
+void add_axes(Attempts& attempts) {
+  const auto holes = [&](const char* words, model::BedPoint (*meant)(model::BedPoint)) {
+    attempts.add(words, [meant](MeasuredHoles& set) {
+      for (Hole& hole : set.holes) hole.commanded = meant(hole.commanded);
+    });
+  };
+  holes("+x to the right: the sign of the holes' x_mm looks turned round, or the edges left and "
+        "right exchanged",
+        [](model::BedPoint p) { return model::BedPoint{-p.x_mm, p.y_mm}; });
+  holes("+y up the sheet: the sign of the holes' y_mm looks turned round, or the edges top and "
+        "bottom exchanged",
+        [](model::BedPoint p) { return model::BedPoint{p.x_mm, -p.y_mm}; });
+  holes("+x to the right and +y up: the signs of the holes' x_mm and y_mm look turned round, or the "
+        "edges exchanged across",
+        [](model::BedPoint p) { return model::BedPoint{-p.x_mm, -p.y_mm}; });
+  holes("x_mm to the right and y_mm up the sheet; the holes' two columns look swapped",
+        [](model::BedPoint p) { return model::BedPoint{p.y_mm, p.x_mm}; });
+}
+
+/// A hole under another name, or written down wrongly, makes every distance from it wrong.
+void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Attempts& attempts) {
+  for (std::size_t h = 0; h < set.holes.size(); ++h) {
+    std::size_t of_it = 0;
+    for (std::size_t i = 0; i < set.distances.size(); ++i) {
+      const HoleDistance& distance = set.distances[i];
+      const bool ends = distance.from == h || (!distance.edge && distance.to == h);
+      of_it += is_gross[i] && ends ? 1 : 0;
+    }
+    if (of_it < 2) continue;
+    const std::string& name = set.holes[h].name;
+    const auto number = [&](const char* axis, double model::BedPoint::*of) {
+      const double written = set.holes[h].commanded.*of;
+      for (const NumberError& slip : number_errors(written, true)) {
+        attempts.add(fmt::format("the command that hole {} was cut at; its {} is {}: {}",
+                                 name,
+                                 axis,
+                                 digits_of(written),
+                                 slip.question),
+                     [=](MeasuredHoles& meant) { meant.holes[h].commanded.*of = slip.value; });
+        attempts.candidates().back().account.log_likelihood -= slip.penalty;
+      }
+    };
+    number("x_mm", &model::BedPoint::x_mm);
+    number("y_mm", &model::BedPoint::y_mm);
+    attempts.add(
+        fmt::format("the command that hole {} was cut at; are its x_mm and y_mm swapped?", name),
+        [=](MeasuredHoles& meant) {
+          std::swap(meant.holes[h].commanded.x_mm, meant.holes[h].commanded.y_mm);
+        });
+    for (std::size_t other = 0; other < h; ++other) {
+      attempts.add(fmt::format("each hole under its own name; {} and {} look exchanged",
+                               set.holes[other].name,
+                               name),
+                   [=](MeasuredHoles& meant) {
+                     std::swap(meant.holes[h].commanded, meant.holes[other].commanded);
+                   });
+    }
+  }
+}
+
+/// From which distance on each was written in the line after, or before, its own.
+void add_row_errors(const MeasuredHoles& set, std::vector<Candidate>& candidates) {
+  constexpr double kCoarseMm = 10.0;
+  constexpr double kLostMm = 1000.0;
+  const auto count = static_cast<std::ptrdiff_t>(set.distances.size());
+  for (const std::ptrdiff_t by : {-1, 1}) {
+    const auto density = [&](std::ptrdiff_t reading, std::ptrdiff_t of) {
+      if (of < 0 || of >= count) return log_density_of(kLostMm, kCoarseMm, 1);
+      return log_density_of(length_of(set, set.distances[static_cast<std::size_t>(reading)]) -
+                                commanded_mm(set, set.distances[static_cast<std::size_t>(of)]),
+                            kCoarseMm,
+                            1);
+    };
+    std::ptrdiff_t from = count - 1;
+    double best = -1.0;
+    double sum = 0.0;
+    for (std::ptrdiff_t i = count; i-- > 0;) {
+      sum += density(i, i + by) - density(i, i);
+      if (sum > best) {
+        best = sum;
+        from = i;
+      }
+    }
+    MeasuredHoles meant = set;
+    for (std::ptrdiff_t i = from; i < count; ++i) {
+      const std::ptrdiff_t of = i + by;
+      if (of < 0 || of >= count) continue;  // one row stays off
+      HoleDistance& to = meant.distances[static_cast<std::size_t>(i)];
+      const double read = to.distance_mm;
+      to = set.distances[static_cast<std::size_t>(of)];
+      to.distance_mm = read;
+    }
+    candidates.push_back(
+        {fmt::format("each distance beside its own two holes: from here on they fit the line {}; is "
+                     "one left out or written twice?",
+                     by < 0 ? "before" : "after"),
+         distances_account(meant),
+         static_cast<std::size_t>(from)});
+  }
+}
+
+struct DistanceRows {
+  const MeasuredHoles& set;
+  const RobustTrend& trend;
+
+  [[nodiscard]] double residual_mm(std::size_t row) const {
+    return trend.residual_mm[static_cast<Eigen::Index>(row)];
+  }
+  [[nodiscard]] bool is_gross(std::size_t row) const {
+    return residual_mm(row) > std::max(kGrossMm, kGrossScales * trend.scale_mm);
+  }
+  [[nodiscard]] double off_of(const HoleDistance& meant) const {
+    return std::abs(length_of(set, meant) - commanded_mm(set, meant) -
+                    (basis_of(set, meant) * trend.coefficients)(0, 0));
+  }
+
+  [[nodiscard]] std::string question_of(std::size_t row) const {
+    const HoleDistance& written = set.distances[row];
+    std::string best;
+    double most = log_density_of(residual_mm(row), trend.scale_mm, 1) + kThreeTimes;
+    const auto weigh = [&](const HoleDistance& meant, std::string question, double penalty) {
+      const double likely = log_density_of(off_of(meant), trend.scale_mm, 1) - penalty;
+      if (likely <= most) return;
+      most = likely;
+      best = std::move(question);
+    };
+    const auto value = [&](double distance_mm, std::string question, double penalty) {
+      HoleDistance meant = written;
+      meant.distance_mm = distance_mm;
+      weigh(meant, std::move(question), penalty);
+    };
+    // One number here, four in a row of points.
+    constexpr double kFewer = 1.4;
+    constexpr double kTwice = 0.7;
+    const double d = written.distance_mm;
+    value(0.5 * d, fmt::format("was it taped twice over, {:.10g} mm?", 0.5 * d), kTwice);
+    value(2.0 * d, fmt::format("was only half of it taped, of {:.10g} mm?", 2.0 * d), kTwice);
+    for (const NumberError& slip : number_errors(d, false))
+      value(slip.value, slip.question, slip.penalty - kFewer);
+    others(written, weigh);
+    return best;
+  }
+
+  template <class Weigh>
+  void others(const HoleDistance& written, const Weigh& weigh) const {
+    const double each = std::log(2.0 * static_cast<double>(set.holes.size()));
+    if (written.edge) {
+      for (const SheetEdge edge : kSheetEdges) {
+        HoleDistance meant = written;
+        meant.edge = edge;
+        if (edge != *written.edge)
+          weigh(meant, fmt::format("is it to the {} edge?", name(edge)), each);
+      }
+      return;
+    }
+    for (std::size_t h = 0; h < set.holes.size(); ++h) {
+      if (h == written.from || h == written.to) continue;
+      for (const auto& [from, to] : {std::pair(written.from, h), std::pair(h, written.to)}) {
+        HoleDistance meant = written;
+        meant.from = from;
+        meant.to = to;
+        weigh(meant, fmt::format("is it {}?", words_of(set, meant)), each);
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<RowFinding> findings() const {
+    std::vector<RowFinding> found;
+    for (std::size_t row = 0; row < set.distances.size(); ++row) {
+      if (!is_gross(row)) continue;
+      const std::string question = question_of(row);
+      if (question.empty()) continue;
+      found.push_back({row,
+                       fmt::format("{} is {} off what the others tell: {}",
+                                   words_of(set, set.distances[row]),
+                                   length_in_words(residual_mm(row)),
+                                   question)});
+    }
+    return found;
+  }
+};
+
+}  // namespace
+
+Findings check_distances(const MeasuredHoles& set) {
+  if (set.distances.empty()) return {};
+  const RobustTrend trend = distances_trend(set);
+  const DistanceRows rows{set, trend};
+  std::vector<bool> is_gross;
+  for (std::size_t i = 0; i < set.distances.size(); ++i) is_gross.push_back(rows.is_gross(i));
+  const double median_mm = trend.median_residual_mm();
+  const bool is_odd = trend.prior_chi_square > kOddDistances || median_mm > kSoundMm ||
+                      std::find(is_gross.begin(), is_gross.end(), true) != is_gross.end();
+  if (!is_odd) return {};
+  Attempts attempts(set);
+  add_units(attempts);
+  add_axes(attempts);
+  add_holes(set, is_gross, attempts);
+  std::vector<Candidate>& candidates = attempts.candidates();
+  add_row_errors(set, candidates);
+  const std::size_t tried = candidates.size() + 2 * set.distances.size();
+  const Account plain{trend.log_likelihood, median_mm, trend.prior_chi_square};
+  Findings findings;
+  findings.whole = whole_finding(
+      std::move(candidates),
+      plain,
+      tried,
+      kOddDistances,
+      fmt::format("distances {} off what was commanded (the median)", length_in_words(median_mm)));
+  if (findings.whole) return findings;
+  findings.rows = rows.findings();
+  constexpr std::size_t kFewestForStrangers = 6;
+  if (set.distances.size() >= kFewestForStrangers && median_mm > kStrangeDistancesMm &&
+      !suspected_tape_zero_offset_mm(set)) {
+    findings.whole =
+        WholeFinding{std::nullopt,
+                     fmt::format("half of the distances over {} off the commands",
+                                 length_in_words(median_mm)),
+                     "distances between these holes; are they of another sheet, or of other holes?",
+                     false};
+  }
+  return findings;
+}
+
+}  // namespace chaintrue::grid::input_checks

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a person may have meant who wrote one number down wrongly.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace chaintrue::grid::input_checks {
+
+inline constexpr double kMmPerInch = 25.4;
+inline constexpr double kMmPerFoot = 304.8;
+/// Where a tape without its hook is held.
+inline constexpr double kTapeMarkMm = 100.0;
+
+struct NumberError {
+  double value = 0.0;  ///< what may have been meant
+  /// "is the minus missing?", "is it 563.5 rather than 536.5?"
+  std::string question;
+  /// Logarithm of the number of values that errors of this kind offer: the penalty of one that fits by chance.
+  double penalty = 0.0;
+};
+
+/// A lost or needless minus, digits exchanged, dropped, doubled or wrong, the point at another
+/// place, the tape's 100 mm mark or a foot, inches. `is_signed` is false for lengths.
+[[nodiscard]] std::vector<NumberError> number_errors(double written, bool is_signed);
+
+/// The shortest decimal text of a number.
+[[nodiscard]] std::string digits_of(double value);
+
+}  // namespace chaintrue::grid::input_checks

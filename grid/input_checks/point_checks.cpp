@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/input_checks/point_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "grid/input_checks/point_accounts.hpp"
+#include "grid/input_checks/row_checks.hpp"
+#include "grid/input_checks/whole_checks.hpp"
+#include "grid/statistics.hpp"
+
+namespace chaintrue::grid::input_checks {
+namespace {
+
+using Points = std::vector<MeasuredPoint>;
+using Places = std::vector<Place>;
+
+/// Chi-square of the trend's twelve coefficients: the 98th percentile.
+constexpr double kOddPoints = 25.0;
+/// Half of the points this far off, and no error that explains it: marks and readings of two lists.
+constexpr double kStrangePointsMm = 60.0;
+constexpr std::size_t kFewestStrangePoints = 6;
+/// So many rows show an error of the whole file as well as all do.
+constexpr std::size_t kMostLookedAt = 200;
+constexpr double kRepeatMm = 30.0;
+
+Account account_of(const PointAccounts& accounts, const Points& points, const Places& places) {
+  const RobustTrend trend = accounts.account(points, places);
+  return {trend.log_likelihood, trend.median_residual_mm(), trend.prior_chi_square};
+}
+
+/// Of points a file may have ten thousand.
+std::vector<std::size_t> looked_at(std::size_t count) {
+  const std::size_t few = std::min(count, kMostLookedAt);
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < few; ++i) rows.push_back(i * count / few);
+  return rows;
+}
+
+void try_whole_errors(const PointAccounts& accounts,
+                     const MeasuredGrid& grid,
+                     const Points& points,
+                     const Places& places,
+                     std::vector<Candidate>& candidates) {
+  for (const WholeError& slip : whole_errors(grid)) {
+    Points meant = points;
+    for (std::size_t i = 0; i < meant.size(); ++i) {
+      slip.mend(meant[i],
+                places[i].value_or(model::BedPoint{meant[i].mark.x_mm, meant[i].mark.y_mm}));
+    }
+    const Places then = slip.mends_readings ? accounts.places_of(meant) : places;
+    candidates.push_back(
+        {slip.sentence, account_of(accounts, meant, then), std::nullopt, slip.is_doubtful});
+  }
+}
+
+/// From which row on each reading belongs to the mark `by` rows later, if any: where
+/// sum_(i >= k) log p(shifted) - log p(as it stands) is largest.
+std::size_t errors_from(const Points& points, const Places& places, std::ptrdiff_t by) {
+  constexpr double kCoarseMm = 20.0;  // before a trend is known
+  const auto density = [&](std::size_t row, std::ptrdiff_t of) {
+    const bool is_there = of >= 0 && of < static_cast<std::ptrdiff_t>(places.size()) &&
+                          places[static_cast<std::size_t>(of)];
+    constexpr double kLostMm = 1000.0;
+    if (!is_there) return log_density_of(kLostMm, kCoarseMm, 2);
+    const model::BedPoint place = *places[static_cast<std::size_t>(of)];
+    const model::MarkPoint mark = points[row].mark;
+    return log_density_of(
+        std::hypot(mark.x_mm - place.x_mm, mark.y_mm - place.y_mm), kCoarseMm, 2);
+  };
+  std::size_t from = 0;
+  double best = -1.0;
+  double sum = 0.0;
+  for (std::size_t i = points.size(); i-- > 0;) {
+    const auto row = static_cast<std::ptrdiff_t>(i);
+    sum += density(i, row + by) - density(i, row);
+    if (sum > best) {
+      best = sum;
+      from = i;
+    }
+  }
+  // A row that was lost on the way belongs to what has slipped.
+  constexpr double kOffMm = 60.0;
+  const double lost = log_density_of(kOffMm, kCoarseMm, 2);
+  while (from > 0 && density(from - 1, static_cast<std::ptrdiff_t>(from) - 1) < lost) --from;
+  return from;
+}
+
+void try_row_errors(const PointAccounts& accounts,
+                   const Points& points,
+                   const Places& places,
+                   std::string_view readings,
+                   std::vector<Candidate>& candidates) {
+  for (const std::ptrdiff_t by : {-1, 1}) {
+    const std::size_t from = errors_from(points, places, by);
+    // One row alone is no slipped list, and the last one of all may have no other.
+    constexpr std::size_t kFewestRows = 3;
+    if (places.size() < from + kFewestRows) continue;
+    Places slipped = places;
+    for (std::size_t i = from; i < places.size(); ++i) {
+      const auto of = static_cast<std::ptrdiff_t>(i) + by;
+      const bool is_there = of >= 0 && of < static_cast<std::ptrdiff_t>(places.size());
+      slipped[i] = is_there ? places[static_cast<std::size_t>(of)] : std::nullopt;
+    }
+    candidates.push_back(
+        {fmt::format("each mark with its own {}: from here on x_mm and y_mm fit those of the line "
+                     "{}; is a line {}?",
+                     readings,
+                     by < 0 ? "before" : "after",
+                     by < 0 ? "written twice, or one left out of the other columns"
+                            : "left out, or one written twice in the other columns"),
+         account_of(accounts, points, slipped),
+         from});
+  }
+  Places reversed = places;
+  std::reverse(reversed.begin(), reversed.end());
+  candidates.push_back({fmt::format("each mark with its own {}: the lines look as if one of the "
+                                    "lists runs from its end to its beginning",
+                                    readings),
+                        account_of(accounts, points, reversed),
+                        std::nullopt});
+}
+
+/// Every mark to the place nearest to it, where that takes each place once.
+std::optional<Places> places_nearest(const Points& points, const Places& places) {
+  Places nearest;
+  std::vector<bool> taken(places.size(), false);
+  for (const MeasuredPoint& point : points) {
+    std::optional<std::size_t> best;
+    double least = 0.0;
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      if (!places[j] || taken[j]) continue;
+      const double apart =
+          std::hypot(point.mark.x_mm - places[j]->x_mm, point.mark.y_mm - places[j]->y_mm);
+      if (best && apart >= least) continue;
+      best = j;
+      least = apart;
+    }
+    if (!best) return std::nullopt;
+    taken[*best] = true;
+    nearest.push_back(places[*best]);
+  }
+  return nearest;
+}
+
+void try_other_order(const PointAccounts& accounts,
+                     const Points& points,
+                     const Places& places,
+                     std::string_view readings,
+                     std::vector<Candidate>& candidates) {
+  const auto nearest = places_nearest(points, places);
+  if (!nearest) return;
+  Account account = account_of(accounts, points, *nearest);
+  account.log_likelihood -= std::lgamma(static_cast<double>(points.size()) + 1.0);  // orders
+  candidates.push_back({fmt::format("each mark with its own {}: the marks are those of other lines; "
+                                    "are the two lists sorted differently?",
+                                    readings),
+                        account,
+                        std::nullopt});
+}
+
+std::optional<WholeFinding> strangers(const Account& plain, std::size_t count) {
+  if (count < kFewestStrangePoints || plain.median_mm < kStrangePointsMm) return std::nullopt;
+  return WholeFinding{
+      std::nullopt,
+      std::isfinite(plain.median_mm)
+          ? fmt::format("half of the points over {:.0f} mm off the machine", plain.median_mm)
+          : std::string("readings that the machine cannot have"),
+      "marks and readings of one list and one machine, which no usual slip of the pen makes of "
+      "these; are they of another sheet, another list or another machine?",
+      false};
+}
+
+std::string_view readings_of(const MeasuredGrid& grid) {
+  return grid.points.front().lengths ? "lengths" : "command";
+}
+
+std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
+                                          const MeasuredGrid& grid,
+                                          const Places& places,
+                                          const RobustTrend& trend) {
+  const Points& all = grid.points;
+  Points points;
+  Places at;
+  for (const std::size_t row : looked_at(all.size())) {
+    points.push_back(all[row]);
+    at.push_back(places[row]);
+  }
+  const Account plain = account_of(accounts, points, at);
+  std::vector<Candidate> candidates;
+  try_whole_errors(accounts, grid, points, at, candidates);
+  try_other_order(accounts, points, at, readings_of(grid), candidates);
+  // Neighbours in the file are needed for these, and with all rows their own account of as it is.
+  const Account plain_of_all{
+      trend.log_likelihood, trend.median_residual_mm(), trend.prior_chi_square};
+  std::vector<Candidate> of_all;
+  try_row_errors(accounts, all, places, readings_of(grid), of_all);
+  const double scale = plain.log_likelihood - plain_of_all.log_likelihood;
+  for (Candidate& candidate : of_all) {
+    candidate.account.log_likelihood += scale;
+    candidates.push_back(std::move(candidate));
+  }
+  const std::size_t tried = candidates.size() + 2 * all.size();
+  auto finding = whole_finding(
+      std::move(candidates),
+      plain,
+      tried,
+      kOddPoints,
+      std::isfinite(plain.median_mm)
+          ? fmt::format("marks {} off where the machine puts them (the median)",
+                        length_in_words(plain.median_mm))
+          : std::string("readings that the machine cannot have"));
+  if (finding && finding->from_row) {
+    const auto from = static_cast<Eigen::Index>(*finding->from_row);
+    std::vector<double> residual_mm;
+    for (Eigen::Index i = from; i < trend.residual_mm.size(); ++i) residual_mm.push_back(trend.residual_mm[i]);
+    finding->found = fmt::format("marks {} off the machine from here on (the median)",
+                                 length_in_words(median(std::move(residual_mm))));
+  }
+  if (finding) return finding;
+  return strangers(plain_of_all, all.size());
+}
+
+std::string capitalised(std::string text) {
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+std::string number_of(const MeasuredGrid& grid, std::size_t row) {
+  return fmt::format("{}", grid.points[row].order.value_or(static_cast<int>(row) + 1));
+}
+
+/// How far apart the marks are of this row and of the one nearest to it by its reading.
+std::optional<double> apart_from_its_repeat(const Points& points,
+                                            const Places& places,
+                                            std::size_t row) {
+  std::optional<double> apart;
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    if (j == row || !places[j]) continue;
+    const model::BedPoint a = *places[row];
+    const model::BedPoint b = *places[j];
+    if (std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm) > kRepeatMm) continue;
+    const model::MarkPoint m = points[row].mark;
+    apart = std::hypot(m.x_mm - points[j].mark.x_mm, m.y_mm - points[j].mark.y_mm);
+  }
+  return apart;
+}
+
+struct PointRows {
+  const PointAccounts& accounts;
+  const MeasuredGrid& grid;
+  const Places& places;
+  const RobustTrend& trend;
+
+  [[nodiscard]] double off_of(const RowError& slip, std::size_t row) const {
+    const Place place = slip.mends_reading ? accounts.place_of(slip.meant) : places[row];
+    if (!place) return std::numeric_limits<double>::infinity();
+    return accounts.off(trend, slip.meant.mark, *place).norm();
+  }
+  [[nodiscard]] double residual_mm(std::size_t row) const {
+    return trend.residual_mm[static_cast<Eigen::Index>(row)];
+  }
+  [[nodiscard]] bool is_gross(std::size_t row) const {
+    // Of a machine that is stated decimetres off the trend is no more than a first guess.
+    constexpr double kGrossOfOddMm = 100.0;
+    const double least_mm = trend.prior_chi_square < kOddPoints ? kGrossMm : kGrossOfOddMm;
+    return residual_mm(row) > std::max(least_mm, kGrossScales * trend.scale_mm);
+  }
+  /// The likeliest error of the row, where its correction makes the row three times likelier.
+  [[nodiscard]] std::optional<RowError> best_of(std::size_t row) const {
+    constexpr double kLostMm = 2000.0;  // a row whose lengths no pose has
+    const double as_it_is =
+        log_density_of(std::min(residual_mm(row), kLostMm), trend.scale_mm, 2) + kThreeTimes;
+    std::optional<RowError> best;
+    double most = as_it_is;
+    for (RowError& slip : row_errors(grid.points[row])) {
+      const double likely =
+          log_density_of(off_of(slip, row), trend.scale_mm, 2) - slip.penalty;
+      if (likely <= most) continue;
+      most = likely;
+      best = std::move(slip);
+    }
+    return best;
+  }
+  /// Another gross row whose mark this row's reading fits, and the other way round.
+  [[nodiscard]] std::optional<std::size_t> exchanged_with(std::size_t row,
+                                                          const std::vector<std::size_t>& gross) const {
+    const auto fits = [&](std::size_t reading, std::size_t mark) {
+      return places[reading] &&
+             accounts.off(trend, grid.points[mark].mark, *places[reading]).norm() <
+                 std::max(kSoundMm, 4.0 * trend.scale_mm);
+    };
+    for (const std::size_t other : gross) {
+      if (other != row && fits(row, other) && fits(other, row)) return other;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] RowFinding words_of(std::size_t row, const RowError& slip) const {
+    const std::string number = number_of(grid, row);
+    const model::MarkPoint mark = grid.points[row].mark;
+    const auto& motors = grid.machine->motors;
+    if (mark.y_mm > std::min(motors.left.y_mm, motors.right.y_mm) && !accounts.can_hold(mark)) {
+      return {row, fmt::format("Mark {} lies above the motors: {}", number, slip.question), true};
+    }
+    if (!accounts.can_hold(mark)) {
+      return {row,
+              fmt::format("Mark {} lies where the machine cannot hold the sled: {}",
+                          number,
+                          slip.question),
+              true};
+    }
+    const auto apart = places[row] ? apart_from_its_repeat(grid.points, places, row) : std::nullopt;
+    const std::string question = slip.number.empty()
+                                     ? capitalised(slip.question)
+                                     : fmt::format("{}: {}", slip.number, slip.question);
+    if (apart && *apart > kGrossMm) {
+      return {row,
+              fmt::format(
+                  "Mark {} was measured twice, {} apart. {}", number, length_in_words(*apart), question),
+              false};
+    }
+    if (!std::isfinite(residual_mm(row))) {
+      return {row, fmt::format("Mark {} has lengths that the machine cannot have. {}", number, question), false};
+    }
+    return {row,
+            fmt::format("Mark {} lies {} off where the others put it. {}",
+                        number,
+                        length_in_words(residual_mm(row)),
+                        question),
+            false};
+  }
+
+  [[nodiscard]] std::vector<RowFinding> findings() const {
+    constexpr std::size_t kMostNamed = 200;
+    std::vector<std::size_t> gross;
+    for (std::size_t row = 0; row < grid.points.size(); ++row) {
+      if (is_gross(row) && gross.size() < kMostNamed) gross.push_back(row);
+    }
+    std::vector<RowFinding> found;
+    for (const std::size_t row : gross) {
+      if (const auto other = exchanged_with(row, gross)) {
+        found.push_back({row,
+                         fmt::format("Marks {} and {} look exchanged: each lies where the other "
+                                     "one's reading puts it.",
+                                     number_of(grid, row),
+                                     number_of(grid, *other)),
+                         false});
+        continue;
+      }
+      if (const auto slip = best_of(row)) found.push_back(words_of(row, *slip));
+    }
+    return found;
+  }
+};
+
+}  // namespace
+
+Findings check_points(const MeasuredGrid& grid) {
+  if (!grid.machine || !model::problems_of(*grid.machine).empty() || grid.points.empty()) return {};
+  const PointAccounts accounts(grid);
+  const Places places = accounts.places_of(grid.points);
+  const RobustTrend trend = accounts.account(grid.points, places);
+  const PointRows rows{accounts, grid, places, trend};
+  bool is_odd = trend.prior_chi_square > kOddPoints || trend.median_residual_mm() > kSoundMm;
+  for (std::size_t row = 0; row < grid.points.size(); ++row) is_odd = is_odd || rows.is_gross(row);
+  if (!is_odd) return {};
+  Findings findings;
+  findings.whole = of_the_file(accounts, grid, places, trend);
+  if (!findings.whole || findings.whole->is_doubtful) findings.rows = rows.findings();
+  return findings;
+}
+
+}  // namespace chaintrue::grid::input_checks
