@@ -4,7 +4,7 @@
 /// and places once more, chosen as next_measurements.hpp chooses points. Private to grid/diagnosis.
 ///
 /// A place that was not measured yet gives two checks Q' y, predicted by each alternative
-/// (outlook.hpp) with its anchors, causes and pattern.
+/// (expected_discrimination.hpp) with its anchors, causes and pattern.
 #pragma once
 
 #include "grid/diagnosis/belts_analysis.hpp"

@@ -3,7 +3,7 @@
 /// Four belts as a linearised system: from here on there are rows and units, and no word of belts.
 /// Private to grid/diagnosis.
 ///
-/// Each place whose coordinates nobody knows leaves two checks of its four readings (belts_beside.hpp),
+/// Each place whose coordinates nobody knows leaves two checks of its four readings (belts_given_causes.hpp),
 /// which are a unit of two rows Q' (...). A single reading e_b of belt b spoils the direction Q' e_b of
 /// them, an outlier group each; two readings of a place take both.
 ///

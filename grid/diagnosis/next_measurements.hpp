@@ -2,7 +2,7 @@
 /// \file
 /// What to measure next so that the leading hypotheses part.
 ///
-/// Chosen one after the other to make the confusion that is left (outlook.hpp) smallest.
+/// Chosen one after the other to make the confusion that is left (expected_discrimination.hpp) smallest.
 #pragma once
 
 #include <vector>

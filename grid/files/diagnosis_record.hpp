@@ -33,7 +33,7 @@ namespace chaintrue::grid::files {
 /// Positions on the bed; diagnosis_point_record.cpp.
 [[nodiscard]] const Record<diagnosis::NextMeasurement>& next_measurement_record();
 [[nodiscard]] const Record<diagnosis::PointPicture>& point_picture_record();
-/// Both contain held-out errors row by row; diagnosis_gain_record.cpp.
+/// Both contain held-out errors row by row; diagnosis_improvement_record.cpp.
 [[nodiscard]] const Record<diagnosis::HeldOutImprovement>& improvement_record();
 [[nodiscard]] const Record<diagnosis::Transfer>& transfer_record();
 
