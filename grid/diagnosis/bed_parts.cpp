@@ -23,6 +23,15 @@ constexpr double kOnALine = 1e-3;
 /// neighbouring discrepancies.
 constexpr FollowedModels kFollowed{
     .within = 16.0, .most = 1000, .discrepancy_share = 0.002, .most_discrepancies = 30};
+/// The cost of a discrepancy grows with the cube of the rows: of more than these the likeliest represent the rest.
+constexpr Eigen::Index kRowsForAllDiscrepancies = 500;
+constexpr std::size_t kDiscrepanciesOfMany = 6;
+
+FollowedModels followed_of(const RegressorSystem& system) {
+  FollowedModels result = kFollowed;
+  if (system.e.size() > kRowsForAllDiscrepancies) result.most_discrepancies = kDiscrepanciesOfMany;
+  return result;
+}
 
 struct UnitPlace {
   std::size_t unit = 0;
@@ -106,17 +115,17 @@ std::map<ModelKey, double> shares_of_patterns(const std::vector<const CandidateM
   return result;
 }
 
-/// Followed models with a pattern share anew what they have together; all others keep theirs.
-void share_anew(const std::map<ModelKey, double>& shares, ModelComparison& comparison) {
-  double together = 0.0;
-  for (const CandidateModel& model : comparison.models) {
-    if (shares.contains(key_of(model))) together += comparison.probability(model);
-  }
+/// Followed models share anew what all models with a pattern have together; those without keep theirs.
+void share_anew(const std::map<ModelKey, double>& shares,
+                double together,
+                ModelComparison& comparison) {
   // Of a model that no part bears out, so that its logarithm is a number.
   constexpr double kNothing = 1e-300;
   for (CandidateModel& model : comparison.models) {
     const auto found = shares.find(key_of(model));
-    const double p = found != shares.end() ? found->second * together : comparison.probability(model);
+    const double p = found != shares.end()     ? found->second * together
+                     : model.discrepancy >= 0 ? 0.0
+                                              : comparison.probability(model);
     model.log_weight = std::log(std::max(p, kNothing));
   }
   sort_by_weight(comparison);
@@ -162,13 +171,14 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
                                               std::size_t fewest,
                                               ModelComparison& comparison) {
   std::vector<PartPosterior> result;
-  const bool pattern = std::any_of(comparison.models.begin(),
-                                   comparison.models.end(),
-                                   [](const CandidateModel& model) { return model.discrepancy >= 0; });
-  if (!pattern) return result;
+  double pattern = 0.0;
+  for (const CandidateModel& model : comparison.models) {
+    if (model.discrepancy >= 0) pattern += comparison.probability(model);
+  }
+  if (pattern <= kDiscrepancyLikely) return result;
   std::vector<BedPart> parts = bed_parts(system, excluded, fewest);
   if (parts.empty()) return result;
-  const Downdating downdating(system, comparison, noise_dof, kFollowed);
+  const Downdating downdating(system, comparison, noise_dof, followed_of(system));
   const std::vector<const CandidateModel*> models = downdating.followed();
   std::vector<double> sum(models.size(), 0.0);
   for (BedPart& part : parts) {
@@ -176,7 +186,7 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
     for (std::size_t k = 0; k < own.size(); ++k) sum[k] += own[k];
     result.push_back(summary(system, models, own, std::move(part)));
   }
-  share_anew(shares_of_patterns(models, sum), comparison);
+  share_anew(shares_of_patterns(models, sum), pattern, comparison);
   return result;
 }
 
@@ -184,7 +194,7 @@ PartPosterior posterior_without(const RegressorSystem& system,
                                 double noise_dof,
                                 const ModelComparison& comparison,
                                 BedPart left_out) {
-  const Downdating downdating(system, comparison, noise_dof, kFollowed);
+  const Downdating downdating(system, comparison, noise_dof, followed_of(system));
   const std::vector<double> own = downdating.probabilities_without(left_out.units, CountAs::themselves);
   return summary(system, downdating.followed(), own, std::move(left_out));
 }

@@ -57,7 +57,7 @@ struct PartPosterior {
 };
 
 /// Puts averaged probabilities in place of the weights, and says what the parts make of the causes. The
-/// comparison stays as it is where no parts can be formed, or no model has a pattern.
+/// comparison stays as it is where no parts can be formed, or a pattern is no likelier than not.
 [[nodiscard]] std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
                                                             double noise_dof,
                                                             const std::vector<bool>& excluded,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "grid/diagnosis/findings.hpp"
@@ -68,11 +67,6 @@ std::string cause_words(const Diagnosis& d, const Hypothesis& one) {
   return one.effect;
 }
 
-std::string answer_words(const Diagnosis& d, const Hypothesis& one) {
-  if (one.effect == "nothing") return "no cause is likelier than not";
-  return fmt::format("it is {} ({})", cause_words(d, one), percent(one.probability));
-}
-
 bool is_named(const PartFinding& part, const Hypothesis& one) {
   return std::any_of(part.named.begin(), part.named.end(), [&](const Hypothesis& own) {
     return own.effect == one.effect && own.side == one.side;
@@ -90,32 +84,53 @@ bool denies(const Diagnosis& d, const PartFinding& part) {
   return !std::all_of(part.named.begin(), part.named.end(), holds);
 }
 
+/// One answer of several quarters.
+struct OtherAnswer {
+  std::string words;
+  std::vector<std::string_view> quarters;
+  double least = 1.0;
+  double most = 0.0;
+};
+
+/// What a quarter's absence changes: another cause is the likeliest, or one that is named is not likely.
+OtherAnswer answer_without(const Diagnosis& d, const PartFinding& part) {
+  const Hypothesis* lost = nullptr;
+  for (const Hypothesis& own : part.named) {
+    if (own.probability < kHolds && (lost == nullptr || own.probability < lost->probability))
+      lost = &own;
+  }
+  const Hypothesis& best = part.best_models;
+  if (best.effect == "nothing") return {"no cause is likelier than not", {}, best.probability, best.probability};
+  if (!is_named(part, best) || lost == nullptr)
+    return {fmt::format("it is {}", cause_words(d, best)), {}, best.probability, best.probability};
+  return {fmt::format("{} is not likely", cause_words(d, *lost)), {}, lost->probability, lost->probability};
+}
+
 std::string words_of_quarters(const Diagnosis& d) {
-  std::map<std::string, std::vector<std::string_view>> by_answer;
+  std::vector<OtherAnswer> answers;
   for (const PartFinding& part : d.bed_parts) {
     if (!denies(d, part)) continue;
-    const Hypothesis* lost = nullptr;
-    for (const Hypothesis& own : part.named) {
-      if (own.probability < kHolds && (lost == nullptr || own.probability < lost->probability))
-        lost = &own;
-    }
-    const bool other = !is_named(part, part.best_models);
-    std::string answer = other || lost == nullptr
-                             ? answer_words(d, part.best_models)
-                             : fmt::format("{} is not likely ({})",
-                                           cause_words(d, *lost),
-                                           percent(lost->probability));
-    auto& where = by_answer[std::move(answer)];
-    if (std::find(where.begin(), where.end(), quarter(part.towards_rad)) == where.end())
-      where.push_back(quarter(part.towards_rad));
+    const OtherAnswer own = answer_without(d, part);
+    const auto same = std::find_if(answers.begin(), answers.end(), [&](const OtherAnswer& other) {
+      return other.words == own.words;
+    });
+    OtherAnswer& answer = same != answers.end() ? *same : answers.emplace_back(own);
+    answer.least = std::min(answer.least, own.least);
+    answer.most = std::max(answer.most, own.most);
+    const std::string_view where = quarter(part.towards_rad);
+    if (std::find(answer.quarters.begin(), answer.quarters.end(), where) == answer.quarters.end())
+      answer.quarters.push_back(where);
   }
-  if (by_answer.empty()) return {};
-  std::string text;
-  for (const auto& [answer, where] : by_answer) {
-    text += text.empty() ? "Without the " : " Without the ";
-    text += fmt::format("{} quarter of the bed {}.", fmt::join(where, " or the "), answer);
+  std::vector<std::string> sentences;
+  for (const OtherAnswer& answer : answers) {
+    const std::string least = percent(answer.least);
+    const std::string most = percent(answer.most);
+    sentences.push_back(fmt::format("Without the {} quarter of the bed {} ({}).",
+                                    fmt::join(answer.quarters, " or the "),
+                                    answer.words,
+                                    least == most ? least : fmt::format("{} to {}", least, most)));
   }
-  return text;
+  return fmt::format("{}", fmt::join(sentences, " "));
 }
 
 /// Causes that only some sessions bear out by themselves.

@@ -113,13 +113,25 @@ TEST(BedParts, NoPartLeavesALine) {
   }
 }
 
-// Where nothing but noise and a cause is, the likelihood is right: nothing of it is averaged away.
-TEST(Averaging, KeepsTheModelsWithoutAPattern) {
+// Where nothing but noise and a cause is, the likelihood is right: nothing is averaged.
+TEST(Averaging, ChangesNothingWhereNoPatternStands) {
   const MeasuredGrid grid = session_of({kLongLeftOfParts}, 5);
   const Analysis whole = analysed(grid, false);
   const Analysis averaged = analysed(grid);
-  EXPECT_TRUE(whole.parts.empty());
-  EXPECT_EQ(averaged.parts.size(), 16U);
+  EXPECT_TRUE(averaged.parts.empty());
+  ASSERT_EQ(averaged.comparison.models.size(), whole.comparison.models.size());
+  for (std::size_t k = 0; k < whole.comparison.models.size(); ++k) {
+    EXPECT_EQ(averaged.comparison.models[k].regressors, whole.comparison.models[k].regressors);
+    EXPECT_EQ(averaged.comparison.models[k].log_weight, whole.comparison.models[k].log_weight);
+  }
+}
+
+// Given a pattern, each model without one keeps its probability.
+TEST(Averaging, KeepsTheModelsWithoutAPattern) {
+  const MeasuredGrid grid = with_ridge(session_of({kLongLeftOfParts}, 7, 10, 6), 1.0, 200.0);
+  const Analysis whole = analysed(grid, false);
+  const Analysis averaged = analysed(grid);
+  ASSERT_EQ(averaged.parts.size(), 16U);
   std::map<std::pair<std::vector<int>, std::size_t>, double> before;
   for (const CandidateModel& model : whole.comparison.models) {
     if (model.discrepancy < 0)

@@ -114,6 +114,8 @@ TEST(DiagnosisFile, HasItsKeysInTheOrderPromised) {
                           "stated_noise",
                           "stability",
                           "normal_plot",
+                          "bed_parts",
+                          "sessions",
                           "held_out_grid"));
   EXPECT_EQ(json["verdict"], "named");
   EXPECT_EQ(json["causes"][0]["effect"], "chain_pitch_error");
