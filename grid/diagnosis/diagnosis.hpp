@@ -306,7 +306,7 @@ struct PartFinding {
   double towards_rad = 0.0;  ///< where the quarter lies, from the middle; from x towards y
   std::string session;       ///< of one session its name; of a quarter empty
   std::size_t units = 0;     ///< of a quarter those left out, of a session its own
-  Hypothesis best_models;        ///< the likeliest cause, or "nothing" where none is likelier than not
+  Hypothesis likeliest;      ///< the likeliest cause, or "nothing" where none is likelier than not
   std::vector<Hypothesis> named;  ///< what is named, with its probability here
 };
 

@@ -35,13 +35,13 @@ PartFinding finding_of(const Analysis& a, const PartPosterior& part) {
   PartFinding result;
   result.towards_rad = part.left_out.towards_rad;
   result.units = part.left_out.units.size();
-  result.best_models = {"nothing", "", 1.0 - part.caused};
+  result.likeliest = {"nothing", "", 1.0 - part.caused};
   double most = kHolds;
   for (const CauseClass& members : a.decision.classes) {
     const double p = probability_of_class(part, members);
     if (p > most) {
       most = p;
-      result.best_models = hypothesis_of(members.front(), p);
+      result.likeliest = hypothesis_of(members.front(), p);
     }
   }
   for (const std::size_t index : a.decision.listed) {
@@ -99,7 +99,7 @@ OtherAnswer answer_without(const Diagnosis& d, const PartFinding& part) {
     if (own.probability < kHolds && (lost == nullptr || own.probability < lost->probability))
       lost = &own;
   }
-  const Hypothesis& best = part.best_models;
+  const Hypothesis& best = part.likeliest;
   if (best.effect == "nothing") return {"no cause is likelier than not", {}, best.probability, best.probability};
   if (!is_named(part, best) || lost == nullptr)
     return {fmt::format("it is {}", cause_words(d, best)), {}, best.probability, best.probability};

@@ -140,7 +140,7 @@ void part_keys(Record<PartFinding>& part) {
               object.units = static_cast<std::size_t>(*value);
           },
           [](const PartFinding& object) { return std::optional<Json>(object.units); })
-      .required("leading", &PartFinding::best_models, object(hypothesis_record()))
+      .required("leading", &PartFinding::likeliest, object(hypothesis_record()))
       .required("named", &PartFinding::named, list(object(hypothesis_record())));
 }
 

@@ -89,7 +89,7 @@ class RealScans : public testing::TestWithParam<Scan> {
   void SetUp() override {
     const std::filesystem::path data = CHAINTRUE_SHARED_DATA;
     if (!std::filesystem::exists(data / "optical_grid" / GetParam().file))
-      GTEST_SKIP() << "../shared/data is not beside this checkout: " << data / "optical_grid";
+      GTEST_SKIP() << "../shared/data is not part of a checkout and is not here: " << data / "optical_grid";
   }
 };
 

@@ -31,7 +31,7 @@ class RealBelts : public testing::TestWithParam<RealSet> {
   void SetUp() override {
     const std::filesystem::path folder = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4";
     if (!std::filesystem::exists(folder / GetParam().file)) {
-      GTEST_SKIP() << "../shared/data/maslow4 is not beside this checkout: " << folder;
+      GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here: " << folder;
     }
     files::Maslow4Options options;
     options.run = GetParam().run;
@@ -74,7 +74,7 @@ TEST_P(RealBelts, TheTwoConventionsOfThePrintDifferByLessThanTheHeights) {
 TEST(RealBeltSets, HalfOfARebuiltFrameForetellsTheOtherAsAnotherProgramFound) {
   const std::filesystem::path path =
       std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "frame_rebuilt.txt";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not beside this checkout";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
   const auto import = files::parse_maslow4(files::read_whole_file(path), "frame_rebuilt.txt");
   const auto fit = fit_belts(import.belts);
   ASSERT_TRUE(fit && fit->half_left_out);
@@ -85,7 +85,7 @@ TEST(RealBeltSets, HalfOfARebuiltFrameForetellsTheOtherAsAnotherProgramFound) {
 TEST(RealBeltSets, FiveRunsOfOneFrameAgreeWithinThreeTimesWhatIsSaid) {
   const std::filesystem::path path =
       std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "ten_runs_1_to_5.txt";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not beside this checkout";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
   const std::string text = files::read_whole_file(path);
   std::vector<BeltsFit> fits;
   for (int run = 1; run <= 5; ++run) {
@@ -112,7 +112,7 @@ TEST(RealBeltSets, FiveRunsOfOneFrameAgreeWithinThreeTimesWhatIsSaid) {
 TEST(RealBeltSets, SixPlacesOfAStartAreFittedAndSaidToBeUncertain) {
   const std::filesystem::path path =
       std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "clbm_2026-01.txt";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not beside this checkout";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
   const auto import = files::parse_maslow4(files::read_whole_file(path), "clbm.txt");
   ASSERT_EQ(import.belts.points.size(), 6U);
   const auto fit = fit_belts(import.belts);
@@ -125,7 +125,7 @@ TEST(RealBeltSets, SixPlacesOfAStartAreFittedAndSaidToBeUncertain) {
 TEST(RealBeltSets, ATensionTestIsOnALineAndTellsTheStretchOfEachPull) {
   const std::filesystem::path path =
       std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "tension_test.txt";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not beside this checkout";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
   const auto import = files::parse_maslow4(files::read_whole_file(path), "tension_test.txt");
   EXPECT_EQ(import.belts.points.size(), 8U);
   EXPECT_EQ(import.warnings.size(), 1U);
@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(Sets,
 
 TEST_P(RealBeltCauses, PulledBeltsStretchAndNothingElseIsNamed) {
   const auto found = diagnosed(GetParam().file, GetParam().run);
-  if (!found) GTEST_SKIP() << "../shared/data/maslow4 is not beside this checkout";
+  if (!found) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
   ASSERT_EQ(found->causes.size(), 1U) << found->sentence;
   EXPECT_EQ(found->causes[0].cause.effect->id, "belt_stretch") << found->sentence;
   EXPECT_LT(found->belts->rms_mm, GetParam().rms_mm + 0.005) << "to the digits of what is asked";
@@ -200,7 +200,7 @@ TEST(RealBeltSets, RunsOfOneFrameAgreeInTheStretchWithinTheirSigmas) {
   std::optional<diagnosis::ParameterEstimate> first;
   for (int run = 1; run <= 5; ++run) {
     const auto found = diagnosed("ten_runs_1_to_5.txt", run);
-    if (!found) GTEST_SKIP() << "../shared/data/maslow4 is not beside this checkout";
+    if (!found) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
     ASSERT_FALSE(found->causes.empty());
     const auto size = found->causes[0].parameters[0];
     if (!first) first = size;
@@ -213,7 +213,7 @@ TEST(RealBeltSets, RunsOfOneFrameAgreeInTheStretchWithinTheirSigmas) {
 
 TEST(RealBeltSets, SixPlacesOfAStartGetNoName) {
   const auto found = diagnosed("clbm_2026-01.txt", 1);
-  if (!found) GTEST_SKIP() << "../shared/data/maslow4 is not beside this checkout";
+  if (!found) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
   EXPECT_TRUE(found->causes.empty()) << found->sentence;
 }
 

@@ -36,7 +36,7 @@ class RealScans : public testing::Test {
   void SetUp() override {
     data_ = std::filesystem::path(CHAINTRUE_SHARED_DATA);
     if (!std::filesystem::exists(data_ / "optical_grid" / kFull)) {
-      GTEST_SKIP() << "the scans are not beside this checkout: " << data_ / "optical_grid";
+      GTEST_SKIP() << "the scans are not part of a checkout and are not here: " << data_ / "optical_grid";
     }
   }
 

@@ -28,7 +28,7 @@ using ::testing::Not;
 
 const std::filesystem::path kScans = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "optical_grid";
 const std::filesystem::path kSettings = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "holey";
-constexpr const char* kAbsent = "the real scans and settings are not beside this checkout";
+constexpr const char* kAbsent = "the real scans and settings are not part of a checkout and are not here";
 
 OpticalOptions with_controller() {
   OpticalOptions options;

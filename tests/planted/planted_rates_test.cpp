@@ -108,7 +108,7 @@ class RealScan : public testing::Test {
     const std::filesystem::path data = CHAINTRUE_SHARED_DATA;
     const auto file = data / "optical_grid" / "D_2018-10-01_upper_half.csv";
     if (!std::filesystem::exists(file))
-      GTEST_SKIP() << "../shared/data is not beside this checkout";
+      GTEST_SKIP() << "../shared/data is not part of a checkout and is not here";
     scan_ = read_scan(file, data / "holey" / "groundcontrol_2018-09-01b.ini");
     references_ = read_references(std::string(CHAINTRUE_FIXTURES) + "/planted/references.txt");
   }
