@@ -169,8 +169,8 @@ CHAINTRUE_INLINE InverseResult invert(const CompiledPair::Grid& g,
     }
     result.x += dx;
     result.y += dy;
-    const double seen = previous > 0.0 ? step / (previous * previous) : 0.0;
-    if ((seen > curvature ? seen : curvature) * square <= 0.5 * tolerance) {
+    const double rate = previous > 0.0 ? step / (previous * previous) : 0.0;
+    if ((rate > curvature ? rate : curvature) * square <= 0.5 * tolerance) {
       result.status =
           domain.contains(result.x, result.y) ? InverseStatus::converged : InverseStatus::outside;
       return result;

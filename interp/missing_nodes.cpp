@@ -58,6 +58,10 @@ std::optional<double> across(const Eigen::Ref<const Eigen::MatrixXd>& values,
 
 }  // namespace
 
+std::string_view sentence_of(MissingNodeReason /*the only one*/) {
+  return "fewer than three values are present in the row and in the column of a missing one";
+}
+
 tl::expected<FilledGrid, UnfillableNode> fill_missing(
     const std::vector<double>& x_nodes,
     const std::vector<double>& y_nodes,
@@ -80,7 +84,8 @@ tl::expected<FilledGrid, UnfillableNode> fill_missing(
       const auto column =
           along(y_nodes, values.row(ix).transpose(), y_nodes[static_cast<std::size_t>(iy)]);
       if (!row && !column) {
-        return tl::unexpected(UnfillableNode{ix, iy});
+        return tl::unexpected(
+            UnfillableNode{MissingNodeReason::too_few_in_line, {ix, iy}});
       }
       const bool by_row = row && (!column || row->present >= column->present);
       FilledNode node{ix, iy, by_row ? row->value : column->value, 0.0, 0.0};

@@ -15,6 +15,7 @@
 /// of a model, which are smooth at the scale of a cell; raw chain lengths are filled with errors of
 /// some millimetres next to the motors.
 
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -35,10 +36,19 @@ struct FilledGrid {
   std::vector<FilledNode> filled;
 };
 
-/// A hole with fewer than three present nodes in its row and in its column.
+enum class MissingNodeReason {
+  too_few_in_line,  ///< fewer than three present nodes in its row and in its column
+};
+[[nodiscard]] std::string_view sentence_of(MissingNodeReason reason);
+struct NodeIndex {
+  Eigen::Index ix = 0;
+  Eigen::Index iy = 0;
+};
+/// Has the shape of model's Failure, which interp does not know.
 struct UnfillableNode {
-  Eigen::Index ix;
-  Eigen::Index iy;
+  MissingNodeReason reason = MissingNodeReason::too_few_in_line;
+  NodeIndex place;
+  [[nodiscard]] std::string_view sentence() const { return sentence_of(reason); }
 };
 
 /// `values(ix, iy)`, NaN where missing. Throws std::invalid_argument where the shape does not fit

@@ -109,12 +109,16 @@ enum class SmoothingEnd {
 };
 
 /// Why a fit has no result.
+enum class FitReason {
+  rank_deficient,  ///< data, priors and penalties together leave a combination of columns free
+  not_converged,   ///< the search for the smoothing did not converge
+};
+/// Has the shape of model's Failure, which interp does not know.
 struct FitFailure {
-  enum class Reason {
-    rank_deficient,  ///< data, priors and penalties together leave a combination of columns free
-    not_converged,   ///< the search for the smoothing did not converge
-  } reason;
-  std::string sentence;
+  using Reason = FitReason;
+  FitReason reason;
+  std::string text;
+  [[nodiscard]] const std::string& sentence() const { return text; }
 };
 
 /// Residuals of a group of rows left out of the fit, smoothing held fixed.

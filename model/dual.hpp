@@ -60,6 +60,31 @@ struct Dual {
   }
   friend Dual sin(const Dual& a) { return a.chained(std::sin(a.value), std::cos(a.value)); }
   friend Dual cos(const Dual& a) { return a.chained(std::cos(a.value), -std::sin(a.value)); }
+  friend Dual exp(const Dual& a) {
+    const double power = std::exp(a.value);
+    return a.chained(power, power);
+  }
+  friend Dual log(const Dual& a) { return a.chained(std::log(a.value), 1.0 / a.value); }
+  /// With the derivative 0 at 0.
+  friend Dual abs(const Dual& a) {
+    const double sign = a.value > 0.0 ? 1.0 : a.value < 0.0 ? -1.0 : 0.0;
+    return a.chained(std::abs(a.value), sign);
+  }
+  /// a where they are equal, also in their derivatives.
+  friend constexpr Dual min(const Dual& a, const Dual& b) { return b.value < a.value ? b : a; }
+  friend constexpr Dual max(const Dual& a, const Dual& b) { return b.value > a.value ? b : a; }
+  /// a^b. Where b is a plain number, a may be negative or 0 as far as the power has a derivative
+  /// there; otherwise a must be above 0.
+  friend Dual pow(const Dual& a, const Dual& b) {
+    const double power = std::pow(a.value, b.value);
+    Dual result(power);
+    for (std::size_t i = 0; i < N; ++i) {
+      if (a.d[i] != 0.0 && b.value != 0.0)
+        result.d[i] += b.value * std::pow(a.value, b.value - 1.0) * a.d[i];
+      if (b.d[i] != 0.0) result.d[i] += power * std::log(a.value) * b.d[i];
+    }
+    return result;
+  }
   friend Dual asin(const Dual& a) {
     return a.chained(std::asin(a.value), 1.0 / std::sqrt((1.0 - a.value) * (1.0 + a.value)));
   }
@@ -72,6 +97,15 @@ struct Dual {
     return result;
   }
 };
+
+/// The value and all derivatives are finite.
+template <int N>
+bool is_finite(const Dual<N>& dual) {
+  for (const double slope : dual.d) {
+    if (!std::isfinite(slope)) return false;
+  }
+  return std::isfinite(dual.value);
+}
 
 /// The value alone, for decisions inside a formula.
 constexpr double plain(double value) { return value; }

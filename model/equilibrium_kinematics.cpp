@@ -95,7 +95,7 @@ PoseResult EquilibriumKinematics<kRotates>::forward(ChainLengths lengths) const 
   const DomainLimits limits = limits_of(m_);
   if (!(lengths.left_mm > 0.0 && lengths.right_mm > 0.0 && std::isfinite(lengths.left_mm) &&
         std::isfinite(lengths.right_mm))) {
-    return tl::unexpected(PoseFailure::too_short);
+    return tl::unexpected(PoseReason::too_short);
   }
   const CircleGuess guess = circle_guess(limits, lengths);
   if (!guess.circles_meet) return forward_by_inverse(*this, limits, lengths);

@@ -113,10 +113,10 @@ int settle_by_walking(
 }
 
 /// The likeliest reason why Newton does not converge for a point inside the domain.
-inline PoseFailure why_not_converged(const EquilibriumConstants& m, BedPoint p) {
+inline PoseReason why_not_converged(const EquilibriumConstants& m, BedPoint p) {
   const double u = std::min(p.x_mm - m.motors.left.x_mm, m.motors.right.x_mm - p.x_mm);
-  if (u - m.half_spacing <= m.sg * m.r) return PoseFailure::outside_verticals;
-  return m.f != 0.0 ? PoseFailure::slack : PoseFailure::not_converged;
+  if (u - m.half_spacing <= m.sg * m.r) return PoseReason::outside_verticals;
+  return m.f != 0.0 ? PoseReason::slack : PoseReason::not_converged;
 }
 
 }  // namespace chaintrue::model

@@ -62,12 +62,12 @@ PoseResult FormulaKinematics::inverse(BedPoint p) const {
   const auto r = straight_chain(in.u_right_mm, in.y_right_mm, in.sprocket_radius_mm, in.feed_sign);
   const double cl = std::cos(l.angle_rad), cr = std::cos(r.angle_rad);
   const double sine = std::sin(l.angle_rad + r.angle_rad);
-  if (!(sine > 0.0)) return tl::unexpected(PoseFailure::above_sprockets);
+  if (!(sine > 0.0)) return tl::unexpected(PoseReason::above_sprockets);
   // Sled's balance with straight chains: T_left cl - T_right cr = f, T_left sin + T_right sin = W.
   const double f = parameters_.side_force_n, weight = parameters_.sled_weight_n;
   const double tl_n = (weight * cr + f * std::sin(r.angle_rad)) / sine;
   const double tr_n = (weight * cl - f * std::sin(l.angle_rad)) / sine;
-  if (!(tl_n > 0.0 && tr_n > 0.0)) return tl::unexpected(PoseFailure::slack);
+  if (!(tl_n > 0.0 && tr_n > 0.0)) return tl::unexpected(PoseReason::slack);
   const FormulaLengths<double> total = lengths(in);
   Pose pose;
   pose.position = p;
@@ -95,7 +95,7 @@ PoseResult FormulaKinematics::inverse(BedPoint p) const {
 PoseResult FormulaKinematics::forward(ChainLengths lengths) const {
   if (!(lengths.left_mm > 0.0 && lengths.right_mm > 0.0 && std::isfinite(lengths.left_mm) &&
         std::isfinite(lengths.right_mm))) {
-    return tl::unexpected(PoseFailure::too_short);
+    return tl::unexpected(PoseReason::too_short);
   }
   return forward_by_inverse(*this, limits_, lengths);
 }

@@ -69,9 +69,9 @@ PoseResult forward_by_inverse(const Kinematics& kinematics,
   constexpr int kMaxSteps = 60;
   constexpr double kConvergedMm = 1e-7;  // Newton is quadratic: one step more ends at rounding
   const CircleGuess guess = circle_guess(limits, lengths);
-  if (guess.hopeless) return tl::unexpected(PoseFailure::too_short);
+  if (guess.hopeless) return tl::unexpected(PoseReason::too_short);
   const auto failure = [&] {
-    return tl::unexpected(guess.circles_meet ? PoseFailure::not_converged : PoseFailure::too_short);
+    return tl::unexpected(guess.circles_meet ? PoseReason::not_converged : PoseReason::too_short);
   };
   PoseResult pose = kinematics.inverse(guess.point);
   // A light sled's far chain may have no solution at the guess; the middle below the beam always
@@ -90,13 +90,13 @@ PoseResult forward_by_inverse(const Kinematics& kinematics,
     const double br = lengths.right_mm - pose->lengths.right_mm;
     const double dx = per_det * (j(1, 1) * bl - j(0, 1) * br);
     const double dy = per_det * (j(0, 0) * br - j(1, 0) * bl);
-    PoseResult next = tl::unexpected(PoseFailure::not_converged);
+    PoseResult next = tl::unexpected(PoseReason::not_converged);
     // Halve until the point has a pose and is closer.
     for (double share = 1.0; share > 1e-6; share *= 0.5) {
       next =
           kinematics.inverse({pose->position.x_mm + share * dx, pose->position.y_mm + share * dy});
       if (next && miss_mm(*next, lengths) < miss) break;
-      next = tl::unexpected(PoseFailure::not_converged);
+      next = tl::unexpected(PoseFailure(PoseReason::not_converged));
       if (last) return pose;  // at the level of rounding no step comes closer
     }
     if (!next) return failure();

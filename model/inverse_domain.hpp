@@ -30,18 +30,18 @@ inline double depth_below_beam_mm(const DomainLimits& limits, BedPoint p) {
 }
 
 /// Why there is no pose at the point, if geometry alone decides it. NaN: outside_verticals.
-inline std::optional<PoseFailure> domain_failure(const DomainLimits& limits, BedPoint p) {
+inline std::optional<PoseReason> domain_failure(const DomainLimits& limits, BedPoint p) {
   const double u_left = p.x_mm - limits.motors.left.x_mm;
   const double u_right = limits.motors.right.x_mm - p.x_mm;
   const double r = limits.sprocket_radius_mm;
-  if (!(std::min(u_left, u_right) > limits.feed_sign * r)) return PoseFailure::outside_verticals;
-  if (!(depth_below_beam_mm(limits, p) > 0.0)) return PoseFailure::above_sprockets;
+  if (!(std::min(u_left, u_right) > limits.feed_sign * r)) return PoseReason::outside_verticals;
+  if (!(depth_below_beam_mm(limits, p) > 0.0)) return PoseReason::above_sprockets;
   const double reach = r * r + limits.ring_radius_mm * limits.ring_radius_mm;
   const double y_left = limits.motors.left.y_mm - p.y_mm,
                y_right = limits.motors.right.y_mm - p.y_mm;
   if (!(std::min(u_left * u_left + y_left * y_left, u_right * u_right + y_right * y_right) >
         reach)) {
-    return PoseFailure::link_does_not_fit;
+    return PoseReason::link_does_not_fit;
   }
   return std::nullopt;
 }

@@ -95,39 +95,37 @@ EquilibriumParameters equilibrium_parameters(const Machine& machine) {
   return p;
 }
 
-std::string_view name(PoseFailure failure) {
-  switch (failure) {
-    case PoseFailure::outside_verticals:
+std::string_view name(PoseReason reason) {
+  switch (reason) {
+    case PoseReason::outside_verticals:
       return "outside_verticals";
-    case PoseFailure::above_sprockets:
+    case PoseReason::above_sprockets:
       return "above_sprockets";
-    case PoseFailure::link_does_not_fit:
+    case PoseReason::link_does_not_fit:
       return "link_does_not_fit";
-    case PoseFailure::slack:
+    case PoseReason::slack:
       return "slack";
-    case PoseFailure::too_short:
+    case PoseReason::too_short:
       return "too_short";
-    case PoseFailure::not_converged:
+    case PoseReason::not_converged:
       break;
   }
   return "not_converged";
 }
 
-std::string_view explain(PoseFailure failure) {
-  switch (failure) {
-    case PoseFailure::outside_verticals:
-      return "the point is not between the two sprockets: a hanging sled cannot be held beside "
-             "them";
-    case PoseFailure::above_sprockets:
-      return "the point is as high as the sprockets or higher: chains can only hold a sled below "
-             "them";
-    case PoseFailure::link_does_not_fit:
+std::string_view sentence_of(PoseReason reason) {
+  switch (reason) {
+    case PoseReason::outside_verticals:
+      return "the point does not lie between the two motors: no sled can hang outside them";
+    case PoseReason::above_sprockets:
+      return "the point lies as high as the motors or higher: a sled can only hang below them";
+    case PoseReason::link_does_not_fit:
       return "the point is so close to a sprocket that the ring or bracket would reach past it";
-    case PoseFailure::slack:
+    case PoseReason::slack:
       return "one chain would have to push: it hangs slack";
-    case PoseFailure::too_short:
+    case PoseReason::too_short:
       return "the chains are too short to meet";
-    case PoseFailure::not_converged:
+    case PoseReason::not_converged:
       break;
   }
   return "no resting place of the sled was found";

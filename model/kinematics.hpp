@@ -9,7 +9,7 @@
 /// \code
 ///   const auto kinematics = make_kinematics(equilibrium_parameters(machine), Model::elastic);
 ///   const auto pose = kinematics->inverse({100.0, -200.0});
-///   if (!pose) fmt::print("{}\n", explain(pose.error()));
+///   if (!pose) fmt::print("{}\n", pose.error().sentence());
 ///   else fmt::print("{} {}\n", pose->lengths.left_mm, pose->lengths.right_mm);
 /// \endcode
 #pragma once
@@ -19,6 +19,7 @@
 #include <string_view>
 #include <tl/expected.hpp>
 
+#include "model/failure.hpp"
 #include "model/coordinates.hpp"
 #include "model/machine.hpp"
 
@@ -52,7 +53,7 @@ struct EquilibriumParameters {
 enum class Model { straight, wrap, firmware, one_shot, inextensible, elastic, elastic_3d };
 
 /// Reasons why there is no pose.
-enum class PoseFailure {
+enum class PoseReason {
   outside_verticals,  ///< outside the vertical through a sprocket's tangent: no equilibrium exists
   above_sprockets,    ///< at or above the line between the sprockets
   link_does_not_fit,  ///< the ring or bracket is longer than the distance to the sprocket
@@ -62,9 +63,10 @@ enum class PoseFailure {
 };
 
 /// Stable names (`outside_verticals`, ...), used in files and tests.
-[[nodiscard]] std::string_view name(PoseFailure failure);
+[[nodiscard]] std::string_view name(PoseReason reason);
 /// A sentence for a machinist.
-[[nodiscard]] std::string_view explain(PoseFailure failure);
+[[nodiscard]] std::string_view sentence_of(PoseReason reason);
+using PoseFailure = Failure<PoseReason>;
 
 /// One chain in equilibrium. s = 0 is the sled's end.
 struct ChainState {

@@ -21,6 +21,10 @@
 
 namespace chaintrue::model {
 
+namespace effects {
+struct Effect;
+}
+
 struct Bed {
   double width_mm = 2438.4;
   double height_mm = 1219.2;
@@ -80,7 +84,7 @@ struct Uncertainty {
   double ring_radius_mm = 1.0;
 };
 
-/// An effect of the catalogue (effects/effects.def) that acts on this machine.
+/// An effect that acts on this machine: of the catalogue (effects/effects.def), or declared for it.
 struct AppliedEffect {
   std::string effect;
   /// "left", "right", "both", "x", "y" or "" where the effect has no side.
@@ -104,6 +108,9 @@ struct Machine {
   /// The controller's firmware and settings.
   Controller controller;
   std::vector<AppliedEffect> effects;
+  /// Effects declared in files, which may act on this machine in addition to those of the catalogue
+  /// (effects/declared_effect.hpp). They live as long as the program.
+  std::vector<const effects::Effect*> declared;
 };
 
 /// One reason why a machine is invalid.

@@ -6,13 +6,39 @@
 
 namespace chaintrue::model {
 
+std::string_view name(Change what) {
+  switch (what) {
+    case Change::nothing:
+      return "nothing";
+    case Change::zero:
+      return "zero";
+    case Change::tooth:
+      return "tooth";
+    case Change::pitch:
+      return "pitch";
+    case Change::zeros_and_pitch:
+      return "zeros_and_pitch";
+    case Change::motors:
+      return "motors";
+    case Change::anchor:
+      return "anchor";
+    case Change::parameter:
+      return "parameter";
+    case Change::unknown:
+      return "unknown";
+    case Change::bad_point:
+      break;
+  }
+  return "bad_point";
+}
+
 std::vector<MechanismChange> Mechanism::possible_changes() const {
   std::vector<MechanismChange> changes;
-  MechanismChange all{"zero", "all", true, kChangePriors.both_zeros};
+  MechanismChange all{Change::zero, "all", true, kChangePriors.both_zeros};
   std::vector<MechanismChange> others;
   for (std::size_t k = 0; k < parameters().size(); ++k) {
     const MechanismParameter& parameter = parameters()[k];
-    MechanismChange one{parameter.set_by_zeroing ? "zero" : "parameter",
+    MechanismChange one{parameter.set_by_zeroing ? Change::zero : Change::parameter,
                         std::string(parameter.name),
                         parameter.set_by_zeroing};
     one.quantities.push_back({.kind = ChangedQuantity::Kind::parameter,
@@ -121,7 +147,7 @@ tl::expected<ToolPosition, MechanismFailure> locate_by_newton(const Mechanism& m
     if (is_converged) return position;
   }
   return tl::unexpected(
-      MechanismFailure{"not_converged", "no position was found for these lengths"});
+      MechanismReason{"not_converged", "no position was found for these lengths"});
 }
 
 }  // namespace chaintrue::model

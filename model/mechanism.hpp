@@ -18,7 +18,7 @@
 /// \code
 ///   const auto mechanism = make_chain_mechanism(machine);     // or make_belt_mechanism(belts)
 ///   const auto at = mechanism->predict({100.0, -200.0}, {});
-///   if (!at) say(at.error().sentence);
+///   if (!at) say(at.error().sentence());
 ///   else use(at->lengths_mm, at->by_position, at->by_parameter);
 /// \endcode
 #pragma once
@@ -31,6 +31,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "model/failure.hpp"
 #include "model/effects/effect.hpp"
 #include "model/machine.hpp"
 #include "model/mechanism_change.hpp"
@@ -61,6 +62,8 @@ struct MechanismVisit {
   std::vector<double> direction = {};
   /// Whether a motor pulled its length tight at the reading while others held; empty: none did.
   std::vector<bool> pulled = {};
+  /// How hard, over the pull that sizes of effects refer to.
+  double pull = 1.0;
 };
 
 /// (1) and its derivatives. n lengths, p parameters.
@@ -71,13 +74,17 @@ struct LengthsPrediction {
   Eigen::MatrixXd by_parameter;
 };
 
-/// Why there are no lengths at a position, or no position for lengths. Both strings have static
-/// lifetime.
-struct MechanismFailure {
-  std::string_view name;      ///< stable, for programs: "outside_verticals"
-  std::string_view sentence;  ///< for a person
-  friend bool operator==(const MechanismFailure&, const MechanismFailure&) = default;
+/// Why there are no lengths at a position, or no position for lengths; each mechanism has reasons of
+/// its own. Both strings have static lifetime.
+struct MechanismReason {
+  std::string_view name;   ///< stable, for programs: "outside_verticals"
+  std::string_view words;  ///< for a person
+  friend bool operator==(const MechanismReason&, const MechanismReason&) = default;
 };
+[[nodiscard]] inline std::string_view sentence_of(const MechanismReason& reason) {
+  return reason.words;
+}
+using MechanismFailure = Failure<MechanismReason>;
 
 /// Positions that may be sampled: the bed, or the inside of a frame.
 struct MechanismExtent {

@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace chaintrue::model {
@@ -28,8 +29,23 @@ struct ChangedQuantity {
   bool only_grows = false;  ///< half of the Gaussian counts
 };
 
+enum class Change {
+  nothing,
+  zero,
+  tooth,
+  pitch,
+  zeros_and_pitch,
+  motors,
+  anchor,
+  parameter,  ///< any, of a mechanism that says no more of it
+  unknown,    ///< what follows none of these
+  bad_point,  ///< the machine is as it was: one new reading is wrong
+};
+/// As in files.
+[[nodiscard]] std::string_view name(Change what);
+
 struct MechanismChange {
-  std::string what;         ///< word of files: "zero"
+  Change what = Change::nothing;
   std::string side;         ///< of what: "left", "both", "tl", a parameter's name; empty: of the whole
   bool zero_mends = false;  ///< setting the zeros anew puts it right
   double prior = 0.0;       ///< probability beforehand

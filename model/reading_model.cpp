@@ -28,16 +28,21 @@ constexpr double kStepMm = 4.0;
 constexpr std::array<double, 4> kStencil = {-2.0, -1.0, 1.0, 2.0};
 constexpr std::array<double, 4> kWeights = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
 
-// The two numbers of a chain, besides its length, that effects depend on.
-struct AngleAndFree {
+// The numbers of a chain, besides its length, that effects depend on.
+struct StateNumbers {
   double angle_rad = 0.0;
   double free_mm = 0.0;
+  double tension_n = 0.0;
+  double horizontal_n = 0.0;
 };
 
-void add_weighted(PerSide<AngleAndFree>& sum, const Pose& pose, double weight) {
+void add_weighted(PerSide<StateNumbers>& sum, const Pose& pose, double weight) {
   for (const Side side : kSides) {
-    sum[side].angle_rad += weight * pose.chains[side].angle_rad;
-    sum[side].free_mm += weight * pose.chains[side].free_length_mm;
+    const ChainState& chain = pose.chains[side];
+    sum[side].angle_rad += weight * chain.angle_rad;
+    sum[side].free_mm += weight * chain.free_length_mm;
+    sum[side].tension_n += weight * chain.tension_at_sprocket_n;
+    sum[side].horizontal_n += weight * chain.horizontal_n;
   }
 }
 
@@ -100,15 +105,19 @@ void accumulate(ChainAddition& sum, const ChainAddition& part) {
   sum.per_angle_mm_per_rad += part.per_angle_mm_per_rad;
   sum.per_free_length += part.per_free_length;
   sum.per_length += part.per_length;
+  sum.per_tension_mm_per_n += part.per_tension_mm_per_n;
+  sum.per_horizontal_mm_per_n += part.per_horizontal_mm_per_n;
+  sum.per_x += part.per_x;
+  sum.per_y += part.per_y;
 }
 
 // f'(0) by (1); with a smaller step where a neighbour has no pose. `pose_at(t)` is the pose t mm
 // away.
 template <class PoseAt>
-tl::expected<PerSide<AngleAndFree>, PoseFailure> state_slope(const PoseAt& pose_at) {
-  PoseFailure reason = PoseFailure::not_converged;
+tl::expected<PerSide<StateNumbers>, PoseFailure> state_slope(const PoseAt& pose_at) {
+  PoseFailure reason = PoseReason::not_converged;
   for (const double step_mm : {kStepMm, kStepMm / 16.0, kStepMm / 256.0}) {
-    PerSide<AngleAndFree> slope;
+    PerSide<StateNumbers> slope;
     bool complete = true;
     for (std::size_t i = 0; i < kStencil.size() && complete; ++i) {
       const PoseResult neighbour = pose_at(kStencil[i] * step_mm);
@@ -145,20 +154,25 @@ struct ReadingModel::State {
   [[nodiscard]] double counted(double length_mm, Side side) const {
     return length_mm / (1.0 + elongation[side]) + zero(side);
   }
-  /// d(reading)/d(anything) from the slopes of the pose's lengths and of its chains' states.
+  /// d(reading)/d(anything) from the slopes of the pose's lengths, of its chains' states and of the
+  /// tool's position.
   [[nodiscard]] Eigen::Vector2d through_effects(const Pose& pose,
                                                 const Eigen::Vector2d& length_slope,
-                                                const PerSide<AngleAndFree>& slope) const;
+                                                const PerSide<StateNumbers>& slope,
+                                                const Eigen::Vector2d& position_slope) const;
   [[nodiscard]] PoseResult pose_near(BedPoint point, Setting setting, double change_mm) const;
 };
 
 ChainAddition ReadingModel::State::additions(const Pose& pose, Side side, Part part) const {
   static const std::size_t direction = place_of_direction();
-  const effects::ChainAtRest chain{pose.chains[side], length(pose, side), turn_mm};
+  const effects::ChainAtRest chain{
+      pose.chains[side], length(pose, side), turn_mm, machine.sprocket.pitch_mm, pose.position};
   ChainAddition sum;
   for (const ActingEffect& one : acting) {
     if (one.effect->add == nullptr || !acts_on(one.side, side)) continue;
-    const bool before = effects::place_in_catalogue(*one.effect) < direction;
+    // What is declared is there before the direction shows.
+    const bool before =
+        one.effect->law != nullptr || effects::place_in_catalogue(*one.effect) < direction;
     if (part == Part::whole || before == (part == Part::before_direction)) {
       accumulate(sum, one.effect->add(chain, one.values));
     }
@@ -168,14 +182,18 @@ ChainAddition ReadingModel::State::additions(const Pose& pose, Side side, Part p
 
 Eigen::Vector2d ReadingModel::State::through_effects(const Pose& pose,
                                                      const Eigen::Vector2d& length_slope,
-                                                     const PerSide<AngleAndFree>& slope) const {
+                                                     const PerSide<StateNumbers>& slope,
+                                                     const Eigen::Vector2d& position_slope) const {
   Eigen::Vector2d result;
   for (const Side side : kSides) {
     const Eigen::Index row = side == Side::left ? 0 : 1;
     const ChainAddition added = additions(pose, side, Part::whole);
     result[row] = (length_slope[row] * (1.0 + added.per_length) +
                    added.per_angle_mm_per_rad * slope[side].angle_rad +
-                   added.per_free_length * slope[side].free_mm) /
+                   added.per_free_length * slope[side].free_mm +
+                   added.per_tension_mm_per_n * slope[side].tension_n +
+                   added.per_horizontal_mm_per_n * slope[side].horizontal_n +
+                   added.per_x * position_slope[0] + added.per_y * position_slope[1]) /
                   (1.0 + elongation[side]);
   }
   return result;
@@ -226,7 +244,7 @@ tl::expected<PointReading, PoseFailure> ReadingModel::at(BedPoint point) const {
   }
   const Eigen::Matrix2d lengths_by_point = state.kinematics->jacobian(*pose);
   for (const Eigen::Index axis : {0, 1}) {
-    PerSide<AngleAndFree> slope;
+    PerSide<StateNumbers> slope;
     if (state.looks_at_state) {
       const auto found = state_slope([&](double mm) {
         return state.kinematics->inverse(axis == 0 ? BedPoint{point.x_mm + mm, point.y_mm}
@@ -235,8 +253,8 @@ tl::expected<PointReading, PoseFailure> ReadingModel::at(BedPoint point) const {
       if (!found) return tl::unexpected(found.error());
       slope = *found;
     }
-    reading.position_jacobian.col(axis) =
-        state.through_effects(*pose, lengths_by_point.col(axis), slope);
+    reading.position_jacobian.col(axis) = state.through_effects(
+        *pose, lengths_by_point.col(axis), slope, Eigen::Vector2d::Unit(axis));
   }
   return reading;
 }
@@ -249,7 +267,7 @@ Eigen::Vector2d ReadingModel::sensitivity(const PointReading& reading, Setting s
     throw std::invalid_argument(
         "sensitivity: the sheet's settings move the point, not the machine");
   }
-  PerSide<AngleAndFree> slope;
+  PerSide<StateNumbers> slope;
   if (state.looks_at_state) {
     const auto found = state_slope(
         [&](double mm) { return state.pose_near(reading.pose.position, setting, mm); });
@@ -257,8 +275,10 @@ Eigen::Vector2d ReadingModel::sensitivity(const PointReading& reading, Setting s
     // own slope is used.
     if (found) slope = *found;
   }
-  return state.through_effects(
-      reading.pose, state.kinematics->sensitivity(reading.pose, parameter_of(setting)), slope);
+  return state.through_effects(reading.pose,
+                               state.kinematics->sensitivity(reading.pose, parameter_of(setting)),
+                               slope,
+                               Eigen::Vector2d::Zero());
 }
 
 tl::expected<PointReading, PoseFailure> ReadingModel::find(ChainLengths lengths,
@@ -283,7 +303,7 @@ tl::expected<PointReading, PoseFailure> ReadingModel::find(ChainLengths lengths,
     point = {point.x_mm + move[0], point.y_mm + move[1]};
     if (move.norm() < kConvergedMm && missing.norm() < 100.0 * kConvergedMm) return at(point);
   }
-  return tl::unexpected(PoseFailure::not_converged);
+  return tl::unexpected(PoseReason::not_converged);
 }
 
 ChainLengths ReadingModel::added_at_visit(int order, const PerSide<double>& direction) const {
@@ -360,7 +380,7 @@ tl::expected<std::vector<ChainLengths>, VisitFailure> readings(
           fmt::format("readings: two visits bear the number {}", visits[i].order));
     }
     const auto lengths = session.read(visits[i]);
-    if (!lengths) return tl::unexpected(VisitFailure{i, lengths.error()});
+    if (!lengths) return tl::unexpected(lengths.error().at(i));
     result[i] = *lengths;
     if (on_progress) on_progress(k + 1);
   }

@@ -51,8 +51,8 @@ struct PointReading {
   Pose pose;
   ChainLengths lengths;
   /// d(left, right)/d(x, y). Exact for the equilibrium and for effects of the length; where an
-  /// effect depends on a chain's angle or free length, the derivative of those is a five-point
-  /// difference, good to 1e-9 of its size. At the knee of angular_kink it is the one-sided
+  /// effect depends on a chain's angle, free length or tension, the derivative of those is a
+  /// five-point difference, good to 1e-9 of its size. At the knee of angular_kink it is the one-sided
   /// derivative above the knee.
   Eigen::Matrix2d position_jacobian = Eigen::Matrix2d::Zero();
 };
@@ -92,15 +92,13 @@ struct Visit {
   int order = 0;
 };
 
-struct VisitFailure {
-  std::size_t index = 0;  ///< into the visits
-  PoseFailure reason = PoseFailure::not_converged;
-};
+/// Its place is an index into the visits.
+using VisitFailure = Failure<PoseReason, std::size_t>;
 
 /// The readings at each visit, in the order of `visits`; visits are processed by increasing
 /// `order`. Hysteresis follows the sign of the change of a chain's length since the visit before,
 /// taken before hysteresis and pitch error; no change keeps the sign, the first visit counts as
-/// paid out (+1). `told` is called after each visit with the number done. \throws
+/// paid out (+1). `on_progress` is called after each visit with the number done. \throws
 /// std::invalid_argument where two visits have the same number.
 [[nodiscard]] tl::expected<std::vector<ChainLengths>, VisitFailure> readings(
     const ReadingModel& model,

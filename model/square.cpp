@@ -103,9 +103,9 @@ tl::expected<CutSquare, SquareFailure> predict_square(const Machine& machine,
   std::vector<BedPoint> cut;
   for (const BedPoint p : outline) {
     const auto lengths = controller->lengths(p);
-    if (!lengths) return tl::unexpected(SquareFailure{p, lengths.error(), true});
+    if (!lengths) return tl::unexpected(lengths.error().at(SquarePlace{p, true}));
     const auto tool = world.find(*lengths, p);
-    if (!tool) return tl::unexpected(SquareFailure{p, tool.error(), false});
+    if (!tool) return tl::unexpected(tool.error().at(SquarePlace{p}));
     cut.push_back(tool->pose.position);
   }
   return measured_square(task, std::move(cut));

@@ -66,12 +66,11 @@ struct CutSquare {
 /// std::invalid_argument as above, and for another number of points.
 [[nodiscard]] CutSquare measured_square(const SquareTask& task, std::vector<BedPoint> cut);
 
-/// Which commanded point, and why.
-struct SquareFailure {
+struct SquarePlace {
   BedPoint commanded;
-  PoseFailure reason = PoseFailure::not_converged;
-  bool controllers = false;  ///< the controller's own kinematics has no length for it
+  bool of_controller = false;  ///< the controller's own kinematics has no length for it
 };
+using SquareFailure = Failure<PoseReason, SquarePlace>;
 
 /// \throws std::invalid_argument for a size that is no positive number, fewer than two points to a
 /// side, or machines with problems.

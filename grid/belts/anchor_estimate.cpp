@@ -214,6 +214,7 @@ observation::BeltLengthReadings readings_of(const MeasuredBelts& belts,
                                             double sigma_mm) {
   std::vector<observation::LengthsAtPlace> places;
   bool ordered = !belts.points.empty();
+  const std::optional<BeltPull> reference = reference_pull(belts);
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     const BeltPoint& point = belts.points[k];
     observation::LengthsAtPlace place;
@@ -227,6 +228,7 @@ observation::BeltLengthReadings readings_of(const MeasuredBelts& belts,
       place.visit.pulled.push_back(is_pulled(point, belt));
     }
     place.visit.order = point.order.value_or(0);
+    place.visit.pull = pull_over(reference, point);
     ordered = ordered && point.order.has_value();
     places.push_back(std::move(place));
   }

@@ -14,10 +14,10 @@ namespace chaintrue::grid {
 namespace {
 
 std::string words_of_belts(const CheckHypothesis& h) {
-  if (h.what == "zero" && h.side.empty())
+  if (h.what == model::Change::zero && h.side.empty())
     return fmt::format("all four belts count {:+.1f} mm from where they did", h.size());
   const auto belt = model::words(model::belt_of(h.side).value());
-  if (h.what == "zero")
+  if (h.what == model::Change::zero)
     return fmt::format("the {} belt counts {:+.1f} mm from where it did", belt, h.size());
   return fmt::format(
       "the {} anchor has moved by some {:.1f} mm against the others", belt, h.size());
@@ -46,16 +46,17 @@ tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const Measu
         "these anchors were not fitted to belts, so that nothing says how well new readings should "
         "agree: fit belts, and check against those anchors");
   }
-  const auto mechanism = model::make_belt_mechanism(
-      belts::with_anchors(belts.machine, belts::anchors_of(fit.machine)));
+  std::vector<model::AppliedEffect> effects;
+  for (const CauseBesideAnchors& cause : fit.causes)
+    effects.push_back({cause.effect, cause.side, cause.parameters});
+  const auto mechanism =
+      model::make_belt_mechanism(belts::with_anchors(belts.machine, belts::anchors_of(fit.machine)))
+          ->with_effects(effects);
   const belts::Counting all(belts.points.size(), model::PerBelt<bool>{true, true, true, true});
-  const auto check =
-      check_lengths({mechanism,
-                     fit.covariance_mm2,
-                     fit.residual_sigma_mm,
-                     static_cast<double>(fit.checks)},
-                    belts::readings_of(belts, all).readings(),
-                    words_of_anchors());
+  const auto check = check_lengths(
+      {mechanism, fit.covariance_mm2, fit.residual_sigma_mm, static_cast<double>(fit.checks)},
+      belts::readings_of(belts, all).readings(),
+      words_of_anchors());
   // More than a belt jumps in three turns of its encoder: no change of a frame, but another one.
   constexpr double kAnotherFrameMm = 130.0;
   std::vector<double> residuals_mm;

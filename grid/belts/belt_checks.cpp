@@ -10,6 +10,7 @@
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/first_frames.hpp"
+#include "grid/belts/fit_diagnostics.hpp"
 #include "grid/input_checks/findings.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/robust_trend.hpp"
@@ -20,6 +21,29 @@ namespace chaintrue::grid {
 
 using model::Belt;
 using model::kBelts;
+
+const std::array<std::vector<BeltPair>, 9>& belt_swaps() {
+  static const std::array<std::vector<BeltPair>, 9> kSwaps = {
+      std::vector<BeltPair>{{Belt::tl, Belt::tr}},
+      std::vector<BeltPair>{{Belt::bl, Belt::br}},
+      std::vector<BeltPair>{{Belt::tl, Belt::bl}},
+      std::vector<BeltPair>{{Belt::tr, Belt::br}},
+      std::vector<BeltPair>{{Belt::tl, Belt::br}},
+      std::vector<BeltPair>{{Belt::tr, Belt::bl}},
+      std::vector<BeltPair>{{Belt::tl, Belt::tr}, {Belt::bl, Belt::br}},
+      std::vector<BeltPair>{{Belt::tl, Belt::bl}, {Belt::tr, Belt::br}},
+      std::vector<BeltPair>{{Belt::tl, Belt::br}, {Belt::tr, Belt::bl}}};
+  return kSwaps;
+}
+
+std::string words_of(const std::vector<BeltPair>& swapped) {
+  std::string text;
+  for (const BeltPair& pair : swapped) {
+    const std::string both = fmt::format("{} and {}", name(pair.first), name(pair.second));
+    text += text.empty() ? both + " swapped" : " and " + both + " as well";
+  }
+  return text;
+}
 
 namespace {
 
@@ -37,21 +61,6 @@ constexpr std::size_t kMostLookedAt = 16;
 
 using BeltPairs = std::vector<BeltPair>;
 
-/// One pair, its mirror image next to it; then two pairs at once, which leave a frame a frame and
-/// turn it over.
-const std::array<BeltPairs, 9>& swaps() {
-  static const std::array<BeltPairs, 9> kSwaps = {
-      BeltPairs{{Belt::tl, Belt::tr}},
-      BeltPairs{{Belt::bl, Belt::br}},
-      BeltPairs{{Belt::tl, Belt::bl}},
-      BeltPairs{{Belt::tr, Belt::br}},
-      BeltPairs{{Belt::tl, Belt::br}},
-      BeltPairs{{Belt::tr, Belt::bl}},
-      BeltPairs{{Belt::tl, Belt::tr}, {Belt::bl, Belt::br}},
-      BeltPairs{{Belt::tl, Belt::bl}, {Belt::tr, Belt::br}},
-      BeltPairs{{Belt::tl, Belt::br}, {Belt::tr, Belt::bl}}};
-  return kSwaps;
-}
 constexpr std::size_t kSinglePairs = 6;
 
 MeasuredBelts looked_at(const MeasuredBelts& belts) {
@@ -133,7 +142,7 @@ std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts) {
   const bool is_frame = as_stated.residual_sigma_mm < kSoundMm;
   if (is_frame && !is_far(few, as_stated)) return std::nullopt;
   std::vector<Frame> frames;
-  for (const BeltPairs& pairs : swaps()) frames.push_back(frame_of(swapped(few, pairs)));
+  for (const BeltPairs& pairs : belt_swaps()) frames.push_back(frame_of(swapped(few, pairs)));
   const auto is_better = [&](const Frame& frame) {
     if (frame.residual_sigma_mm > kSoundMm || is_far(few, frame)) return false;
     return is_frame || kBetter * frame.residual_sigma_mm < as_stated.residual_sigma_mm;
@@ -150,11 +159,11 @@ std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts) {
     if (is_better(frames[i]) && (!best || is_nearer(frames[i], frames[*best]))) best = i;
   }
   if (!best) return std::nullopt;
-  SwappedBelts result{swaps()[*best], std::nullopt, as_stated.residual_sigma_mm, frames[*best].residual_sigma_mm};
+  SwappedBelts result{belt_swaps()[*best], std::nullopt, as_stated.residual_sigma_mm, frames[*best].residual_sigma_mm};
   if (*best >= kSinglePairs) return result;
   const std::size_t mirrored = *best % 2 == 0 ? *best + 1 : *best - 1;
   if (frames[*best].far_mm == 0.0 && is_better(frames[mirrored]))
-    result.or_else = swaps()[mirrored].front();
+    result.or_else = belt_swaps()[mirrored].front();
   return result;
 }
 
@@ -253,36 +262,92 @@ std::optional<Eigen::Vector2d> end_of(const BeltEnd& end,
 
 }  // namespace
 
-std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
-    const belts::AnchorFit& frame) {
-  // A turn of the encoder is known to some per cent, and with it what a millimetre of belt is.
-  constexpr double kFarOff = 0.12;
-  constexpr double kNear = 0.06;
-  std::vector<DistanceQuestion> result;
-  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
-    const BeltDistance& distance = belts.distances[i];
+namespace {
+
+/// What the frame makes of each distance; empty where it ends nowhere.
+std::vector<std::optional<double>> distances_by_belts(const MeasuredBelts& belts,
+                                                      const belts::AnchorFit& frame) {
+  std::vector<std::optional<double>> by_belts_mm;
+  for (const BeltDistance& distance : belts.distances) {
     const auto from = end_of(distance.from, belts, frame);
     const auto to = end_of(distance.to, belts, frame);
-    if (!from || !to) continue;
-    const double by_belts_mm = (*to - *from).norm();
-    const auto off = [&](double value) { return std::abs(value / by_belts_mm - 1.0); };
-    if (by_belts_mm < input_checks::kGrossMm || off(distance.distance_mm) < kFarOff) continue;
-    const double d = distance.distance_mm;
-    std::vector<input_checks::NumberError> slips = {
-        {0.5 * d, fmt::format("was it taped twice over, {:.10g} mm?", 0.5 * d), 0.0},
-        {2.0 * d, fmt::format("was only half of it taped, of {:.10g} mm?", 2.0 * d), 0.0},
-        {10.0 * d, fmt::format("is it in centimetres, {:.10g} mm?", 10.0 * d), 0.0}};
-    for (input_checks::NumberError& slip : input_checks::number_errors(d, false))
-      slips.push_back(std::move(slip));
-    DistanceQuestion asked{i, by_belts_mm, "was it misread?"};
-    double least = std::numeric_limits<double>::infinity();
-    for (const input_checks::NumberError& slip : slips) {
-      const double cost = slip.penalty + off(slip.value) / kNear;
-      if (off(slip.value) > kNear || cost >= least) continue;
-      least = cost;
-      asked.question = slip.question;
+    by_belts_mm.push_back(from && to ? std::optional((*to - *from).norm()) : std::nullopt);
+  }
+  return by_belts_mm;
+}
+
+/// One sigma of what the frame makes of a distance, mm.
+double sigma_of(const MeasuredBelts& belts,
+                const belts::FitDiagnostics& view,
+                const BeltDistance& distance) {
+  const auto expected = view.expected(belts, distance);
+  return expected && expected->variance_mm2 > 0.0 ? std::sqrt(expected->variance_mm2)
+                                                  : std::numeric_limits<double>::infinity();
+}
+
+/// The question that explains a distance best.
+std::string question_of(double distance_mm, double by_belts_mm) {
+  constexpr double kNear = 0.06;
+  const double d = distance_mm;
+  std::vector<input_checks::NumberError> slips = {
+      {0.5 * d, fmt::format("was it taped twice over, {:.10g} mm?", 0.5 * d), 0.0},
+      {2.0 * d, fmt::format("was only half of it taped, of {:.10g} mm?", 2.0 * d), 0.0},
+      {10.0 * d, fmt::format("is it in centimetres, {:.10g} mm?", 10.0 * d), 0.0}};
+  for (input_checks::NumberError& slip : input_checks::number_errors(d, false))
+    slips.push_back(std::move(slip));
+  std::string question = "was it misread?";
+  double least = std::numeric_limits<double>::infinity();
+  for (const input_checks::NumberError& slip : slips) {
+    const double off = std::abs(slip.value / by_belts_mm - 1.0);
+    const double cost = slip.penalty + off / kNear;
+    if (off > kNear || cost >= least) continue;
+    least = cost;
+    question = slip.question;
+  }
+  // A tape is held at its 100 mm mark, since its hook is loose.
+  constexpr double kHeldAtMm = 100.0;
+  constexpr double kHeldNearMm = 20.0;
+  const double longer_mm = distance_mm - by_belts_mm;
+  if (std::abs(std::abs(longer_mm) - kHeldAtMm) < kHeldNearMm) {
+    question = fmt::format("it is {:.0f} mm too {}: was the tape held at its 100 mm mark?",
+                           std::abs(longer_mm),
+                           longer_mm > 0.0 ? "long" : "short");
+  }
+  return question;
+}
+
+}  // namespace
+
+std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
+                                                  const belts::AnchorFit& frame) {
+  // Belts of all machines are known to half a per cent (scales of 0.1 to 0.3 %); a tape alone that
+  // differs by three times that is wrong. Tapes that agree with one another may tell a scale.
+  constexpr double kFarOff = 0.015;
+  constexpr double kFarForAll = 0.12;
+  constexpr double kSigmas = 5.0;
+  if (belts.distances.empty()) return {};
+  MeasuredBelts untaped = belts;
+  untaped.distances.clear();
+  const belts::FitDiagnostics view(untaped, frame);
+  const auto by_belts_mm = distances_by_belts(belts, frame);
+  std::vector<DistanceQuestion> result;
+  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
+    const double taped_mm = belts.distances[i].distance_mm;
+    if (!by_belts_mm[i] || *by_belts_mm[i] < input_checks::kGrossMm) continue;
+    const double factor = taped_mm / *by_belts_mm[i];
+    std::vector<double> others;
+    for (std::size_t j = 0; j < by_belts_mm.size(); ++j) {
+      if (j != i && by_belts_mm[j] && *by_belts_mm[j] >= input_checks::kGrossMm)
+        others.push_back(belts.distances[j].distance_mm / *by_belts_mm[j]);
     }
-    result.push_back(std::move(asked));
+    const bool has_company =
+        !others.empty() && std::abs(factor / median(others) - 1.0) < kFarOff;
+    const double far_mm = std::max((has_company ? kFarForAll : kFarOff) * *by_belts_mm[i],
+                                   kSigmas * sigma_of(untaped, view, belts.distances[i]));
+    const double gross_mm = kFarForAll * *by_belts_mm[i];
+    const double off_mm = std::abs(taped_mm - *by_belts_mm[i]);
+    if (off_mm < std::min(far_mm, gross_mm)) continue;
+    result.push_back({i, *by_belts_mm[i], question_of(taped_mm, *by_belts_mm[i])});
   }
   return result;
 }

@@ -4,6 +4,7 @@
 /// names, and places that no anchors make sense of.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,12 @@
 namespace chaintrue::grid {
 
 using BeltPair = std::pair<model::Belt, model::Belt>;
+
+/// What a hand exchanges: one pair, its mirror image next to it; then two pairs at once, which leave a
+/// frame a frame and turn it over.
+[[nodiscard]] const std::array<std::vector<BeltPair>, 9>& belt_swaps();
+/// "tl and tr swapped and bl and br as well".
+[[nodiscard]] std::string words_of(const std::vector<BeltPair>& swapped);
 
 /// Belts whose lengths change places in the whole file.
 struct SwappedBelts {
@@ -50,7 +57,8 @@ struct BeltQuestion {
 [[nodiscard]] std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
                                                            const belts::AnchorFit& frame);
 
-/// A taped distance that is more than a tenth off what the lengths alone make of it.
+/// A taped distance that no scale of belts explains: off by more than 1.5 % and five sigmas of what the
+/// lengths alone make of it, or, where the other tapes agree with it, by more than an eighth.
 struct DistanceQuestion {
   std::size_t distance = 0;
   double by_belts_mm = 0.0;

@@ -46,8 +46,8 @@ struct State {
 
 /// (2) and (3) about a state.
 struct Marginal {
-  Eigen::VectorXd residual_mm;   ///< r_b
-  Eigen::MatrixXd inverse;  ///< V^-1
+  Eigen::VectorXd residual_mm;  ///< r_b
+  Eigen::MatrixXd inverse;      ///< V^-1
   double log_likelihood = 0.0;
   std::vector<bool> counting;
 
@@ -184,7 +184,8 @@ std::optional<std::size_t> worst_of(const HolesEstimate& frame,
   return worst;
 }
 
-std::optional<State> converged_state(const HolesEstimate& frame, const std::vector<BeltHoles>& sets) {
+std::optional<State> converged_state(const HolesEstimate& frame,
+                                     const std::vector<BeltHoles>& sets) {
   const belts::FrameState& first = frame.alone().state;
   auto rows = belts::taped_rows(sets, first.anchors, first.log_scale);
   if (!rows) return std::nullopt;
@@ -231,7 +232,9 @@ void fill_frame(const MeasuredBelts& measured,
     for (const Belt belt : kBelts)
       fit.places[k].belts[belt].residual_mm = there.residual[belts::row_of(k, belt)];
   }
-  fit.rms_mm = rms(std::vector<double>(there.residual.begin(), there.residual.end()));
+  // That of the readings as they are stays where these are freed of causes.
+  if (fit.causes.empty())
+    fit.rms_mm = rms(std::vector<double>(there.residual.begin(), there.residual.end()));
   if (!fit.scale || measured.distances.empty()) return;
   for (std::size_t i = 0; i < measured.distances.size(); ++i) {
     fit.scale->residuals_mm[i] =
@@ -336,10 +339,9 @@ tl::expected<std::pair<BeltsFit, belts::AnchorFit>, BeltsFitFailure> by_belts(
   return std::pair(*std::move(fit), *frame);
 }
 
-}  // namespace
-
-tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
-    const MeasuredBelts& measured, const std::vector<BeltHoles>& sets) {
+/// \throws std::invalid_argument where there is nothing to fit; a failure for too many distances.
+std::optional<BeltsFitFailure> refused(const MeasuredBelts& measured,
+                                       const std::vector<BeltHoles>& sets) {
   using Reason = BeltsFitFailure::Reason;
   std::size_t count = 0;
   for (const BeltHoles& set : sets) count += set.set.distances.size();
@@ -347,25 +349,28 @@ tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
   if (measured.points.empty() && !measured.machine.anchors_known)
     throw precondition("holes of a machine of which no anchor is known");
   if (count > kMostTapedByBelts) {
-    return joint_failure(
-        Reason::too_many_distances,
-        fmt::format("{} distances are more than a fit beside belts takes ({}): leave "
-                    "some out, evenly over the sheet",
-                    count,
-                    kMostTapedByBelts));
+    return BeltsFitFailure{Reason::too_many_distances,
+                           fmt::format("{} distances are more than a fit with belts takes ({}): "
+                                       "leave some out, evenly over the sheet",
+                                       count,
+                                       kMostTapedByBelts)};
   }
-  auto alone = by_belts(measured);
-  if (!alone) return tl::unexpected(alone.error());
-  const HolesEstimate frame(measured, sets, std::move(alone->second));
+  return std::nullopt;
+}
+
+tl::expected<BeltsAndHolesFit, BeltsFitFailure> joined(const MeasuredBelts& measured,
+                                                       const std::vector<BeltHoles>& sets,
+                                                       const HolesEstimate& frame,
+                                                       BeltsFit alone) {
   const auto state = converged_state(frame, sets);
   if (!state) {
     return joint_failure(
-        Reason::tape_contradicts,
+        BeltsFitFailure::Reason::tape_contradicts,
         "more than a third of the distances contradict the belts or each other: check "
         "the anchors in force when the holes were cut, which holes the distances join, "
         "and the tape's hook offset");
   }
-  BeltsAndHolesFit fit{std::move(alone->first), {}};
+  BeltsAndHolesFit fit{std::move(alone), {}};
   fit.holes.covariance = posterior(frame, sets, *state, fit.holes.displacement);
   fit.holes.machine = sets.front().machine;
   fit.holes.noise_factor = state->noise.factor;
@@ -373,6 +378,27 @@ tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
   fill_distances(frame, sets, *state, fit.holes);
   fill_frame(measured, *state, fit.holes.covariance, fit.belts);
   return fit;
+}
+
+}  // namespace
+
+tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
+    const MeasuredBelts& measured, const std::vector<BeltHoles>& sets) {
+  if (auto failure = refused(measured, sets)) return tl::unexpected(*std::move(failure));
+  auto alone = by_belts(measured);
+  if (!alone) return tl::unexpected(alone.error());
+  const HolesEstimate frame(measured, sets, std::move(alone->second));
+  return joined(measured, sets, frame, std::move(alone->first));
+}
+
+tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
+    const MeasuredBelts& without_causes, const std::vector<BeltHoles>& sets, BeltsByThemselves alone) {
+  if (auto failure = refused(without_causes, sets)) return tl::unexpected(*std::move(failure));
+  Eigen::MatrixXd known = Eigen::MatrixXd::Zero(kFrameUnknowns, kFrameUnknowns);
+  known(kAnchorUnknowns, kAnchorUnknowns) = kBeltScaleSigma * kBeltScaleSigma;
+  known.topLeftCorner(alone.covariance.rows(), alone.covariance.cols()) = alone.covariance;
+  const HolesEstimate frame(without_causes, sets, std::move(alone.frame), std::move(known));
+  return joined(without_causes, sets, frame, std::move(alone.fit));
 }
 
 }  // namespace chaintrue::grid

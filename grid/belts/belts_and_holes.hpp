@@ -36,6 +36,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/belts/anchor_fit.hpp"
 #include "grid/belts/belt_holes.hpp"
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/tool_displacement.hpp"
@@ -88,6 +89,16 @@ struct BeltsAndHolesFit {
   BeltsFit belts;  ///< without places where no belts were given
   HolesWithBelts holes;
 };
+
+/// What belts say by themselves, with causes counted (diagnosis/anchors_with_causes.hpp).
+struct BeltsByThemselves {
+  BeltsFit fit;
+  belts::AnchorFit frame;
+  Eigen::MatrixXd covariance;  ///< of five coordinates, mm^2; with a tape of the scale's logarithm too
+};
+/// The same of belts whose readings are freed of the causes in `alone`.
+[[nodiscard]] tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
+    const MeasuredBelts& without_causes, const std::vector<BeltHoles>& sets, BeltsByThemselves alone);
 
 /// `belts` may be without points: then what is known of the anchors is what its machine states, to
 /// kStatedAnchorMm. \throws std::invalid_argument without distances, or where the anchors in force

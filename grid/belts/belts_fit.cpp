@@ -8,6 +8,7 @@
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
+#include "grid/belts/fit_report.hpp"
 #include "grid/belts/prediction.hpp"
 #include "grid/belts/repeated_pulls.hpp"
 
@@ -24,89 +25,6 @@ constexpr double kLostAnchorMm = 100.0;
 /// itself gives up at 5 mm of its own kind.
 constexpr double kNoFrameMm = 50.0;
 
-constexpr std::array<std::string_view, 5> kCoordinateNames = {
-    "tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"};
-
-void fill_coordinates(const MeasuredBelts& belts,
-                      const belts::FitDiagnostics& view,
-                      BeltsFit& fit) {
-  const belts::AnchorVector stated = belts::anchors_of(belts.machine);
-  const belts::AnchorVector fitted = belts::anchors_of(fit.machine);
-  Eigen::Matrix<double, 5, 4> squares = Eigen::Matrix<double, 5, 4>::Zero();
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
-    for (const Belt belt : kBelts) {
-      if (!view.counts(k, belt)) continue;
-      squares.col(static_cast<Eigen::Index>(belt)) += view.influence(k, belt).head<5>().cwiseAbs2();
-    }
-  }
-  for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    AnchorCoordinate& coordinate = fit.coordinates[i];
-    coordinate.name = kCoordinateNames[i];
-    if (belts.machine.anchors_known) coordinate.stated_mm = stated[row];
-    coordinate.fitted_mm = fitted[row];
-    coordinate.sigma_mm = std::sqrt(fit.covariance_mm2(row, row));
-    for (const Belt belt : kBelts) {
-      coordinate.variance_share[belt] =
-          squares(row, static_cast<Eigen::Index>(belt)) / squares.row(row).sum();
-    }
-  }
-}
-
-void fill_places(const MeasuredBelts& belts,
-                 const belts::AnchorFit& frame,
-                 const belts::FitDiagnostics& view,
-                 BeltsFit& fit) {
-  double square = 0.0;
-  model::PerBelt<double> squares;
-  model::PerBelt<int> counts;
-  for (std::size_t k = 0; k < belts.points.size(); ++k) {
-    FittedPlace place{frame.state.places[k], view.place_covariance_mm2(k), {}};
-    std::vector<BadBeltReading> bad;
-    for (const Belt belt : kBelts) {
-      BeltResidual& residual = place.belts[belt];
-      residual = view.residual(k, belt);
-      square += residual.residual_mm * residual.residual_mm;
-      if (residual.counts) {
-        squares[belt] += residual.residual_mm * residual.residual_mm;
-        ++counts[belt];
-      } else {
-        bad.push_back({k, belt, residual.deleted_residual_mm});
-      }
-    }
-    // Two readings fix a place and check nothing.
-    if (bad.size() > 1) {
-      fit.bad_points.push_back(k);
-    } else {
-      fit.bad.insert(fit.bad.end(), bad.begin(), bad.end());
-    }
-    fit.places.push_back(std::move(place));
-  }
-  fit.rms_mm = std::sqrt(square / (4.0 * static_cast<double>(belts.points.size())));
-  for (const Belt belt : kBelts) {
-    fit.rms_of_mm[belt] = counts[belt] > 0 ? std::sqrt(squares[belt] / counts[belt]) : 0.0;
-  }
-  std::stable_sort(fit.bad.begin(), fit.bad.end(), [](const auto& a, const auto& b) {
-    return std::abs(a.residual_mm) > std::abs(b.residual_mm);
-  });
-}
-
-void fill_scale(const MeasuredBelts& belts,
-                const belts::AnchorFit& frame,
-                const belts::FitDiagnostics& view,
-                BeltsFit& fit) {
-  if (!view.has_scale()) return;
-  BeltScale scale;
-  scale.factor = std::exp(frame.state.log_scale);
-  scale.sigma =
-      scale.factor * std::sqrt(view.covariance()(belts::kAnchorUnknowns, belts::kAnchorUnknowns));
-  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
-    scale.residuals_mm.push_back(view.equations().distance_residual[static_cast<Eigen::Index>(i)] *
-                                 belts.distances[i].sigma_mm);
-  }
-  fit.scale = std::move(scale);
-}
-
 tl::unexpected<BeltsFitFailure> failure(BeltsFitFailure::Reason reason, std::string sentence) {
   return tl::unexpected(BeltsFitFailure{reason, std::move(sentence)});
 }
@@ -115,11 +33,10 @@ tl::unexpected<BeltsFitFailure> not_determined(const MeasuredBelts& belts) {
   const std::string pulls = repeated_pulls_in_words(belts);
   return failure(
       BeltsFitFailure::Reason::not_determined,
-      fmt::format(
-          "the places do not tell where the anchors are: they lie on a line, or all in one "
-          "spot; measure at places spread over the sheet's width and height{}{}",
-          pulls.empty() ? "" : ". ",
-          pulls));
+      fmt::format("the places do not tell where the anchors are: they lie on a line, or all in one "
+                  "spot; measure at places spread over the sheet's width and height{}{}",
+                  pulls.empty() ? "" : ". ",
+                  pulls));
 }
 
 /// No belt's readings differ by more than the width of a spot: no frame can be made of them.
@@ -177,15 +94,7 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
     return not_determined(belts);
   }
   if (!frame->is_sound) return failure(Reason::no_frame, kNoFrame);
-  BeltsFit fit;
-  fit.machine = belts::with_anchors(belts.machine, frame->state.anchors);
-  fit.covariance_mm2 = view.covariance().topLeftCorner<5, 5>();
-  fit.residual_sigma_mm = frame->residual_sigma_mm;
-  fit.checks = static_cast<int>(frame->checks);
-  fill_coordinates(belts, view, fit);
-  fill_places(belts, *frame, view, fit);
-  fill_scale(belts, *frame, view, fit);
-  fit.one_left_out = belts::predict_one_by_one(belts, view);
+  BeltsFit fit = belts::fit_report(belts, view, view.covariance());
   fit.half_left_out = belts::predict_by_halves(belts, *frame);
   return fit;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The anchors of a router on four belts from what it measured by itself, with the sigma of each and
-/// what it rests on.
+/// what it rests on, by readings that err at random alone.
 ///
 /// 4 N readings of N places leave 2 N - 5 checks once places and anchors have taken their share:
 ///
@@ -11,7 +11,7 @@
 /// divides by the readings. Sigmas are (1) of fit_diagnostics.hpp with this spread.
 ///
 /// A reading that does not fit the others is rejected, the worst first: the distance of its residual,
-/// seen from a fit without it, in units of the spread without it. That is Student's t; what counts is
+/// against a fit without it, in units of the spread without it. That is Student's t; what counts is
 /// the normal deviate of the same chance.
 ///
 /// Lengths of belts do not determine the scale: all readings 1.005 times as long make a frame 1.005 times as
@@ -23,19 +23,21 @@
 ///
 /// \code
 ///   const auto fit = fit_belts(belts);
-///   if (!fit) say(fit.error().sentence);
+///   if (!fit) say(fit.error().sentence());
 ///   else use(fit->machine, fit->coordinates[0].sigma_mm, fit->residual_sigma_mm);
 /// \endcode
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
 #include "grid/belts/measured_belts.hpp"
+#include "model/failure.hpp"
 
 namespace chaintrue::grid {
 
@@ -57,9 +59,9 @@ struct AnchorCoordinate {
 
 /// A reading of one belt.
 struct BeltResidual {
-  double residual_mm = 0.0;     ///< read less fitted
-  bool counts = true;      ///< false: rejected
-  double sigmas = 0.0;     ///< seen from a fit without it; 0 where nothing else tells of it
+  double residual_mm = 0.0;  ///< read less fitted
+  bool counts = true;        ///< false: rejected
+  double sigmas = 0.0;       ///< against a fit without it; 0 where nothing else knows of it
   double deleted_residual_mm = 0.0;  ///< read less what all other readings make of it
 };
 
@@ -90,13 +92,23 @@ struct BeltScale {
   std::vector<double> residuals_mm;  ///< taped less fitted, of each distance
 };
 
+/// What acts besides the anchors: it is taken out of the readings of a fit.
+struct CauseBesideAnchors {
+  std::string effect;  ///< of the belts' table
+  std::string side;    ///< a belt, "all", or empty
+  std::map<std::string, double> parameters;
+  double sigma = 0.0;        ///< of its first parameter, in that parameter's unit
+  double probability = 0.0;  ///< that it acts
+};
+
 struct BeltsFit {
   model::BeltMachine machine;  ///< with the anchors fitted, in the belts' own millimetres
   std::array<AnchorCoordinate, 5> coordinates;
   Eigen::Matrix<double, 5, 5> covariance_mm2 = Eigen::Matrix<double, 5, 5>::Zero();
   double residual_sigma_mm = 0.0;  ///< (1)
-  int checks = 0;          ///< the denominator of (1)
-  double rms_mm = 0.0;  ///< of all readings, the rejected ones included, as the machine's message has it
+  int checks = 0;                  ///< the denominator of (1)
+  double rms_mm =
+      0.0;  ///< of all readings, the rejected ones included, as the machine's message has it
   model::PerBelt<double> rms_of_mm;     ///< of those that count
   std::vector<FittedPlace> places;      ///< of each point
   std::vector<BadBeltReading> bad;      ///< rejected, the worst first
@@ -105,20 +117,22 @@ struct BeltsFit {
   BeltPrediction one_left_out;
   std::optional<BeltPrediction>
       half_left_out;  ///< either half by the other; with ten places and more
+  /// Residuals, places and predictions are of readings without these; rms_mm is of the readings alone.
+  std::vector<CauseBesideAnchors> causes;
 };
 
-struct BeltsFitFailure {
-  enum class Reason {
-    too_few_points,
-    not_determined,  ///< on a line, or in one spot
-    no_frame,        ///< no anchors make sense of the lengths
-    hole_without_anchors,
-    too_many_distances,
-    tape_contradicts,  ///< the belts, or itself
-  } reason;
-  std::string sentence;
+enum class BeltsFitReason {
+  too_few_points,
+  not_determined,  ///< on a line, or in one spot
+  no_frame,        ///< no anchors make sense of the lengths
+  hole_without_anchors,
+  too_many_distances,
+  tape_contradicts,  ///< the belts, or itself
 };
+using BeltsFitFailure = Failure<BeltsFitReason>;
 
+/// Anchors alone, as the machine itself fits them: sigmas are of belts that do nothing but err at
+/// random. grid/diagnosis/anchors_with_causes.hpp counts what else may act.
 [[nodiscard]] tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts);
 
 }  // namespace chaintrue::grid

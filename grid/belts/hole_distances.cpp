@@ -57,8 +57,8 @@ std::optional<TapedRows> rows_about(const std::vector<BeltHoles>& sets,
       sets, mechanism.values().head<kAnchorUnknowns>(), mechanism.values()[kAnchorUnknowns]);
 }
 
-constexpr model::MechanismFailure kNowhere{"circles_do_not_meet",
-                                           "the upper belts do not reach a hole"};
+constexpr model::MechanismReason kNowhere{"circles_do_not_meet",
+                                          "the upper belts do not reach a hole"};
 
 }  // namespace
 
@@ -72,14 +72,14 @@ HoleDistances::HoleDistances(const std::vector<BeltHoles>& sets, const Eigen::Ma
 tl::expected<Eigen::VectorXd, observation::Unreachable> HoleDistances::predicted(
     const observation::View& view) const {
   const auto rows = rows_about(*sets_, *view.mechanism);
-  if (!rows) return tl::unexpected(observation::Unreachable{0, kNowhere});
+  if (!rows) return tl::unexpected(observation::Unreachable(kNowhere, 0));
   return Eigen::VectorXd(-root_.matrixL().solve(rows->residual_mm));
 }
 
 tl::expected<observation::Linearisation, observation::Unreachable> HoleDistances::linearise(
     const observation::View& view, const observation::Columns& columns) const {
   const auto rows = rows_about(*sets_, *view.mechanism);
-  if (!rows) return tl::unexpected(observation::Unreachable{0, kNowhere});
+  if (!rows) return tl::unexpected(observation::Unreachable(kNowhere, 0));
   observation::Linearisation result;
   result.predicted = -root_.matrixL().solve(rows->residual_mm);
   result.by_setting = columns.parameters ? Eigen::MatrixXd(root_.matrixL().solve(rows->by_frame))

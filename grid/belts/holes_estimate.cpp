@@ -54,8 +54,9 @@ Eigen::MatrixXd taped_covariance(const std::vector<BeltHoles>& sets,
 
 HolesEstimate::HolesEstimate(const MeasuredBelts& belts,
                              const std::vector<BeltHoles>& sets,
-                             AnchorFit alone)
-    : belts_(belts), sets_(sets), alone_(std::move(alone)) {}
+                             AnchorFit alone,
+                             KnownFrame known)
+    : belts_(belts), sets_(sets), alone_(std::move(alone)), known_(std::move(known)) {}
 
 WithoutHoles HolesEstimate::without_holes(const FrameState& state) const {
   Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(kFrameUnknowns, kFrameUnknowns);
@@ -68,6 +69,10 @@ WithoutHoles HolesEstimate::without_holes(const FrameState& state) const {
     AnchorFit there = alone_;
     there.state = state;
     result.view.emplace(belts_, there);
+    if (known_) {
+      result.covariance = *known_;
+      return result;
+    }
     const Eigen::MatrixXd& own = result.view->precision();
     precision.topLeftCorner(own.rows(), own.cols()) += own;
   }
@@ -81,8 +86,39 @@ Eigen::VectorXd HolesEstimate::about_the_belts(const TapedRows& rows,
   return rows.residual_mm + rows.by_frame * (frame_vector(state) - frame_vector(alone_.state));
 }
 
+/// The same minimum by Gauss and Newton: of the belts there is S_b alone, six unknowns and no place.
+///
+///   x = x_b + S_b J' (C + J S_b J')^-1 r_b                                                  (4)
+std::optional<FrameState> HolesEstimate::converged_about_known(
+    FrameState state, const Eigen::MatrixXd& covariance) const {
+  constexpr int kMostPasses = 20;
+  // Of anchors, mm: a thousandth of what the best tape leaves.
+  constexpr double kConvergedMm = 1e-5;
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const auto rows = taped_rows(sets_, state.anchors, state.log_scale);
+    if (!rows) return std::nullopt;
+    const Eigen::MatrixXd gain = *known_ * rows->by_frame.transpose();
+    const Eigen::VectorXd change =
+        gain * (covariance + rows->by_frame * gain).ldlt().solve(about_the_belts(*rows, state));
+    const AnchorVector anchors = alone_.state.anchors + change.head<kAnchorUnknowns>();
+    const double moved_mm = (anchors - state.anchors).cwiseAbs().maxCoeff();
+    state.anchors = anchors;
+    state.log_scale = alone_.state.log_scale + change[kAnchorUnknowns];
+    if (!(moved_mm < kConvergedMm)) continue;
+    AnchorFit fit;
+    fit.state = state;
+    place_all(belts_,
+              readings_of(belts_, alone_.counting, alone_.residual_sigma_mm),
+              mechanism_at(belts_, state),
+              fit);
+    return fit.state;
+  }
+  return std::nullopt;
+}
+
 std::optional<FrameState> HolesEstimate::converged(const FrameState& state,
                                                    const Eigen::MatrixXd& covariance) const {
+  if (known_) return converged_about_known(state, covariance);
   const bool has_points = !belts_.points.empty();
   estimation::EstimationInput input = anchor_input(belts_, alone_.counting, state.anchors);
   input.noise.knowledge = interp::NoiseKnowledge::exact;

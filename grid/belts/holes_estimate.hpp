@@ -36,11 +36,18 @@ struct WithoutHoles {
   std::optional<FitDiagnostics> view;  ///< none without points
 };
 
+/// What is known of anchors and the scale's logarithm, in place of what the readings leave: S_b of a
+/// fit that counts causes.
+using KnownFrame = std::optional<Eigen::MatrixXd>;
+
 class HolesEstimate {
  public:
   /// `belts` and `sets` outlive this. `alone` is the fit of the belts by themselves, of no points the
-  /// stated anchors.
-  HolesEstimate(const MeasuredBelts& belts, const std::vector<BeltHoles>& sets, AnchorFit alone);
+  /// stated anchors. `known` is 6 x 6 and about `alone`.
+  HolesEstimate(const MeasuredBelts& belts,
+                const std::vector<BeltHoles>& sets,
+                AnchorFit alone,
+                KnownFrame known = std::nullopt);
 
   [[nodiscard]] WithoutHoles without_holes(const FrameState& state) const;
   /// r_b.
@@ -52,9 +59,13 @@ class HolesEstimate {
   [[nodiscard]] const AnchorFit& alone() const { return alone_; }
 
  private:
+  [[nodiscard]] std::optional<FrameState> converged_about_known(
+      FrameState state, const Eigen::MatrixXd& covariance) const;
+
   const MeasuredBelts& belts_;
   const std::vector<BeltHoles>& sets_;
   AnchorFit alone_;
+  KnownFrame known_;
 };
 
 }  // namespace chaintrue::grid::belts

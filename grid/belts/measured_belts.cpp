@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace chaintrue::grid {
 
@@ -28,6 +29,38 @@ std::vector<model::Belt> pulled_after(model::Orientation orientation,
 bool is_pulled(const BeltPoint& point, model::Belt belt) {
   if (!point.pulled) return !model::is_upper(belt);
   return std::find(point.pulled->begin(), point.pulled->end(), belt) != point.pulled->end();
+}
+
+std::optional<BeltPull> reference_pull(const MeasuredBelts& belts) {
+  if (belts.reference_pull) return belts.reference_pull;
+  std::optional<BeltPull> least;
+  for (const BeltPoint& point : belts.points) {
+    if (point.pull && (!least || point.pull->value < least->value)) least = point.pull;
+  }
+  return least;
+}
+
+double pull_over(const std::optional<BeltPull>& reference, const BeltPoint& point) {
+  return reference && point.pull ? point.pull->value / reference->value : 1.0;
+}
+
+std::vector<double> different_pulls(const MeasuredBelts& belts) {
+  const std::optional<BeltPull> reference = reference_pull(belts);
+  std::set<double> different;
+  for (const BeltPoint& point : belts.points) different.insert(pull_over(reference, point));
+  return {different.begin(), different.end()};
+}
+
+std::string words_of(const BeltPull& pull) {
+  switch (pull.unit) {
+    case BeltPull::Unit::newton:
+      return fmt::format("{:g} N", pull.value);
+    case BeltPull::Unit::milliampere:
+      return fmt::format("{:g} mA", pull.value);
+    case BeltPull::Unit::relative:
+      break;
+  }
+  return fmt::format("{:g} times", pull.value);
 }
 
 std::string words_of(const BeltEnd& end) {

@@ -20,6 +20,15 @@
 
 namespace chaintrue::grid {
 
+/// How hard the pulled belts were pulled at a place. A motor's current stands for its force: what it
+/// takes to turn the motor alone is left out of it.
+struct BeltPull {
+  enum class Unit { relative, newton, milliampere };
+  double value = 1.0;  ///< above 0
+  Unit unit = Unit::relative;
+  friend bool operator==(const BeltPull&, const BeltPull&) = default;
+};
+
 struct BeltPoint {
   /// As the controller prints them, BeltMachine::lengths says what they count.
   model::PerBelt<double> lengths_mm;
@@ -29,6 +38,8 @@ struct BeltPoint {
   /// Belts that a motor pulled tight at the reading while the others held; absent: those of the
   /// frame's orientation, the lower two.
   std::optional<std::vector<model::Belt>> pulled = std::nullopt;
+  /// All points have it, in one unit, or none: then all were pulled equally.
+  std::optional<BeltPull> pull = std::nullopt;
   /// What the log holds of single readings that the controller threw away at this place because
   /// they did not agree.
   model::PerBelt<std::vector<double>> thrown_away_mm{};
@@ -60,6 +71,8 @@ struct MeasuredBelts {
   std::vector<BeltPoint> points;
   std::vector<BeltDistance> distances;
   std::optional<FirmwareFit> firmware_fit = std::nullopt;
+  /// Sizes of effects refer to this pull; absent: to the least of the points.
+  std::optional<BeltPull> reference_pull = std::nullopt;
 };
 
 /// 2 N - 5 checks of N places: fewer than these leave none to judge by.
@@ -75,6 +88,14 @@ inline constexpr std::size_t kMostBeltPoints = 20000;
                                                     std::size_t visit);
 /// Whether a motor pulled this belt at the reading.
 [[nodiscard]] bool is_pulled(const BeltPoint& point, model::Belt belt);
+/// The pull that sizes of effects refer to; empty where no point has one.
+[[nodiscard]] std::optional<BeltPull> reference_pull(const MeasuredBelts& belts);
+/// Over `reference`; 1 where either is not known.
+[[nodiscard]] double pull_over(const std::optional<BeltPull>& reference, const BeltPoint& point);
+/// The different pulls of a session over the reference, in order; {1} where all are equal.
+[[nodiscard]] std::vector<double> different_pulls(const MeasuredBelts& belts);
+/// "1200 mA", "150 N", "1.6 times".
+[[nodiscard]] std::string words_of(const BeltPull& pull);
 /// "point 3", "the top left anchor", "the hole at (-900, 300)".
 [[nodiscard]] std::string words_of(const BeltEnd& end);
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
+/// What pulled belts stretch by at places that were read twice.
+///
 /// Places that were read twice in a row, the upper belts as they were and the lower ones pulled
 /// otherwise: what the pulled belts gave. It needs no anchors.
 ///
@@ -9,9 +11,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "grid/belts/belts_fit.hpp"
 #include "grid/belts/measured_belts.hpp"
 
 namespace chaintrue::grid {

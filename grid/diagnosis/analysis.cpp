@@ -18,7 +18,8 @@ namespace {
 constexpr int kCalibrations = 8;
 constexpr double kConvergedMm = 1e-4;
 
-DiagnosisFailure unreachable(const ObservationSet& session, const observation::Unreachable& failure) {
+DiagnosisFailure unreachable(const ObservationSet& session,
+                             const observation::Unreachable& failure) {
   const NumberedPlace& place = session.places[failure.place];
   const ObservationPart& part = session.parts[place.part];
   return {DiagnosisFailure::Reason::point_unreachable,
@@ -27,15 +28,15 @@ DiagnosisFailure unreachable(const ObservationSet& session, const observation::U
                       part.observation->places()[failure.place - part.first_place].name,
                       place.mark.x_mm,
                       place.mark.y_mm,
-                      failure.reason.sentence)};
+                      failure.sentence())};
 }
 
 DiagnosisFailure impossible(const ObservationSet& session, const model::MachineProblem& problem) {
   const std::string_view units = session.units_word();
   return {DiagnosisFailure::Reason::contradictory_settings,
-          fmt::format("no machine near the stated one fits these {}: calibrating leads to {} = "
-                      "{}. Check the feed, the attachment and the motors' positions, and that the "
-                      "{} are those of this machine",
+          fmt::format("no machine near the one in your file fits these {}: calibrating leads to {} "
+                      "= {}. Check the feed, the attachment and the motors' positions, and that "
+                      "the {} are those of this machine",
                       units,
                       problem.parameter,
                       problem.value,
@@ -48,8 +49,8 @@ double move_mm(const ObservationSet& session, const Eigen::VectorXd& change) {
   double most = 0.0;
   for (std::size_t k = 0; k < session.settings.size(); ++k) {
     const bool turn = session.settings[k] == model::Setting::sheet_rotation_rad;
-    most = std::max(
-        most, (turn ? to_edge_mm : 1.0) * std::abs(change(static_cast<Eigen::Index>(k))));
+    most =
+        std::max(most, (turn ? to_edge_mm : 1.0) * std::abs(change(static_cast<Eigen::Index>(k))));
   }
   return most;
 }
@@ -87,7 +88,7 @@ void drop_invisible(const MarginalisedSystem& marginalised, Analysis& a) {
     } else {
       NotTestable& hidden = a.candidates.not_testable.emplace_back();
       hidden.cause = cause;
-      hidden.reason = "at any size that it may have, calibrating the settings would hide it";
+      hidden.reason = "whatever its size, calibrating the settings would hide it";
     }
   }
   const auto is_visible = [&](const Regressor& d) {
@@ -150,16 +151,16 @@ bool can_be_seen(const RegressorSystem& system,
 }
 
 Decision decide_for_leaders(const RegressorSystem& system,
-                                   const ModelComparison& comparison,
-                                   const std::vector<bool>& excluded,
-                                   bool seen) {
-  Decision decision = decide(system, comparison, excluded, seen);
+                            const ModelComparison& comparison,
+                            const std::vector<bool>& excluded,
+                            bool detected) {
+  Decision decision = decide(system, comparison, excluded, detected);
   speak_of_leaders(system, comparison, decision);
   return decision;
 }
 
-void decide_for(bool seen, Analysis& a) {
-  a.decision = decide_for_leaders(a.system, a.comparison, nothing_rejected(a.system), seen);
+void decide_for(bool detected, Analysis& a) {
+  a.decision = decide_for_leaders(a.system, a.comparison, nothing_rejected(a.system), detected);
   estimate_decided(a);
 }
 
@@ -179,10 +180,10 @@ void test_significance(const RegressorSystem& causes, NoiseSize noise, Analysis&
   const bool is_stated = noise == NoiseSize::stated;
   // The length of the residuals is given, so that nothing is known of the noise besides.
   constexpr double kNothingStated = 1e-3;
-  const SingleScore score(causes,
-                          marginalised,
-                          is_stated && a.options.steps.anchor_noise ? causes.noise_dof
-                                                                    : kNothingStated);
+  const SingleScore score(
+      causes,
+      marginalised,
+      is_stated && a.options.steps.anchor_noise ? causes.noise_dof : kNothingStated);
   // Enough draws for a family-wise 1 in 100, and in 300; fewer where one draw is long.
   constexpr std::size_t kManyUnits = 150;
   const int draws = causes.units.size() > kManyUnits ? 2000 : 4000;
@@ -238,9 +239,11 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
     a.state = std::move(relinearised.state);
   }
   test_significance(a.system, NoiseSize::stated, a);
+  // C. Bonferroni's bound.
+  a.family_wise_p = std::min(1.0, options.orders_tried * a.family_wise_p);
   if (options.steps.average_parts && !options.given_cause) {
-    a.parts = average_over_parts(
-        a.system, noise_dof(a), none, a.session.fewest_units, a.comparison);
+    a.parts =
+        average_over_parts(a.system, noise_dof(a), none, a.session.fewest_units, a.comparison);
   }
   decide_for(options.given_cause.has_value() || a.family_wise_p < kFalseAlarm, a);
   return a;

@@ -40,11 +40,11 @@ struct Analysis {
 [[nodiscard]] Decision decide_for_leaders(const RegressorSystem& system,
                                                  const ModelComparison& comparison,
                                                  const std::vector<bool>& excluded,
-                                                 bool seen);
+                                                 bool detected);
 
-/// Decision and estimate from the comparison at hand. `seen`: the strongest effect is beyond what
+/// Decision and estimate from the comparison at hand. `detected`: the strongest effect is beyond what
 /// noise does.
-void decide_for(bool seen, Analysis& analysis);
+void decide_for(bool detected, Analysis& analysis);
 /// Noise and estimate of the decision at hand.
 void estimate_decided(Analysis& analysis);
 
@@ -60,7 +60,7 @@ void estimate_decided(Analysis& analysis);
 /// `family_wise_p` and `tested`, without what the best model rejects.
 ///
 /// `causes` holds the regressors that are tried, about what does not hang on the readings' noise. Where
-/// nothing is stated of the noise, what is left of it lies in every direction alike, however large it
+/// nothing is stated of the noise, what is left of it lies equally in every direction, however large it
 /// is, so that the strongest score has one distribution for all residuals of one length (E. Lehmann and
 /// J. Romano, Testing Statistical Hypotheses (2005), section 5.2: an unknown scale is conditioned out).
 enum class NoiseSize { stated, unknown };

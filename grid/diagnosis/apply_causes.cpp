@@ -12,12 +12,12 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
   const ObservationSet& session = a.session;
   const bool scale_read =
       std::any_of(session.readings().begin(), session.readings().end(), [](const ExtraReading& r) {
-        return r.what == "link_pitch_mm" || r.what == "tape_error_mm_per_m";
+        return r.what == ReadingOf::link_pitch || r.what == ReadingOf::tape_error;
       });
   // Of a set the most probable goes in: on these points its rivals would do the same.
   std::vector<Cause> used = diagnosis.causes;
   if (diagnosis.verdict == Verdict::named_set) used.resize(1);
-  // An extension that does not help on points it has not seen is not made.
+  // An extension that does not help on points that it was not fitted to is not made.
   const bool worse =
       diagnosis.improvement && diagnosis.improvement->extended.rms_mm >= diagnosis.improvement->calibrated.rms_mm;
   std::vector<model::AppliedEffect> into_machine;

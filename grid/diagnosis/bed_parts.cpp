@@ -15,7 +15,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr int kDirections = 16;
+constexpr int kCutDirections = 16;
 constexpr double kShareLeftOut = 0.25;
 /// Places whose scatter across their best line is less than this share of that along it lie on a line.
 constexpr double kOnALine = 1e-3;
@@ -139,9 +139,9 @@ std::vector<BedPart> bed_parts(const RegressorSystem& system,
   const std::vector<UnitPlace> places = places_of_units(system, excluded);
   const auto out = static_cast<std::size_t>(kShareLeftOut * static_cast<double>(places.size()));
   std::vector<BedPart> parts;
-  for (int k = 0; k < kDirections && out > 0; ++k) {
+  for (int k = 0; k < kCutDirections && out > 0; ++k) {
     // Half a step from the axes, so that no line runs along the columns of a lattice.
-    const double towards = (k + 0.5) * 2.0 * std::numbers::pi / kDirections;
+    const double towards = (k + 0.5) * 2.0 * std::numbers::pi / kCutDirections;
     const Eigen::Vector2d direction(std::cos(towards), std::sin(towards));
     std::vector<double> along;
     for (const UnitPlace& place : places) along.push_back(direction.dot(place.at));
@@ -161,7 +161,7 @@ std::vector<BedPart> bed_parts(const RegressorSystem& system,
     if (rest.size() >= std::max<std::size_t>(fewest, 3) && !lie_on_a_line(rest))
       parts.push_back(std::move(part));
   }
-  if (2 * parts.size() < static_cast<std::size_t>(kDirections)) parts.clear();
+  if (2 * parts.size() < static_cast<std::size_t>(kCutDirections)) parts.clear();
   return parts;
 }
 

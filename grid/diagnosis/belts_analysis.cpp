@@ -57,7 +57,7 @@ void leave_noise_open(Decision& decision) {
     decision.verdict = Verdict::nothing_found;
 }
 
-/// The likeliest pattern without any cause beside it; false where none was weighed.
+/// The likeliest pattern without any cause; false where none was weighed.
 bool take_pattern_alone(const ModelComparison& comparison, Decision& decision) {
   const auto alone = std::find_if(
       comparison.models.begin(), comparison.models.end(), [](const CandidateModel& model) {
@@ -71,7 +71,7 @@ bool take_pattern_alone(const ModelComparison& comparison, Decision& decision) {
 }
 
 /// Where the strongest cause is no more than noise does by chance, none is named, whatever a pattern
-/// beside it seems to leave for it.
+/// with it seems to leave for it.
 void take_names_back(const ModelComparison& comparison, Decision& decision) {
   if (decision.listed.empty() && decision.regressors.empty()) return;
   decision.listed.clear();
@@ -83,7 +83,7 @@ void take_names_back(const ModelComparison& comparison, Decision& decision) {
           : Verdict::nothing_found;
 }
 
-/// By how much the readings make the odds of a cause beside a pattern larger than they are beforehand;
+/// By how much the readings make the odds of a cause given a pattern larger than they are beforehand;
 /// infinity where the pattern alone is out of the question.
 double spoken_for(const Analysis& a, const CauseClass& members) {
   std::vector<double> with, without;
@@ -97,15 +97,14 @@ double spoken_for(const Analysis& a, const CauseClass& members) {
     const Regressor& own = a.system.regressors[static_cast<std::size_t>(model.regressors.front())];
     if (std::find(members.begin(), members.end(), own.cause) == members.end()) continue;
     with.push_back(model.log_weight);
-    beforehand =
-        log_prior(a.system, model.regressors, true) - log_prior(a.system, {}, true);
+    beforehand = log_prior(a.system, model.regressors, true) - log_prior(a.system, {}, true);
   }
   if (with.empty()) return 0.0;
   if (without.empty()) return std::numeric_limits<double>::infinity();
   return std::exp(log_sum(with) - log_sum(without) - beforehand);
 }
 
-/// What is expected beforehand, and is not any likelier for the readings, is no finding: beside a
+/// What is expected beforehand, and is not any likelier for the readings, is no finding: with a
 /// pattern, where less than surely is enough for a name, it is the pattern that was found.
 void take_expected_back(BeltsAnalysis& a) {
   Decision& decision = a.analysis.decision;
@@ -115,17 +114,30 @@ void take_expected_back(BeltsAnalysis& a) {
   if (spoken_for(a.analysis, named) < kSpokenFor) take_names_back(a.analysis.comparison, decision);
 }
 
-/// Decision, and the estimate of its causes: beside the pattern that it holds, if any.
-void decide(bool seen, BeltsAnalysis& a) {
+/// Decision, and the estimate of its causes: given the pattern that it holds, if any.
+void decide(bool detected, BeltsAnalysis& a) {
   Analysis& own = a.analysis;
-  own.decision =
-      decide_for_leaders(own.system, own.comparison, nothing_rejected(own.system), seen);
-  if (!seen) take_names_back(own.comparison, own.decision);
+  own.decision = decide_for_leaders(own.system, own.comparison, nothing_rejected(own.system), detected);
+  if (!detected) take_names_back(own.comparison, own.decision);
   take_expected_back(a);
   estimate_decided(own);
 }
 
-void compare(bool last, BeltsAnalysis& a) {
+/// What a verdict needs beyond the comparison.
+void weigh_for_a_verdict(BeltsAnalysis& a) {
+  Analysis& own = a.analysis;
+  test_significance(system_of(a.belts, {a.alone, {}}, own.candidates.testable, a.sigma_mm),
+                    NoiseSize::unknown,
+                    own);
+  if (!own.options.steps.average_parts || own.options.given_cause) return;
+  own.parts = average_over_parts(own.system,
+                                 own.session.noise_dof,
+                                 nothing_rejected(own.system),
+                                 kFewestPlaces,
+                                 own.comparison);
+}
+
+void compare(bool last, AnalysisDepth depth, BeltsAnalysis& a) {
   Analysis& own = a.analysis;
   ComparisonOptions options{.steps = own.options.steps, .given_cause = own.options.given_cause};
   options.search = kSearch;
@@ -140,20 +152,10 @@ void compare(bool last, BeltsAnalysis& a) {
     options.search.strength_step = 2;
   }
   own.comparison = compare_models(own.system, nothing_rejected(own.system), options);
-  if (last) {
-    test_significance(
-        system_of(a.belts, {a.alone, {}}, own.candidates.testable, a.sigma_mm),
-        NoiseSize::unknown,
-        own);
-    if (own.options.steps.average_parts && !own.options.given_cause) {
-      own.parts = average_over_parts(own.system,
-                                     own.session.noise_dof,
-                                     nothing_rejected(own.system),
-                                     kFewestPlaces,
-                                     own.comparison);
-    }
-  }
-  decide(!last || own.family_wise_p < kFalseAlarmOfBelts, a);
+  if (last) a.averaged = averaged_anchors(a.state, own.system, own.comparison);
+  const bool for_a_verdict = last && depth == AnalysisDepth::verdict;
+  if (for_a_verdict) weigh_for_a_verdict(a);
+  decide(!for_a_verdict || own.family_wise_p < kFalseAlarmOfBelts, a);
 }
 
 /// Causes that nothing in these readings could show.
@@ -207,7 +209,8 @@ std::vector<BeltCause> decided_causes(const Analysis& a) {
 }
 
 tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts,
-                                                      const DiagnosisOptions& options) {
+                                                      const DiagnosisOptions& options,
+                                                      AnalysisDepth depth) {
   BeltsAnalysis a;
   a.belts = belts;
   a.belts.distances.clear();
@@ -230,7 +233,7 @@ tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts
   own.session.units.resize(own.system.units.size());
   drop_hidden(a);
   for (int pass = 0; pass < kCalibrationRounds; ++pass) {
-    compare(pass + 1 == kCalibrationRounds, a);
+    compare(pass + 1 == kCalibrationRounds, depth, a);
     if (pass + 1 == kCalibrationRounds) break;
     move_state(a);
     a.sigma_mm *= std::sqrt(own.estimate.noise_square);

@@ -67,7 +67,7 @@ double shape_error_mm(const Believed& believed, const std::vector<FramePoint>& p
   return std::sqrt(left.squaredNorm() / static_cast<double>(n));
 }
 
-/// Half of an axis of the anchors' uncertainty at a time, both ways alike: rms over all of them.
+/// Half of an axis of the anchors' uncertainty at a time, both ways: rms over all of them.
 double uncertain_mm(const model::BeltMachine& machine,
                     const Eigen::MatrixXd& covariance,
                     const std::vector<FramePoint>& places) {
@@ -117,8 +117,10 @@ double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
   return std::sqrt(left.squaredNorm() / static_cast<double>(left.size()));
 }
 
+}  // namespace
+
 std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
-                                                 const Explained& explained) {
+                                                   const Explained& explained) {
   const std::size_t count = belts.points.size();
   if (count < 2 * kFewestBeltPoints) return std::nullopt;
   const std::vector<std::size_t> order = belts::in_order(belts);
@@ -141,8 +143,6 @@ std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
   return belts::summed(residual_mm);
 }
 
-}  // namespace
-
 Explained explained(const BeltsAnalysis& a) {
   belts::AnchorFit from = a.state.frame;
   from.counting = decided_counting(a);
@@ -158,14 +158,14 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
                              const BeltsFit& alone) {
   const belts::AnchorFit& frame = explained.given.frame;
   BeltsFindings found;
-  found.machine = belts::with_anchors(belts.machine, frame.state.anchors);
-  const Eigen::MatrixXd& covariance = a.analysis.estimate.setting_covariance;
+  found.machine = belts::with_anchors(belts.machine, a.averaged.anchors);
+  const Eigen::MatrixXd covariance = a.averaged.covariance_mm2;
   for (std::size_t i = 0; i < found.coordinates.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     found.coordinates[i] = {alone.coordinates[i].name,
                             alone.coordinates[i].stated_mm,
                             alone.coordinates[i].fitted_mm,
-                            frame.state.anchors[at],
+                            a.averaged.anchors[at],
                             std::sqrt(covariance(at, at))};
   }
   found.spread_before_mm = alone.residual_sigma_mm;
@@ -230,7 +230,7 @@ double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt w
 }
 
 /// The belt that may be off in place of a bad one: on the line between two anchors the other two belts
-/// alone say how far beside it the place is, and nothing says which of them is off.
+/// alone say how far from it the place is, and nothing says which of them is off.
 std::optional<Belt> equally_likely_belt(const belts::FitDiagnostics& view, std::size_t point, Belt bad) {
   // Odds of twenty to one tell them apart.
   const double limit = left_without(view, point, bad) + 2.0 * std::log(20.0);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// What a diagnosis of four belts finds beyond causes and their probabilities: anchors with the causes
-/// beside them, what one belt's reading is off by, what the upper two belts foretell of the lower ones,
+/// with them, what one belt's reading is off by, what the upper two belts predict of the lower ones,
 /// and where the tool is. All "before" with the anchors fitted alone, as the machine itself does, and
-/// after with the causes named beside them. In mm of the belts: their scale is not known without a tape.
+/// after with the causes named; but anchors are averaged over all that may act, as a fit
+/// has them (averaged_anchors.hpp). In mm of the belts: their scale is not known without a tape.
 #pragma once
 
 #include <array>
@@ -28,7 +29,7 @@ struct DiagnosedCoordinate {
 
 /// A place in the pictures: read less fitted, of each belt.
 struct BeltPlacePicture {
-  model::FramePoint at;  ///< with the causes beside the anchors
+  model::FramePoint at;  ///< with the causes and the anchors
   std::optional<int> order;
   model::PerBelt<double> before_mm;
   model::PerBelt<double> after_mm;
@@ -40,13 +41,22 @@ struct BeltPlacePicture {
 struct ToolError {
   double stated_mm = 0.0;  ///< rms with the anchors as stated; 0 where none are
   double before_mm = 0.0;  ///< rms, anchors fitted alone
-  double after_mm = 0.0;   ///< rms of what the readings leave uncertain, causes beside the anchors
+  double after_mm = 0.0;   ///< rms of what the readings leave uncertain, causes with the anchors
   /// One sigma of what a metre is longer or shorter by; empty where nothing taped tells it.
   std::optional<double> scale_mm_per_m;
 };
 
+/// All places measured once more with the belts pulled harder.
+struct SecondPass {
+  double times = 1.0;  ///< as hard
+  /// Probability that the right cause is then named alone.
+  double raises_probability_to = 0.0;
+};
+/// What to do, and what it is worth.
+[[nodiscard]] std::string in_words(const SecondPass& pass);
+
 struct BeltsFindings {
-  model::BeltMachine machine;  ///< with the anchors fitted beside the causes
+  model::BeltMachine machine;  ///< with the anchors fitted with the causes
   std::array<DiagnosedCoordinate, 5> coordinates;
   /// sqrt(sum r^2 / checks): what one belt's reading is off by.
   double spread_before_mm = 0.0;
@@ -61,6 +71,7 @@ struct BeltsFindings {
   std::optional<BeltScale> scale;
   std::optional<FirmwareFit> firmware_fit;
   std::vector<BeltPlacePicture> places;  ///< in the order of the file
+  std::optional<SecondPass> second_pass;  ///< where it parts what nothing less does
 };
 
 }  // namespace chaintrue::grid::diagnosis

@@ -112,8 +112,10 @@ Eigen::VectorXd least_squares(const MeasuredBelts& without_causes,
 
 }  // namespace
 
-model::belts::BeltVisit visit_of(const BeltPoint& point, Belt belt) {
-  return {belt, is_pulled(point, belt), point.order.value_or(0)};
+model::belts::BeltVisit visit_of(const BeltPoint& point,
+                                 Belt belt,
+                                 const std::optional<BeltPull>& reference) {
+  return {belt, is_pulled(point, belt), point.order.value_or(0), pull_over(reference, point)};
 }
 
 Eigen::VectorXd added_by(const MeasuredBelts& belts,
@@ -123,6 +125,7 @@ Eigen::VectorXd added_by(const MeasuredBelts& belts,
   if (causes.empty()) return added;
   const auto effects = resolved(causes);
   const model::BeltMachine machine = belts::with_anchors(belts.machine, state.anchors);
+  const std::optional<BeltPull> reference = reference_pull(belts);
   for (const Belt belt : kBelts) {
     const bool acts = std::any_of(effects.begin(), effects.end(), [belt](const auto& own) {
       return model::belts::acts_on(own.side, belt);
@@ -130,7 +133,7 @@ Eigen::VectorXd added_by(const MeasuredBelts& belts,
     if (!acts) continue;
     for (std::size_t k = 0; k < belts.points.size(); ++k) {
       const model::FramePoint at = state.places[k];
-      const auto visit = visit_of(belts.points[k], belt);
+      const auto visit = visit_of(belts.points[k], belt, reference);
       const auto with = model::belts::read_belt(machine, effects, visit, at);
       const auto without = model::belts::read_belt(machine, {}, visit, at);
       if (with && without) added[belts::row_of(k, belt)] = *with - *without;

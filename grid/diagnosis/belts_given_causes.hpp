@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Anchors and places of a router on four belts with causes at work: the frame is fitted to readings
-/// that are freed of what the causes add there, and the causes' sizes beside it, until both settle.
+/// that are freed of what the causes add there, and the causes' sizes given it, until both converge.
 /// Private to grid/diagnosis.
 ///
 /// Notation
@@ -35,7 +35,9 @@ struct BeltCause {
 };
 
 /// The visit of a point: its number is 0 where the file has none.
-[[nodiscard]] model::belts::BeltVisit visit_of(const BeltPoint& point, model::Belt belt);
+[[nodiscard]] model::belts::BeltVisit visit_of(const BeltPoint& point,
+                                               model::Belt belt,
+                                               const std::optional<BeltPull>& reference);
 
 /// What the causes add to what the machine prints, 4 N, mm: as row_of() has the rows. Of readings that
 /// such a machine cannot give 0.

@@ -26,11 +26,13 @@ constexpr Raster kFlat{5, 4};
 /// Of the frame's width and height that the raster leaves out on each side: nearer to an anchor its
 /// arm is in the way.
 constexpr double kMargin = 0.14;
-/// A place beside one of the raster says the same; people type whole tens.
+/// A place next to one of the raster says the same; people type whole tens.
 constexpr double kRasterMm = 10.0;
 /// Places of the session that may be visited once more, spread over it.
 constexpr std::size_t kRevisits = 5;
-/// All places once more are foretold for so many at most: a second.
+/// Of a second pass over the first: the firmware's usual current may be raised by as much.
+constexpr double kHarder = 1.6;
+/// All places once more are predicted for so many at most: a second.
 constexpr std::size_t kMostOnceMore = 200;
 
 /// Places to come, and the state that makes their readings.
@@ -55,22 +57,28 @@ const std::vector<Approach>& approaches(model::Orientation orientation) {
 
 class Gathering {
  public:
-  explicit Gathering(const BeltsAnalysis& a)
-      : machine_(belts::with_anchors(a.belts.machine, a.state.frame.state.anchors)) {
+  /// Belts are pulled `times` as hard as places that were measured had them.
+  explicit Gathering(const BeltsAnalysis& a, double times = 1.0)
+      : machine_(belts::with_anchors(a.belts.machine, a.state.frame.state.anchors)), times_(times) {
     next_.belts.machine = a.belts.machine;
+    next_.belts.reference_pull = reference_pull(a.belts).value_or(BeltPull{});
     next_.state.frame.state.anchors = a.state.frame.state.anchors;
     for (const BeltPoint& point : a.belts.points) {
       if (point.order) next_visit_ = std::max(next_visit_.value_or(0), *point.order + 1);
     }
   }
 
-  /// True where the machine reaches it.
-  bool add(model::FramePoint at, const std::optional<std::vector<Belt>>& pulled) {
+  /// True where the machine reaches it. Without a pull it is the one that sizes refer to.
+  bool add(model::FramePoint at,
+           const std::optional<std::vector<Belt>>& pulled,
+           const std::optional<BeltPull>& pull = std::nullopt) {
     const auto lengths = model::lengths_at(machine_, at);
     if (!lengths) return false;
     BeltPoint point;
     point.lengths_mm = *lengths;
     point.pulled = pulled;
+    point.pull = pull.value_or(*next_.belts.reference_pull);
+    point.pull->value *= times_;
     point.order = next_visit_;
     next_.belts.points.push_back(std::move(point));
     next_.state.frame.state.places.push_back(at);
@@ -89,6 +97,7 @@ class Gathering {
 
  private:
   model::BeltMachine machine_;
+  double times_;
   NextPlaces next_;
   std::optional<int> next_visit_;
 };
@@ -138,7 +147,10 @@ void add_places(const BeltsAnalysis& a, Gathering& gathering, std::vector<Candid
   }
 }
 
-void add_revisits(const BeltsAnalysis& a, Gathering& gathering, std::vector<Candidate>& all) {
+void add_revisits(const BeltsAnalysis& a,
+                  const PointIndices& indices,
+                  Gathering& gathering,
+                  std::vector<Candidate>& all) {
   if (!gathering.has_order()) return;
   const model::FramePoint centre = model::centre_of(gathering.machine());
   const std::size_t count = a.belts.points.size();
@@ -146,10 +158,10 @@ void add_revisits(const BeltsAnalysis& a, Gathering& gathering, std::vector<Cand
     const std::size_t k = i * (count - 1) / (kRevisits - 1);
     const model::FramePoint at = a.state.frame.state.places[k];
     const BeltPoint& point = a.belts.points[k];
-    if (!gathering.add(at, point.pulled)) continue;
+    if (!gathering.add(at, point.pulled, point.pull)) continue;
     all.push_back(candidate_of(
         MeasurementKind::revisit,
-        fmt::format("point {} once more", k + 1),
+        fmt::format("point {} once more", index_in_file(indices, k) + 1),
         point.commanded.value_or(model::BedPoint{std::round(at.x_mm - centre.x_mm) + 0.0,
                                                  std::round(at.y_mm - centre.y_mm) + 0.0}),
         point.pulled.value_or(std::vector<Belt>{}),
@@ -164,12 +176,12 @@ std::vector<Alternative> predicted_at(const BeltsAnalysis& a, const NextPlaces& 
   });
 }
 
-/// Every place once more, the last one first.
-std::optional<double> all_once_more(const BeltsAnalysis& a) {
+/// Of every place once more, the last one first, pulled so many times as hard as before.
+std::optional<double> all_once_more(const BeltsAnalysis& a, double times = 1.0) {
   if (a.belts.points.size() > kMostOnceMore) return std::nullopt;
-  Gathering gathering(a);
+  Gathering gathering(a, times);
   for (std::size_t k = a.belts.points.size(); k-- > 0;)
-    gathering.add(a.state.frame.state.places[k], a.belts.points[k].pulled);
+    gathering.add(a.state.frame.state.places[k], a.belts.points[k].pulled, a.belts.points[k].pull);
   gathering.count_visits();
   const std::vector<Alternative> alternatives = predicted_at(a, gathering.take());
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(alternatives.front().mean.size()));
@@ -177,9 +189,20 @@ std::optional<double> all_once_more(const BeltsAnalysis& a) {
   return expected_discrimination(alternatives, rows).named_alone;
 }
 
+std::optional<SecondPass> second_pass(const BeltsAnalysis& a, const BeltsNext& others) {
+  if (different_pulls(a.belts).size() > 1) return std::nullopt;
+  const auto named_alone = all_once_more(a, kHarder);
+  double by_others = others.all_once_more.value_or(0.0);
+  if (!others.measurements.empty())
+    by_others = std::max(by_others, others.measurements.back().raises_probability_to);
+  if (!named_alone || *named_alone < kWorthMeasuring || *named_alone <= by_others + kWorthASession)
+    return std::nullopt;
+  return SecondPass{kHarder, *named_alone};
+}
+
 }  // namespace
 
-BeltsNext next_measurements(const BeltsAnalysis& a) {
+BeltsNext next_measurements(const BeltsAnalysis& a, const PointIndices& indices) {
   BeltsNext result;
   const std::vector<Alternative> alternatives = alternatives_of_best(a.analysis);
   if (is_left_alone(a.analysis, alternatives) || alternatives.back().group == 0 ||
@@ -190,10 +213,11 @@ BeltsNext next_measurements(const BeltsAnalysis& a) {
   Gathering gathering(a);
   std::vector<Candidate> candidates;
   add_places(a, gathering, candidates);
-  add_revisits(a, gathering, candidates);
+  add_revisits(a, indices, gathering, candidates);
   result.measurements =
       most_telling(a.analysis, predicted_at(a, gathering.take()), std::move(candidates));
   result.all_once_more = all_once_more(a);
+  result.second_pass = second_pass(a, result);
   return result;
 }
 

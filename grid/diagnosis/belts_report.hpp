@@ -18,6 +18,11 @@ struct Explained {
 };
 [[nodiscard]] Explained explained(const BeltsAnalysis& analysis);
 
+/// Lower belts of either half of the places by a fit to the other, sizes of the causes as well; empty
+/// with too few places.
+[[nodiscard]] std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
+                                                                 const Explained& explained);
+
 /// Everything but words; `alone` is what fit_belts() makes of the same belts.
 [[nodiscard]] BeltsFindings belts_findings(const BeltsAnalysis& analysis,
                                            const Explained& explained,
@@ -34,7 +39,8 @@ struct Explained {
 [[nodiscard]] std::vector<NextMeasurement> measurements_of(const BeltsNext& next,
                                                            const MeasuredBelts& belts,
                                                            const BeltsFit& alone,
-                                                           const Decision& decision);
+                                                           const Decision& decision,
+                                                           const PointIndices& indices);
 
 /// verdict, sentence, what_to_do, not_proved and notes from everything else.
 void put_belts_into_words(const MeasuredBelts& belts,

@@ -20,10 +20,10 @@ namespace {
 constexpr double kAnchorSigmaMm = 1000.0;
 /// How well one sigma of a belt's reading is known before any is read: hardly.
 constexpr double kNoiseDof = 2.0;
-/// Visits at which something may set in, spread over the session: neighbours of 24 stay alike to 0.97,
+/// Visits at which something may set in, spread over the session: neighbours of 24 have a collinearity of 0.97,
 /// and the best is looked for between its neighbours afterwards.
 constexpr std::size_t kVisits = 24;
-/// Ways that an anchor may slip: the nearest is at most a sixteenth of a turn off, 0.92 alike.
+/// Ways that an anchor may slip: the nearest is at most a sixteenth of a turn off, a collinearity of 0.92.
 constexpr int kWays = 8;
 /// On either side of a step, or nobody can tell it from bad readings.
 constexpr std::size_t kLeastAfter = 2;
@@ -107,7 +107,8 @@ class Columns {
       if (own.cause == cause) found = &own;
     }
     if (found != nullptr) values = found->values;
-    const double side = effect_share(cause.effect->id) / static_cast<double>(cause.effect->sides.size());
+    const double side =
+        effect_share(cause.effect->id) / static_cast<double>(cause.effect->sides.size());
     if (parameters.size() == 1) return add_one({cause, values}, found != nullptr, side);
     std::vector<int> visits = thinned(visits_);
     if (found != nullptr) {
@@ -219,7 +220,7 @@ BeltsCandidates candidates(const MeasuredBelts& belts) {
       } else if ((effect == &model::belts::belt_stretch || effect == &model::belts::anchor_flex) &&
                  !(is_pulled_anywhere[0] && is_pulled_anywhere[1])) {
         result.not_testable.emplace_back(
-            cause, "no belt is pulled beside others that hold: say which are, with pulled");
+            cause, "no belt is pulled while others hold: say which are, with pulled");
       } else {
         result.testable.push_back(cause);
       }
@@ -234,7 +235,7 @@ RegressorSystem system_of(const MeasuredBelts& belts,
                           double sigma_mm) {
   // Two rows more than anchors, or nothing is left to judge by.
   constexpr Eigen::Index kFewestChecks = 3;
-  // Two bad readings of a place, and of places beside each other, can mask one another.
+  // Two bad readings of a place, and of neighbouring places, can mask one another.
   constexpr std::size_t kBeyondTheBest = 8;
   const std::size_t count = belts.points.size();
   const auto rows = 2 * static_cast<Eigen::Index>(count);
@@ -250,16 +251,14 @@ RegressorSystem system_of(const MeasuredBelts& belts,
     const model::FramePoint where = state.frame.state.places[k];
     LengthEntry entry{where.x_mm, where.y_mm, static_cast<double>(point.order.value_or(0)), {}};
     entry.by_length = checks_of(lines, k, {true, true, true, true}).transpose() / sigma_mm;
-    system.e.segment<2>(row) =
-        entry.by_length * lines.residual_mm.segment<4>(reading);
-    system.by_setting.middleRows<2>(row) =
-        entry.by_length * lines.by_anchor.middleRows<4>(reading);
+    system.e.segment<2>(row) = entry.by_length * lines.residual_mm.segment<4>(reading);
+    system.by_setting.middleRows<2>(row) = entry.by_length * lines.by_anchor.middleRows<4>(reading);
     for (Eigen::Index belt = 0; belt < 4; ++belt)
       system.groups.push_back({row, 2, Eigen::Vector2d(entry.by_length.col(belt))});
-    system.units.push_back(
-        {.first_row = row,
-         .rows = 2,
-         .whitening = estimation::UnitWhitening::projected(Eigen::MatrixXd::Identity(2, 2), sigma_mm)});
+    system.units.push_back({.first_row = row,
+                            .rows = 2,
+                            .whitening = estimation::UnitWhitening::projected(
+                                Eigen::MatrixXd::Identity(2, 2), sigma_mm)});
     system.unit_of_row.insert(system.unit_of_row.end(), 2, static_cast<int>(k));
     system.entries.push_back(std::move(entry));
     ordered = ordered || point.order.has_value();

@@ -23,8 +23,9 @@ std::string sized_belt_cause(const CauseId& cause,
 }
 
 /// An end of a distance as a file has it: an anchor's name, a point's number, a hole's command.
-std::string end_of(const BeltEnd& end) {
-  if (const auto* index = std::get_if<std::size_t>(&end)) return fmt::format("{}", *index);
+std::string end_of(const BeltEnd& end, const PointIndices& indices) {
+  if (const auto* index = std::get_if<std::size_t>(&end))
+    return fmt::format("{}", index_in_file(indices, *index));
   if (const auto* belt = std::get_if<model::Belt>(&end)) return std::string(model::name(*belt));
   const model::BedPoint at = std::get<CutHole>(end).commanded;
   return fmt::format("({:g}, {:g})", at.x_mm, at.y_mm);
@@ -38,14 +39,14 @@ std::string or_else(const Outlier& bad) {
 std::vector<std::string> bad_belts(const Diagnosis& d) {
   std::vector<std::string> result;
   for (const Outlier& bad : d.outliers) {
-    result.push_back(bad.belt
-                         ? fmt::format("the {} belt at point {}{}, read {:.1f} mm too {}",
-                                       model::words(*bad.belt),
-                                       bad.index + 1,
-                                       or_else(bad),
-                                       std::abs(bad.residual_mm),
-                                       bad.residual_mm > 0.0 ? "long" : "short")
-                         : fmt::format("point {}, where more than one belt disagrees", bad.index + 1));
+    result.push_back(
+        bad.belt ? fmt::format("the {} belt at point {}{}, read {:.1f} mm too {}",
+                               model::words(*bad.belt),
+                               bad.index + 1,
+                               or_else(bad),
+                               std::abs(bad.residual_mm),
+                               bad.residual_mm > 0.0 ? "long" : "short")
+                 : fmt::format("point {}, where more than one belt disagrees", bad.index + 1));
   }
   return result;
 }
@@ -57,7 +58,7 @@ std::string improvement_words(const BeltsFindings& found) {
                   found.residual_sigma_mm);
   if (found.prediction && found.prediction_before) {
     text += fmt::format(
-        "; the lower belts, foretold by the upper two at places left out, from {:.2f} to {:.2f} mm",
+        "; the lower belts, predicted by the upper two at places left out, from {:.2f} to {:.2f} mm",
         found.prediction_before->rms_mm,
         found.prediction->rms_mm);
   }
@@ -96,6 +97,35 @@ std::string listed_words(const Diagnosis& d, std::string_view last) {
   return joined(parts, last);
 }
 
+/// Causes that are likely enough to be thought of, though none is named: one set.
+std::string short_of_a_name(const Diagnosis& d) {
+  // Of one cause beforehand: a sixth. A fifth is more than the readings found there.
+  constexpr double kToThinkOf = 0.2;
+  constexpr double kInTheSet = 0.1;
+  std::vector<std::string> parts;
+  double most = 0.0;
+  for (const Hypothesis& own : d.hypotheses) {
+    // Pulled belts are expected to stretch: where it is not named the readings speak against it.
+    if (own.probability < kInTheSet || own.effect == "belt_stretch") continue;
+    for (const Term& term : d.terms) {
+      const CauseId& cause = term.cause;
+      if (cause.effect->id != own.effect || model::effects::name(cause.side) != own.side) continue;
+      parts.push_back(fmt::format(
+          "{}{}, {}", cause.effect->cause, side_words(cause), percent(own.probability)));
+      most = std::max(most, own.probability);
+      break;
+    }
+  }
+  if (most < kToThinkOf) return "";
+  return parts.size() == 1
+             ? fmt::format(" Short of a name, one cause is to be thought of: {}.", parts.front())
+             : fmt::format(
+                   " Short of a name, one of {} causes is to be thought of, which these lengths "
+                   "do not tell apart: {}.",
+                   parts.size(),
+                   joined(parts, "or"));
+}
+
 std::string sentence(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::named:
@@ -115,17 +145,21 @@ std::string sentence(const Diagnosis& d) {
                          d.outliers.size() == 1 ? "it" : "them");
     case Verdict::model_discrepancy:
       return fmt::format(
-          "What is left of the lengths changes smoothly from place to place, {:.2f} mm a belt over "
-          "some {:.0f} mm of the sheet, and no listed cause makes it.",
-          d.unexplained->rms_mm,
-          d.unexplained->length_mm);
+                 "What is left of the lengths changes smoothly from place to place, {:.2f} mm a "
+                 "belt over "
+                 "some {:.0f} mm of the sheet, and no listed cause makes it.",
+                 d.unexplained->rms_mm,
+                 d.unexplained->length_mm) +
+             short_of_a_name(d);
     default:
       return fmt::format(
-          "Nothing is found beyond the anchors: what is left of the lengths at {} places, {:.2f} "
-          "mm "
-          "a belt, has no listed cause.",
-          d.belts->places.size(),
-          d.belts->residual_sigma_mm);
+                 "Nothing is found beyond the anchors: what is left of the lengths at {} places, "
+                 "{:.2f} "
+                 "mm "
+                 "a belt, has no listed cause.",
+                 d.belts->places.size(),
+                 d.belts->residual_sigma_mm) +
+             short_of_a_name(d);
   }
 }
 
@@ -150,20 +184,23 @@ std::string left_out_arms(const MeasuredBelts& belts, const Diagnosis& d) {
   return "";
 }
 
+bool tells(const BeltsNext& next) {
+  return !next.measurements.empty() &&
+         next.measurements.back().raises_probability_to >= kWorthMeasuring;
+}
+
 /// Where causes are left open: what parts them, and where nothing of it does, what would.
 void say_what_to_measure(const BeltsNext& next, Diagnosis& d) {
-  // A chance of this much more is worth a second session.
-  constexpr double kWorthASession = 0.05;
   if (!next.is_open) return;
   const std::string_view aim = d.causes.empty() ? "one explanation alone" : "a single name";
   std::string text;
   double reached = 0.0;
-  if (!next.measurements.empty()) {
+  if (tells(next)) {
     const NextMeasurement& first = next.measurements.front();
     reached = next.measurements.back().raises_probability_to;
     text = fmt::format(
         "Measure next: {} at ({:.0f}, {:.0f}) mm{}. All of it raises the chance of {} to {}.",
-        first.what,
+        first.words,
         first.mark->x_mm,
         first.mark->y_mm,
         next.measurements.size() > 1
@@ -177,7 +214,15 @@ void say_what_to_measure(const BeltsNext& next, Diagnosis& d) {
           "corners of the frame.";
     }
   }
-  if (next.all_once_more && *next.all_once_more > reached + kWorthASession) {
+  const bool all_does = next.all_once_more && *next.all_once_more >= kWorthMeasuring;
+  if (!tells(next) && !all_does && !next.second_pass && !next.measurements.empty()) {
+    text =
+        "No few places part what is left, which is too near to the noise: measure at more places, "
+        "out to the corners of the frame.";
+  }
+  if (next.second_pass) {
+    text += (text.empty() ? "" : " ") + in_words(*next.second_pass);
+  } else if (all_does && *next.all_once_more > reached + kWorthASession) {
     text += fmt::format(
         "{}every place measured once more, the last one first, raises the chance of {} to {}.",
         text.empty() ? "No few places part what is left: " : " More: ",
@@ -208,7 +253,7 @@ void say_what_to_do(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis
                           d.next_measurements.back().kind == MeasurementKind::distance;
     d.what_to_do.push_back(fmt::format(
         "Tape {}, and give it as distances: no belt knows how large the frame is.",
-        proposed ? d.next_measurements.back().what
+        proposed ? d.next_measurements.back().words
                  : "one long distance, between two anchors or two holes that the machine cut"));
   }
 }
@@ -222,8 +267,8 @@ std::string not_proved(const Diagnosis& d) {
   if (!d.causes.empty() && d.causes.front().rival) {
     const Cause& lead = d.causes.front();
     text += fmt::format(
-        " A cause outside the list that looks alike would carry the same name; the nearest inside "
-        "it is this: {}{} (likeness {:.3f}).",
+        " A cause that the catalogue lacks, and that looks the same, would carry the same name. "
+        "The nearest one that it has: {}{} (likeness {:.3f}).",
         lead.rival->effect->cause,
         side_words(*lead.rival),
         lead.rival_collinearity);
@@ -231,7 +276,7 @@ std::string not_proved(const Diagnosis& d) {
   return text;
 }
 
-/// The machine's own number beside ours, and why they differ.
+/// The machine's own number and ours, and why they differ.
 std::string firmware_words(const MeasuredBelts& belts, const BeltsFit& alone, const Diagnosis& d) {
   const auto readings = static_cast<double>(4 * belts.points.size());
   std::string text;
@@ -251,32 +296,46 @@ std::string firmware_words(const MeasuredBelts& belts, const BeltsFit& alone, co
                     alone.residual_sigma_mm,
                     d.causes.empty()
                         ? ""
-                        : fmt::format(", with {} beside the anchors by {:.2f} mm",
+                        : fmt::format(", with {} by {:.2f} mm",
                                       d.causes.size() == 1 ? "the cause" : "the causes",
                                       d.belts->residual_sigma_mm));
 }
 
 }  // namespace
 
+std::string in_words(const SecondPass& pass) {
+  return fmt::format(
+      "A second pass: let the machine find its anchors once more with the belts pulled {:g} times as "
+      "hard (Maslow_Calibration_Current_Threshold times {:g}), and give both logs as one session: "
+      "chaintrue import maslow4 first.log second.log --pulls 1,{:g}. What gives with the pull then "
+      "parts from what does not: the chance of a single name is {}.",
+      pass.times,
+      pass.times,
+      pass.times,
+      percent(pass.raises_probability_to));
+}
+
 std::vector<NextMeasurement> measurements_of(const BeltsNext& next,
                                              const MeasuredBelts& belts,
                                              const BeltsFit& alone,
-                                             const Decision& decision) {
-  std::vector<NextMeasurement> list = next.measurements;
+                                             const Decision& decision,
+                                             const PointIndices& indices) {
+  std::vector<NextMeasurement> list;
+  if (tells(next)) list = next.measurements;
   const auto tape = alone.scale ? std::nullopt : distance_for_scale(belts, alone);
   if (!tape) return list;
   NextMeasurement distance{
       MeasurementKind::distance,
       fmt::format("the distance from {} to {}, after which the scale is known to "
                   "{:.2g} %",
-                  words_of(tape->distance.from),
-                  words_of(tape->distance.to),
+                  words_of(tape->distance.from, indices),
+                  words_of(tape->distance.to, indices),
                   100.0 * tape->sigma),
       "",
       std::nullopt,
       tape->distance.sigma_mm};
-  distance.from = end_of(tape->distance.from);
-  distance.to = {end_of(tape->distance.to)};
+  distance.from = end_of(tape->distance.from, indices);
+  distance.to = {end_of(tape->distance.to, indices)};
   // It parts no causes.
   if (!list.empty()) {
     distance.raises_probability_to = list.back().raises_probability_to;

@@ -33,7 +33,7 @@ struct Nearest {
 };
 [[nodiscard]] Nearest nearest_other(const Analysis& analysis, int column);
 
-/// What is named, or else leads, and what is most like the first of it: for pictures beside each
+/// What is named, or else leads, and what is most like the first of it: for pictures next to each
 /// other.
 struct Shown {
   std::vector<int> best;
@@ -41,7 +41,7 @@ struct Shown {
 };
 [[nodiscard]] Shown shown(const Analysis& analysis);
 
-/// Estimate with these columns, beside the discrepancy where the decision holds one.
+/// Estimate with these columns, given the discrepancy where the decision holds one.
 [[nodiscard]] Estimate estimate_with(const Analysis& analysis, std::vector<int> columns);
 
 /// Estimate with these columns and no discrepancy.

@@ -118,9 +118,9 @@ bool one_class(const RegressorSystem& system,
   if (collinearity_of(a.free, b.free) < kOneClass) return false;
   if (!a.fixed && !b.fixed) return true;
   // A whole link is no small change: where it would ask a chain zero for what nobody stated, it is
-  // told apart.
+  // distinguished.
   if (collinearity_of(a.stated, b.stated) < kOneClass) return false;
-  // Nor is it any amount: what moved by another one is told apart by that.
+  // Nor is it any amount: what moved by another one is distinguished by that.
   return a.fixed == b.fixed || (a.fixed ? is_whole(system, comparison, a.cause, b.cause)
                                         : is_whole(system, comparison, b.cause, a.cause));
 }
@@ -169,18 +169,18 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
       comparison.marginalised_systems[comparison.best().marginalised];
   // Free settings: what a class shares must not hang on how well the settings were stated.
   const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(system, marginalised.kept);
-  const auto seen = [&](Eigen::MatrixXd columns) {
+  const auto visible = [&](Eigen::MatrixXd columns) {
     if (system.nuisances > 0) noise.matrixL().solveInPlace(columns);
     return columns;
   };
   const Eigen::Index settings = system.by_setting.cols() - system.nuisances;
   const Eigen::MatrixXd basis = range_of_settings(
-      system, seen(marginalised.kept.of(system.by_setting.leftCols(settings))));
+      system, visible(marginalised.kept.of(system.by_setting.leftCols(settings))));
   std::vector<CauseClass> classes;
   std::vector<Representative> first;
   std::vector<bool> mixed;  // whole numbers and any amounts
   for (const auto& [cause, column] : best_regressors(system, marginalised)) {
-    Representative own{seen(marginalised.kept(system.g.col(column))),
+    Representative own{visible(marginalised.kept(system.g.col(column))),
                        marginalised.g.col(column),
                        cause,
                        system.regressors[static_cast<std::size_t>(column)].fixed};

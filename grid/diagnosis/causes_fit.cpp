@@ -10,6 +10,7 @@
 
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/order_search.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/map/larger_error.hpp"
@@ -54,7 +55,8 @@ std::vector<HeldOutSquare> held_out_squares(const JointFit& plain, const JointFi
   for (const FittedPoint& point : plain.points) {
     const PointKey key{point.file, point.point.index};
     const FittedPoint& other = *own.at(key);
-    if (!other.bad) squares.push_back({square_at_tool(point), square_at_tool(other), block_of[key]});
+    if (!other.bad)
+      squares.push_back({square_at_tool(point), square_at_tool(other), block_of[key]});
   }
   if (!squares.empty()) return squares;
   for (std::size_t f = 0; f < plain.distances.size(); ++f) {
@@ -107,15 +109,16 @@ bool naming_holds(const Diagnosis& found) {
 
 bool scale_was_read(const Measured& measured) {
   const auto decides = [](const ExtraReading& reading) {
-    return reading.what == "link_pitch_mm" || reading.what == "tape_error_mm_per_m";
+    return reading.what == ReadingOf::link_pitch || reading.what == ReadingOf::tape_error;
   };
-  return std::any_of(measured.files().begin(), measured.files().end(), [&](const MeasuredFile& file) {
-    return std::visit(
-        [&](const auto& own) {
-          return std::any_of(own.readings.begin(), own.readings.end(), decides);
-        },
-        file.measured);
-  });
+  return std::any_of(
+      measured.files().begin(), measured.files().end(), [&](const MeasuredFile& file) {
+        return std::visit(
+            [&](const auto& own) {
+              return std::any_of(own.readings.begin(), own.readings.end(), decides);
+            },
+            file.measured);
+      });
 }
 
 bool is_of_the_paper(const CauseId& cause) { return cause.effect->station == Station::paper; }
@@ -289,23 +292,22 @@ std::string why(OfferedCause::Reason reason) {
     case OfferedCause::Reason::not_sure:
       return "it is not sure enough: chaintrue diagnose says what to measure next";
     case OfferedCause::Reason::may_be_paper:
-      return "the tape that set out the marks may be to blame in its place, and marks cannot decide "
-             "that. Measure a hundred links, or the tape, and give the reading; or say "
-             "--accept-class where you know that it is the chain";
+      return "it may be the tape that set out the marks instead, and marks cannot tell which. "
+             "Measure a hundred links, or the tape, and give the reading; or say --accept-class if "
+             "you know that it is the chain";
     case OfferedCause::Reason::is_paper:
       return "the marks themselves are off: correct them, or set them out anew";
     case OfferedCause::Reason::gains_nothing:
       break;
   }
-  return "the map is no better for it in parts of the bed that were left out";
+  return "the map corrects it as well without a name for it";
 }
 
 }  // namespace
 
 model::AppliedEffect applied(const Cause& cause) {
-  model::AppliedEffect effect{std::string(cause.cause.effect->id),
-                              std::string(model::effects::name(cause.cause.side)),
-                              {}};
+  model::AppliedEffect effect{
+      std::string(cause.cause.effect->id), std::string(model::effects::name(cause.cause.side)), {}};
   for (const ParameterEstimate& p : cause.parameters) effect.parameters[p.parameter] = p.value;
   return effect;
 }
@@ -322,9 +324,13 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
   weighed.progress = options.fit.progress;
   const auto found = diagnose(measured, weighed);
   if (!found) {
-    result.not_weighed = found.error().sentence;
+    result.not_weighed = found.error().sentence();
     return noted(std::move(result));
   }
+  // What depends on the visit is taken out in the order that was found.
+  const Measured ordered = found->visiting_order
+                               ? visited_in(measured, found->visiting_order->order).value_or(measured)
+                               : measured;
   const bool decided = options.accept_class || scale_was_read(measured);
   std::vector<Cause> sure;
   for (const Cause& cause : found->causes) {
@@ -335,11 +341,11 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
   }
   const CompensationMap plain_map = result.fit.map;
   const auto with_open = [&] {
-    count_what_is_left_open(measured, options, plain_map, result);
+    count_what_is_left_open(ordered, options, plain_map, result);
     return noted(std::move(result));
   };
   if (sure.empty()) return with_open();
-  auto with_causes = joint_fit(with_effects(measured, sure), options.fit);
+  auto with_causes = joint_fit(with_effects(ordered, sure), options.fit);
   if (!with_causes) {
     offer(sure, OfferedCause::Reason::gains_nothing, result);
     return with_open();
@@ -379,27 +385,26 @@ std::vector<std::string> in_words(const CausesFit& fit) {
   if (!fit.built_on.empty()) {
     std::vector<std::string> parts;
     for (const Cause& cause : fit.built_on) parts.push_back(sized(cause));
-    sentences.push_back(fmt::format(
-        "Built on what was found: {}. In parts of the bed that were left out, readings come out within "
-        "{:.2f} mm rms; without {} it would be {:.2f} mm.",
-        joined(parts, "and"),
-        fit.held_out->with_causes_mm,
-        fit.built_on.size() == 1 ? "this cause" : "these causes",
-        fit.held_out->plain_mm));
+    sentences.push_back(
+        fmt::format("Found, and used in the map: {}. In parts of the bed that it was not made from, the map "
+                    "is right within {:.2f} mm; without {} it would be {:.2f} mm.",
+                    joined(parts, "and"),
+                    fit.held_out->with_causes_mm,
+                    fit.built_on.size() == 1 ? "this cause" : "these causes",
+                    fit.held_out->plain_mm));
   }
   if (sentences.empty() && fit.offered.empty())
-    sentences.emplace_back("Causes were weighed and none was found: the map is the plain one.");
+    sentences.emplace_back("No single cause stands out, and the map needs none.");
   for (const OfferedCause& offered : fit.offered) {
-    sentences.push_back(fmt::format("Found and not in the map: {}; {}.",
-                                    sized(offered.cause),
-                                    why(offered.reason)));
+    sentences.push_back(fmt::format(
+        "Found, not used in the map: {}; {}.", sized(offered.cause), why(offered.reason)));
   }
   if (fit.left_open_mm > 0.0) {
-    sentences.push_back(fmt::format(
-        "{}: by that the tool may be {:.2f} mm rms elsewhere, which the expected error counts.",
-        fit.offered.empty() ? "How large the causes are is known only so well"
-                            : "What was found and is not in the map may act all the same",
-        fit.left_open_mm));
+    sentences.push_back(
+        fmt::format("{}: so the tool may be {:.2f} mm rms off, which the expected error counts.",
+                    fit.offered.empty() ? "The sizes of the causes are not known exactly"
+                                        : "What was found but is not in the map may still act",
+                    fit.left_open_mm));
   }
   return sentences;
 }

@@ -76,7 +76,7 @@ struct CausesFit {
   std::vector<Cause> built_on;         ///< empty: the plain map
   std::vector<OfferedCause> offered;
   std::optional<HeldOutBlocksError> held_out;  ///< where causes were tried in a map
-  /// Root of (2), mm; zero where it is too small to be told, and nothing is added.
+  /// Root of (2), mm; zero where it is too small to be known, and nothing is added.
   double left_open_mm = 0.0;
   /// Why nothing could be weighed; empty where it was.
   std::string not_weighed;

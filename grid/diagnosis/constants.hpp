@@ -25,7 +25,7 @@ namespace chaintrue::grid::diagnosis {
 #undef CHAINTRUE_CONSTANT
 #undef CHAINTRUE_COUNT
 
-/// Beside the stated noise, one of these multiples of it, each alike: what hurried or careless
+/// Besides the stated noise, one of these multiples of it, equally likely: what hurried or careless
 /// measuring makes of a tape.
 inline CHAINTRUE_MAY_VARY std::array kLargerNoise = {1.5, 2.0, 2.7};
 /// Strengths at which a discrepancy is tried: a quarter of a decade apart where it is hard to see.

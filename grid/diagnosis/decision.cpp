@@ -35,11 +35,11 @@ class Decider {
     result_.classes = std::move(classes);
   }
 
-  Decision run(bool seen) {
+  Decision run(bool detected) {
     group();
     marginals();
     // A pattern is itself beyond what noise does, and hides from a test against noise alone.
-    const bool beyond_noise = seen || result_.discrepancy > kDiscrepancyLikely;
+    const bool beyond_noise = detected || result_.discrepancy > kDiscrepancyLikely;
     if (beyond_noise && result_.caused > kCaused) {
       name_best();
     } else {
@@ -118,7 +118,7 @@ class Decider {
                      [](const auto& a, const auto& b) { return a.probability > b.probability; });
   }
 
-  /// The number of causes is settled first, then which.
+  /// The number of causes is decided first, then which.
   [[nodiscard]] const Grouped* best_group() {
     std::map<std::size_t, double> by_count;
     for (const auto& [key, grouped] : groups_) by_count[key.size()] += grouped.probability;
@@ -181,7 +181,7 @@ class Decider {
     name_causes(*best_model);
   }
 
-  /// A pattern beside a cause takes of its probability, not of its right to be named.
+  /// A pattern next to a cause takes of its probability, not of its right to be named.
   [[nodiscard]] double enough_to_name() const {
     return result_.discrepancy > kDiscrepancyLikely ? kNamedGivenDiscrepancy : kNamedAlone;
   }
@@ -317,21 +317,21 @@ class Decider {
 Decision decide(const RegressorSystem& system,
                 const ModelComparison& comparison,
                 const std::vector<bool>& excluded,
-                bool seen) {
+                bool detected) {
   return decide(
       system,
       comparison,
       excluded,
-      seen,
+      detected,
       classes_of(system, comparison));
 }
 
 Decision decide(const RegressorSystem& system,
                 const ModelComparison& comparison,
                 const std::vector<bool>& excluded,
-                bool seen,
+                bool detected,
                 std::vector<CauseClass> classes) {
-  return Decider(system, comparison, excluded, std::move(classes)).run(seen);
+  return Decider(system, comparison, excluded, std::move(classes)).run(detected);
 }
 
 }  // namespace chaintrue::grid::diagnosis

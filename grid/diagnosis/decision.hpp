@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From the comparison's probabilities to a verdict: which causes are present, which cannot be told
-/// apart, and when to abstain.
+/// From the comparison's probabilities to a verdict: which causes are present, which cannot be distinguished,
+/// and when to abstain.
 #pragma once
 
 #include <vector>
@@ -28,7 +28,7 @@ struct Decision {
   double outliers = 0.0;
   double discrepancy_alone = 0.0;
   double caused = 0.0;       ///< one cause or more
-  double discrepancy = 0.0;  ///< with a model discrepancy, beside causes or alone
+  double discrepancy = 0.0;  ///< with a model discrepancy, with causes or alone
   /// The causes of the verdict (indices into classes): the one named, the set, or those that act
   /// together.
   std::vector<std::size_t> listed;
@@ -40,17 +40,17 @@ struct Decision {
   std::size_t marginalised = 0;
 };
 
-/// `seen`: the strongest effect is beyond what noise does (family-wise).
+/// `detected`: the strongest effect is beyond what noise does (family-wise).
 [[nodiscard]] Decision decide(const RegressorSystem& system,
                               const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
-                              bool seen);
+                              bool detected);
 /// The same with the classes known: of the comparison's marginalised systems nothing but the points
 /// set aside is asked.
 [[nodiscard]] Decision decide(const RegressorSystem& system,
                               const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
-                              bool seen,
+                              bool detected,
                               std::vector<CauseClass> classes);
 
 }  // namespace chaintrue::grid::diagnosis

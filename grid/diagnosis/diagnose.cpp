@@ -7,13 +7,16 @@
 #include <cmath>
 
 #include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/gross_errors.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/diagnosis/normal_plot.hpp"
+#include "grid/diagnosis/order_search.hpp"
 #include "grid/diagnosis/single_reading.hpp"
-#include "grid/diagnosis/gross_errors.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/estimation/estimate.hpp"
+#include "grid/map/controller_error.hpp"
+#include "grid/map/joint_fit.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -86,10 +89,8 @@ void note_zeros(const std::vector<std::string>& names, const Analysis& a, Diagno
     }
     const std::string words = estimation::words_of(zeros);
     if (!words.empty())
-      d.notes.push_back(fmt::format("{}: the chains' zeros are other than in {}: {}.",
-                                    names[k],
-                                    names.front(),
-                                    words));
+      d.notes.push_back(fmt::format(
+          "{}: the chains' zeros are other than in {}: {}.", names[k], names.front(), words));
   }
 }
 
@@ -104,11 +105,27 @@ void state_input(const Measured& measured, Diagnosis& d) {
   const MeasuredHoles& set = *holes.front();
   if (set.machine && set.machine->controller.kind == model::ControllerKind::ideal) {
     d.notes.emplace_back(
-        "The controller is stated as ideal: it believes the machine that its file states. These "
-        "holes were cut believing the machine as it is stated now; fit them on that, and use the "
-        "extended machine for what is cut with it.");
+        "The controller is given as ideal: it goes by the machine file. These holes were cut with "
+        "the file as it is now: fit them with that, and use the extended machine for what is cut "
+        "with it.");
   }
   d.stated_tape = StatedTape{set.tape.sigma_mm, set.hole_sigma_mm, set.noise_dof};
+}
+
+/// By the map that `fit` makes of the same readings.
+std::optional<ErrorSummary> tool_today(const Measured& measured) {
+  const auto plain = joint_fit(measured);
+  return plain ? error_in_use(plain->map) : std::nullopt;
+}
+
+tl::expected<Analysis, DiagnosisFailure> analysed_in(const VisitingOrderFound& order,
+                                                     const Measured& measured,
+                                                     DiagnosisOptions options) {
+  options.order_assumed = true;
+  options.orders_tried = static_cast<int>(line_by_line_orders().size());
+  auto session = diagnosis::observations_of(visited_in(measured, order.order).value());
+  if (!session) return tl::unexpected(session.error());
+  return analyse(*std::move(session), options);
 }
 
 }  // namespace
@@ -121,8 +138,17 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   tell(options.progress, kComparing);
   auto analysis = analyse(*std::move(session), options);
   if (!analysis) return tl::unexpected(analysis.error());
+  auto order = find_visiting_order(measured, *analysis);
+  if (order) {
+    if (auto ordered = analysed_in(*order, measured, options)) {
+      analysis = std::move(ordered);
+    } else {
+      order.reset();
+    }
+  }
   Analysis& a = *analysis;
   Diagnosis d;
+  d.visiting_order = order;
   d.observations = observations_of(a.session);
   tell(options.progress, kLeavingOut);
   if (options.stability) d.stability = examine_stability(a);
@@ -152,11 +178,15 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   const std::vector<std::string> sessions = names_of_sessions(measured);
   d.bed_parts = bed_part_findings(a);
   d.sessions = session_findings(a, sessions);
-  if (options.improvement) d.improvement = measure_improvement(a);
+  if (options.improvement) {
+    d.tool_today = tool_today(measured);
+    d.improvement = measure_improvement(a);
+  }
   tell(options.progress, kPlanning);
   apply_causes(a, d);
   if (options.next_measurements) d.next_measurements = next_measurements(a);
   put_into_words(a, d);
+  if (d.visiting_order) d.notes.insert(d.notes.begin(), in_words(*d.visiting_order));
   note_zeros(sessions, a, d);
   state_input(measured, d);
   return d;

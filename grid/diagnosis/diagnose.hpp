@@ -7,7 +7,7 @@
 ///   measured.add(holes);              // and a tape's distances, of the same machine
 ///   const auto found = diagnose(measured);
 ///   if (found) fmt::print("{}\n", found->sentence);
-///   else fmt::print("{}\n", found.error().sentence);
+///   else fmt::print("{}\n", found.error().sentence());
 /// \endcode
 ///
 /// The same input gives the same answer to the last bit, whatever the order of the points, the
@@ -16,6 +16,7 @@
 
 #include <tl/expected.hpp>
 
+#include "grid/belts/point_indices.hpp"
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/options.hpp"
 #include "grid/observation/measured.hpp"
@@ -31,6 +32,10 @@ namespace chaintrue::grid::diagnosis {
 /// is of chains stay empty: `belts` holds what belts tell. Fails in words where fit_belts() does.
 [[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
     const MeasuredBelts& belts, const DiagnosisOptions& options = {});
+/// The same of belts of whose file points were left out; the answer has the file's numbers.
+[[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
+                                                                 const PointIndices& indices,
+                                                                 const DiagnosisOptions& options);
 
 /// How well what was found on one grid predicts another of the same machine. Fails in words where
 /// either has no machine or the machine found cannot reach the other's points.

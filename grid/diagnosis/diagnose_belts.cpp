@@ -19,12 +19,18 @@ DiagnosisFailure failure_of(const BeltsFitFailure& failure) {
   return {failure.reason == Of::too_few_points || failure.reason == Of::not_determined
               ? Reason::too_few_points
               : Reason::contradictory_settings,
-          failure.sentence};
+          failure.sentence()};
 }
 
 }  // namespace
 
 tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
+                                                   const DiagnosisOptions& options) {
+  return diagnose(belts, PointIndices{}, options);
+}
+
+tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
+                                                   const PointIndices& indices,
                                                    const DiagnosisOptions& options) {
   tell(options.progress, kFitting);
   const auto alone = fit_belts(belts);
@@ -51,10 +57,13 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
   d.normal_plot = normal_plot(a);
   d.bed_parts = bed_part_findings(a);
   d.outliers = bad_belts(given);
+  for (Outlier& bad : d.outliers) bad.index = index_in_file(indices, bad.index);
   d.belts = belts_findings(*analysed, given, belts, *alone);
-  const BeltsNext next = options.next_measurements ? next_measurements(*analysed) : BeltsNext{};
+  const BeltsNext next =
+      options.next_measurements ? next_measurements(*analysed, indices) : BeltsNext{};
+  d.belts->second_pass = next.second_pass;
   if (options.next_measurements)
-    d.next_measurements = measurements_of(next, belts, *alone, a.decision);
+    d.next_measurements = measurements_of(next, belts, *alone, a.decision, indices);
   put_belts_into_words(belts, *alone, next, d);
   for (std::string& note : parts_in_words(d)) d.notes.push_back(std::move(note));
   return d;

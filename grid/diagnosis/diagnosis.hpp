@@ -25,6 +25,8 @@
 #include "grid/diagnosis/belts_findings.hpp"
 #include "grid/diagnosis/cause_id.hpp"
 #include "grid/diagnosis/pictures.hpp"
+#include "grid/diagnosis/visiting_order_found.hpp"
+#include "grid/map/compensation_map.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -90,12 +92,12 @@ struct LeftOver {
   double p_value = 1.0;
 };
 
-/// Through what a pattern that nobody listed enters: one chain, both alike or opposite to each
+/// Through what a pattern that nobody listed enters: one chain, both equally or opposite to each
 /// other, the tool along an axis of the sheet, or none of these by itself.
-enum class Enters { left, right, alike, opposite, x, y, mixed };
+enum class Enters { left, right, equal, opposite, x, y, mixed };
 [[nodiscard]] std::string_view name(Enters enters);
 
-/// What remains besides the causes named, and beside any verdict: a smooth pattern that no cause of
+/// What remains besides the causes named, with any verdict: a smooth pattern that no cause of
 /// the catalogue makes.
 struct Unexplained {
   double probability = 0.0;
@@ -114,6 +116,9 @@ struct BudgetLine {
   std::optional<CauseId> cause{};
   double mean_square_mm2 = 0.0;  ///< of what cannot be split it may be negative
   double share = 0.0;            ///< of the whole
+  /// Rms of the tool's error as delivered with this part alone taken away. Empty of what cannot be
+  /// split, and in older files.
+  std::optional<double> without_mm{};
   /// The largest change of the tool's error over 100 mm at the corners of the marked area: what a
   /// part of that size gets wrong there. Empty where it is not of the place, or not the tool's.
   std::optional<double> part_mm{};
@@ -143,7 +148,9 @@ struct Change {
 struct Trend {
   std::string since;  ///< the earlier file
   std::vector<Change> changes;
-  std::optional<double> uncalibrated_before_mm{};  ///< of the budgets, where they are
+  /// Rms error of the tool then and now, mm: of `tool_today` where both have it, else of the budgets
+  /// where both have one.
+  std::optional<double> uncalibrated_before_mm{};
   std::optional<double> uncalibrated_mm{};
 };
 
@@ -220,9 +227,7 @@ enum class MeasurementKind { point, revisit, reading, distance };
 
 struct NextMeasurement {
   MeasurementKind kind = MeasurementKind::point;
-  /// point, revisit and distance: a sentence; reading: the word that `readings` use
-  /// (motor_spacing_mm, ...).
-  std::string what;
+  std::string words;                     ///< point, revisit and distance: what to do, for a person
   std::string side;                      ///< of a reading, where it has one
   std::optional<model::MarkPoint> mark;  ///< of a point or a revisit, and of a hole to be cut
   double sigma = 0.0;                    ///< of a reading: how well it has to be read
@@ -235,6 +240,7 @@ struct NextMeasurement {
   /// Of a place that four belts read: those that a motor pulls there, by name. Empty: as the
   /// frame's orientation has it.
   std::vector<model::Belt> pulled{};
+  std::optional<ReadingOf> reading{};  ///< of a reading: what to read
 };
 
 /// The noise of holes and a tape, as stated.
@@ -261,7 +267,7 @@ struct Separation {
   CauseId first;
   CauseId second;
   double collinearity = 0.0;
-  /// Strength at which 95 of 100 are told apart; infinity: none.
+  /// Strength at which 95 of 100 are distinguished; infinity: none.
   double signal_to_noise_needed = 0.0;
 };
 
@@ -325,10 +331,16 @@ struct Diagnosis {
   std::string sentence;
   std::vector<std::string> what_to_do;  ///< at most three
   std::string not_proved;
+  /// Found from the readings, where nobody wrote it down.
+  std::optional<VisitingOrderFound> visiting_order;
   std::vector<std::string> notes;  ///< assumed order, unstated noise, swapped columns, ...
   std::vector<Cause> causes;
   std::vector<Hypothesis> hypotheses;
   LeftOver left_over;
+  /// How far the machine misses as it is used today: error_in_use() of the plain map of these readings,
+  /// the number that a fit begins with. Empty of belts, where the readings make no map, where held-out
+  /// errors were not asked for, and in older files.
+  std::optional<ErrorSummary> tool_today;
   /// Empty in files written before it was said.
   std::optional<Unexplained> unexplained;
   std::optional<ErrorBudget> budget;

@@ -40,7 +40,7 @@ class Kernels {
                      {FieldOf::x, kTrendMm, FieldEntry::tool},
                      {FieldOf::y, kTrendMm, FieldEntry::tool}},
                     0.10});
-    // The tool moved where the sled hangs over the border, alike on all sides.
+    // The tool moved where the sled hangs over the border, equally on all sides.
     all_.push_back({{{FieldOf::border, 180.0, FieldEntry::tool}}, 0.05});
     // The tool moved along one axis of the sheet.
     for (const FieldOf of : {FieldOf::place, FieldOf::x, FieldOf::y}) {
@@ -77,7 +77,7 @@ class Kernels {
       group.push_back(field);
     }
   }
-  /// Along x and y others have it. A fold seen a step beside its direction bends elsewhere too:
+  /// Along x and y others have it. A fold along a direction next to its own bends elsewhere too:
   /// twice as many as of entry.
   static void oblique(DiscrepancyField field, std::vector<DiscrepancyField>& group) {
     field.entry = FieldEntry::tool;
@@ -182,7 +182,7 @@ const DiscrepancyFamily& chain_discrepancies() {
 }
 
 const DiscrepancyFamily& length_discrepancies(bool ordered) {
-  // In sigmas: from what is hardly seen to what real frames of four belts leave, four times over.
+  // In sigmas: from what hardly shows to what real frames of four belts leave, four times over.
   static constexpr std::array kStrengths = {6.0, 12.0, 24.0, 48.0};
   // From twice the usual distance of two places to a quarter of a frame; over the visits of a row.
   static const auto kernel = [](double place_mm, double visits, double prior) {
@@ -291,15 +291,15 @@ Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to,
   const std::vector<DiscrepancyPlace> there = places_of(to);
   const std::vector<DiscrepancyPlace> here = places_of(from);
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(to.e.size(), kept.size());
-  for (const KeptRows::Unit& seen : kept.units()) {
-    const PlacedUnit other = placed(from, here, seen.unit);
+  for (const KeptRows::Unit& kept_unit : kept.units()) {
+    const PlacedUnit other = placed(from, here, kept_unit.unit);
     for (std::size_t u = 0; u < to.units.size(); ++u) {
       const SystemUnit& own = to.units[u];
       const Eigen::Matrix2d block = between_units(kernel, placed(to, there, u), other);
       const auto columns = block.topLeftCorner(own.rows, other.unit.rows);
-      auto to_fill = c.block(own.first_row, seen.at, own.rows, seen.rows);
-      if (seen.across) {
-        to_fill = columns * seen.across->transpose();
+      auto to_fill = c.block(own.first_row, kept_unit.at, own.rows, kept_unit.rows);
+      if (kept_unit.across) {
+        to_fill = columns * kept_unit.across->transpose();
       } else {
         to_fill = columns;
       }

@@ -6,7 +6,7 @@
 /// What disturbs a machine mostly acts on one thing: one chain, one axis of the sheet, the sled's
 /// height, the tension. So a field is a smooth scalar function of one thing (the place, x, y, one
 /// chain's length, angle or tension) and enters the two chains, or the tool's two coordinates, at a
-/// fixed ratio; fields that enter both freely stand beside these.
+/// fixed ratio; fields that enter both freely are tried as well.
 ///
 ///   cov(r_i, r_j) = s^2 / F sum_f k_f(t_i, t_j) T_i D_f T_j'
 ///   k(t, u) = exp(-|t - u|^2 / (2 length^2)),  t what the field is a function of
@@ -14,7 +14,7 @@
 ///   D  d d' with d = (cos, sin) of the direction of entry, or the identity where it has none; of
 ///      the border d = (1, 1), and either component has a t and a weight of its own
 ///
-/// Of a mechanism that has other lengths than two chains each length is disturbed by itself, alike in
+/// Of a mechanism that has other lengths than two chains each length is disturbed by itself, equal in
 /// variance: T and D are identities over its lengths (LengthEntry).
 ///
 ///   F  fields of the kernel; of several lengths where something displaced has a trend as well
@@ -71,7 +71,7 @@ struct DiscrepancyField {
 };
 
 struct DiscrepancyKernel {
-  std::vector<DiscrepancyField> fields;  ///< alike in variance
+  std::vector<DiscrepancyField> fields;  ///< equal in variance
   double prior = 0.0;                    ///< share among all kernels
   /// Whether its fields disturb each length of the mechanism by itself.
   [[nodiscard]] bool of_lengths() const {
@@ -97,7 +97,7 @@ struct DiscrepancyFamily {
     return strengths[static_cast<std::size_t>(discrepancy) % strengths.size()];
   }
   /// Its kernel's share, and of its strengths what a half-Cauchy of scale 10 has, so that a huge
-  /// discrepancy is rarer than one that is just seen (A. Gelman, Bayesian Analysis 1 (2006), 515,
+  /// discrepancy is rarer than one that just shows (A. Gelman, Bayesian Analysis 1 (2006), 515,
   /// section 4.3).
   [[nodiscard]] double log_share_of(int discrepancy) const;
 };
@@ -117,7 +117,7 @@ struct DiscrepancyPlace {
 };
 [[nodiscard]] DiscrepancyPlace discrepancy_place(const SystemPlace& place);
 
-/// What a field is a function of at a place, for either component of what it enters; alike but for
+/// What a field is a function of at a place, for either component of what it enters; equal but for
 /// the border's.
 struct FieldArgument {
   double first = 0.0;

@@ -92,9 +92,9 @@ Components components_of(const RegressorSystem& system,
   for (const KeptRows::Unit& kept : marginalised.kept.units()) {
     const SystemUnit& unit = system.units[kept.unit];
     const Eigen::Index row = kept.at;
-    for (const observation::PlaceColumns& seen : unit.places) {
-      const auto entry = (seen.by_chain * field_entry(field, places[seen.place])).eval();
-      const auto at = static_cast<Eigen::Index>(seen.place);
+    for (const observation::PlaceColumns& place_columns : unit.places) {
+      const auto entry = (place_columns.by_chain * field_entry(field, places[place_columns.place])).eval();
+      const auto at = static_cast<Eigen::Index>(place_columns.place);
       for (Eigen::Index k = 0; k < unit.rows; ++k) {
         result.first.row(row + k) += entry(k, 0) * factor.row(at);
         result.second.row(row + k) += entry(k, 1) * factor.row(second + at);
@@ -262,7 +262,7 @@ DiscrepancyBasis::GivenKernel DiscrepancyBasis::given(std::size_t kernel,
 }
 
 DiscrepancyBasis::GivenKernel::Half DiscrepancyBasis::GivenKernel::half(double strength) const {
-  // J + 1 / s^2 = L D L', L with ones on its diagonal and one entry beside each
+  // J + 1 / s^2 = L D L', L with ones on its diagonal and one entry next to each
   const double shift = trace_ / (strength * strength);
   const Eigen::Index r = on_.size();
   Half result{Eigen::ArrayXd(r), Eigen::ArrayXd::Zero(r), 0.0};

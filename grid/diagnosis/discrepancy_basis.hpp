@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The model discrepancy beside some columns, for many kernels and strengths at once: a smooth
+/// The model discrepancy with some columns, for many kernels and strengths at once: a smooth
 /// field over a bed has few degrees of freedom, so that its covariance is B B' with few columns.
 ///
 /// Notation
@@ -63,7 +63,7 @@ class DiscrepancyBasis {
     const NormalEquations* plain_ = nullptr;  ///< without a discrepancy
     double trace_ = 0.0;
     Eigen::ArrayXd on_;        ///< r, J's diagonal
-    Eigen::ArrayXd subdiagonal_;    ///< r - 1, the one beside it
+    Eigen::ArrayXd subdiagonal_;    ///< r - 1, the one next to it
     Eigen::MatrixXd rotated_;  ///< E'BQ, (1 + columns) x r
   };
   /// `plain`: normal equations of the columns without a discrepancy; kept by reference.

@@ -195,12 +195,12 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
   if (out.empty()) return equations;
   const Eigen::MatrixXd half = factorised.inverse(Eigen::all, out);
   const Eigen::LLT<Eigen::MatrixXd> block(half.transpose() * half);
-  Eigen::MatrixXd seen = factorised.precision(out, Eigen::all);
-  block.matrixL().solveInPlace(seen);
-  const Eigen::Index c = seen.cols() - 1;
-  equations.ee -= seen.col(0).squaredNorm();
-  equations.ge.noalias() -= seen.rightCols(c).transpose() * seen.col(0);
-  equations.gg.noalias() -= seen.rightCols(c).transpose() * seen.rightCols(c);
+  Eigen::MatrixXd found = factorised.precision(out, Eigen::all);
+  block.matrixL().solveInPlace(found);
+  const Eigen::Index c = found.cols() - 1;
+  equations.ee -= found.col(0).squaredNorm();
+  equations.ge.noalias() -= found.rightCols(c).transpose() * found.col(0);
+  equations.gg.noalias() -= found.rightCols(c).transpose() * found.rightCols(c);
   clear_unseen_columns(factorised.equations, equations);
   equations.log_det += 2.0 * Eigen::MatrixXd(block.matrixL()).diagonal().array().log().sum();
   // Beside a discrepancy the sizes are expected as of all points.
@@ -236,7 +236,7 @@ Downdating::Without Downdating::without(const std::vector<std::size_t>& units) c
                                    factorised.discrepancy,
                                    home,
                                    factorised.prior[k] + evidence.log_evidence + price,
-                                   noise.larger_share(evidence.quadratic),
+                                   evidence.larger_noise,
                                    evidence.quadratic});
     }
     if (factorised.discrepancy < 0) strongest.emplace_back(score_.largest(equations, rows), home);

@@ -99,6 +99,7 @@ class Budget {
     if (!stated || units_.empty()) return {};
     Shifts before_calibration;
     for (const std::size_t u : units_) before_calibration.push_back(error_of_unit(*stated, stated->e, u));
+    as_delivered_ = before_calibration;
     ErrorBudget budget;
     budget.uncalibrated_mm = std::sqrt(mean_square(before_calibration));
     // Every part is what the error would lose with it; together they are the error.
@@ -133,8 +134,11 @@ class Budget {
     for (std::size_t i = 0; i < part.size(); ++i) from[i] -= part[i];
   }
 
-  static void add(BudgetLine line, const Shifts& shifts, ErrorBudget& budget) {
+  void add(BudgetLine line, const Shifts& shifts, ErrorBudget& budget) const {
     line.mean_square_mm2 = mean_square(shifts);
+    Shifts rest = as_delivered_;
+    take_away(shifts, rest);
+    line.without_mm = std::sqrt(mean_square(rest));
     budget.lines.push_back(line);
   }
 
@@ -203,6 +207,7 @@ class Budget {
   const Analysis& a_;
   std::vector<Corner> corners_;
   std::vector<std::size_t> units_;
+  Shifts as_delivered_;
 };
 
 }  // namespace

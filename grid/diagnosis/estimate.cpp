@@ -58,10 +58,10 @@ void take_discrepancy_out(const RegressorSystem& system,
   for (std::size_t u = 0; u < system.units.size(); ++u) {
     if (!marginalised.outliers[u]) continue;
     const SystemUnit& unit = system.units[u];
-    for (const observation::PlaceColumns& seen : unit.places) {
-      const DiscrepancyPlace place = discrepancy_place(system.places[seen.place]);
+    for (const observation::PlaceColumns& place_columns : unit.places) {
+      const DiscrepancyPlace place = discrepancy_place(system.places[place_columns.place]);
       estimate.left_given_discrepancy.segment(unit.first_row, unit.rows) -=
-          seen.by_chain * discrepancy_at(system, marginalised, estimate, place);
+          place_columns.by_chain * discrepancy_at(system, marginalised, estimate, place);
     }
   }
 }
@@ -192,11 +192,11 @@ Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
   for (const KeptRows::Unit& kept : marginalised.kept.units()) {
     const SystemUnit& unit = system.units[kept.unit];
     const auto weights = estimate.discrepancy_weights.segment(kept.at, unit.rows);
-    for (const observation::PlaceColumns& seen : unit.places) {
+    for (const observation::PlaceColumns& place_columns : unit.places) {
       mm += discrepancy_block(estimate.discrepancy.kernel,
                               place,
-                              discrepancy_place(system.places[seen.place])) *
-            seen.by_chain.transpose() * weights;
+                              discrepancy_place(system.places[place_columns.place])) *
+            place_columns.by_chain.transpose() * weights;
     }
   }
   return estimate.discrepancy.sigma_mm * estimate.discrepancy.sigma_mm * mm;

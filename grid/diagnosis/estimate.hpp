@@ -38,7 +38,7 @@ struct Estimate {
                                 const std::vector<int>& regressors,
                                 int discrepancy);
 
-/// The kept rows' covariance with a discrepancy, factored once for all estimates beside it.
+/// The kept rows' covariance with a discrepancy, factored once for all estimates given it.
 struct DiscrepancyNoise {
   Discrepancy process;
   Eigen::LLT<Eigen::MatrixXd> llt;  ///< of 1 + s^2 K, N x N

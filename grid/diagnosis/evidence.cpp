@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/evidence.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 #include "grid/diagnosis/normal.hpp"
 #include "grid/statistics.hpp"
@@ -22,45 +25,40 @@ double log_mass(double mean, double sigma, double low, double high) {
 }  // namespace
 
 NoiseDensity::NoiseDensity(double dof, Eigen::Index rows)
-    : dof_(dof),
-      rows_(static_cast<double>(rows)),
-      constant_(std::lgamma(0.5 * (rows_ + dof)) - std::lgamma(0.5 * dof) -
-                0.5 * rows_ * std::log(std::numbers::pi)) {}
+    : dof_(dof), rows_(static_cast<double>(rows)) {
+  const double constant = std::lgamma(0.5 * (rows_ + dof)) - std::lgamma(0.5 * dof) -
+                          0.5 * rows_ * std::log(std::numbers::pi);
+  const auto component = [&](double scale, double prior) {
+    const double anchor = dof * scale * scale;
+    return Component{anchor, std::log(prior) + constant + 0.5 * dof * std::log(anchor)};
+  };
+  components_.front() = component(1.0, 1.0 - kLargerNoisePrior);
+  for (std::size_t k = 0; k < std::size(kLargerNoise); ++k)
+    components_[k + 1] = component(kLargerNoise[k], kLargerNoisePrior / std::size(kLargerNoise));
+}
 
-double NoiseDensity::part(double scale, double quadratic) const {
-  const double anchor = dof_ * scale * scale;
-  return constant_ + 0.5 * dof_ * std::log(anchor) -
-         0.5 * (rows_ + dof_) * std::log(anchor + quadratic);
+double NoiseDensity::part(const Component& component, double quadratic) const {
+  return component.constant - 0.5 * (rows_ + dof_) * std::log(component.anchor + quadratic);
 }
 
 double NoiseDensity::log_density_as_stated(double quadratic) const {
-  return std::log(1.0 - kLargerNoisePrior) + part(1.0, quadratic);
+  return part(components_.front(), quadratic);
 }
 
-double NoiseDensity::log_density(double quadratic) const {
-  double sum = log_density_as_stated(quadratic);
-  for (const double scale : kLargerNoise) {
-    sum = log_sum(sum,
-                  std::log(kLargerNoisePrior / std::size(kLargerNoise)) + part(scale, quadratic));
+NoiseDensity::Averages NoiseDensity::averages(double quadratic) const {
+  std::array<double, std::tuple_size_v<decltype(components_)>> log_parts;
+  for (std::size_t k = 0; k < log_parts.size(); ++k) log_parts[k] = part(components_[k], quadratic);
+  const double most = *std::max_element(log_parts.begin(), log_parts.end());
+  double sum = 0.0;
+  double squares = 0.0;
+  double as_stated = 0.0;
+  for (std::size_t k = 0; k < log_parts.size(); ++k) {
+    const double share = std::exp(log_parts[k] - most);
+    sum += share;
+    squares += share * (components_[k].anchor + quadratic);
+    if (k == 0) as_stated = share;
   }
-  return sum;
-}
-
-double NoiseDensity::larger_share(double quadratic) const {
-  return 1.0 - std::exp(log_density_as_stated(quadratic) - log_density(quadratic));
-}
-
-double NoiseDensity::noise_square(double quadratic) const {
-  const double all = log_density(quadratic);
-  const double more = rows_ + dof_ - 2.0;
-  double sum = std::exp(std::log(1.0 - kLargerNoisePrior) + part(1.0, quadratic) - all) *
-               (dof_ + quadratic) / more;
-  for (const double scale : kLargerNoise) {
-    sum += std::exp(std::log(kLargerNoisePrior / std::size(kLargerNoise)) + part(scale, quadratic) -
-                    all) *
-           (dof_ * scale * scale + quadratic) / more;
-  }
-  return sum;
+  return {most + std::log(sum), squares / sum / (rows_ + dof_ - 2.0), 1.0 - as_stated / sum};
 }
 
 double log_price_of_outlier(Eigen::Index rows) {
@@ -199,79 +197,105 @@ Discrepancy discrepancy_of(const RegressorSystem& system,
 
 namespace {
 
-/// Set evidence for one prior sigma of the signal-to-noise ratio.
-SetEvidence evidence_at(const NormalEquations& equations,
-                        const std::vector<Regressor>& regressors,
-                        std::span<const Eigen::Index> set,
-                        const NoiseDensity& noise,
-                        double prior_sigma) {
-  SetEvidence result;
-  std::vector<Eigen::Index> free;
+using FewValues = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostFreeRegressors, 1>;
+using FewByFew = Eigen::Matrix<double,
+                               Eigen::Dynamic,
+                               Eigen::Dynamic,
+                               Eigen::ColMajor,
+                               kMostFreeRegressors,
+                               kMostFreeRegressors>;
+
+/// A set's equations in the signal-to-noise ratios of its free regressors, the fixed ones taken from the data.
+struct FreeEquations {
+  double ee = 0.0;
+  FewValues c;             ///< right-hand side
+  FewByFew gram;           ///< correlations
+  FewValues prior_length;  ///< a signal-to-noise ratio in this metric over one in the prior's
+  FewValues low, high;     ///< bounds of the ratios
+  std::array<bool, kMostFreeRegressors> refined{};
+  bool is_empty_column = false;  ///< the kept rows see nothing of a regressor
+};
+
+FreeEquations free_equations(const NormalEquations& equations,
+                             const std::vector<Regressor>& regressors,
+                             std::span<const Eigen::Index> set) {
   const auto regressor = [&](Eigen::Index i) -> const Regressor& {
     return regressors[static_cast<std::size_t>(equations.columns[static_cast<std::size_t>(i)])];
   };
-  double q = equations.ee;
+  std::array<Eigen::Index, kMostFreeRegressors> free{};
+  Eigen::Index m = 0;
+  FreeEquations result;
+  result.ee = equations.ee;
   for (const Eigen::Index i : set) {
     if (!regressor(i).fixed) {
-      free.push_back(i);
+      if (m == kMostFreeRegressors)
+        throw std::length_error(fmt::format("a set of {} regressors, at most {}", set.size(), kMostFreeRegressors));
+      free[static_cast<std::size_t>(m++)] = i;
       continue;
     }
-    q -= 2.0 * equations.ge(i);
+    result.ee -= 2.0 * equations.ge(i);
     for (const Eigen::Index j : set) {
-      if (regressor(j).fixed) q += equations.gg(i, j);
+      if (regressor(j).fixed) result.ee += equations.gg(i, j);
     }
   }
-  const auto m = static_cast<Eigen::Index>(free.size());
-  Eigen::VectorXd c(m);
-  Eigen::VectorXd length(m);
-  Eigen::VectorXd prior(m);  // one sigma of the signal-to-noise ratio in this metric
-  Eigen::MatrixXd a(m, m);
+  FewValues length(m);
+  for (FewValues* values : {&result.c, &result.prior_length, &result.low, &result.high}) values->resize(m);
+  result.gram.resize(m, m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Eigen::Index at = free[static_cast<std::size_t>(i)];
+    const Regressor& own = regressor(at);
     if (!(equations.gg(at, at) > 0.0)) {
-      // Rows that see nothing of a cause, others being left out, say nothing for it.
-      result.log_evidence = -std::numeric_limits<double>::infinity();
+      result.is_empty_column = true;
       return result;
     }
     length(i) = std::sqrt(equations.gg(at, at));
-    prior(i) = prior_sigma * length(i) / std::sqrt(equations.prior_square(at));
-    c(i) = equations.ge(at);
+    result.prior_length(i) = length(i) / std::sqrt(equations.prior_square(at));
+    result.low(i) = own.lowest * length(i);
+    result.high(i) = own.highest * length(i);
+    result.refined[static_cast<std::size_t>(i)] = own.refined;
+    double right = equations.ge(at);
     for (const Eigen::Index j : set) {
-      if (regressor(j).fixed) c(i) -= equations.gg(at, j);
+      if (regressor(j).fixed) right -= equations.gg(at, j);
     }
-    c(i) /= length(i);
+    result.c(i) = right / length(i);
     for (Eigen::Index j = 0; j <= i; ++j) {
-      a(i, j) = a(j, i) =
+      result.gram(i, j) = result.gram(j, i) =
           equations.gg(at, free[static_cast<std::size_t>(j)]) / (length(i) * length(j));
     }
-    a(i, i) += 1.0 / (prior(i) * prior(i));
   }
-  const Eigen::LLT<Eigen::MatrixXd> llt(a);
-  result.signal_to_noise = llt.solve(c);
-  result.quadratic = std::max(q - c.dot(result.signal_to_noise), 0.0);
-  result.signal_to_noise_variance = llt.solve(Eigen::MatrixXd::Identity(m, m)).diagonal();
-  const double half_log_det = Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
-  result.log_evidence = noise.log_density(result.quadratic) - 0.5 * equations.log_det -
-                        half_log_det - prior.array().log().sum();
-  const double s = std::sqrt(noise.noise_square(result.quadratic));
+  return result;
+}
+
+/// Set evidence for one prior sigma of the signal-to-noise ratio.
+SetEvidence evidence_at(const FreeEquations& free, double log_det, const NoiseDensity& noise, double prior_sigma) {
+  const Eigen::Index m = free.c.size();
+  const FewValues prior = prior_sigma * free.prior_length;
+  FewByFew a = free.gram;
+  a.diagonal() += prior.cwiseAbs2().cwiseInverse();
+  const Eigen::LLT<FewByFew> llt(a);
+  const FewValues ratio = llt.solve(free.c);
+  FewByFew inverse_root = FewByFew::Identity(m, m);
+  llt.matrixL().solveInPlace(inverse_root);
+  SetEvidence result;
+  result.quadratic = std::max(free.ee - free.c.dot(ratio), 0.0);
+  const NoiseDensity::Averages averages = noise.averages(result.quadratic);
+  result.larger_noise = averages.larger_share;
+  result.log_evidence = averages.log_density - 0.5 * log_det;
+  const double s = std::sqrt(averages.noise_square);
   for (Eigen::Index i = 0; i < m; ++i) {
-    const Regressor& own = regressor(free[static_cast<std::size_t>(i)]);
-    const double low = own.lowest * length(i);
-    const double high = own.highest * length(i);
+    const double sigma = s * inverse_root.col(i).norm();
     // Further beyond what it may be than noise takes it, and not merely about null: the data ask
     // for something else.
-    const double slack = 2.0 * s * std::sqrt(result.signal_to_noise_variance(i));
-    const double reach = own.refined ? 1.0 : 2.0;
-    if (result.signal_to_noise(i) > reach * high + slack ||
-        (low < 0.0 && result.signal_to_noise(i) < reach * low - slack)) {
+    const double slack = 2.0 * sigma;
+    const double reach = free.refined[static_cast<std::size_t>(i)] ? 1.0 : 2.0;
+    if (ratio(i) > reach * free.high(i) + slack ||
+        (free.low(i) < 0.0 && ratio(i) < reach * free.low(i) - slack)) {
       result.log_evidence = kMinusInfinity;
       return result;
     }
-    result.log_evidence += log_mass(result.signal_to_noise(i),
-                                    s * std::sqrt(result.signal_to_noise_variance(i)),
-                                    low,
-                                    high) -
-                           log_mass(0.0, s * prior(i), low, high);
+    result.log_evidence -= std::log(llt.matrixLLT()(i, i) * prior(i));
+    result.log_evidence += log_mass(ratio(i), sigma, free.low(i), free.high(i)) -
+                           log_mass(0.0, s * prior(i), free.low(i), free.high(i));
   }
   return result;
 }
@@ -282,10 +306,12 @@ SetEvidence set_evidence(const NormalEquations& equations,
                          const std::vector<Regressor>& regressors,
                          std::span<const Eigen::Index> set,
                          const NoiseDensity& noise) {
-  SetEvidence wide = evidence_at(equations, regressors, set, noise, kWideSignalToNoise);
-  const bool all_fixed = wide.signal_to_noise.size() == 0;
-  if (all_fixed) return wide;
-  const SetEvidence usual = evidence_at(equations, regressors, set, noise, kUsualSignalToNoise);
+  const FreeEquations free = free_equations(equations, regressors, set);
+  // Rows that see nothing of a cause, others being left out, say nothing for it.
+  if (free.is_empty_column) return {kMinusInfinity, 0.0, 0.0};
+  SetEvidence wide = evidence_at(free, equations.log_det, noise, kWideSignalToNoise);
+  if (free.c.size() == 0) return wide;
+  const SetEvidence usual = evidence_at(free, equations.log_det, noise, kUsualSignalToNoise);
   wide.log_evidence = log_sum(std::log(1.0 - kWideSignalToNoisePrior) + usual.log_evidence,
                               std::log(kWideSignalToNoisePrior) + wide.log_evidence);
   return wide;

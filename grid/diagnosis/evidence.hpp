@@ -10,7 +10,7 @@
 ///            stated, in units of the noise's square.  e <- V^-1/2 (e - A (stated - value))
 ///   delta_k  coefficient times |V^-1/2 g_k|: the signal-to-noise ratio of a cause. Beforehand
 ///            N(0, kUsualSignalToNoise^2), with a small weight N(0, kWideSignalToNoise^2), cut to
-///            what the parameter may be; the same size whatever acts beside it
+///            what the parameter may be; the same size whatever else acts
 ///   s^2      the noise's square over the stated one: scaled inverse chi^2, dof as stated, about 1;
 ///            with a small weight about one of kLargerNoise squared
 ///   K        covariance of the model discrepancy (discrepancy.hpp)
@@ -20,14 +20,16 @@
 ///
 /// Sources: A. O'Hagan and J. Forster, Bayesian Inference (2004), section 11.3, for the linear
 /// model; C. Rasmussen and C. Williams, Gaussian Processes (2006), section 2.7, for linear terms
-/// beside a process.
+/// with a process.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cmath>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "grid/diagnosis/constants.hpp"
@@ -37,23 +39,36 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// The data's density as a function of their quadratic form, the noise averaged out.
+/// The data's density as a function of their quadratic form, the noise averaged out: over the noise as stated and over
+/// each of kLargerNoise.
 class NoiseDensity {
  public:
   NoiseDensity(double dof, Eigen::Index rows);
-  [[nodiscard]] double log_density(double quadratic) const;
+
+  struct Averages {
+    double log_density = 0.0;
+    double noise_square = 0.0;  ///< expected s^2
+    double larger_share = 0.0;  ///< share of the density from noise larger than stated
+  };
+  [[nodiscard]] Averages averages(double quadratic) const;
+
+  [[nodiscard]] double log_density(double quadratic) const { return averages(quadratic).log_density; }
   /// The part of it from noise as stated.
   [[nodiscard]] double log_density_as_stated(double quadratic) const;
-  /// Share of that which comes from noise larger than stated.
-  [[nodiscard]] double larger_share(double quadratic) const;
-  /// Expected s^2.
-  [[nodiscard]] double noise_square(double quadratic) const;
+  [[nodiscard]] double larger_share(double quadratic) const { return averages(quadratic).larger_share; }
+  [[nodiscard]] double noise_square(double quadratic) const { return averages(quadratic).noise_square; }
 
  private:
-  [[nodiscard]] double part(double scale, double quadratic) const;
+  struct Component {
+    double anchor = 0.0;    ///< dof times the square of its scale
+    double constant = 0.0;  ///< log density but for the quadratic form, with the prior of the scale
+  };
+  [[nodiscard]] double part(const Component& component, double quadratic) const;
+
   double dof_;
   double rows_;
-  double constant_;
+  /// Noise as stated first.
+  std::array<Component, 1 + std::tuple_size_v<decltype(kLargerNoise)>> components_;
 };
 
 /// The system with the settings integrated out and some points set aside.
@@ -129,15 +144,17 @@ struct NormalEquations {
                                          const MarginalisedSystem& marginalised,
                                          int discrepancy);
 
+/// Bounds the memory of a set's factorisation, which is allocated on the stack: twice the causes that a comparison takes.
+inline constexpr int kMostFreeRegressors = 8;
+
 /// What a set of regressors makes of the data.
 struct SetEvidence {
-  double log_evidence = 0.0;                 ///< natural logarithm, up to a constant of the data
-  double quadratic = 0.0;                    ///< what is left of e'e
-  Eigen::VectorXd signal_to_noise;           ///< of the free ones, in the order of the set
-  Eigen::VectorXd signal_to_noise_variance;  ///< their variances, in units of s^2
+  double log_evidence = 0.0;  ///< natural logarithm, up to a constant of the data
+  double quadratic = 0.0;     ///< what is left of e'e
+  double larger_noise = 0.0;  ///< share of it from noise larger than stated
 };
 /// `set` holds positions in the normal equations. Minus infinity where a cause would need what it
-/// cannot be.
+/// cannot be. Throws std::length_error for more than kMostFreeRegressors that are not fixed.
 [[nodiscard]] SetEvidence set_evidence(const NormalEquations& equations,
                                        const std::vector<Regressor>& regressors,
                                        std::span<const Eigen::Index> set,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How well the leading explanations will be told apart once something more is measured.
+/// How well the leading explanations will be distinguished once something more is measured.
 ///
 /// Notation
-///   p_k       probability of alternative k, a set of causes and whether a discrepancy is beside it
+///   p_k       probability of alternative k, a set of causes and whether a discrepancy acts with it
 ///   K, p_K    its group: alternatives that the verdict does not tell apart, and their sum; of causes
 ///             of one class there is one alternative for each, since a reading may touch one of them
 ///             and not the other (a link's pitch: the chain, and not the tape)
@@ -17,7 +17,7 @@
 ///                summed over the log odds of the group that takes most, and of the others the one
 ///                that is the likeliest to take the rest; log odds of K against L about
 ///                N(D_kl / 2 + log(p_K' / p_L'), D_kl), l the member of L nearest to k, and p' what
-///                a group weighs once its members are told apart:
+///                a group weighs once its members are distinguished:
 ///                p_K' = sum over j in K of p_j exp(-(D_kj - D_kk) / 2), likewise about l for L
 ///
 /// A reading of which all alternatives expect the same changes neither.
@@ -39,7 +39,7 @@ namespace chaintrue::grid::diagnosis {
 struct Alternative {
   std::size_t group = 0;
   std::vector<int> regressors;
-  int discrepancy = -1;      ///< beside them, as the most probable model of these causes has it
+  int discrepancy = -1;      ///< with them, as the most probable model of these causes has it
   double probability = 0.0;  ///< of all alternatives together 1
   Eigen::VectorXd mean;      ///< m_k, whitened, of every row of the session of candidates
   Eigen::MatrixXd spread;    ///< rows x unknowns: a square root of S_k but for the noise

@@ -16,7 +16,7 @@ struct ExpectedImprovement {
   double share = 0.0;
 };
 
-/// Over the measured area, places alike; of distances those that were read; at the points
+/// Over the measured area, all places with one weight; of distances those that were read; at the points
 /// themselves where a cause depends on the visits.
 [[nodiscard]] ExpectedImprovement expected_improvement(const Analysis& analysis);
 

@@ -9,8 +9,8 @@
 #include <limits>
 #include <numbers>
 
-#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/constants.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -53,7 +53,8 @@ std::optional<Eigen::VectorXd> slope_by_place(const Analysis& a,
 Eigen::MatrixXd slope_by_settings(const Analysis& a, const Regressor& own) {
   // Of a sigma: central differences of a wave of 60 mm are right to 1e-7 for a motor known to 3 mm.
   constexpr double kStep = 1e-3;
-  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(a.system.by_setting.rows(), a.system.setting.size());
+  Eigen::MatrixXd slope =
+      Eigen::MatrixXd::Zero(a.system.by_setting.rows(), a.system.setting.size());
   for (std::size_t k = 0; k < a.session.settings.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
     const double step = kStep * a.system.sigma(column);
@@ -85,11 +86,8 @@ double step_of_places(const Analysis& a, const Regressor& own, std::size_t which
 
 /// Of a continuous place by the curvature of the likelihood, settings and all coefficients of the
 /// fit free; 0 where there is no derivative.
-double fitted_place_sigma(const Analysis& a,
-                          int column,
-                          std::size_t which,
-                          const Estimate& fitted,
-                          double coefficient) {
+double fitted_place_sigma(
+    const Analysis& a, int column, std::size_t which, const Estimate& fitted, double coefficient) {
   const Regressor& own = regressor(a, column);
   const EffectParameter& place = own.cause.effect->parameters[which];
   const auto slope = slope_by_place(a, own, which);
@@ -149,9 +147,7 @@ Eigen::Index position_of(const Estimate& e, int column) {
   return static_cast<Eigen::Index>(found - e.regressors.begin());
 }
 
-std::vector<ParameterEstimate> parameters(const Analysis& a,
-                                          int column,
-                                          const Estimate& fitted) {
+std::vector<ParameterEstimate> parameters(const Analysis& a, int column, const Estimate& fitted) {
   const Regressor& d = regressor(a, column);
   const Eigen::Index at = position_of(fitted, column);
   const double coefficient = fitted.coefficient(at);
@@ -258,8 +254,7 @@ std::vector<Hypothesis> hypotheses(const Analysis& a) {
 
 std::vector<Term> terms(const Analysis& a) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
-  const SingleScore score(
-      a.system, marginalised, noise_dof(a));
+  const SingleScore score(a.system, marginalised, noise_dof(a));
   const Eigen::VectorXd by_cause = score.by_cause(marginalised.e);
   std::vector<Term> result;
   for (std::size_t k = 0; k < score.causes().size(); ++k) {
@@ -297,6 +292,22 @@ std::vector<Term> terms(const Analysis& a) {
   return result;
 }
 
+namespace {
+
+/// A cause that is likelier than this is not said to be absent.
+constexpr double kMayAct = 0.05;
+
+/// That a cause, or one of its class, acts; 0 where none of them was weighed.
+double probability_of(const Analysis& a, const CauseId& cause) {
+  for (const ClassProbability& one : a.decision.marginal) {
+    const CauseClass& members = a.decision.classes[one.index];
+    if (std::find(members.begin(), members.end(), cause) != members.end()) return one.probability;
+  }
+  return 0.0;
+}
+
+}  // namespace
+
 std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testable) {
   const std::vector<CauseId> listed = listed_causes(a);
   const MarginalisedSystem& marginalised = marginalised_system(a);
@@ -307,11 +318,13 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
     const EffectParameter& size = cause.effect->parameters.front();
     const double left = column < 0 ? 0.0 : marginalised.g.col(column).norm();
     if (column < 0 || left < kAbsorbed * raw_length(a, column)) {
-      not_testable.push_back({cause, "calibrating the settings takes up all that it would show"});
+      not_testable.push_back({cause, "calibrating the settings would hide all that it shows"});
       continue;
     }
     if (regressor(a, column).fixed) {
-      result.push_back({cause, std::string(size.name), 0.0});
+      // A skip has no size that it could be below: it is absent, or it may act.
+      if (probability_of(a, cause) < kMayAct)
+        result.push_back({cause, std::string(size.name), 0.0});
       continue;
     }
     std::vector<int> set = a.decision.regressors;
@@ -323,9 +336,9 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
                                  std::abs(fitted.coefficient(at) - kQuantile95 * s));
     const double upper = std::abs(size_at(regressor(a, column), most));
     if (upper >= std::max(std::abs(size.lower), std::abs(size.upper))) {
-      not_testable.push_back({cause,
-                              fmt::format("any size that it may have could hide in these {}",
-                                          a.session.units_word())});
+      not_testable.push_back(
+          {cause,
+           fmt::format("whatever its size, it could hide in these {}", a.session.units_word())});
     } else {
       result.push_back({cause, std::string(size.name), upper});
     }
@@ -416,9 +429,8 @@ std::vector<Separation> separations(const Analysis& a) {
       const CauseId& y = a.decision.classes[shown[i]].front();
       const auto gx = marginalised.g.col(best_regressor(a, x));
       const auto gy = marginalised.g.col(best_regressor(a, y));
-      const double collinearity =
-          std::min(1.0, collinearity_of(gx, gy));
-      // 1.645 sqrt(2 / (1 - collinearity)): 95 of 100 told apart; a class is never told apart.
+      const double collinearity = std::min(1.0, collinearity_of(gx, gy));
+      // 1.645 sqrt(2 / (1 - collinearity)): 95 of 100 distinguished; a class is never distinguished.
       const double needed =
           kQuantile95 * std::sqrt(2.0 / std::max(1.0 - collinearity, 1.0 - kOneClass));
       result.push_back({x, y, collinearity, needed});

@@ -35,7 +35,7 @@ class Scout {
     prior_of_nothing_ = collector.log_prior_of({}, -1) + std::log(kDiscrepancyPrior);
   }
 
-  /// `beside` of the columns that this scout knows.
+  /// `alongside` of the columns that this scout knows.
   [[nodiscard]] Scouted look_at(const DiscrepancyBasis::GivenKernel& given, int discrepancy) const {
     const auto d = given.diagonal(family().strength_of(discrepancy));
     const double share = family().log_share_of(discrepancy) - 0.5 * d.log_det;
@@ -96,7 +96,7 @@ class Scout {
   double prior_of_nothing_ = 0.0;
 };
 
-/// The sets beside one discrepancy, each weighed in full.
+/// The sets given one discrepancy, each weighed in full.
 class GivenDiscrepancySearch {
  public:
   GivenDiscrepancySearch(const RegressorSystem& system,
@@ -207,7 +207,7 @@ std::vector<int> worth_trying(const RegressorSystem& system, const Scouted& scou
   return result;
 }
 
-/// Of each cause the places that fit best where nothing acts beside it, and all that lead.
+/// Of each cause the places that fit best where nothing else acts, and all that lead.
 std::vector<int> columns_to_scout(const RegressorSystem& system,
                                   const NormalEquations& plain,
                                   const std::vector<std::vector<int>>& best_models) {
@@ -246,7 +246,7 @@ std::vector<int> worth_searching(std::vector<Scouted> scouted) {
   return result;
 }
 
-/// A beam of its own beside every discrepancy.
+/// A beam of its own given every discrepancy.
 std::vector<double> search_all_by_beam(const RegressorSystem& system,
                                        DiscrepancyBasis& basis,
                                        const SearchLimits& limits,

@@ -17,9 +17,9 @@ std::optional<DiagnosisFailure> suspected_tape_zero(const MeasuredHoles& set) {
   return DiagnosisFailure{
       DiagnosisFailure::Reason::contradictory_settings,
       fmt::format(
-          "all distances are about {:.0f} mm {} than commanded, long ones and short ones "
-          "alike: it looks as if the tape's hook offset, stated as {:g} mm, is {:.0f} mm. "
-          "State it (\"tape\": {{\"hook_offset_mm\": {:.0f}}}) before causes are looked for",
+          "all distances are about {:.0f} mm {} than commanded, long ones and short ones by the "
+          "same: it looks as if the tape's hook offset, given as {:g} mm, is {:.0f} mm. Write it "
+          "down (\"tape\": {{\"hook_offset_mm\": {:.0f}}}) before causes are looked for",
           std::abs(*tape_zero_mm),
           *tape_zero_mm > 0.0 ? "longer" : "shorter",
           set.tape.tape_zero_offset_mm,
@@ -35,11 +35,11 @@ std::optional<DiagnosisFailure> suspected_slip(const Measured& measured) {
       const MeasuredFile& first = measured.files()[before];
       const MeasuredFile& other = measured.files()[k];
       if (!same_readings(first, other)) continue;
-      return DiagnosisFailure{
-          DiagnosisFailure::Reason::contradictory_settings,
-          fmt::format("{} holds the same readings as {}, to the last digit: a copy says nothing more. Leave it out",
-                      other.name,
-                      first.name)};
+      return DiagnosisFailure{DiagnosisFailure::Reason::contradictory_settings,
+                              fmt::format("{} holds the same readings as {}, to the last digit: a "
+                                          "copy adds nothing. Leave it out",
+                                          other.name,
+                                          first.name)};
     }
   }
   for (const MeasuredHoles* set : measured.holes()) {
@@ -48,8 +48,7 @@ std::optional<DiagnosisFailure> suspected_slip(const Measured& measured) {
   for (const MeasuredGrid* grid : measured.grids()) {
     const auto whole = input_checks::check_points(*grid).whole;
     if (!whole || whole->is_doubtful) continue;
-    return DiagnosisFailure{DiagnosisFailure::Reason::contradictory_settings,
-                            fmt::format("{}, expected {}", whole->found, whole->expected)};
+    return DiagnosisFailure{DiagnosisFailure::Reason::contradictory_settings, whole->sentence()};
   }
   return std::nullopt;
 }

@@ -29,9 +29,9 @@ class Folds {
       (void)average_over_parts(
           a_.system, noise_dof(a_), excluded, a_.session.fewest_units, comparison);
     }
-    const bool seen = options.given_cause.has_value() ||
+    const bool detected = options.given_cause.has_value() ||
                       a_.null.p_value(score.by_cause(first.e).maxCoeff()) < kFalseAlarm;
-    const Decision decision = decide_for_leaders(a_.system, comparison, excluded, seen);
+    const Decision decision = decide_for_leaders(a_.system, comparison, excluded, detected);
     const MarginalisedSystem& marginalised =
         comparison.marginalised_systems[decision.marginalised];
     // A reading wrong at its own visit alone says nothing of any other.
@@ -74,9 +74,9 @@ class Folds {
     return estimate(a_.system, marginalised, regressors, discrepancy);
   }
 
-  /// The discrepancy that the readings prefer beside these causes, none where they would rather
+  /// The discrepancy that the readings prefer given these causes, none where they would rather
   /// have none. Causes that the comparison does not hold at all are far from the best: what is left
-  /// beside them is taken as beside the best.
+  /// given them is taken as given the best.
   static int preferred_discrepancy(const ModelComparison& comparison,
                                    std::size_t marginalised,
                                    const std::vector<int>& regressors) {

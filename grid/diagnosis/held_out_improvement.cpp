@@ -8,11 +8,11 @@
 #include <cmath>
 #include <limits>
 
-#include "grid/diagnosis/uncalibrated.hpp"
-#include "grid/diagnosis/expected_improvement.hpp"
-#include "grid/diagnosis/held_out_fold.hpp"
-#include "grid/diagnosis/held_out_blocks.hpp"
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/expected_improvement.hpp"
+#include "grid/diagnosis/held_out_blocks.hpp"
+#include "grid/diagnosis/held_out_fold.hpp"
+#include "grid/diagnosis/uncalibrated.hpp"
 #include "grid/statistics.hpp"
 #include "grid/synthetic/random.hpp"
 
@@ -41,18 +41,18 @@ std::vector<std::size_t> border(const Analysis& a, bool of_the_bed) {
   Extent y;
   const auto counts = [&](const SystemUnit& unit) { return unit.reads_chains == of_the_bed; };
   for (const SystemUnit& unit : a.system.units) {
-    for (const observation::PlaceColumns& seen : unit.places) {
+    for (const observation::PlaceColumns& place_columns : unit.places) {
       if (!counts(unit)) continue;
-      x.take(a.system.places[seen.place].mark.x_mm);
-      y.take(a.system.places[seen.place].mark.y_mm);
+      x.take(a.system.places[place_columns.place].mark.x_mm);
+      y.take(a.system.places[place_columns.place].mark.y_mm);
     }
   }
   std::vector<std::size_t> result;
   for (std::size_t u = 0; u < a.system.units.size(); ++u) {
     const SystemUnit& unit = a.system.units[u];
-    const bool outside =
-        std::any_of(unit.places.begin(), unit.places.end(), [&](const observation::PlaceColumns& seen) {
-          const model::MarkPoint& mark = a.system.places[seen.place].mark;
+    const bool outside = std::any_of(
+        unit.places.begin(), unit.places.end(), [&](const observation::PlaceColumns& place_columns) {
+          const model::MarkPoint& mark = a.system.places[place_columns.place].mark;
           return std::max(x.share(mark.x_mm), y.share(mark.y_mm)) > kBorderShare;
         });
     if (counts(unit) && outside) result.push_back(u);
@@ -74,7 +74,7 @@ bool names_agree(const Fold& fold, const Analysis& a) {
   return std::find(whole.begin(), whole.end(), here.front()) != whole.end();
 }
 
-/// Root mean square of what noise alone does to a reading, seen at the tool.
+/// Root mean square of what noise alone does to a reading, at the tool.
 double noise_floor(const Analysis& a, const std::vector<std::size_t>& units) {
   double sum = 0.0;
   for (const std::size_t u : units) sum += noise_of_unit_mm2(a.system, u).trace();
@@ -107,8 +107,7 @@ BeforeCalibration before_calibration(const Analysis& a, const std::vector<std::s
     const Eigen::MatrixXd scaled = kept.of(by_sheet) * sigma.asDiagonal();
     Eigen::MatrixXd normal = scaled.transpose() * scaled;
     normal.diagonal().array() += 1.0;
-    const Eigen::VectorXd x =
-        normal.llt().solve(scaled.transpose() * kept(as_stated));
+    const Eigen::VectorXd x = normal.llt().solve(scaled.transpose() * kept(as_stated));
     placed -= by_sheet * sigma.cwiseProduct(x);
   }
   for (const std::size_t u : units) {
@@ -130,7 +129,7 @@ void append(const Errors& fold, Errors& all) {
   join(all.fixed_naming_and_surface, fold.fixed_naming_and_surface);
 }
 
-/// Which errors speak of the extension: an extension that does not help on points it has not seen
+/// Which errors speak of the extension: an extension that does not help on points that it was not fitted to
 /// is not made.
 struct Extension {
   const std::vector<Eigen::Vector2d>* machine = nullptr;
@@ -152,14 +151,16 @@ Extension extension_of(const Analysis& a, const Errors& errors) {
   return {&errors.calibrated, &errors.surface_only, false, true};
 }
 
-std::string scheme_of(const ObservationSet& session, const HeldOutBlocks& blocks, bool naming_repeated) {
+std::string scheme_of(const ObservationSet& session,
+                      const HeldOutBlocks& blocks,
+                      bool naming_repeated) {
   return fmt::format(
-      "{}, each held out in turn, {}",
+      "{}, each left out in turn, {}",
       blocks.of_the_bed ? fmt::format("{} blocks of the bed", blocks.units.size())
                         : fmt::format("all the distances of each of {} holes", blocks.units.size()),
-      naming_repeated ? "the naming repeated without it"
-                      : fmt::format("the causes that all {} name fitted without it, since not "
-                                    "every block left out leaves the same name",
+      naming_repeated ? "the rest diagnosed without it"
+                      : fmt::format("the causes that all {} name fitted without it, as leaving "
+                                    "some out changes the answer",
                                     session.units_word()));
 }
 
@@ -242,9 +243,9 @@ std::optional<HeldOutImprovement> measure_improvement(const Analysis& a) {
   if (a.session.units.size() - edge.size() >= a.session.fewest_units) {
     const Errors outer = hold_out(a, edge).errors;
     improvement.border = {rms_length(outer.calibrated),
-                   rms_length(outer.extended),
-                   rms_length(outer.extended_and_surface),
-                   rms_length(outer.surface_only)};
+                          rms_length(outer.extended),
+                          rms_length(outer.extended_and_surface),
+                          rms_length(outer.surface_only)};
   }
   return improvement;
 }

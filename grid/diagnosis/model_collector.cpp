@@ -67,7 +67,7 @@ double ModelCollector::consider(const ColumnSet& set,
   model.marginalised = number_;
   model.log_weight = evidence.log_evidence + marginalised_.log_outliers +
                      log_prior_of(model.regressors, discrepancy);
-  model.larger_noise = noise_.larger_share(evidence.quadratic);
+  model.larger_noise = evidence.larger_noise;
   model.quadratic = evidence.quadratic;
   best_ = std::max(best_, model.log_weight);
   const double weight = model.log_weight;
@@ -103,7 +103,7 @@ void search_by_beam(const RegressorSystem& system,
   std::vector<WeighedSet> parents = {{0.0, {}}};
   for (std::size_t size = 1; size <= kMostCauses; ++size) {
     std::vector<WeighedSet> children;
-    std::set<ColumnSet> seen;
+    std::set<ColumnSet> found;
     for (const WeighedSet& parent : parents) {
       for (Eigen::Index i = 0; i < equations.ge.size(); ++i) {
         const bool fits =
@@ -113,7 +113,7 @@ void search_by_beam(const RegressorSystem& system,
         if (!fits) continue;
         ColumnSet set = parent.set;
         set.insert(std::lower_bound(set.begin(), set.end(), i), i);
-        if (!seen.insert(set).second) continue;
+        if (!found.insert(set).second) continue;
         const double weight = collector.consider(set, discrepancy, equations);
         if (std::isfinite(weight)) children.push_back({weight, std::move(set)});
       }

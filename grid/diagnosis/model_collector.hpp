@@ -21,7 +21,7 @@ struct WeighedSet {
 [[nodiscard]] inline double weight_of(const WeighedSet& one) { return one.weight; }
 
 /// May two regressors act together: one cause acts at one place, an effect that acts on both chains
-/// alike not also on one of them, and of what sets in at one visit of one chain there is one.
+/// equally not also on one of them, and of what sets in at one visit of one chain there is one.
 [[nodiscard]] bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limits);
 
 class ModelCollector {
@@ -34,7 +34,7 @@ class ModelCollector {
 
   /// Weighs a set and keeps it where it matters; minus infinity where it cannot be.
   double consider(const ColumnSet& set, int discrepancy, const NormalEquations& equations);
-  /// Logarithm of the prior of a set beside a discrepancy or none, the discrepancy's share in it.
+  /// Logarithm of the prior of a set with a discrepancy or none, the discrepancy's share in it.
   [[nodiscard]] double log_prior_of(const std::vector<int>& regressors, int discrepancy) const;
 
   [[nodiscard]] double best() const { return best_; }
@@ -52,7 +52,7 @@ class ModelCollector {
   double best_;
 };
 
-/// Sets of up to kMostCauses columns grown from nothing by a beam, each weighed beside one discrepancy
+/// Sets of up to kMostCauses columns grown from nothing by a beam, each weighed given one discrepancy
 /// or none; what was weighed goes to the collector.
 void search_by_beam(const RegressorSystem& system,
                     const NormalEquations& equations,

@@ -84,6 +84,17 @@ double log_prior(const RegressorSystem& system, const std::vector<int>& set, boo
          std::lgamma(1.0 + static_cast<double>(lasting));
 }
 
+double log_odds_of_another(const RegressorSystem& system, const std::vector<int>& set, bool discrepancy) {
+  const auto lasting = static_cast<std::size_t>(std::count_if(set.begin(), set.end(), [&](int k) {
+    const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
+    return !d.expected && !d.slip;
+  }));
+  if (lasting == kMostCauses) return kMinusInfinity;
+  const double odds = discrepancy ? system.prior.odds_given_discrepancy : 1.0;
+  return std::log(prior_of_count(lasting + 1, odds) / prior_of_count(lasting, odds)) +
+         std::log(1.0 + static_cast<double>(lasting)) - std::log(system.prior.shares);
+}
+
 SingleScores single_scores(const RegressorSystem& system,
                            const MarginalisedSystem& marginalised,
                            const NoiseDensity& noise,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The evidence of the data for each of: nothing, every cause, causes together, outliers, noise
-/// larger than stated, a model discrepancy, and causes beside a model discrepancy.
+/// larger than stated, a model discrepancy, and causes given a model discrepancy.
 ///
 /// Every hypothesis looks for its own outliers, by mean shifts added one after the other without
 /// stopping at the first that does not pay, so that several outliers cannot mask each other; the
@@ -44,11 +44,11 @@ void sort_by_weight(ModelComparison& comparison);
 /// How far sets of causes are searched, by what a mechanism's regressors are like.
 struct SearchLimits {
   /// Regressors of each cause that are weighed, the best of its places: alone, and once one of what
-  /// leads has taken its share; sets of them are grown by a beam from nothing, beside every discrepancy
+  /// leads has taken its share; sets of them are grown by a beam from nothing, given every discrepancy
   /// anew. 0: all regressors, and of whole numbers the best; sets that lead without a discrepancy are
-  /// tried beside the likeliest of these too.
+  /// tried given the likeliest of these too.
   std::size_t of_a_cause = 0;
-  /// With a beam: sets of outliers that are tried beside discrepancies, the likeliest, and every so
+  /// With a beam: sets of outliers that are tried given discrepancies, the likeliest, and every so
   /// many of the strengths, the last among them.
   std::size_t sets_given = 1;
   std::size_t strength_step = 1;
@@ -84,6 +84,12 @@ inline constexpr std::size_t kMostCauses = 4;
 [[nodiscard]] double log_prior(const RegressorSystem& system,
                                const std::vector<int>& set,
                                bool discrepancy);
+
+/// Prior odds of a lasting cause more, its share in the catalogue (exp of its log_prior) not counted, as a
+/// natural logarithm; minus infinity beyond kMostCauses.
+[[nodiscard]] double log_odds_of_another(const RegressorSystem& system,
+                                         const std::vector<int>& set,
+                                         bool discrepancy);
 
 /// log BF of one cause against nothing, its places averaged: by position in `causes`.
 struct SingleScores {

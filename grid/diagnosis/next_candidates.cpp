@@ -15,20 +15,20 @@ constexpr int kCandidateRows = 12;
 
 /// Readings of the machine, with the sigma that care with usual tools reaches.
 struct MachineReading {
-  const char* what;
+  ReadingOf what;
   const char* side;
   double sigma;
 };
 constexpr double kTapeErrorSigmaMmPerM = 0.15;  // two metres to 0.3 mm, a good tape's tolerance
 constexpr MachineReading kReadings[] = {
-    {"motor_spacing_mm", "", 1.0},
-    {"beam_rise_mm", "", 1.0},
-    {"ring_radius_mm", "", 0.5},
-    {"link_pitch_mm", "left", kLinkPitchSigmaMm},
-    {"link_pitch_mm", "right", kLinkPitchSigmaMm},
-    {"chain_mass_kg_per_m", "", 0.002},
-    {"tape_error_mm_per_m", "x", kTapeErrorSigmaMmPerM},
-    {"tape_error_mm_per_m", "y", kTapeErrorSigmaMmPerM},
+    {ReadingOf::motor_spacing, "", 1.0},
+    {ReadingOf::beam_rise, "", 1.0},
+    {ReadingOf::ring_radius, "", 0.5},
+    {ReadingOf::link_pitch, "left", kLinkPitchSigmaMm},
+    {ReadingOf::link_pitch, "right", kLinkPitchSigmaMm},
+    {ReadingOf::chain_mass, "", 0.002},
+    {ReadingOf::tape_error, "x", kTapeErrorSigmaMmPerM},
+    {ReadingOf::tape_error, "y", kTapeErrorSigmaMmPerM},
 };
 
 /// Everything that might be measured at a mark, as one more visit each.
@@ -125,9 +125,9 @@ std::optional<CandidateReadings> candidate_readings(const ObservationSet& sessio
     const auto at = std::find_if(sorted.begin(), sorted.end(), [&](const ExtraReading& x) {
       return x.what == r.what && x.side == r.side;
     });
-    candidates.push_back({{MeasurementKind::reading, r.what, r.side, std::nullopt, r.sigma},
-                          {at - sorted.begin()},
-                          1});
+    NextMeasurement next{MeasurementKind::reading, "", r.side, std::nullopt, r.sigma};
+    next.reading = r.what;
+    candidates.push_back({std::move(next), {at - sorted.begin()}, 1});
   }
   return CandidateReadings{{observation, 0}, std::move(candidates)};
 }

@@ -12,7 +12,7 @@ namespace {
 /// New holes are looked for on this raster over what the holes span.
 constexpr int kHoleColumns = 7;
 constexpr int kHoleRows = 4;
-constexpr double kApartMm = 200.0;  ///< a hole beside another says the same
+constexpr double kApartMm = 200.0;  ///< a hole next to another says the same
 /// A new hole is measured to this many others: two place it, the third speaks.
 constexpr std::size_t kArms = 3;
 
@@ -119,7 +119,7 @@ class HoleCandidates {
       set_.distances.push_back({.from = set_.holes.size(), .to = others[k]});
       candidate.measurement.to.push_back(measured_.holes[others[k]].name);
     }
-    candidate.measurement.what = fmt::format(
+    candidate.measurement.words = fmt::format(
         "a new hole at {}, measured to {}", hole.name, fmt::join(candidate.measurement.to, ", "));
     candidates_.push_back(std::move(candidate));
     set_.holes.push_back(hole);

@@ -19,15 +19,20 @@ void add_link_reading(const Analysis& a, std::vector<NextMeasurement>& list) {
   if (a.decision.listed.empty() || list.size() >= kMostNextMeasurements) return;
   const CauseClass& members = a.decision.classes[a.decision.listed.front()];
   const bool pitch = std::any_of(members.begin(), members.end(), [](const CauseId& c) {
-    return c.effect->elongation != nullptr;
+    return c.effect->elongation != nullptr && c.effect->law == nullptr;
   });
-  const auto is_pitch = [](const auto& x) { return x.what == "link_pitch_mm"; };
-  if (members.size() < 2 || !pitch || std::any_of(list.begin(), list.end(), is_pitch) ||
+  const auto proposes_it = [](const NextMeasurement& next) {
+    return next.reading == ReadingOf::link_pitch;
+  };
+  const auto is_pitch = [](const ExtraReading& taken) {
+    return taken.what == ReadingOf::link_pitch;
+  };
+  if (members.size() < 2 || !pitch || std::any_of(list.begin(), list.end(), proposes_it) ||
       std::any_of(a.session.readings().begin(), a.session.readings().end(), is_pitch)) {
     return;
   }
-  NextMeasurement reading{
-      MeasurementKind::reading, "link_pitch_mm", "left", std::nullopt, kLinkPitchSigmaMm};
+  NextMeasurement reading{MeasurementKind::reading, "", "left", std::nullopt, kLinkPitchSigmaMm};
+  reading.reading = ReadingOf::link_pitch;
   for (const ClassProbability& one : a.decision.marginal) {
     if (one.index == a.decision.listed.front()) reading.raises_probability_to = one.probability;
   }

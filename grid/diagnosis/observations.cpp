@@ -28,7 +28,7 @@ std::vector<ExtraReading> predictable(const std::vector<ExtraReading>& readings,
   std::vector<ExtraReading> kept;
   std::vector<ExtraReading> masses;
   for (const ExtraReading& reading : readings) {
-    if (reading.what == "sled_mass_kg") masses.push_back(reading);
+    if (reading.what == ReadingOf::sled_mass) masses.push_back(reading);
     if (observation::is_predictable(machine, reading)) kept.push_back(reading);
   }
   machine = with_readings(machine, masses);
@@ -36,13 +36,13 @@ std::vector<ExtraReading> predictable(const std::vector<ExtraReading>& readings,
 }
 
 /// One sigma of what the machine file says of a thing that can also be read.
-double sigma_of_statement(const Machine& machine, const std::string& what) {
-  if (what == "motor_spacing_mm" || what == "beam_rise_mm")
+double sigma_of_statement(const Machine& machine, ReadingOf what) {
+  if (what == ReadingOf::motor_spacing || what == ReadingOf::beam_rise)
     return std::sqrt(2.0) * machine.uncertainty.motor_position_mm;
-  if (what == "ring_radius_mm") return machine.uncertainty.ring_radius_mm;
+  if (what == ReadingOf::ring_radius) return machine.uncertainty.ring_radius_mm;
   // A chain's pitch may be off by half a percent, its mass by more than that: nothing contradicts.
-  if (what == "link_pitch_mm") return 0.005 * machine.sprocket.pitch_mm;
-  if (what == "tape_error_mm_per_m") return 5.0;
+  if (what == ReadingOf::link_pitch) return 0.005 * machine.sprocket.pitch_mm;
+  if (what == ReadingOf::tape_error) return 5.0;
   return machine.chain.mass_kg_per_m;
 }
 
@@ -60,9 +60,9 @@ std::optional<std::string> contradiction(const Machine& machine,
     const double sigma = std::hypot(sigma_of_statement(machine, reading.what), reading.sigma);
     if (std::abs(reading.value - stated) > kContradiction * sigma) {
       return fmt::format(
-          "the grid's reading of {} is {:.6g}, but the machine states {:.6g}: {:.0f} sigma apart. "
+          "your reading of {} is {:.6g}, but the machine file says {:.6g}: {:.0f} sigma apart. "
           "Measure it again and correct whichever is wrong",
-          reading.what,
+          name(reading.what),
           reading.value,
           stated,
           std::abs(reading.value - stated) / sigma);
@@ -74,7 +74,7 @@ std::optional<std::string> contradiction(const Machine& machine,
       if (std::abs(reading.value - other.value) > kContradiction * both) {
         return fmt::format(
             "two readings of {} contradict each other: {:.6g} and {:.6g}, {:.0f} sigma apart",
-            reading.what,
+            name(reading.what),
             other.value,
             reading.value,
             std::abs(reading.value - other.value) / both);
@@ -140,7 +140,7 @@ std::string too_few_distances(const MeasuredHoles& set) {
   const std::size_t missing = kFewestDistances - set.distances.size();
   const std::vector<std::string> pairs = unmeasured(set, missing);
   std::string text = fmt::format(
-      "{} distances are too few to name a cause: they tell four of the settings, and at least {} "
+      "{} distances are too few to name a cause: they give four of the settings, and at least {} "
       "are needed; nine holes and twenty distances are a good start",
       set.distances.size(),
       kFewestDistances);
@@ -163,7 +163,7 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
     MeasuredGrid grid, const Machine& stated, std::size_t first_index, PointsSoFar& so_far) {
   grid.machine = stated;
   const auto lengths = length_points(grid);
-  if (!lengths) return failure(Reason::no_lengths, lengths.error().sentence);
+  if (!lengths) return failure(Reason::no_lengths, lengths.error().sentence());
   std::optional<StatedNoise> noise = grid.noise;
   if (!noise) {
     noise = noise_of_repeats(stated, *lengths);
@@ -171,8 +171,8 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
   }
   if (!noise) {
     return failure(Reason::no_noise,
-                   "how well the points were measured is neither stated nor to be seen in repeats. "
-                   "State it (\"noise\" in the grid file, or --noise-length-mm, "
+                   "how well the points were measured is not given, and too few were measured "
+                   "twice to show it. Give it (\"noise\" in the grid file, or --noise-length-mm, "
                    "--noise-position-mm), or measure at least six points twice");
   }
   // Visits are those of one session: an order of another says nothing about them.
@@ -234,10 +234,9 @@ tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& m
   if (!measured.machine()) {
     return failure(Reason::no_machine,
                    measured.grids().empty()
-                       ? "the holes name no machine; what was commanded becomes chain lengths by "
-                         "its controller: give --machine M.json"
-                       : "a diagnosis needs the machine as its owner states it: give --machine "
-                         "M.json");
+                       ? "the holes name no machine, whose controller turns commands into chain "
+                         "lengths: give --machine M.json"
+                       : "a diagnosis needs your machine's measures: give --machine M.json");
   }
   Machine stated = *measured.machine();
   std::vector<ExtraReading> readings;
@@ -272,7 +271,7 @@ tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& m
       if (k > 0) hole.name = fmt::format("{} ({})", hole.name, k + 1);
     }
     auto distances = observation::TapeDistances::of(set, first);
-    if (!distances) return failure(Reason::point_unreachable, distances.error().sentence);
+    if (!distances) return failure(Reason::point_unreachable, distances.error().sentence());
     add(std::make_shared<const observation::TapeDistances>(*std::move(distances)));
     first.hole += set.holes.size();
     first.distance += set.distances.size();

@@ -46,7 +46,7 @@ Pair waves_at(const std::vector<double>& places_mm, double period_mm) {
   return pair;
 }
 
-/// About their mean, of length 1; 0 where all are alike.
+/// About their mean, of length 1; 0 where all are equal.
 Eigen::VectorXd about_mean(const std::vector<double>& values) {
   Eigen::VectorXd result =
       Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
@@ -111,9 +111,9 @@ double Periodogram::level(double chance, int draws, std::uint64_t seed) const {
     z.col(draw).normalize();
   }
   Eigen::ArrayXd largest = Eigen::ArrayXd::Zero(z.cols());
-  constexpr Eigen::Index kBlock = 128;  // rows at a time: what is held stays small
-  for (Eigen::Index first = 0; first < waves_.rows(); first += kBlock) {
-    const Eigen::Index rows = std::min(kBlock, waves_.rows() - first);
+  constexpr Eigen::Index kRowsAtOnce = 128;  // rows at a time: what is held stays small
+  for (Eigen::Index first = 0; first < waves_.rows(); first += kRowsAtOnce) {
+    const Eigen::Index rows = std::min(kRowsAtOnce, waves_.rows() - first);
     const Eigen::ArrayXXd square = (waves_.middleRows(first, rows) * z).array().square();
     for (Eigen::Index k = 0; k + 1 < rows; k += 2) {
       largest = largest.max((square.row(k) + square.row(k + 1)).transpose());

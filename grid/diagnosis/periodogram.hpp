@@ -9,7 +9,7 @@
 ///
 /// \code
 ///   const Periodogram waves(lengths_mm, 5.5);
-///   const std::vector<double> power = waves.power(residuals_mm);   // beside waves.periods_mm()
+///   const std::vector<double> power = waves.power(residuals_mm);   // by waves.periods_mm()
 ///   const double level = waves.level(0.01, 499, seed);  // noise passes it 1 time in 100
 /// \endcode
 #pragma once
@@ -32,7 +32,7 @@ class Periodogram {
   /// Descending.
   [[nodiscard]] const std::vector<double>& periods_mm() const { return periods_mm_; }
 
-  /// In 0 .. 1, at each period; all 0 for values that are all alike.
+  /// In 0 .. 1, at each period; all 0 for values that are all equal.
   /// \throws std::invalid_argument where there are not as many values as places.
   [[nodiscard]] std::vector<double> power(const std::vector<double>& values) const;
   /// At one period.

@@ -46,9 +46,8 @@ tl::expected<RegressorSystem, observation::Unreachable> linearise(const Observat
   }
   auto line = estimation::linearise(set, from, estimation::Prediction::visit_by_visit);
   if (!line) {
-    const estimation::UnreachablePlace& where = line.error();
-    return tl::unexpected(observation::Unreachable{
-        set.parts[where.observation].first_place + where.place.place, where.place.reason});
+    const estimation::PlaceOfObservation& where = line.error().place;
+    return tl::unexpected(line.error().at(set.parts[where.observation].first_place + where.place));
   }
   RegressorSystem system;
   static_cast<estimation::LinearisedSystem&>(system) = *std::move(line);
@@ -56,7 +55,7 @@ tl::expected<RegressorSystem, observation::Unreachable> linearise(const Observat
   system.expected_change = set.stated_value - system.setting;
   system.sigma = set.stated_sigma;
   // Of each effect the shares of its sides, places and numbers add up to one.
-  system.prior.shares = static_cast<double>(model::effects::catalogue().size());
+  system.prior.shares = static_cast<double>(model::effects::effects_of(state.machine).size());
   system.noise_dof = set.noise_dof;
   system.limits.fewest_groups = set.fewest_units;
   if (!steps.whiten) {

@@ -8,6 +8,7 @@
 #include "grid/chain_rows.hpp"
 #include "grid/diagnosis/secants.hpp"
 #include "model/effects/catalogue.hpp"
+#include "model/effects/declared_effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -16,9 +17,10 @@ using model::effects::Effect;
 using model::effects::EffectParameter;
 using model::effects::EffectSide;
 using model::effects::ParameterRole;
+using model::effects::PlaceVariable;
 
-constexpr int kPlaces = 24;    // of a knee or a phase: neighbours stay alike to 0.99
-constexpr int kMostLinks = 3;  // more than that is seen with the bare eye
+constexpr int kPlaces = 24;    // of a knee or a phase: neighbours have a collinearity of 0.99
+constexpr int kMostLinks = 3;  // more than that shows to the bare eye
 
 model::Machine with_effect(model::Machine machine,
                            CauseId cause,
@@ -55,11 +57,14 @@ Eigen::Vector2d added_at(const SystemPlace& place,
     if (cause.effect->misread != nullptr) {
       mm(row) = cause.effect->misread({place.order, sprocket.pitch_mm}, values);
     } else {
-      mm(row) =
-          cause.effect
-              ->add({pose.chains[side], pose.lengths[side], sprocket.teeth * sprocket.pitch_mm},
-                    values)
-              .length_mm;
+      mm(row) = cause.effect
+                    ->add({pose.chains[side],
+                           pose.lengths[side],
+                           sprocket.teeth * sprocket.pitch_mm,
+                           sprocket.pitch_mm,
+                           pose.position},
+                          values)
+                    .length_mm;
     }
   }
   return mm;
@@ -77,8 +82,8 @@ Eigen::VectorXd added(const RegressorSystem& system,
   }
   Eigen::VectorXd column = Eigen::VectorXd::Zero(system.e.size());
   for (const SystemUnit& unit : system.units) {
-    for (const observation::PlaceColumns& seen : unit.places) {
-      column.segment(unit.first_row, unit.rows) += seen.by_chain * mm[seen.place];
+    for (const observation::PlaceColumns& place_columns : unit.places) {
+      column.segment(unit.first_row, unit.rows) += place_columns.by_chain * mm[place_columns.place];
     }
   }
   return column;
@@ -93,8 +98,54 @@ const EffectParameter* place_parameter(const Effect& effect) {
   return nullptr;
 }
 
-/// Places where an effect may set in: visits, angles between those of the places, phases of a
-/// turn.
+/// What the place of an effect is compared with, at one place of the tool.
+double compared(const SystemPlace& own, PlaceVariable variable, model::Side side) {
+  const model::Pose& pose = own.state.reading.pose;
+  const model::ChainState& chain = pose.chains[side];
+  switch (variable) {
+    case PlaceVariable::visit:
+      return own.order;
+    case PlaceVariable::free_length:
+      return chain.free_length_mm;
+    case PlaceVariable::length:
+      return pose.lengths[side];
+    case PlaceVariable::tension:
+      return chain.tension_at_sprocket_n;
+    case PlaceVariable::horizontal:
+      return chain.horizontal_n;
+    case PlaceVariable::x:
+      return pose.position.x_mm;
+    case PlaceVariable::y:
+      return pose.position.y_mm;
+    case PlaceVariable::distance:
+      return std::hypot(pose.position.x_mm, pose.position.y_mm);
+    default:
+      return chain.angle_rad;
+  }
+}
+
+PlaceVariable variable_of_place(const Effect& effect, const EffectParameter& place) {
+  if (effect.law != nullptr) return model::effects::place_variable(effect);
+  if (place.integer) return PlaceVariable::visit;
+  return place.upper - place.lower >= 2.0 * std::numbers::pi ? PlaceVariable::phase
+                                                             : PlaceVariable::angle;
+}
+
+/// As many as kPlaces, evenly in the rank of those that are there.
+std::vector<double> evenly_by_rank(std::vector<double> there) {
+  std::vector<double> result;
+  std::sort(there.begin(), there.end());
+  const auto last = static_cast<double>(there.size() - 1);
+  for (int k = 0; k < kPlaces; ++k) {
+    const double at = last * k / kPlaces;
+    const auto below = static_cast<std::size_t>(at);
+    result.push_back(there[below] + (at - std::floor(at)) * (there[below + 1] - there[below]));
+  }
+  return result;
+}
+
+/// Places where an effect may set in: visits, phases of a turn, angles (or what else the place is
+/// compared with) between those of the places of the tool.
 std::vector<double> places(const RegressorSystem& system, CauseId cause) {
   const EffectParameter& place = *place_parameter(*cause.effect);
   std::vector<double> result;
@@ -107,21 +158,29 @@ std::vector<double> places(const RegressorSystem& system, CauseId cause) {
       std::erase(result, *std::min_element(result.begin(), result.end()));
     return result;
   }
-  if (place.upper - place.lower >= 2.0 * std::numbers::pi) {
-    for (int k = 0; k < kPlaces; ++k) result.push_back(2.0 * std::numbers::pi * k / kPlaces);
+  const PlaceVariable variable = variable_of_place(*cause.effect, place);
+  if (variable == PlaceVariable::phase) {
+    for (int k = 0; k < kPlaces; ++k) {
+      const double at = 2.0 * std::numbers::pi * k / kPlaces;
+      result.push_back(at > place.upper ? at - 2.0 * std::numbers::pi : at);
+    }
     return result;
   }
-  std::vector<double> angles;
-  for (const SystemPlace& own : system.places) {
-    const auto side = cause.side == EffectSide::left ? model::Side::left : model::Side::right;
-    angles.push_back(own.state.reading.pose.chains[side].angle_rad);
+  if (variable == PlaceVariable::none) {
+    for (int k = 0; k < kPlaces; ++k)
+      result.push_back(place.lower + (place.upper - place.lower) * (k + 0.5) / kPlaces);
+    return result;
   }
-  std::sort(angles.begin(), angles.end());
-  const auto last = static_cast<double>(angles.size() - 1);
-  for (int k = 0; k < kPlaces; ++k) {
-    const double at = last * k / kPlaces;
-    const auto below = static_cast<std::size_t>(at);
-    result.push_back(angles[below] + (at - std::floor(at)) * (angles[below + 1] - angles[below]));
+  std::vector<double> there;
+  const auto side = cause.side == EffectSide::left ? model::Side::left : model::Side::right;
+  for (const SystemPlace& own : system.places) {
+    if (variable != PlaceVariable::visit || own.ordered)
+      there.push_back(compared(own, variable, side));
+  }
+  if (there.size() < 2) return result;
+  result = evenly_by_rank(std::move(there));
+  if (cause.effect->law != nullptr) {
+    std::erase_if(result, [&](double at) { return at < place.lower || at > place.upper; });
   }
   return result;
 }
@@ -234,7 +293,7 @@ std::string untestable(const ObservationSet& session, CauseId cause) {
 
 Candidates candidates(const ObservationSet& session) {
   Candidates result;
-  for (const Effect* effect : model::effects::catalogue()) {
+  for (const Effect* effect : model::effects::effects_of(session.stated)) {
     for (const EffectSide side : effect->sides) {
       const CauseId cause{effect, side};
       model::Machine machine =

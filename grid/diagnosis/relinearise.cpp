@@ -78,11 +78,17 @@ class Round {
     return now;
   }
 
-  /// The place at which a cause explains most, beside the others.
+  /// The place at which a cause explains most, given the others.
   [[nodiscard]] double place(std::size_t which, const Reach& reach) const {
     const Regressor& own = system_.regressors[which];
     double low = own.values.back() - reach.below;
     double high = own.values.back() + reach.above;
+    if (own.cause.effect->law != nullptr) {
+      // A formula is known to be finite between its bounds alone.
+      const auto& bounds = own.cause.effect->parameters.back();
+      low = std::max(low, bounds.lower);
+      high = std::min(high, bounds.upper);
+    }
     const Others others(*this, which);
     constexpr double kGolden = 0.381966011250105;
     double x1 = low + kGolden * (high - low);

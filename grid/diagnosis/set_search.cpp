@@ -283,12 +283,12 @@ class SetSearch::Search {
       std::stable_sort(parents.begin(), parents.end(), heavier);
       if (parents.empty() || parents.front().weight < collector_.best() - kGrowWithin) return;
       parents.resize(count_with_ties(parents, kBeam, weight_of));
-      std::set<std::vector<Eigen::Index>> seen;
-      for (const WeighedSet& parent : parents) extend(parent.set, seen);
+      std::set<std::vector<Eigen::Index>> found;
+      for (const WeighedSet& parent : parents) extend(parent.set, found);
     }
   }
 
-  void extend(const std::vector<Eigen::Index>& parent, std::set<std::vector<Eigen::Index>>& seen) {
+  void extend(const std::vector<Eigen::Index>& parent, std::set<std::vector<Eigen::Index>>& found) {
     // What the parent leaves, and of each regressor: a score for the cost of one inner product.
     const Eigen::MatrixXd own = equations_.gg(parent, parent);
     const Eigen::LDLT<Eigen::MatrixXd> ldlt(own);
@@ -314,7 +314,7 @@ class SetSearch::Search {
       std::vector<Eigen::Index> set = parent;
       set.push_back(index);
       std::sort(set.begin(), set.end());
-      if (!seen.insert(set).second) continue;
+      if (!found.insert(set).second) continue;
       scored_.push_back({consider(set), set});
     }
   }

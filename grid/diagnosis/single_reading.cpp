@@ -45,15 +45,15 @@ std::string refusal_words(const ObservationSet& session,
   const std::string what = point ? fmt::format("Point {}", reading.removal->index + 1)
                                  : "The" + name_of(session, reading.unit).substr(3);
   return fmt::format(
-      "{} by itself would make a name of it ({}{}, {:.0f} %); without it nothing is named. A "
-      "lasting cause shows in more than one {}, so the {} is set aside: measure it again{}.",
+      "{} alone would name a cause ({}{}, {:.0f} %); without it there is none. A lasting cause "
+      "shows in more than one {}, so the {} is left out: measure it again{}.",
       what,
       cause.effect->cause,
       side_words(cause),
       100.0 * probability,
       point ? "point" : "distance",
       point ? "point" : "distance",
-      point ? ", and once more beside it" : "");
+      point ? ", and once more next to it" : "");
 }
 
 bool may_be_refused(const Analysis& a) {

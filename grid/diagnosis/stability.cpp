@@ -105,7 +105,7 @@ class Statement {
     double with = 0.0;
     double against = 0.0;
     const double best = comparison.best().log_weight;
-    // Of what holds and of what does not the larger one first: neither may vanish beside the other.
+    // Of what holds and of what does not the larger one first: neither may vanish next to the other.
     double best_with = -std::numeric_limits<double>::infinity();
     double best_against = best_with;
     for (const CandidateModel& model : comparison.models) {
@@ -186,10 +186,10 @@ std::optional<Stability> examine_stability(const Analysis& a) {
     const auto without = downdating.without(group.units);
     std::vector<bool> excluded(a.session.units.size(), false);
     for (const std::size_t u : group.units) excluded[u] = true;
-    const bool seen =
+    const bool detected =
         a.null.p_value(without.score) < kFalseAlarm || a.options.given_cause.has_value();
     const Decision decision =
-        decide(a.system, without.comparison, excluded, seen, a.decision.classes);
+        decide(a.system, without.comparison, excluded, detected, a.decision.classes);
     const double log_odds = statement.log_odds(without.comparison);
     Removal removal;
     removal.what = group.what;

@@ -124,16 +124,14 @@ std::string stability_in_words(const Diagnosis& diagnosis) {
         return a.probability < b.probability;
       });
   const Kind& kind = kKinds[static_cast<std::size_t>(weakest->what)];
-  std::string text =
-      fmt::format("Left out one at a time and judged anew: {}. ", listed(tried, "and"));
-  text +=
-      changes == 0 ? "The verdict names the same without any of them."
-      : changes == 1
-          ? "Without one of them it does not name the same."
-          : fmt::format("Without one or another of {} of them it does not name the same.", changes);
+  const std::string which = listed(tried, "and");
+  const std::string text =
+      changes == 0
+          ? fmt::format("The answer stays the same whichever of {} is left out.", which)
+          : fmt::format("Of {}, each left out in turn, {} would change the answer.", which, changes);
   if (weakest->probability > kBeyondDoubt) return text;
   return text + fmt::format(
-                    " What is named is least sure without {}: its probability is then {}, "
+                    " It is least sure without {}: then {}, "
                     "with all {} {}.",
                     named_places(diagnosis, kind, {&*weakest}),
                     percent(weakest->probability),

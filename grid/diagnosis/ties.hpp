@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where a sorted list is cut, what scores alike goes the same way.
+/// Where a sorted list is cut, what scores equally goes the same way.
 ///
-/// Two phases of a wave half a turn apart have the same column but for its sign, and score alike but for rounding. Were
+/// Two phases of a wave half a turn apart have the same column but for its sign, and score equally but for rounding. Were
 /// the list cut between them, the last bit of a sine would say which of the two signs is tried.
 #pragma once
 

@@ -104,7 +104,7 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
                                                   const MeasuredGrid& to) {
   const auto first = observations_of(from);
   if (!first) return tl::unexpected(first.error());
-  // The second grid is seen by the first one's machine, whatever its file says.
+  // The second grid is taken as measured by the first one's machine, whatever its file says.
   MeasuredGrid other = to;
   other.machine = from.machine;
   if (!other.noise) {

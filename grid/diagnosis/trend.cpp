@@ -58,8 +58,13 @@ Trend trend(const Diagnosis& before, const Diagnosis& now, std::string since) {
                                              : 0.5;
     result.changes.push_back(change);
   }
-  if (before.budget) result.uncalibrated_before_mm = before.budget->uncalibrated_mm;
-  if (now.budget) result.uncalibrated_mm = now.budget->uncalibrated_mm;
+  if (before.tool_today && now.tool_today) {
+    result.uncalibrated_before_mm = before.tool_today->rms_mm;
+    result.uncalibrated_mm = now.tool_today->rms_mm;
+  } else if (before.budget && now.budget) {
+    result.uncalibrated_before_mm = before.budget->uncalibrated_mm;
+    result.uncalibrated_mm = now.budget->uncalibrated_mm;
+  }
   return result;
 }
 

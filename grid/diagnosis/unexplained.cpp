@@ -34,7 +34,7 @@ Enters entry_of(const DiscrepancyKernel& kernel) {
   if (field.entry == FieldEntry::tool) {
     return nearest % 2 != 0 ? Enters::mixed : nearest % 4 == 0 ? Enters::x : Enters::y;
   }
-  constexpr std::array kOfChains = {Enters::left, Enters::alike, Enters::right, Enters::opposite};
+  constexpr std::array kOfChains = {Enters::left, Enters::equal, Enters::right, Enters::opposite};
   return kOfChains[static_cast<std::size_t>(nearest % 4)];
 }
 

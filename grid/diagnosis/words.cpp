@@ -29,15 +29,16 @@ std::string improvement_words(const Diagnosis& d) {
   if (!d.improvement) return "";
   if (d.improvement->extended.rms_mm >= d.improvement->calibrated.rms_mm) {
     return fmt::format(
-        " Held out, naming it does not make {} truer ({:.2f} mm with and without; noise "
-        "alone "
-        "makes {:.2f} mm): the machine is not extended.",
+        " It does not improve {}: readings left out in turn are predicted to {:.2f} mm with it and "
+        "without, and the readings themselves are good to {:.2f} mm. So the machine is left as it "
+        "is.",
         speaks_of_distances(d) ? "distances" : "the tool",
         d.improvement->calibrated.rms_mm,
         d.improvement->noise_floor_mm);
   }
   return fmt::format(
-      " Held out, the {} error falls from {:.2f} to {:.2f} mm; noise alone makes {:.2f} mm.",
+      " With it, the {} error falls from {:.2f} to {:.2f} mm where it was not used; the readings "
+      "themselves are good to {:.2f} mm.",
       speaks_of_distances(d) ? "distances'" : "tool's",
       d.improvement->calibrated.rms_mm,
       d.improvement->extended.rms_mm,
@@ -47,7 +48,7 @@ std::string improvement_words(const Diagnosis& d) {
 std::string assumed_words(const Diagnosis& d) {
   const bool assumed =
       std::any_of(d.causes.begin(), d.causes.end(), [](const Cause& c) { return c.order_assumed; });
-  return assumed ? " This rests on an assumed visiting order." : "";
+  return assumed ? " This assumes the order of the visits." : "";
 }
 
 /// An outlier by its ends and by how much it is off.
@@ -62,10 +63,9 @@ std::string distance_words(const Diagnosis& d, const Outlier& bad) {
 std::vector<std::string> bad_ones(const Diagnosis& d) {
   std::vector<std::string> result;
   for (const Outlier& b : d.outliers) {
-    result.push_back(b.of == Observations::distances ? distance_words(d, b)
-                     : d.observations == Observations::both
-                         ? fmt::format("point {}", b.index + 1)
-                         : fmt::format("{}", b.index + 1));
+    result.push_back(b.of == Observations::distances        ? distance_words(d, b)
+                     : d.observations == Observations::both ? fmt::format("point {}", b.index + 1)
+                                                            : fmt::format("{}", b.index + 1));
   }
   return result;
 }
@@ -74,13 +74,13 @@ std::vector<std::string> bad_ones(const Diagnosis& d) {
 std::string alongside_words(const Diagnosis& d) {
   if (!d.unexplained || d.unexplained->probability <= kDiscrepancyLikely) return "";
   const Unexplained& left = *d.unexplained;
-  return fmt::format(" Besides, a pattern of {:.2f} mm{}, which no listed cause makes: {}.",
-                     left.rms_mm,
-                     left.follows.empty()
-                         ? fmt::format(" that changes over some {:.0f} mm of the bed",
-                                       left.length_mm)
-                         : fmt::format(" that follows {}", coordinate_words(left.follows)),
-                     percent(left.probability));
+  return fmt::format(
+      " Also, a pattern of {:.2f} mm{}, which no listed cause makes: {}.",
+      left.rms_mm,
+      left.follows.empty()
+          ? fmt::format(" that changes over some {:.0f} mm of the bed", left.length_mm)
+          : fmt::format(" that follows {}", coordinate_words(left.follows)),
+      percent(left.probability));
 }
 
 std::string named_words(const Diagnosis& d) {
@@ -120,11 +120,12 @@ std::string several_words(const Diagnosis& d) {
 std::string unknown_words(const Diagnosis& d) {
   std::string text =
       !speaks_of_distances(d)
-          ? fmt::format("The {} show a pattern that repeats over the bed and that no cause in the "
-                        "catalogue explains",
-                        name(d.observations))
-          : "The holes lie beside where their chain lengths put them, neighbours alike and farther "
-            "than noise takes them, and no cause in the catalogue explains it";
+          ? fmt::format(
+                "The {} show a pattern that repeats over the bed and that no cause in the "
+                "catalogue explains",
+                name(d.observations))
+          : "The holes lie off where their chain lengths put them, neighbours by about the same "
+            "and by more than the readings can err, and no known cause explains it";
   if (!d.left_over.follows.empty()) {
     text += fmt::format("; it follows {} best ({:.0f} % of it)",
                         coordinate_words(d.left_over.follows),
@@ -145,8 +146,8 @@ std::string bad_words(const Diagnosis& d) {
 
 std::string nothing_words(const Diagnosis& d, std::size_t units) {
   std::string text = fmt::format(
-      "Nothing is found beyond the settings: what is left {} the {} {} is as large as the "
-      "stated noise.",
+      "Nothing is found beyond the settings: what is left {} the {} {} is as large as the readings "
+      "can err.",
       d.observations == Observations::points ? "at" : "of",
       units,
       name(d.observations));
@@ -171,8 +172,8 @@ std::string sentence(const Diagnosis& d, std::size_t units) {
       return unknown_words(d);
     case Verdict::noise_larger_than_stated:
       return fmt::format(
-          "The {} scatter {:.1f} times as much as was stated, and without a pattern: look at "
-          "the tape, at the {} and at play in the sled.",
+          "The {} scatter {:.1f} times as much as you said, and without a pattern: look at the "
+          "tape, at the {} and at play in the sled.",
           name(d.observations),
           d.noise_factor,
           speaks_of_distances(d) ? "drill" : "marking");
@@ -192,8 +193,8 @@ void say_what_to_read_again(Diagnosis& d) {
     return b.of == Observations::points && b.index == points.front();
   });
   if (is_bad) return;
-  d.what_to_do.push_back(fmt::format(
-      "Measure point {} again before anything else: the name rests on it.", points.front() + 1));
+  d.what_to_do.push_back(
+      fmt::format("Measure point {} again first: the answer depends on it.", points.front() + 1));
 }
 
 void say_what_to_do(Diagnosis& d) {
@@ -206,9 +207,9 @@ void say_what_to_do(Diagnosis& d) {
   if (!d.next_measurements.empty()) {
     const NextMeasurement& first = d.next_measurements.front();
     const std::string what =
-        first.kind == MeasurementKind::reading ? reading_words(first.what, first.side)
+        first.kind == MeasurementKind::reading ? reading_words(*first.reading, first.side)
         : first.kind != MeasurementKind::point
-            ? first.what
+            ? first.words
             : fmt::format("a new point at ({:.0f}, {:.0f}) mm", first.mark->x_mm, first.mark->y_mm);
     d.what_to_do.push_back(
         fmt::format("Measure next: {}{}. All of it raises the chance of {} to {:.0f} %.",
@@ -220,20 +221,20 @@ void say_what_to_do(Diagnosis& d) {
                     100.0 * d.next_measurements.back().raises_probability_to));
   }
   if (!d.outliers.empty() && d.what_to_do.size() < 3) {
-    d.what_to_do.push_back(
-        fmt::format("Measure {}{} again.",
-                    d.observations == Observations::points      ? "point "
-                    : d.observations == Observations::distances ? "the distance "
-                                                                : "",
-                    joined(bad_ones(d), "and")));
+    d.what_to_do.push_back(fmt::format("Measure {}{} again.",
+                                       d.observations == Observations::points      ? "point "
+                                       : d.observations == Observations::distances ? "the distance "
+                                                                                   : "",
+                                       joined(bad_ones(d), "and")));
   }
   for (const CalibratedSetting& s : d.settings) {
     if (!s.off || d.what_to_do.size() >= 3) continue;
-    d.what_to_do.push_back(fmt::format("Check {}: {:.2f} is stated, {:.2f} fits the {}.",
-                                       model::name(s.setting),
-                                       s.stated,
-                                       s.calibrated,
-                                       name(d.observations)));
+    d.what_to_do.push_back(
+        fmt::format("Check {}: the machine file says {:.2f}, and {:.2f} fits the {}.",
+                    model::name(s.setting),
+                    s.stated,
+                    s.calibrated,
+                    name(d.observations)));
   }
   if (d.verdict == Verdict::model_discrepancy && d.what_to_do.size() < 3) {
     d.what_to_do.emplace_back(
@@ -241,14 +242,13 @@ void say_what_to_do(Diagnosis& d) {
         "it.");
     // Whose it is no further mark on the same sheet can tell.
     d.what_to_do.emplace_back(
-        "Measure again with the sheet turned by half, or set out with another tape: what turns with "
-        "it is the sheet's or the tape's; what stays is the machine's; what another day does not "
-        "show was that day's.");
+        "Turn the sheet by half, or set it out with another tape, and measure again: an error that "
+        "turns with it is the sheet's or the tape's; one that stays is the machine's; one that is "
+        "gone was that day's.");
   }
   if (d.what_to_do.empty()) {
-    d.what_to_do.push_back(
-        fmt::format("Type in the calibrated settings; more is not to be had from these {}.",
-                    name(d.observations)));
+    d.what_to_do.push_back(fmt::format(
+        "Type in the calibrated settings; these {} can give no more.", name(d.observations)));
   }
 }
 
@@ -262,15 +262,14 @@ std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
                                                                    : "Readings");
     if (lead.rival) {
       text += fmt::format(
-          " A cause outside the catalogue that looks alike would carry the same "
-          "name; the nearest inside it is this: {}{} (likeness {:.3f}).",
+          " An unlisted cause that looks the same would get the same name. The most similar listed "
+          "one: {}{} (likeness {:.3f}).",
           lead.rival->effect->cause,
           side_words(*lead.rival),
           lead.rival_collinearity);
     }
   } else if (d.verdict == Verdict::model_discrepancy) {
-    text =
-        "That no cause in the catalogue explains it does not prove that none of them acts as well.";
+    text = "No cause in the catalogue explains it, but one may still act as well.";
   } else {
     text =
         "This does not prove the machine perfect: causes smaller than their bounds below would "
@@ -279,10 +278,10 @@ std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
   text += influence_in_words(d);
   if (speaks_of_distances(d)) {
     text +=
-        " Distances do not know in which order the holes were cut, nor where the machine stands as "
+        " Distances do not show in which order the holes were cut, nor where the machine stands as "
         "a whole: drift, skipped teeth and play cannot be seen, nor how high the motors are.";
   } else if (!session.ordered()) {
-    text += " The order of the visits is not known: drift, skipped teeth and play cannot be seen.";
+    text += " The order of visits is not known: drift, skipped teeth and play cannot be seen.";
   }
   return text;
 }
@@ -293,23 +292,24 @@ void put_into_words(const Analysis& a, Diagnosis& d) {
   const ObservationSet& session = a.session;
   if (!a.converged) {
     d.notes.emplace_back(
-        "Calibrating had not come to rest after its last pass: the settings are uncertain by more "
-        "than their sigmas. Look for a reading that is far off, or for a setting stated wrongly.");
+        "Calibrating had not come to rest after its last pass: the settings are less sure than their "
+        "sigmas say. Look for a reading that is far off, or a wrong setting.");
   }
   const auto chains = parts_of<observation::ChainLengthReadings>(session);
   if (session.noise_from_repeats && !chains.empty()) {
     const observation::PointNoise& noise = chains.front().second->noise();
-    d.notes.push_back(fmt::format(
-        "No noise was stated: {:.2f} mm in length and {:.2f} mm in position come from the repeats.",
-        noise.length_mm,
-        noise.position_mm));
+    d.notes.push_back(
+        fmt::format("By the marks that were measured twice, a length is good to {:.2f} mm and a "
+                    "position to {:.2f} mm.",
+                    noise.length_mm,
+                    noise.position_mm));
   }
   if (d.stability) d.notes.push_back(stability_in_words(d));
   for (std::string& note : parts_in_words(d)) d.notes.push_back(std::move(note));
   if (speaks_of_distances(d) && d.left_over.p_value < kFalseAlarm) {
     d.notes.emplace_back(
-        "What these distances leave is alike among neighbours. Which coordinate it follows they "
-        "cannot say: a distance joins two places. Points with the chains read there can.");
+        "What is left is about the same among neighbours. Distances cannot say what it depends on, "
+        "since each joins two places: marks can, with the chains read there.");
   }
   d.sentence = sentence(d, session.units.size());
   d.not_proved = not_proved(session, d);

@@ -56,7 +56,8 @@ struct BeltUnit {
 };
 
 constexpr std::array kBeltUnits = {
-    BeltUnit{"belt_stretch", {"elongation", 100.0, "{} % longer when pulled", "{} % shorter when pulled"}},
+    BeltUnit{"belt_stretch",
+             {"elongation", 100.0, "{} % longer when pulled", "{} % shorter when pulled"}},
     BeltUnit{"belt_scale", {"scale", 100.0, "{} % more belt a turn", "{} % less belt a turn"}},
     BeltUnit{"belt_zero", {"offset_mm", 1.0, "{} mm too much read", "{} mm too little read"}},
     BeltUnit{"anchor_height", {"offset_mm", 1.0, "{} mm higher", "{} mm lower"}},
@@ -88,11 +89,12 @@ std::string worded(const Unit& unit, const ParameterEstimate& estimate) {
                      (unit.parameter.ends_with("visit") && !unit.parameter.starts_with("rate"));
   const bool reversed = estimate.value < 0.0 && !unit.negative.empty();
   const double value = reversed ? -estimate.value : estimate.value;
-  const std::string number =
-      whole ? fmt::format("{:g}", value)
-            : with_sigma(unit.factor * value, unit.factor * estimate.sigma);
+  const std::string number = whole ? fmt::format("{:g}", value)
+                                   : with_sigma(unit.factor * value, unit.factor * estimate.sigma);
   const bool is_one = !unit.one.empty() && std::abs(value) == 1.0;
-  return fmt::format(fmt::runtime(reversed ? unit.negative : is_one ? unit.one : unit.words),
+  return fmt::format(fmt::runtime(reversed ? unit.negative
+                                  : is_one ? unit.one
+                                           : unit.words),
                      number);
 }
 
@@ -106,6 +108,9 @@ std::string in_workshop_units(const ParameterEstimate& estimate) {
 }
 
 std::string in_workshop_units(const CauseId& cause, const ParameterEstimate& estimate) {
+  // What the name of a declared effect's parameter means, only its owner knows.
+  if (cause.effect->law != nullptr)
+    return fmt::format("{} = {}", estimate.parameter, with_sigma(estimate.value, estimate.sigma));
   if (model::belts::belt_effect_of(*cause.effect) != nullptr) {
     for (const BeltUnit& own : kBeltUnits) {
       const bool fits = own.effect.empty() || own.effect == cause.effect->id;
@@ -146,7 +151,7 @@ std::string side_words(const CauseId& cause) {
       return " on the right";
     case EffectSide::both:
       return cause.effect->station == model::effects::Station::paper ? " along both axes"
-                                                                     : " on both sides alike";
+                                                                     : " by the same on both sides";
     case EffectSide::x:
       return " along x";
     case EffectSide::y:
@@ -160,7 +165,7 @@ std::string side_words(const CauseId& cause) {
     case EffectSide::br:
       return " at the bottom right";
     case EffectSide::all:
-      return ", all four alike";
+      return ", all four by the same";
     case EffectSide::none:
       break;
   }
@@ -176,24 +181,21 @@ std::string joined(const std::vector<std::string>& parts, std::string_view last)
   return text;
 }
 
-std::string reading_words(std::string_view what, std::string_view side) {
-  if (what == "motor_spacing_mm") return "the distance between the motors' axes, with a tape";
-  if (what == "beam_rise_mm")
+std::string reading_words(ReadingOf what, std::string_view side) {
+  if (what == ReadingOf::motor_spacing) return "the distance between the motors' axes, with a tape";
+  if (what == ReadingOf::beam_rise)
     return "how much higher the right motor is than the left, with a level";
-  if (what == "ring_radius_mm") return "from the bit to the end of a chain";
-  if (what == "sled_mass_kg") return "the sled's weight, on a scale";
-  if (what == "chain_mass_kg_per_m") return "the weight of a metre of chain";
-  if (what == "tape_error_mm_per_m") {
+  if (what == ReadingOf::ring_radius) return "from the bit to the end of a chain";
+  if (what == ReadingOf::sled_mass) return "the sled's weight, on a scale";
+  if (what == ReadingOf::chain_mass) return "the weight of a metre of chain";
+  if (what == ReadingOf::tape_error) {
     return fmt::format(
         "how much a metre of the tape or the printed sheet says too much{}: hold a good tape "
         "against "
         "two metres of it",
         side == "x" || side == "y" ? fmt::format(" along {}", side) : "");
   }
-  if (what == "link_pitch_mm") {
-    return fmt::format("the length of 100 links of the {} chain, pulled taut", side);
-  }
-  return std::string(what);
+  return fmt::format("the length of 100 links of the {} chain, pulled taut", side);
 }
 
 std::string percent(double probability) {

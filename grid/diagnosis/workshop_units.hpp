@@ -23,13 +23,13 @@ namespace chaintrue::grid::diagnosis {
 /// " on the left", " along x": after a cause; empty where it has no side.
 [[nodiscard]] std::string side_words(const CauseId& cause);
 
-/// "87 %", "99.6 %", "above 99.9 %": a probability, alike in sentences and in tables.
+/// "87 %", "99.6 %", "above 99.9 %": a probability, the same in sentences and in tables.
 [[nodiscard]] std::string percent(double probability);
 
 /// "a; b and c": `last` stands before the last one.
 [[nodiscard]] std::string joined(const std::vector<std::string>& parts, std::string_view last);
 
 /// "the distance between the motors' axes, with a tape" for motor_spacing_mm.
-[[nodiscard]] std::string reading_words(std::string_view what, std::string_view side);
+[[nodiscard]] std::string reading_words(ReadingOf what, std::string_view side);
 
 }  // namespace chaintrue::grid::diagnosis

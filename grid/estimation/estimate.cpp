@@ -35,7 +35,7 @@ Settling settling_of(const EstimationInput& input, bool places_move) {
 EstimationFailure failure_of(const interp::FitFailure& refusal) {
   return {refusal.reason == interp::FitFailure::Reason::rank_deficient ? Reason::rank_deficient
                                                                        : Reason::not_converged,
-          refusal.sentence};
+          refusal.sentence()};
 }
 
 }  // namespace

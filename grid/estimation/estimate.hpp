@@ -6,7 +6,7 @@
 /// Each stated setting enters as a datum with its stated sigma; the chains' scales and the
 /// surfaces' polynomials have weak priors of their own, so that what a setting can explain is
 /// explained by the setting. Nuisances that belong to the noise (a hole's own error) are as large
-/// beside the readings' noise as was stated, whatever the noise turns out to be; the others (a
+/// with the readings' noise as was stated, whatever the noise turns out to be; the others (a
 /// tape's zero, a sheet's size) are data of known sigma, and so are readings that cannot be outliers.
 ///
 ///   y = f(theta, s) + B b + W^-1 e,   e ~ N(0, s^2 I),   b_noise ~ N(0, s^2 sigma_b^2)        (1)
@@ -20,7 +20,7 @@
 /// they were commanded. These directions are eliminated, exactly.
 ///
 /// Readings that do not fit the rest are first weighted down, then rejected, unit by unit: by the
-/// distance of a unit's residual, seen from a fit without it, in sigmas. A unit of one row beyond
+/// distance of a unit's residual, against a fit without it, in sigmas. A unit of one row beyond
 /// kBadDistanceSigmas of what the others make of it, with the noise that they alone show, is set
 /// aside, the worst first: among few single numbers a bad one raises the noise found and hides
 /// itself. A unit of two rows is rejected beyond kBadPointDistance.
@@ -50,6 +50,7 @@
 #include "grid/estimation/residual_surface.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/progress.hpp"
+#include "model/failure.hpp"
 #include "interp/reml.hpp"
 #include "model/calibration/sheet_placement.hpp"
 
@@ -74,7 +75,7 @@ inline constexpr std::size_t kFewestSingleRows = 5;
 /// The order of the machine's own unknowns: model::kMachineSettings, the left scale, the right one.
 inline constexpr Eigen::Index kMachineUnknowns = model::kMachineSettings.size() + 2;
 
-/// What is known of the machine: deviations from the stated settings, scales beside none.
+/// What is known of the machine: deviations from the stated settings, scales from none.
 struct MachineKnowledge {
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(kMachineUnknowns);
   Eigen::MatrixXd covariance;  ///< kMachineUnknowns squared
@@ -108,7 +109,7 @@ struct EstimationInput {
   /// The marks' frame of the first is that of the surface and of the map.
   observation::Observations observations;
   interp::NoiseScale noise;
-  /// Of smoothing and noise, beside the readings (interp/reml.hpp).
+  /// Of smoothing and noise, besides the readings (interp/reml.hpp).
   interp::SmoothingPrior noise_prior = interp::SmoothingPrior::avoids_boundary;
   SurfaceUse surface = SurfaceUse::smoothed;
   /// Order of the derivatives that the surfaces' penalty squares: 2, a thin plate, or 3, smoother
@@ -138,7 +139,7 @@ struct UnitEstimate {
   double weight = 1.0;    ///< in the fit that all else here describes; 0: rejected
   double distance = 0.0;  ///< of the left-out residual, in sigmas
   Eigen::VectorXd residual;
-  Eigen::VectorXd left_out;             ///< seen from a fit without the unit
+  Eigen::VectorXd left_out;             ///< against a fit without the unit
   Eigen::MatrixXd left_out_covariance;  ///< of that, the unit's own noise in it
   Eigen::VectorXd left_out_with_group;  ///< empty where no group has the unit
   [[nodiscard]] bool is_rejected() const { return weight == 0.0; }
@@ -203,10 +204,8 @@ struct Estimate {
   std::shared_ptr<const model::Mechanism> mechanism = nullptr;
 };
 
-struct EstimationFailure {
-  enum class Reason { place_unreachable, rank_deficient, not_converged } reason;
-  std::string sentence;
-};
+enum class EstimationReason { place_unreachable, rank_deficient, not_converged };
+using EstimationFailure = Failure<EstimationReason>;
 
 /// Deterministic: same input, same bytes. \throws std::invalid_argument without an observation.
 [[nodiscard]] tl::expected<Estimate, EstimationFailure> estimate(const EstimationInput& input);

@@ -64,7 +64,10 @@ tl::expected<void, EstimationFailure> Estimator::fill_observations(Estimate& est
     ObservationEstimate own;
     own.sheet = unknowns.sheet_at(coefficients, k);
     const auto line = observation.linearise({estimate.mechanism, own.sheet, &corrections[k]}, {});
-    if (!line) return tl::unexpected(problem_->unreachable(k, line.error()));
+    if (!line) {
+      return tl::unexpected(
+          problem_->unreachable(line.error().at(PlaceOfObservation{k, line.error().place})));
+    }
     own.predicted = line->predicted;
     if (const Eigen::Index first = unknowns.zeros(k); first >= 0) {
       const Eigen::Vector2d zeros = coefficients.segment<2>(first);

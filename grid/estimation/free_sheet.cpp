@@ -31,7 +31,7 @@ Eigen::MatrixXd whole_motion(const std::vector<MarkPoint>& commanded) {
 }
 
 /// m - c
-Eigen::VectorXd beside(const PlacesOnSheet& places) {
+Eigen::VectorXd alongside(const PlacesOnSheet& places) {
   Eigen::VectorXd all(2 * static_cast<Eigen::Index>(places.marks.size()));
   for (std::size_t i = 0; i < places.marks.size(); ++i) {
     const auto at = 2 * static_cast<Eigen::Index>(i);
@@ -55,7 +55,7 @@ void add_free_directions(const PlacesOnSheet& places, FreeDirections& free) {
   const Eigen::Index more = following.rows();
   free.columns.insert(free.columns.end(), places.free_columns.begin(), places.free_columns.end());
   free.constant.conservativeResize(before + more);
-  free.constant.tail(more) = -inverse * (motion * (beside(places) - places.moved));
+  free.constant.tail(more) = -inverse * (motion * (alongside(places) - places.moved));
   free.following.conservativeResize(before + more, following.cols());
   free.following.bottomRows(more) = following;
 }
@@ -66,7 +66,7 @@ std::vector<MarkPoint> placed_as_a_whole(const PlacesOnSheet& places) {
   const Eigen::MatrixXd motion = whole_motion(places.commanded)(places.free_rows, Eigen::all);
   const Eigen::MatrixXd by_free = places.by_unknown(Eigen::all, places.free_columns);
   const Eigen::MatrixXd of_whole = motion * by_free;
-  const Eigen::VectorXd shift = -by_free * of_whole.inverse() * (motion * beside(places));
+  const Eigen::VectorXd shift = -by_free * of_whole.inverse() * (motion * alongside(places));
   for (std::size_t i = 0; i < marks.size(); ++i) {
     const auto at = 2 * static_cast<Eigen::Index>(i);
     marks[i].x_mm += shift[at];

@@ -94,17 +94,16 @@ double JointProblem::dof(const interp::PenalisedFit& fit) const {
   return static_cast<double>(rows) - fit.edf;
 }
 
-EstimationFailure JointProblem::unreachable(std::size_t observation,
-                                            const observation::Unreachable& place) const {
-  const Observation& readings = *input_.observations[observation];
-  const observation::Place& there = readings.places()[place.place];
+EstimationFailure JointProblem::unreachable(const UnreachablePlace& failure) const {
+  const Observation& readings = *input_.observations[failure.place.observation];
+  const observation::Place& there = readings.places()[failure.place.place];
   return {EstimationFailure::Reason::place_unreachable,
           fmt::format("{} {} at ({:.1f}, {:.1f}): {}",
                       readings.kind().place,
                       there.name,
                       there.mark.x_mm,
                       there.mark.y_mm,
-                      place.reason.sentence)};
+                      failure.sentence())};
 }
 
 State JointProblem::stated() const {
@@ -124,7 +123,7 @@ tl::expected<void, EstimationFailure> JointProblem::linearise(const State& state
          state.settings(layout_.columns_of(k))});
   }
   const auto system = estimation::linearise(set_, from);
-  if (!system) return tl::unexpected(unreachable(system.error().observation, system.error().place));
+  if (!system) return tl::unexpected(unreachable(system.error()));
   std::vector<MarkPoint> marks;
   for (const SystemPlace& place : system->places) {
     marks.push_back(corrections[place.observation].to_surface(place.state.mark));

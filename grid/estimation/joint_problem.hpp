@@ -32,8 +32,7 @@ class JointProblem {
 
   [[nodiscard]] State stated() const;
   /// In words.
-  [[nodiscard]] EstimationFailure unreachable(std::size_t observation,
-                                              const observation::Unreachable& place) const;
+  [[nodiscard]] EstimationFailure unreachable(const UnreachablePlace& failure) const;
   /// Fails where the machine has no pose at a place.
   tl::expected<void, EstimationFailure> linearise(const State& state);
   /// With a weight for each unit; 0 sets it aside.

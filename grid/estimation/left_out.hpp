@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Units seen from a fit without them, and what weight that leaves them. Private to
+/// Units against a fit without them, and what weight that leaves them. Private to
 /// grid/estimation.
 ///
 /// With weights w, whitened rows X and residuals r of a unit, C the covariance of the unknowns and

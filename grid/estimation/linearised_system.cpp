@@ -116,13 +116,15 @@ tl::expected<LinearisedSystem, UnreachablePlace> linearise(const ObservationSet&
   for (std::size_t k = 0; k < set.parts.size(); ++k) {
     const Observation& observation = *set.parts[k].observation;
     const auto line = observation.linearise(from[k].view, observation::columns_of(observation));
-    if (!line) return tl::unexpected(UnreachablePlace{k, line.error()});
+    if (!line) return tl::unexpected(line.error().at(PlaceOfObservation{k, line.error().place}));
     if (prediction == Prediction::place_by_place) {
       assembly.add(k, *line, line->predicted, from[k].settings);
       continue;
     }
     const auto predicted = observation.predicted(from[k].view);
-    if (!predicted) return tl::unexpected(UnreachablePlace{k, predicted.error()});
+    if (!predicted) {
+      return tl::unexpected(predicted.error().at(PlaceOfObservation{k, predicted.error().place}));
+    }
     assembly.add(k, *line, *predicted, from[k].settings);
   }
   return assembly.finish();

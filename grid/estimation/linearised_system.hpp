@@ -89,10 +89,11 @@ struct LinearisedSystem {
 };
 
 /// A place where the machine cannot hold the tool.
-struct UnreachablePlace {
+struct PlaceOfObservation {
   std::size_t observation = 0;
-  observation::Unreachable place;
+  std::size_t place = 0;
 };
+using UnreachablePlace = Failure<model::MechanismReason, PlaceOfObservation>;
 
 /// `from` has one entry for each observation.
 [[nodiscard]] tl::expected<LinearisedSystem, UnreachablePlace> linearise(

@@ -6,8 +6,10 @@
 #include "grid/files/belt_holes_record.hpp"
 #include "grid/files/belts_record.hpp"
 #include "grid/files/content_hash.hpp"
+#include "grid/files/provenance_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
+#include "model/belts/belt_readings.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -162,10 +164,30 @@ struct StatedBeltPrediction {
 
 const Record<StatedBeltPrediction>& both_predictions_record() {
   static const auto record =
-      Record<StatedBeltPrediction>("what was foretold")
-          .required("one_left_out", &StatedBeltPrediction::one_left_out, object(prediction_record()))
+      Record<StatedBeltPrediction>("what was predicted")
+          .required(
+              "one_left_out", &StatedBeltPrediction::one_left_out, object(prediction_record()))
           .optional(
               "half_left_out", &StatedBeltPrediction::half_left_out, object(prediction_record()));
+  return record;
+}
+
+/// Of the belts' table, with values that it may have.
+void check_cause(const Cursor& at, CauseBesideAnchors& cause) {
+  const std::vector<model::AppliedEffect> applied = {{cause.effect, cause.side, cause.parameters}};
+  for (const model::MachineProblem& problem : model::belts::problems_of(applied))
+    at.problems().add(at.pointer() + problem.parameter.substr(2), problem.value, problem.expected);
+}
+
+const Record<CauseBesideAnchors>& cause_beside_record() {
+  static const auto record =
+      Record<CauseBesideAnchors>("a cause with the anchors")
+          .required("effect", &CauseBesideAnchors::effect, text())
+          .sparse("side", &CauseBesideAnchors::side, one_of({"tl", "tr", "bl", "br", "all"}))
+          .required("parameters", &CauseBesideAnchors::parameters, dictionary(number(kAnyNumber)))
+          .required("sigma", &CauseBesideAnchors::sigma, number(kAnyNumber))
+          .required("probability", &CauseBesideAnchors::probability, number(kShare))
+          .check(check_cause);
   return record;
 }
 
@@ -207,6 +229,7 @@ void add_fit(Record<BeltsFit>& record) {
                 both_predictions_record().write({fit.one_left_out, fit.half_left_out}));
           })
       .optional("scale", &BeltsFit::scale, object(scale_record()))
+      .sparse("causes", &BeltsFit::causes, list(object(cause_beside_record())))
       .sparse("bad", &BeltsFit::bad, list(object(bad_record())))
       .custom(
           "bad_points",
@@ -237,7 +260,7 @@ const Record<FittedAnchors>& fitted_anchors_record() {
     anchors.sparse("name", &FittedAnchors::name, text())
         .required("fit", &FittedAnchors::fit, object(fit_record()))
         .optional("holes", &FittedAnchors::holes, object(holes_with_belts_record()));
-    add_content_hash(anchors).check([](const Cursor& at, FittedAnchors&) {
+    add_content_hash(add_made_by_key(anchors)).check([](const Cursor& at, FittedAnchors&) {
       if (at.clean()) check_content(at, kAnchorsFormat);
     });
     return anchors;
@@ -260,8 +283,8 @@ FittedAnchors parse_anchors(const std::string& text,
   return anchors;
 }
 
-std::string write_anchors(const FittedAnchors& anchors) {
-  return print_with_hash(fitted_anchors_record().write(anchors));
+std::string write_anchors(const FittedAnchors& anchors, const std::optional<Provenance>& made_by) {
+  return print_with_hash(with_made_by(fitted_anchors_record().write(anchors), made_by));
 }
 
 }  // namespace chaintrue::grid::files

@@ -3,15 +3,17 @@
 /// chaintrue_anchors files: the result of a fit of four belts. Unknown keys are errors, except
 /// "comment". Same fit, same bytes.
 ///
-///     { "file_type": "chaintrue_anchors", "format_version": "1.1", "name": "...",
+///     { "file_type": "chaintrue_anchors", "format_version": "1.3", "name": "...",
 ///       "fit": {
 ///       "machine": { as in a chaintrue_belts file, with the anchors fitted },
 ///       "coordinates": [ {"coordinate": "tl_x_mm", "stated_mm": -27.6, "fitted_mm": -31.2,
 ///                         "sigma_mm": 0.4, "rests_on": {"tl": 0.5, "tr": 0.1, "bl": 0.3, "br": 0.1}} ],
 ///       "covariance_mm2": [[...], ...],
 ///       "spread_mm": 0.52, "checks": 157, "rms_mm": 0.36, "rms_of_mm": {"tl": 0.3, ...},
-///       "foretold": { "one_left_out": {"readings": 162, "rms_mm": 0.8, "largest_mm": 2.1},
+///       "predicted": { "one_left_out": {"readings": 162, "rms_mm": 0.8, "largest_mm": 2.1},
 ///                     "half_left_out": {...} },
+///       "causes": [ {"effect": "belt_stretch", "parameters": {"elongation": 0.0041},
+///                    "sigma": 0.0003, "probability": 1} ],
 ///       "scale": {"factor": 0.9991, "sigma": 0.0003, "residuals_mm": [0.2]},
 ///       "bad": [ {"point": 17, "belt": "tl", "off_mm": 80.2} ], "bad_points": [],
 ///       "places": [ {"x_mm": .., "y_mm": .., "covariance_mm2": [xx, xy, yy],
@@ -33,6 +35,7 @@
 #include "grid/belts/belts_and_holes.hpp"
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/files/input_error.hpp"
+#include "grid/provenance.hpp"
 
 namespace chaintrue::grid::files {
 
@@ -48,7 +51,8 @@ struct FittedAnchors {
                                           const std::string& file,
                                           std::vector<Warning>* warnings = nullptr);
 /// \throws std::logic_error where a number is not finite.
-[[nodiscard]] std::string write_anchors(const FittedAnchors& anchors);
+[[nodiscard]] std::string write_anchors(const FittedAnchors& anchors,
+                                        const std::optional<Provenance>& made_by = std::nullopt);
 
 /// Lines to paste into the machine's terminal, with remarks for the user.
 struct Maslow4Settings {

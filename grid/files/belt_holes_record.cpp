@@ -164,7 +164,7 @@ void check_together(const Cursor& at, const HolesWithBelts& holes) {
 
 const Record<HolesWithBelts>& holes_with_belts_record() {
   static const auto record =
-      Record<HolesWithBelts>("what holes tell beside belts")
+      Record<HolesWithBelts>("what holes add to belts")
           .required("machine", &HolesWithBelts::machine, object(belt_machine_record()))
           .required("holes", &HolesWithBelts::holes, list(object(belt_hole_record())))
           .required(

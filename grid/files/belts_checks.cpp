@@ -10,6 +10,7 @@
 
 #include "grid/belts/belt_checks.hpp"
 #include "grid/belts/belts_fit.hpp"
+#include "grid/belts/settings_check.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -17,20 +18,38 @@ namespace {
 using model::Belt;
 using model::kBelts;
 
+}  // namespace
+
 std::string lengths_in_words(const BeltPoint& point) {
   const auto& l = point.lengths_mm;
   return fmt::format("tl {}, tr {}, bl {}, br {}", l.tl, l.tr, l.bl, l.br);
 }
 
+bool holds_repeats(const MeasuredBelts& belts) {
+  constexpr double kSamePlaceMm = 2.0;
+  for (std::size_t i = 1; i < belts.points.size(); ++i) {
+    double farthest_mm = 0.0;
+    for (const Belt belt : kBelts) {
+      farthest_mm = std::max(
+          farthest_mm,
+          std::abs(belts.points[i].lengths_mm[belt] - belts.points[i - 1].lengths_mm[belt]));
+    }
+    if (farthest_mm > 0.0 && farthest_mm < kSamePlaceMm) return true;
+  }
+  return false;
+}
+
+namespace {
+
 void check_unit(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
   const auto unit = suspected_unit(belts);
   if (!unit) return;
-  problems.add(places.points,
-               fmt::format("lengths of about {:.3g}", unit->found),
-               fmt::format("lengths in mm, as the machine prints them; these look like {} (multiply "
-                           "them by {:g})",
-                           unit->word,
-                           unit->factor));
+  problems.explain(places.points,
+                   fmt::format("these lengths look like {}: multiply them by {:g} (they are about "
+                               "{:.3g}; the machine prints mm).",
+                               unit->word,
+                               unit->factor,
+                               unit->found));
 }
 
 void check_orders(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
@@ -56,22 +75,6 @@ void check_orders(const MeasuredBelts& belts, const BeltPlaces& places, Problems
                    fmt::format("another number than that of {}", places.point(other->second, "")));
     }
   }
-}
-
-/// The machine was read several times at one position without moving: then two readings may be
-/// equal to the last digit.
-bool holds_repeats(const MeasuredBelts& belts) {
-  constexpr double kSamePlaceMm = 2.0;
-  for (std::size_t i = 1; i < belts.points.size(); ++i) {
-    double farthest_mm = 0.0;
-    for (const Belt belt : kBelts) {
-      farthest_mm = std::max(
-          farthest_mm,
-          std::abs(belts.points[i].lengths_mm[belt] - belts.points[i - 1].lengths_mm[belt]));
-    }
-    if (farthest_mm > 0.0 && farthest_mm < kSamePlaceMm) return true;
-  }
-  return false;
 }
 
 void check_twice(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
@@ -113,15 +116,27 @@ void check_pulled(const MeasuredBelts& belts, const BeltPlaces& places, Problems
   }
 }
 
+void check_pulls(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
+  const std::optional<BeltPull>& first = belts.points.front().pull;
+  for (std::size_t i = 1; i < belts.points.size(); ++i) {
+    const std::optional<BeltPull>& own = belts.points[i].pull;
+    if (own.has_value() == first.has_value() && (!own || own->unit == first->unit)) continue;
+    problems.add(places.point(i, "pull"),
+                 own ? words_of(*own) : "no pull",
+                 fmt::format("a pull as point 1 has it ({}): all points say how hard belts were "
+                             "pulled, in one unit (pull_n, pull_ma or pull), or none does",
+                             first ? words_of(*first) : "none"));
+    return;
+  }
+}
+
 void check_swap(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
   const auto swap = suspected_swap(belts);
   if (!swap) return;
   const auto pair = [](BeltPair p) {
     return fmt::format("{} and {}", name(p.first), name(p.second));
   };
-  std::string found = fmt::format("{} swapped", pair(swap->belts.front()));
-  for (std::size_t i = 1; i < swap->belts.size(); ++i)
-    found += fmt::format(" and {} as well", pair(swap->belts[i]));
+  std::string found = words_of(swap->belts);
   if (swap->or_else) found += fmt::format(", or {}", pair(*swap->or_else));
   // Mirrored frames agree as well as true ones; the misfit of other permutations can be of any
   // size.
@@ -141,12 +156,35 @@ void check_swap(const MeasuredBelts& belts, const BeltPlaces& places, Problems& 
                             std::min(swap->as_stated_mm, kMostReported))));
 }
 
+void check_settings(const MeasuredBelts& belts,
+                    const belts::AnchorFit& frame,
+                    const BeltPlaces& places,
+                    Problems& problems) {
+  const auto other = suspected_other_frame(belts, frame);
+  if (!other) return;
+  problems.add(
+      fmt::format("{}/anchors", places.machine),
+      fmt::format("{} of {:.0f} mm", other->coordinate, other->stated_mm),
+      fmt::format(
+          "anchors of the frame that was measured, whose {} is {:.0f} mm by the lengths{}; these "
+          "are settings of another frame, or belts at other anchors than they say. Give the "
+          "settings of this machine, or none (leave x_mm and y_mm out, or --settings)",
+          other->coordinate,
+          other->fitted_mm,
+          other->upper_mm > 0.0
+              ? fmt::format(", and where the machine was sent its upper belts read {:.0f} mm "
+                            "besides what these anchors have",
+                            other->upper_mm)
+              : ""));
+}
+
 void check_readings(const MeasuredBelts& belts,
                     const belts::AnchorFit& frame,
                     const BeltPlaces& places,
                     Problems& problems) {
   for (const BeltQuestion& asked : suspected_readings(belts, frame))
-    problems.warn(places.point(asked.point, fmt::format("{}_mm", name(asked.belt))), asked.sentence);
+    problems.warn(places.point(asked.point, fmt::format("{}_mm", name(asked.belt))),
+                  asked.sentence);
   for (const DistanceQuestion& asked : suspected_distances(belts, frame)) {
     problems.add(fmt::format("/distances/{}/distance_mm", asked.distance),
                  fmt::format("{:.10g}", belts.distances[asked.distance].distance_mm),
@@ -177,6 +215,7 @@ void check_belt_points(const MeasuredBelts& belts, const BeltPlaces& places, Pro
   check_orders(belts, places, problems);
   check_twice(belts, places, problems);
   check_pulled(belts, places, problems);
+  check_pulls(belts, places, problems);
 }
 
 void check_belt_distances(const MeasuredBelts& belts,
@@ -190,9 +229,10 @@ void check_belt_distances(const MeasuredBelts& belts,
     const auto check = [&](const BeltEnd& end, std::string_view key) {
       const auto* index = std::get_if<std::size_t>(&end);
       if (index != nullptr && *index >= belts.points.size()) {
-        problems.add(place(key),
-                     fmt::format("{}", *index),
-                     fmt::format("a point of this file, counted from 0: 0 to {}", belts.points.size() - 1));
+        problems.add(
+            place(key),
+            fmt::format("{}", *index),
+            fmt::format("a point of this file, counted from 0: 0 to {}", belts.points.size() - 1));
       }
       if (std::holds_alternative<CutHole>(end) && !belts.machine.anchors_known) {
         problems.add(
@@ -210,33 +250,35 @@ void check_belt_distances(const MeasuredBelts& belts,
   }
 }
 
-void check_belts_together(const MeasuredBelts& belts,
+bool check_belts_together(const MeasuredBelts& belts,
                           const BeltPlaces& places,
                           BeltsUse use,
                           Problems& problems) {
   // No fit takes more: what reads them refuses them at once.
-  if (belts.points.size() > kMostBeltPoints) return;
+  if (belts.points.size() > kMostBeltPoints) return false;
   const bool is_enough = belts.points.size() >= kFewestBeltPoints;
   if (is_enough) {
     check_swap(belts, places, problems);
-    if (problems.any()) return;
+    if (problems.any()) return false;
     if (const auto frame = frame_of_lengths(belts)) {
+      check_settings(belts, *frame, places, problems);
       check_nowhere(belts, *frame, places, problems);
       check_readings(belts, *frame, places, problems);
     }
-    if (problems.any()) return;
+    if (problems.any()) return false;
   }
   MeasuredBelts untaped = belts;
   untaped.distances.clear();
   const auto fit = fit_belts(untaped);
-  if (fit) return;
+  if (fit) return true;
   using Reason = BeltsFitFailure::Reason;
   const Reason reason = fit.error().reason;
   const bool only_said = use == BeltsUse::import && reason != Reason::no_frame;
   if (only_said) {
-    problems.warn(places.points,
-                  fmt::format("not enough for a fit of the anchors yet: {}", fit.error().sentence));
-    return;
+    problems.warn(
+        places.points,
+        fmt::format("not enough for a fit of the anchors yet: {}", fit.error().sentence()));
+    return false;
   }
   const std::string found = fmt::format("{} places", belts.points.size());
   if (reason == Reason::too_few_points) {
@@ -254,8 +296,9 @@ void check_belts_together(const MeasuredBelts& belts,
   } else {
     problems.add(places.points,
                  found + " of no frame",
-                 fmt::format("lengths of one frame; {}", fit.error().sentence));
+                 fmt::format("lengths of one frame; {}", fit.error().sentence()));
   }
+  return false;
 }
 
 }  // namespace chaintrue::grid::files

@@ -21,6 +21,12 @@ struct BeltPlaces {
   std::string machine;
 };
 
+/// "tl 1811.99, tr 1790.81, bl 1785.26, br 1807.9".
+[[nodiscard]] std::string lengths_in_words(const BeltPoint& point);
+/// The machine was read several times at one position without moving: then two readings may be equal to
+/// the last digit.
+[[nodiscard]] bool holds_repeats(const MeasuredBelts& belts);
+
 /// Checks for inches, orders, readings that occur twice, and belts that cannot have been pulled. Call
 /// it only if no value had a problem before.
 void check_belt_points(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems);
@@ -29,8 +35,8 @@ void check_belt_distances(const MeasuredBelts& belts,
                           const std::string& distances,
                           Problems& problems);
 /// Enough positions, spread out, that are consistent with one frame and the belts' names. For a log
-/// that is only imported the first two are warnings.
-void check_belts_together(const MeasuredBelts& belts,
+/// that is only imported the first two are warnings. True where they are enough for a fit.
+bool check_belts_together(const MeasuredBelts& belts,
                           const BeltPlaces& places,
                           BeltsUse use,
                           Problems& problems);

@@ -3,32 +3,133 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
 #include "grid/files/belts_checks.hpp"
 #include "grid/files/belts_record.hpp"
+#include "grid/files/number_text.hpp"
 #include "grid/files/whole_file.hpp"
 
 namespace chaintrue::grid::files {
 
-ReadBelts parse_belts(const std::string& text, const std::string& file) {
+namespace {
+
+/// Where a point's distances end once others are left out; empty for one that is left out itself.
+std::vector<std::optional<std::size_t>> places_kept(std::size_t count,
+                                                    const std::vector<std::size_t>& without) {
+  std::vector<std::optional<std::size_t>> kept(count);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (std::find(without.begin(), without.end(), i + 1) == without.end()) kept[i] = next++;
+  }
+  return kept;
+}
+
+void move_ends(const std::vector<std::optional<std::size_t>>& kept,
+               MeasuredBelts& belts,
+               Problems& problems) {
+  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
+    for (BeltEnd* end : {&belts.distances[i].from, &belts.distances[i].to}) {
+      auto* index = std::get_if<std::size_t>(end);
+      if (index == nullptr || *index >= kept.size()) continue;
+      if (!kept[*index]) {
+        problems.add(
+            fmt::format("/distances/{}", i),
+            words_of(*end),
+            "a point that counts: it is left out by --without; leave the distance out of the "
+            "file, or the point in");
+        return;
+      }
+      *index = *kept[*index];
+    }
+  }
+}
+
+void leave_out(const std::vector<std::size_t>& without, MeasuredBelts& belts, Problems& problems) {
+  for (const std::size_t number : without) {
+    if (number <= belts.points.size()) continue;
+    problems.add("--without",
+                 fmt::format("{}", number),
+                 fmt::format("points of this file, counted from 1: 1 to {}", belts.points.size()));
+  }
+  problems.throw_if_any();
+  const auto kept = places_kept(belts.points.size(), without);
+  move_ends(kept, belts, problems);
+  problems.throw_if_any();
+  std::vector<BeltPoint> points;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i]) points.push_back(std::move(belts.points[i]));
+  }
+  belts.points = std::move(points);
+}
+
+}  // namespace
+
+std::vector<std::size_t> point_numbers_of(const std::string& text,
+                                          const std::string& option,
+                                          std::string_view what) {
+  constexpr double kMost = 1e6;
+  std::vector<std::size_t> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    const auto number = number_of(text.substr(begin, comma - begin));
+    begin = comma + 1;
+    if (!number || !(*number >= 1.0) || !(*number <= kMost) || *number != std::floor(*number)) {
+      throw InputError(
+          {{"the command line",
+            option,
+            shortened(text),
+            fmt::format("numbers of {}, counted from 1, as in 7,12", what)}});
+    }
+    numbers.push_back(static_cast<std::size_t>(*number));
+  }
+  return numbers;
+}
+
+ReadBelts parse_belts(const std::string& text,
+                      const std::string& file,
+                      const std::vector<std::size_t>& without) {
   Problems problems(file);
   const Json json = parse_json(text, problems);
   auto stated = belts_record().read(Cursor(json, problems), true);
   problems.throw_if_any();
   ReadBelts read;
   read.belts = std::move(stated.value());
+  if (!without.empty()) {
+    check_belt_distances(read.belts, "/distances", problems);
+    problems.throw_if_any();
+    leave_out(without, read.belts, problems);
+  }
+  const PointIndices indices = indices_beside(read.belts.points.size(), without);
   const BeltPlaces places{"/points",
-                          [](std::size_t index, std::string_view field) {
-                            return field.empty() ? fmt::format("/points/{}", index)
-                                                 : fmt::format("/points/{}/{}", index, field);
+                          [&indices](std::size_t index, std::string_view field) {
+                            const std::size_t place = index_in_file(indices, index);
+                            return field.empty() ? fmt::format("/points/{}", place)
+                                                 : fmt::format("/points/{}/{}", place, field);
                           },
                           "/machine"};
   check_belt_points(read.belts, places, problems);
-  check_belt_distances(read.belts, "/distances", problems);
+  if (without.empty()) check_belt_distances(read.belts, "/distances", problems);
   problems.throw_if_any();
   check_belts_together(read.belts, places, BeltsUse::fit, problems);
   problems.throw_if_any();
   read.warnings = problems.warnings();
   return read;
+}
+
+ReadBelts parse_belts(const std::string& text, const std::string& file) {
+  return parse_belts(text, file, {});
+}
+
+PointIndices indices_beside(std::size_t kept, const std::vector<std::size_t>& without) {
+  PointIndices indices;
+  if (without.empty()) return indices;
+  for (std::size_t i = 0; indices.size() < kept; ++i) {
+    if (std::find(without.begin(), without.end(), i + 1) == without.end()) indices.push_back(i);
+  }
+  return indices;
 }
 
 ReadBelts read_belts(const std::filesystem::path& path) {

@@ -13,7 +13,8 @@
 ///         "scale_x": 1, "scale_y": 1 },
 ///       "points": [ {"tl_mm": 998.65, "tr_mm": 2400.6, "bl_mm": 1631.15, "br_mm": 2729.87,
 ///                    "commanded_x_mm": -600, "commanded_y_mm": 300, "order": 0,
-///                    "pulled": ["bl", "br"], "thrown_away": {"tl_mm": [998.1, 1003.4]}} ],
+///                    "pulled": ["bl", "br"], "pull_ma": 1300,
+///                    "thrown_away": {"tl_mm": [998.1, 1003.4]}} ],
 ///       "distances": [ {"from": "bl", "to": "br", "distance_mm": 3030, "sigma_mm": 1},
 ///                      {"from": 3, "to": 17, "distance_mm": 702.5},
 ///                      {"from": {"x_mm": -900, "y_mm": 300}, "to": {"x_mm": 900, "y_mm": 300},
@@ -22,7 +23,8 @@
 ///
 /// Only the points are required: fields missing from the machine have the firmware's defaults
 /// (model/belts/belt_machine.hpp); x_mm and y_mm of the anchors are unknown if all four are missing.
-/// `lengths` is the kind of length: belt | belt_and_arm | span. `orientation` is upright | flat. A
+/// How hard belts were pulled is `pull_ma`, `pull_n` or `pull` (relative): one of them at all points,
+/// or at none. `lengths` is the kind of length: belt | belt_and_arm | span. `orientation` is upright | flat. A
 /// distance ends at a point of the file (its number, from 0), at an anchor (tl, tr, bl, br) or at a
 /// hole that was cut (its commanded position).
 ///
@@ -35,9 +37,11 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "grid/belts/measured_belts.hpp"
+#include "grid/belts/point_indices.hpp"
 #include "grid/files/input_error.hpp"
 
 namespace chaintrue::grid::files {
@@ -58,6 +62,18 @@ struct ReadBelts {
 [[nodiscard]] ReadBelts read_belts(const std::filesystem::path& path);
 /// `file` is the name used in messages.
 [[nodiscard]] ReadBelts parse_belts(const std::string& text, const std::string& file);
+/// Points of `without`, counted from 1, are left out before anything is checked but the file's own form.
+[[nodiscard]] ReadBelts parse_belts(const std::string& text,
+                                    const std::string& file,
+                                    const std::vector<std::size_t>& without);
+/// Of the points that are kept without these.
+[[nodiscard]] PointIndices indices_beside(std::size_t kept,
+                                          const std::vector<std::size_t>& without);
+/// "7,12" of an option, numbers of `what`. \throws InputError where these are not numbers from 1 on.
+[[nodiscard]] std::vector<std::size_t> point_numbers_of(
+    const std::string& text,
+    const std::string& option,
+    std::string_view what = "points as the messages have them");
 /// `comments` go under the key "comment", one line each; readers ignore them. \throws
 /// std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_belts(const MeasuredBelts& belts,

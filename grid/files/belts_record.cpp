@@ -112,6 +112,32 @@ Json written_pulled(const std::vector<Belt>& pulled) {
   return words;
 }
 
+constexpr Range kPull{"", 1e-3, 1e6};
+
+/// One key for each unit.
+void add_pull(Record<BeltPoint>& record) {
+  using Unit = BeltPull::Unit;
+  constexpr std::pair<const char*, Unit> kKeys[] = {
+      {"pull_n", Unit::newton}, {"pull_ma", Unit::milliampere}, {"pull", Unit::relative}};
+  for (const auto& [key, unit] : kKeys) {
+    const Unit own = unit;
+    record.custom(
+        key,
+        false,
+        {kPull.expected(), [] { return number_schema(kPull); }},
+        [own](const Cursor& at, BeltPoint& point) {
+          const auto value = at.number(kPull);
+          if (!value) return;
+          if (point.pull) at.expect("one of pull_n, pull_ma and pull");
+          point.pull = BeltPull{*value, own};
+        },
+        [own](const BeltPoint& point) {
+          return point.pull && point.pull->unit == own ? std::optional<Json>(point.pull->value)
+                                                       : std::nullopt;
+        });
+  }
+}
+
 using ThrownAway = PerBelt<std::vector<double>>;
 
 const Record<ThrownAway>& thrown_away_record() {
@@ -183,6 +209,7 @@ const Record<BeltPoint>& belt_point_record() {
         [](const BeltPoint& p) {
           return p.pulled ? std::optional<Json>(written_pulled(*p.pulled)) : std::nullopt;
         });
+    add_pull(point);
     point.custom(
         "thrown_away",
         false,
@@ -269,7 +296,7 @@ const Record<FirmwareFit>& firmware_fit_record() {
 
 const Record<BeltPrediction>& prediction_record() {
   static const auto record =
-      Record<BeltPrediction>("what was foretold")
+      Record<BeltPrediction>("what was predicted")
           .custom(
               "readings",
               true,

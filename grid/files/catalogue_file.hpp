@@ -11,7 +11,7 @@ namespace chaintrue::grid::files {
 
 /// { "file_type": "chaintrue_effects", ..., "effects": [ {"effect", "station", "sides",
 /// "parameters", words ...} ] }
-[[nodiscard]] std::string write_catalogue();
+[[nodiscard]] std::string write_catalogue(const model::Machine& machine = {});
 /// { "file_type": "chaintrue_effect_picture", ..., "effect", "marks", "squares", "strength" }
 [[nodiscard]] std::string write_effect_picture(const synthetic::EffectPicture& picture);
 

@@ -28,21 +28,21 @@ Json per_side(const QuantityFound& left, const QuantityFound& right) {
 
 Json hypothesis_of(const CheckHypothesis& hypothesis) {
   Json json;
-  json["what"] = hypothesis.what;
+  json["what"] = std::string(name(hypothesis.what));
   json["side"] = hypothesis.side.empty() ? Json(nullptr) : Json(hypothesis.side);
   json["verdict"] = std::string(name(hypothesis.verdict));
   json["probability"] = hypothesis.probability;
-  if (hypothesis.what == "tooth") json["teeth"] = hypothesis.count;
-  if (hypothesis.what == "bad_point") json["point"] = hypothesis.count;
+  if (hypothesis.what == model::Change::tooth) json["teeth"] = hypothesis.count;
+  if (hypothesis.what == model::Change::bad_point) json["point"] = hypothesis.count;
   return json;
 }
 
 Json hypothesis_of_map(const CheckHypothesis& hypothesis) {
   Json json = hypothesis_of(hypothesis);
-  if (hypothesis.what == "zero" || hypothesis.what == "tooth" ||
-      hypothesis.what == "zeros_and_pitch")
+  if (hypothesis.what == model::Change::zero || hypothesis.what == model::Change::tooth ||
+      hypothesis.what == model::Change::zeros_and_pitch)
     json["zero_shift_mm"] = per_side(hypothesis.added(0), hypothesis.added(1));
-  if (hypothesis.what == "pitch" || hypothesis.what == "zeros_and_pitch")
+  if (hypothesis.what == model::Change::pitch || hypothesis.what == model::Change::zeros_and_pitch)
     json["elongation"] = per_side(hypothesis.elongation(0), hypothesis.elongation(1));
   return json;
 }
@@ -59,7 +59,7 @@ std::string write_map_check(const Check& check) {
     json["hypotheses"].push_back(hypothesis_of_map(hypothesis));
   json["residuals"] = Json::array();
   for (const CheckResidual& residual : check.residuals) {
-    json["residuals"].push_back({{"what", residual.what},
+    json["residuals"].push_back({{"what", residual.name},
                                  {"residual_mm", residual.residual_mm},
                                  {"sigma_mm", residual.sigma_mm}});
   }
@@ -71,7 +71,7 @@ std::string write_anchors_check(const Check& check) {
   json["hypotheses"] = Json::array();
   for (const CheckHypothesis& hypothesis : check.hypotheses) {
     Json one = hypothesis_of(hypothesis);
-    if (hypothesis.what == "zero" || hypothesis.what == "anchor")
+    if (hypothesis.what == model::Change::zero || hypothesis.what == model::Change::anchor)
       one["size_mm"] = hypothesis.size();
     json["hypotheses"].push_back(std::move(one));
   }

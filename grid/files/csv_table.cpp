@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "grid/files/blanks.hpp"
+#include "grid/files/length_text.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -28,11 +29,15 @@ template <class Visit>
 void for_each_line(std::string_view text, const Visit& visit) {
   text = without_byte_order_mark(text);
   std::size_t number = 0;
+  bool is_first = true;
   while (!text.empty()) {
     const std::size_t end = text.find_first_of("\r\n");
     const std::string_view line = text.substr(0, end);
     ++number;
-    if (!is_skipped(line) && !visit(line, number)) return;
+    // Excel's own way to say what separates cells.
+    const bool says_separator = is_first && line.starts_with("sep=");
+    is_first = false;
+    if (!is_skipped(line) && !says_separator && !visit(line, number)) return;
     if (end == std::string_view::npos) return;
     const bool both = text[end] == '\r' && end + 1 < text.size() && text[end + 1] == '\n';
     text.remove_prefix(end + (both ? 2 : 1));
@@ -94,37 +99,81 @@ std::string expected_header(const std::vector<CsvColumn>& columns) {
   return others.empty() ? text : text + " (and where wanted " + joined(others) + ")";
 }
 
+/// A column's name as this project writes it, and what its numbers are multiplied by.
+struct ColumnName {
+  std::string name;
+  double factor = 1.0;
+};
+
+/// `X (mm)`, `x [mm]` and `x_in` are x_mm.
+ColumnName column_name(std::string_view text) {
+  std::string name;
+  for (const char c : text) {
+    if (c == '(' || c == ')' || c == '[' || c == ']') continue;
+    const bool is_gap = c == ' ' || c == '_';
+    if (is_gap && (name.empty() || name.back() == '_')) continue;
+    name += is_gap ? '_' : (c >= 'A' && c <= 'Z') ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  constexpr double kMmPerInch = 25.4;
+  for (const std::string_view unit : {"_inches", "_inch", "_in"}) {
+    if (name.ends_with(unit))
+      return {name.substr(0, name.size() - unit.size()) + "_mm", kMmPerInch};
+  }
+  return {std::move(name)};
+}
+
 constexpr std::size_t kNoCell = static_cast<std::size_t>(-1);
 
-/// For each column the index of its cell. Reports a header that does not fit, once.
-std::vector<std::size_t> match_header(const CsvRow& header,
-                                      const std::vector<CsvColumn>& columns,
-                                      Problems& problems) {
-  std::vector<std::size_t> index(columns.size(), kNoCell);
+/// The cell of a row that a column's numbers stand in.
+struct CellOfColumn {
+  std::size_t index = kNoCell;
+  double factor = 1.0;
+};
+
+/// For each column its cell. Reports a header that does not fit, once, and warns of columns that
+/// nobody asked for.
+std::vector<CellOfColumn> match_header(const CsvRow& header,
+                                       const std::vector<CsvColumn>& columns,
+                                       Problems& problems) {
+  std::vector<CellOfColumn> index(columns.size());
   std::vector<std::string> found;
+  std::vector<std::size_t> unused;
   std::string remarks;
+  bool is_wrong = false;
   std::vector<std::string> names;
   for (const CsvColumn& column : columns) names.push_back(column.name);
   for (std::size_t i = 0; i < header.size(); ++i) {
     const std::string& name = header[i].text;
     found.push_back(name);
-    const auto known = std::find(names.begin(), names.end(), name);
+    const ColumnName column = column_name(name);
+    const auto known = std::find(names.begin(), names.end(), column.name);
     if (known == names.end()) {
       const std::string meant = nearest(name, names);
       remarks += meant.empty() ? fmt::format("; \"{}\" is unknown", name)
                                : fmt::format("; \"{}\" is probably {}", name, meant);
-    } else if (std::size_t& place = index[static_cast<std::size_t>(known - names.begin())];
-               place == kNoCell) {
-      place = i;
+      is_wrong = is_wrong || !meant.empty();
+      unused.push_back(i);
+    } else if (CellOfColumn& place = index[static_cast<std::size_t>(known - names.begin())];
+               place.index == kNoCell) {
+      const double of_column = columns[static_cast<std::size_t>(known - names.begin())].unit;
+      place = {i, column.factor != 1.0 ? column.factor : of_column};
     } else {
+      is_wrong = true;
       remarks += fmt::format("; \"{}\" stands there twice", name);
     }
   }
   bool missing = false;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    missing = missing || (columns[i].is_required && index[i] == kNoCell);
+    missing = missing || (columns[i].is_required && index[i].index == kNoCell);
   }
-  if (!missing && remarks.empty()) return index;
+  if (!missing && !is_wrong) {
+    for (const std::size_t i : unused) {
+      if (!header[i].text.empty())
+        problems.warn(header[i].place(),
+                      fmt::format("the column \"{}\" is not used", header[i].text));
+    }
+    return index;
+  }
   const bool numbers = std::all_of(header.begin(), header.end(), [](const CsvCell& cell) {
     return is_number(cell.text) || looks_like_decimal_comma(cell.text);
   });
@@ -140,17 +189,16 @@ std::vector<std::size_t> match_header(const CsvRow& header,
 /// The values of a line, by column.
 std::vector<std::optional<double>> read_row(const CsvRow& row,
                                             const std::vector<CsvColumn>& columns,
-                                            const std::vector<std::size_t>& index,
+                                            const std::vector<CellOfColumn>& index,
                                             CsvRow& cells,
                                             Problems& problems) {
   std::vector<std::optional<double>> values(columns.size());
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    if (index[c] == kNoCell) continue;
+    if (index[c].index == kNoCell) continue;
     const CsvColumn& column = columns[c];
-    cells[c] = row[index[c]];
+    cells[c] = row[index[c].index];
     if (!cells[c].text.empty()) {
-      values[c] =
-          checked_number(cells[c].text, cells[c].place(), column.name, column.range, problems);
+      values[c] = number_in_unit(cells[c], index[c].factor, column.name, column.range, problems);
     } else if (column.is_required && !column.may_be_blank) {
       problems.add(
           cells[c].place(), "", fmt::format("{} ({})", column.range.expected(), column.name));
@@ -184,6 +232,28 @@ void drop_trailing_cells(std::vector<CsvRow>& rows) {
   }
 }
 
+/// A row of another program's separators is one cell of them.
+bool is_empty(const CsvCell& cell) {
+  return cell.text.find_first_not_of(";,\t ") == std::string::npos;
+}
+
+/// Rows of separators alone, and what was written below the last row of numbers: a note in words.
+void drop_what_is_no_row(std::vector<CsvRow>& rows, Problems& problems) {
+  std::erase_if(rows,
+                [](const CsvRow& row) { return std::all_of(row.begin(), row.end(), is_empty); });
+  while (rows.size() > 1) {
+    const CsvRow& last = rows.back();
+    const auto filled = std::count_if(
+        last.begin(), last.end(), [](const CsvCell& cell) { return !is_empty(cell); });
+    const std::string& text = last.front().text;
+    const bool is_words = text.find(' ') != std::string::npos && !length_with_unit_mm(text);
+    if (filled != 1 || !is_words || rows[0].size() < 2) return;
+    problems.warn(last.front().place(),
+                  fmt::format("a note, no reading: left out ({})", shortened(text)));
+    rows.pop_back();
+  }
+}
+
 }  // namespace
 
 std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& problems) {
@@ -211,7 +281,7 @@ std::vector<std::string> csv_header(std::string_view text) {
   const char separator = separator_of(text);
   for_each_line(text, [&](std::string_view line, std::size_t) {
     for (const CsvRow& row : split_csv(line, separator, ignored)) {
-      for (const CsvCell& cell : row) names.push_back(cell.text);
+      for (const CsvCell& cell : row) names.push_back(column_name(cell.text).name);
     }
     return false;
   });
@@ -236,11 +306,26 @@ char separator_of(std::string_view text) {
   return best;
 }
 
+std::optional<double> number_in_unit(const CsvCell& cell,
+                                     double unit,
+                                     std::string_view name,
+                                     const Range& range,
+                                     Problems& problems) {
+  const auto bare = unit != 1.0 ? number_of(cell.text) : std::nullopt;
+  if (!bare) return checked_number(cell.text, cell.place(), name, range, problems);
+  if (range.holds(*bare * unit)) return *bare * unit;
+  problems.add(cell.place(),
+               fmt::format("{} ({:.6g} {})", cell.text, *bare * unit, range.unit),
+               fmt::format("{} ({})", range.expected(), name));
+  return std::nullopt;
+}
+
 CsvTable read_csv(std::string_view text,
                   const std::vector<CsvColumn>& columns,
                   Problems& problems) {
   CsvTable table;
   std::vector<CsvRow> rows = split_csv(text, separator_of(text), problems);
+  drop_what_is_no_row(rows, problems);
   if (rows.empty()) {
     problems.add("",
                  text.empty() ? "an empty file" : "only blank lines and comments",
@@ -248,13 +333,16 @@ CsvTable read_csv(std::string_view text,
     return table;
   }
   drop_trailing_cells(rows);
-  const std::vector<std::size_t> index = match_header(rows[0], columns, problems);
+  const std::vector<CellOfColumn> index = match_header(rows[0], columns, problems);
   if (index.empty()) return table;
   const std::size_t width = rows[0].size();
   if (looks_split_by_decimal_commas(rows, width)) {
-    problems.add(rows[1].front().place(),
-                 fmt::format("{} cells under a header of {}", rows[1].size(), width),
-                 "decimals written with a point; these commas look like decimal commas");
+    problems.explain(
+        rows[1].front().place(),
+        fmt::format("these commas look like decimal commas: write decimals with a point "
+                    "({} cells stand under a header of {}).",
+                    rows[1].size(),
+                    width));
     return table;
   }
   for (std::size_t r = 1; r < rows.size(); ++r) {

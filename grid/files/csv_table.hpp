@@ -2,7 +2,8 @@
 /// \file
 /// A small CSV of numbers under a header line. Private to grid/files. Accepts what spreadsheets
 /// write: a byte order mark, CRLF, semicolons or tabs, quoted cells, blank lines, trailing
-/// separators; lines that begin with # are comments. Numbers are read independent of the locale.
+/// separators, a first line `sep=;`, words below the last row, columns that nobody asked for; lines
+/// that begin with # are comments. A column may be headed `X (mm)` or `x in`, in inches. Numbers are read independent of the locale.
 #pragma once
 
 #include <optional>
@@ -30,7 +31,8 @@ using CsvRow = std::vector<CsvCell>;
 [[nodiscard]] std::vector<CsvRow> split_csv(std::string_view text,
                                             char separator,
                                             Problems& problems);
-/// The cells of the first line that is neither blank nor a comment.
+/// The names of the columns, by the first line that is neither blank nor a comment: in small letters,
+/// `X (mm)` and `x_in` as x_mm.
 [[nodiscard]] std::vector<std::string> csv_header(std::string_view text);
 /// Of comma, semicolon and tab the one that the first line with cells has most of; a comma where
 /// there is none.
@@ -41,6 +43,8 @@ struct CsvColumn {
   bool is_required = true;
   /// For a required column: cells may be empty, as in a sheet that is not filled in.
   bool may_be_blank = false;
+  /// What a number without a unit of its own is in the range's unit, where the header says no other.
+  double unit = 1.0;
 };
 
 /// Rows of numbers by column, in the order of `columns`; absent for empty cells of columns that
@@ -52,6 +56,14 @@ struct CsvTable {
   /// False for a row with a problem.
   std::vector<bool> clean;
 };
+
+/// The number of a cell that is not empty, in the range's unit; `unit` is that of a bare number. A
+/// problem is added where it is none, or out of range.
+[[nodiscard]] std::optional<double> number_in_unit(const CsvCell& cell,
+                                                   double unit,
+                                                   std::string_view name,
+                                                   const Range& range,
+                                                   Problems& problems);
 
 /// Reads text whose header names `columns`, in any order. Every problem is added; all rows that
 /// could be split are returned.

@@ -12,6 +12,7 @@ namespace {
 using diagnosis::BeltPlacePicture;
 using diagnosis::BeltsFindings;
 using diagnosis::DiagnosedCoordinate;
+using diagnosis::SecondPass;
 using diagnosis::ToolError;
 
 /// Shared with chaintrue_anchors, which has a value for each belt as well.
@@ -20,7 +21,7 @@ constexpr int kMostVisits = 1000000000;
 
 const Record<DiagnosedCoordinate>& diagnosed_coordinate_record() {
   static const auto record =
-      Record<DiagnosedCoordinate>("a coordinate of an anchor beside causes")
+      Record<DiagnosedCoordinate>("a coordinate of an anchor with causes")
           .required("coordinate",
                     &DiagnosedCoordinate::name,
                     one_of({"tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"}))
@@ -69,6 +70,14 @@ const Record<ToolError>& tool_record() {
   return record;
 }
 
+const Record<SecondPass>& second_pass_record() {
+  static const auto record =
+      Record<SecondPass>("a second pass")
+          .required("times", &SecondPass::times, number({"", 1.0, 100.0}))
+          .required("raises_probability_to", &SecondPass::raises_probability_to, number(kShare));
+  return record;
+}
+
 void read_diagnosed_coordinates(const Cursor& at, BeltsFindings& found) {
   const auto read = list(object(diagnosed_coordinate_record())).read(at);
   if (!read) return;
@@ -108,6 +117,7 @@ const Record<BeltsFindings>& belts_findings_record() {
         .required("tool", &BeltsFindings::tool, object(tool_record()))
         .optional("scale", &BeltsFindings::scale, object(scale_record()))
         .optional("firmware_fit", &BeltsFindings::firmware_fit, object(firmware_fit_record()))
+        .optional("second_pass", &BeltsFindings::second_pass, object(second_pass_record()))
         .required("places", &BeltsFindings::places, list(object(belt_place_record())));
     return found;
   }();

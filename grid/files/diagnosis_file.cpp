@@ -9,6 +9,7 @@
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/machine_record.hpp"
+#include "grid/files/provenance_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
 #include "grid/files/whole_file.hpp"
@@ -41,6 +42,24 @@ const Record<StatedNoise>& stated_noise_record() {
           .required("length_mm", &StatedNoise::length_mm, number(kNotNegative))
           .required("position_mm", &StatedNoise::position_mm, number(kNotNegative))
           .required("dof", &StatedNoise::dof, number(kNotNegative));
+  return record;
+}
+
+const Record<VisitingOrder>& line_order_record() {
+  static const auto record = Record<VisitingOrder>("an order of visits line by line")
+                                 .required("rows", &VisitingOrder::rows, boolean())
+                                 .required("serpentine", &VisitingOrder::serpentine, boolean())
+                                 .required("from_right", &VisitingOrder::from_right, boolean())
+                                 .required("from_below", &VisitingOrder::from_below, boolean());
+  return record;
+}
+
+const Record<diagnosis::VisitingOrderFound>& visiting_order_record() {
+  using Found = diagnosis::VisitingOrderFound;
+  static const auto record = Record<Found>("an order of visits that was found")
+                                 .required("order", &Found::order, object(line_order_record()))
+                                 .required("corner_known", &Found::corner_known, boolean())
+                                 .required("probability", &Found::probability, number(kShare));
   return record;
 }
 
@@ -208,6 +227,8 @@ Record<Diagnosis> make_diagnosis_record() {
       .required("causes", &Diagnosis::causes, list(object(cause_record())))
       .required("hypotheses", &Diagnosis::hypotheses, list(object(hypothesis_record())))
       .required("left_over", &Diagnosis::left_over, object(left_over_record()))
+      .optional("tool_today", &Diagnosis::tool_today, object(error_summary_record()))
+      .optional("visiting_order", &Diagnosis::visiting_order, object(visiting_order_record()))
       .optional("unexplained", &Diagnosis::unexplained, object(unexplained_record()))
       .optional("budget", &Diagnosis::budget, object(error_budget_record()));
   outlier_keys(record);
@@ -247,7 +268,7 @@ Record<Diagnosis> make_diagnosis_record() {
       .optional("held_out_grid", &Diagnosis::transferred, object(transfer_record()))
       .optional("trend", &Diagnosis::trend, object(trend_record()));
   distance_keys(record);
-  record.check(check_diagnosis);
+  add_made_by_key(record).check(check_diagnosis);
   return record;
 }
 
@@ -273,8 +294,8 @@ Diagnosis parse_diagnosis(const std::string& text,
   return diagnosis;
 }
 
-std::string write_diagnosis(const Diagnosis& diagnosis) {
-  return write_document(diagnosis_record(), diagnosis);
+std::string write_diagnosis(const Diagnosis& diagnosis, const std::optional<Provenance>& made_by) {
+  return print_json(with_made_by(diagnosis_record().write(diagnosis), made_by));
 }
 
 Json diagnosis_schema() { return diagnosis_record().schema(); }

@@ -39,11 +39,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/files/input_error.hpp"
+#include "grid/provenance.hpp"
 
 namespace chaintrue::grid::files {
 
@@ -56,6 +58,7 @@ namespace chaintrue::grid::files {
                                                    const std::string& file,
                                                    std::vector<Warning>* warnings = nullptr);
 /// \throws std::logic_error where a number is not finite.
-[[nodiscard]] std::string write_diagnosis(const diagnosis::Diagnosis& diagnosis);
+[[nodiscard]] std::string write_diagnosis(const diagnosis::Diagnosis& diagnosis,
+                                          const std::optional<Provenance>& made_by = std::nullopt);
 
 }  // namespace chaintrue::grid::files

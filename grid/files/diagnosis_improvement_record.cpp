@@ -163,7 +163,7 @@ const Record<HeldOutImprovement>& improvement_record() {
 const Record<Transfer>& transfer_record() {
   static const auto record = [] {
     const Value<int> whole = integer(0, kMostNumbered);
-    Record<Transfer> transfer("another grid foretold");
+    Record<Transfer> transfer("another grid predicted");
     transfer.required("to", &Transfer::to, text())
         .custom(
             "points",

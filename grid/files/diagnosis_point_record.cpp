@@ -6,6 +6,7 @@
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
+#include "grid/files/reading_record.hpp"
 #include "grid/files/record_values.hpp"
 
 namespace chaintrue::grid::files {
@@ -124,7 +125,17 @@ const Record<NextMeasurement>& next_measurement_record() {
                                            {"revisit", MeasurementKind::revisit},
                                            {"reading", MeasurementKind::reading},
                                            {"distance", MeasurementKind::distance}}));
-    next.required("what", &NextMeasurement::what, text());
+    next.custom(
+        "what",
+        true,
+        text().expected,
+        [](const Cursor& at, NextMeasurement& object) {
+          if (const auto words = text().read(at)) object.words = *words;
+        },
+        [](const NextMeasurement& object) {
+          return std::optional<Json>(object.reading ? Json(std::string(name(*object.reading)))
+                                                    : Json(object.words));
+        });
     nullable_text(next, "side", &NextMeasurement::side, side_word());
     const auto coordinate = [&next](const char* key, double model::MarkPoint::*member) {
       next.custom(
@@ -155,6 +166,9 @@ const Record<NextMeasurement>& next_measurement_record() {
             const Cursor value = at.child(key);
             if (is_place && at.clean() && value.json().is_null()) value.missing("a number in mm");
           }
+          if (object.kind != MeasurementKind::reading || !at.clean()) return;
+          object.reading = reading_name().read(at.child("what"));
+          object.words.clear();
         });
     return next;
   }();

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "grid/files/diagnosis_keys.hpp"
+#include "grid/files/effect_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "model/belts/effects/belt_effect.hpp"
 #include "model/calibration/setting.hpp"
@@ -59,14 +60,25 @@ bool acts_at(const Effect& effect, EffectSide side) {
 /// The keys of an effect and its side; `id` maps the object to its CauseId.
 template <class T, class Access>
 void cause_keys(Record<T>& record, const Access& id) {
-  const Value<const Effect*> effect = effect_word();
+  Value<const Effect*> effect = effect_word();
+  // What the extended machine declares has a name of its own.
+  effect.expected.schema = [names = effect.expected.schema]() -> Json {
+    return {{"type", "string"}, {"examples", names()["enum"]}};
+  };
   const Value<std::string> side = side_word();
   record.custom(
       "effect",
       true,
       effect.expected,
       [effect, id](const Cursor& at, T& object) {
-        if (const auto found = effect.read(at)) id(object).effect = *found;
+        const Effect* declared = at.json().is_string()
+                                     ? declared_in_document(at, at.json().get<std::string>())
+                                     : nullptr;
+        if (declared != nullptr) {
+          id(object).effect = declared;
+        } else if (const auto found = effect.read(at)) {
+          id(object).effect = *found;
+        }
       },
       [id](const T& object) { return std::optional<Json>(std::string(id(object).effect->id)); });
   record.custom(
@@ -296,7 +308,7 @@ const Record<Term>& term_record() {
 
 const Record<Separation>& separation_record() {
   static const auto record = [] {
-    Record<Separation> separation("how well two effects are told apart");
+    Record<Separation> separation("how well two effects are distinguished");
     for (const auto& [key, member] :
          {std::pair("first", &Separation::first), std::pair("second", &Separation::second)}) {
       separation.required(key, member, object(cause_id_record()));

@@ -34,6 +34,7 @@ const Record<BudgetLine>& budget_line_record() {
           .optional("cause", &BudgetLine::cause, object(cause_id_record()))
           .required("mean_square_mm2", &BudgetLine::mean_square_mm2, number(kAnyNumber))
           .required("share", &BudgetLine::share, number(kAnyNumber))
+          .optional("without_mm", &BudgetLine::without_mm, number(kNotNegative))
           .optional("part_of_100_mm", &BudgetLine::part_mm, number(kNotNegative))
           .required("changes_with",
                     &BudgetLine::changes_with,
@@ -59,7 +60,7 @@ const Record<Unexplained>& unexplained_record() {
                   &Unexplained::enters,
                   words(std::array{Enters::left,
                                    Enters::right,
-                                   Enters::alike,
+                                   Enters::equal,
                                    Enters::opposite,
                                    Enters::x,
                                    Enters::y,

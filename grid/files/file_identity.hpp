@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Identity of the file that a path names, however it is written: `g.json`, `./g.json`, a link to
-/// it.
+/// Identity of the file that a path names, however it is written: g.json, ./g.json, a link to it.
 #pragma once
 
 #include <cstdint>

@@ -66,14 +66,16 @@ class TypeFinder : public nlohmann::json_sax<Json> {
   bool is_type_ = false;
 };
 
-constexpr std::array<std::pair<const Format*, FileKind>, 7> kKinds = {
+constexpr std::array<std::pair<const Format*, FileKind>, 9> kKinds = {
     {{&kMachineFormat, FileKind::machine},
      {&kGridFormat, FileKind::grid},
      {&kHolesFormat, FileKind::holes},
      {&kBeltsFormat, FileKind::belts},
      {&kMapFormat, FileKind::map},
      {&kAnchorsFormat, FileKind::anchors},
-     {&kDiagnosisFormat, FileKind::diagnosis}}};
+     {&kDiagnosisFormat, FileKind::diagnosis},
+     {&kPlotterFormat, FileKind::plotter},
+     {&kDrawingFormat, FileKind::drawing}}};
 
 FileKind kind_of_csv(std::string_view text) {
   const std::vector<std::string> header = csv_header(text);
@@ -132,6 +134,11 @@ std::string what_takes(std::string_view file_type) {
       {"chaintrue_map", "a map", "report, query, gcode or export"},
       {"chaintrue_diagnosis", "a diagnosis", "report or plan --after"},
       {"chaintrue_sweep", "a sweep", "sweep"},
+      {"chaintrue_plotter", "a V-plotter", "start or export plotter"},
+      {"chaintrue_drawing", "a test drawing of a V-plotter", "fit"},
+      {"chaintrue_effect",
+       "a declared effect",
+       "effects --effects, diagnose --effects or simulate --effects"},
   };
   for (const Kind& kind : kTakers) {
     if (file_type == kind.file_type) {

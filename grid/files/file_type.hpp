@@ -22,6 +22,8 @@ enum class FileKind {
   map,
   anchors,
   diagnosis,
+  plotter,
+  drawing,
   other,  ///< JSON of another type, or of none
 };
 

@@ -4,14 +4,14 @@
 #include <algorithm>
 
 #include "grid/files/formats.hpp"
+#include "grid/files/record_values.hpp"
+#include "grid/map/controller_error.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
-Json summary_of(const ErrorSummary& error) {
-  return {{"rms_mm", error.rms_mm}, {"maximum_mm", error.maximum_mm}};
-}
+Json summary_of(const ErrorSummary& error) { return error_summary_record().write(error); }
 
 Json held_out(const HeldOutError& error) {
   return {{"chain", summary_of(error.chain)}, {"tool", summary_of(error.tool)}};
@@ -19,7 +19,9 @@ Json held_out(const HeldOutError& error) {
 
 }  // namespace
 
-std::string write_fit(const CompensationMap& map, std::string_view sentence) {
+std::string write_fit(const CompensationMap& map,
+                      std::string_view sentence,
+                      std::optional<double> wish_mm) {
   const MapContents& contents = map.contents();
   Json json = headed(kFitFormat);
   json["sentence"] = std::string(sentence);
@@ -31,6 +33,11 @@ std::string write_fit(const CompensationMap& map, std::string_view sentence) {
   json["expected_tool"] = summary_of(contents.accuracy.expected_tool);
   json["expected_tool"]["worst_at"] = {{"x_mm", contents.accuracy.expected_worst_at.x_mm},
                                        {"y_mm", contents.accuracy.expected_worst_at.y_mm}};
+  if (const auto before = error_in_use(map)) json["tool_today"] = summary_of(*before);
+  if (wish_mm) {
+    json["wish"] = {{"wish_mm", *wish_mm},
+                    {"reached", contents.accuracy.expected_tool.rms_mm <= *wish_mm}};
+  }
   if (contents.distances) {
     json["distances"] = {{"used", contents.distances->used},
                          {"set_aside", contents.distances->rejected},

@@ -4,6 +4,7 @@
 /// map, same bytes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,9 @@
 
 namespace chaintrue::grid::files {
 
-[[nodiscard]] std::string write_fit(const CompensationMap& map, std::string_view sentence);
+/// `wish_mm`: the error of the tool that was wished for.
+[[nodiscard]] std::string write_fit(const CompensationMap& map,
+                                    std::string_view sentence,
+                                    std::optional<double> wish_mm = std::nullopt);
 
 }  // namespace chaintrue::grid::files

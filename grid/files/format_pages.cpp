@@ -27,13 +27,10 @@ constexpr std::array kDescribed = {
     Described{&kMachineFormat,
               machine_schema,
               "A machine",
-              "What a machine is, as its owner states it. `chaintrue start` and `chaintrue import` "
-              "write one "
-              "from the controller's settings; `chaintrue start` alone writes one to fill in. "
-              "Ranges hold "
-              "every real hanging router; what is outside is taken for a slip. The motors must "
-              "hang above "
-              "the bed, the left one on the left."},
+              "A machine as its owner describes it. `chaintrue start` and `chaintrue import` write "
+              "one from the controller's settings; `chaintrue start` alone writes one to fill in. "
+              "Ranges hold every real hanging router; what is outside is taken for a slip. The "
+              "motors must hang above the bed, the left one on the left."},
     Described{
         &kGridFormat,
         grid_schema,
@@ -45,7 +42,12 @@ constexpr std::array kDescribed = {
         "`y_mm`, and `left_mm`, `right_mm` or `commanded_x_mm`, `commanded_y_mm`, and where wanted "
         "`order`; the rest comes from options. Cells are parted by commas, semicolons or tabs; "
         "with "
-        "semicolons numbers may have decimal commas. Lines that begin with # are left out, and a "
+        "semicolons numbers may have decimal commas. A cell may carry its unit (`12.5 cm`, `43 "
+        "13/16 "
+        "in`; a fraction is of an inch), a column may be in inches (`x_in`), columns that nobody "
+        "asked "
+        "for are not used, and a note below the last row is left out. Lines that begin with # are "
+        "left out, and a "
         "row "
         "without its readings counts as not measured."},
     Described{
@@ -75,21 +77,41 @@ constexpr std::array kDescribed = {
     Described{&kSweepFormat,
               sweep_schema,
               "A sweep",
-              "Which combinations `chaintrue sweep` tries against the simulator. Every list is a "
-              "factor: all "
-              "combinations of their entries are done. See [sweeps](../sweeps.md)."},
-    Described{&kBeltsFormat,
-              belts_schema,
-              "Belt lengths of a router on four belts",
-              "What such a router read of its four belts at places of which nobody measured where "
-              "they are. `chaintrue import maslow4` writes one from what the machine printed; "
-              "`fit` makes anchors of it."},
+              "Which combinations `chaintrue sweep` tries against the simulator. Every combination "
+              "of the lists' entries is tried. See [sweeps](../sweeps.md)."},
+    Described{
+        &kBeltsFormat,
+        belts_schema,
+        "Belt lengths of a router on four belts",
+        "The four belt lengths that such a router read, at places that nobody measured. `chaintrue "
+        "import maslow4` writes one from what the machine printed; `fit` makes anchors of it."},
     Described{&kAnchorsFormat,
               anchors_schema,
               "Anchors of a router on four belts",
               "Where the belts leave the frame, how well that is known and what it rests on. "
               "`chaintrue fit` writes one from belt lengths; `export maslow4` prints the lines to "
               "paste. It is not to be edited: a hash of its content says whether it was."},
+    Described{
+        &kEffectFormat,
+        effect_schema,
+        "A declared effect",
+        "A cause of error that the catalogue does not have, as its owner declares it: what it "
+        "acts on, its size, where it sets in, and a formula. `--effects` gives it to "
+        "`diagnose`, `fit --causes`, `simulate` and `effects`; [effects](../effects.md) says "
+        "what a formula may use and shows three."},
+    Described{&kPlotterFormat,
+              plotter_schema,
+              "A V-plotter",
+              "A plotter whose pen hangs on two cords, as its controller holds it, and what a test "
+              "drawing found of it. `chaintrue import plotter` writes one from the controller's "
+              "settings, `fit` the same with what was found; `start` and `export plotter` read it. "
+              "[plotters](../plotters.md) says how. Places are from the middle between the two "
+              "pins, x to the right, y up."},
+    Described{&kDrawingFormat,
+              drawing_schema,
+              "A test drawing",
+              "The page that a V-plotter drew, and what a ruler and a string measured on it. "
+              "`chaintrue start` writes one to fill in; `fit` reads it."},
 };
 
 const Described& described(std::string_view name) {

@@ -34,11 +34,15 @@ struct Format {
   bool is_read = true;  ///< false for formats that only other programs read
 };
 
+inline constexpr std::string_view kBeforeProvenance =
+    "written before a file said what it was made from; that is not known";
+
 inline constexpr std::array kOlderMaps = {
     OlderVersion{"1.0",
                  "written before maps carried a hash of their content; taken to be undamaged"},
-    OlderVersion{"1.1",
-                 "written before a map could be built on causes that were found; taken to be plain"}};
+    OlderVersion{
+        "1.1", "written before a map could be built on causes that were found; taken to be plain"},
+    OlderVersion{"1.2", kBeforeProvenance}};
 
 inline constexpr std::array kOlderDiagnoses = {
     OlderVersion{"1.0",
@@ -46,39 +50,53 @@ inline constexpr std::array kOlderDiagnoses = {
                  "error is made of; "
                  "taken to leave nothing unexplained"},
     OlderVersion{"1.1", "written before belts were diagnosed; taken to be of chains"},
-    OlderVersion{"1.2",
-                 "written before belts were told what to measure next; what it proposes is taken as "
-                 "it stands"},
-    OlderVersion{"1.3",
-                 "written before probabilities were averaged over parts of the bed; its own are taken "
-                 "as they stand"}};
+    OlderVersion{
+        "1.2",
+        "written before it was said what to measure next of belts; what it proposes is taken as "
+        "it stands"},
+    OlderVersion{
+        "1.3",
+        "written before probabilities were averaged over parts of the bed; its own are taken "
+        "as they stand"},
+    OlderVersion{"1.4",
+                 "written before each part of the error was said by what is left without it"},
+    OlderVersion{"1.5",
+                 "written before a file said what it was made from and how far the machine misses as it is used; the "
+                 "first is not known, the second taken from its points"},
+    OlderVersion{"1.6", "written before the order of the visits was found from the readings; taken not to be"}};
 
-inline constexpr std::array kOlderHoles = {
-    OlderVersion{"1.0",
-                 "written before a machine on four belts could cut holes; taken to be of the machine "
-                 "that it names"}};
+inline constexpr std::array kOlderHoles = {OlderVersion{
+    "1.0",
+    "written before a machine on four belts could cut holes; taken to be of the machine "
+    "that it names"}};
 
 inline constexpr std::array kOlderAnchors = {
-    OlderVersion{"1.0", "written before holes stood beside belts; taken to be of belts alone"},
+    OlderVersion{"1.0", "written before holes were fitted with belts; taken to be of belts alone"},
     OlderVersion{"1.1",
-                 "written before anchors carried a hash of their content; taken to be undamaged"}};
+                 "written before anchors carried a hash of their content; taken to be undamaged"},
+    OlderVersion{"1.2",
+                 "written before the stretch of pulled belts was fitted with the anchors and before a file said what it was "
+                 "made from; its anchors and sigmas are of belts that do not stretch"}};
 
 inline constexpr Format kMachineFormat{"chaintrue_machine", "1.0"};
 inline constexpr Format kGridFormat{"chaintrue_grid", "1.0"};
 inline constexpr Format kHolesFormat{"chaintrue_holes", "1.1", kOlderHoles};
 inline constexpr Format kBeltsFormat{"chaintrue_belts", "1.0"};
-inline constexpr Format kAnchorsFormat{"chaintrue_anchors", "1.2", kOlderAnchors};
-inline constexpr Format kMapFormat{"chaintrue_map", "1.2", kOlderMaps};
-inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.4", kOlderDiagnoses};
+inline constexpr Format kAnchorsFormat{"chaintrue_anchors", "1.3", kOlderAnchors};
+inline constexpr Format kMapFormat{"chaintrue_map", "1.3", kOlderMaps};
+inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.7", kOlderDiagnoses};
 inline constexpr Format kSweepFormat{"chaintrue_sweep", "1.0"};
 inline constexpr Format kSweepSummaryFormat{"chaintrue_sweep_summary", "1.0", {}, false};
 inline constexpr Format kAnswerFormat{"chaintrue_answer", "1.0", {}, false};
 inline constexpr Format kCheckFormat{"chaintrue_check", "1.0", {}, false};
-inline constexpr Format kFitFormat{"chaintrue_fit", "1.0", {}, false};
+inline constexpr Format kFitFormat{"chaintrue_fit", "1.1", {}, false};
+inline constexpr Format kEffectFormat{"chaintrue_effect", "1.0"};
+inline constexpr Format kPlotterFormat{"chaintrue_plotter", "1.0"};
+inline constexpr Format kDrawingFormat{"chaintrue_drawing", "1.0"};
 inline constexpr Format kEffectsFormat{"chaintrue_effects", "1.0", {}, false};
 inline constexpr Format kEffectPictureFormat{"chaintrue_effect_picture", "1.0", {}, false};
 
-inline constexpr std::array<const Format*, 14> kFormats = {&kMachineFormat,
+inline constexpr std::array<const Format*, 17> kFormats = {&kMachineFormat,
                                                            &kGridFormat,
                                                            &kHolesFormat,
                                                            &kBeltsFormat,
@@ -90,6 +108,9 @@ inline constexpr std::array<const Format*, 14> kFormats = {&kMachineFormat,
                                                            &kAnswerFormat,
                                                            &kCheckFormat,
                                                            &kFitFormat,
+                                                           &kEffectFormat,
+                                                           &kPlotterFormat,
+                                                           &kDrawingFormat,
                                                            &kEffectsFormat,
                                                            &kEffectPictureFormat};
 

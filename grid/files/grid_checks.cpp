@@ -149,13 +149,16 @@ bool check_unit(const MeasuredGrid& grid, const PointPlaces& places, Problems& p
       extent.coordinate < kLongestInInches) {
     // Chains reach 2.5 to 3.7 m: 100 to 146 inches, or 250 centimetres and more.
     constexpr double kLongestChainInches = 150.0;
-    problems.add(
+    problems.explain(
         places.all,
         fmt::format(
-            "coordinates up to {:.6g} and lengths up to {:.6g}", extent.coordinate, extent.length),
-        extent.length < kLongestChainInches
-            ? "all of them in mm; these look like inches (multiply by 25.4)"
-            : "all of them in mm; these look like centimetres (multiply by 10)");
+            "These look like {}: multiply all of them by {}{} (coordinates reach {:.6g}, lengths "
+            "{:.6g}).",
+            extent.length < kLongestChainInches ? "inches" : "centimetres",
+            extent.length < kLongestChainInches ? "25.4" : "10",
+            extent.length < kLongestChainInches ? input_checks::or_say_inches(places.written) : "",
+            extent.coordinate,
+            extent.length));
     return true;
   }
   const auto first = slope_of(grid.points, left_of);
@@ -165,17 +168,19 @@ bool check_unit(const MeasuredGrid& grid, const PointPlaces& places, Problems& p
   const std::string found =
       fmt::format("lengths that change by {:.3g} for each 1 of x_mm, y_mm", steepness);
   if (is_unit_under(first->steepness()) && is_unit_under(second->steepness())) {
-    problems.add(
-        places.all,
-        found,
-        fmt::format("about 1; x_mm and y_mm look like {}, the lengths like mm", unit_of(steepness)));
+    problems.explain(places.all,
+                     fmt::format("x_mm and y_mm look like {}, the lengths like mm ({}, where 1 is "
+                                 "usual).",
+                                 unit_of(steepness),
+                                 found));
     return true;
   }
   if (is_unit_over(first->steepness()) && is_unit_over(second->steepness())) {
-    problems.add(places.all,
-                 found,
-                 fmt::format("about 1; the lengths look like {}, x_mm and y_mm like mm",
-                             unit_of(1.0 / steepness)));
+    problems.explain(places.all,
+                     fmt::format("the lengths look like {}, x_mm and y_mm like mm ({}, where 1 is "
+                                 "usual).",
+                                 unit_of(1.0 / steepness),
+                                 found));
     return true;
   }
   return false;
@@ -185,12 +190,13 @@ bool check_unit(const MeasuredGrid& grid, const PointPlaces& places, Problems& p
 /// the motors. True if x and y are exchanged, which is reported.
 bool check_axes(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
   constexpr double kClearly = 0.3;
-  const char* swapped = "x_mm to the right and y_mm up the sheet; the two columns look swapped";
   const auto left = slope_of(grid.points, left_of);
   const auto right = slope_of(grid.points, right_of);
   if (left && right && left->per_y > kClearly && right->per_y < -kClearly && left->per_x < 0.0 &&
       right->per_x < 0.0) {
-    problems.add(places.all, "left lengths growing and right ones shrinking with y_mm", swapped);
+    problems.explain(places.all,
+                     "the two columns look swapped: left lengths grow and right ones shrink "
+                     "with y_mm. x_mm counts to the right, y_mm up the sheet.");
     return true;
   }
   return false;
@@ -199,19 +205,17 @@ bool check_axes(const MeasuredGrid& grid, const PointPlaces& places, Problems& p
 void check_sides(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
   const auto left = slope_of(grid.points, left_of);
   const auto right = slope_of(grid.points, right_of);
-  const std::string swapped =
-      "left lengths growing and right ones shrinking towards +x; the columns left_mm and "
-      "right_mm look swapped";
   if (left && right) {
     if (left->per_x < 0.0 && right->per_x > 0.0) {
-      problems.add(places.all, "left lengths shrinking and right ones growing towards +x", swapped);
+      problems.explain(places.all,
+                       "the columns left_mm and right_mm look swapped: left lengths shrink and right "
+                       "ones grow towards +x.");
     }
     constexpr double kClearly = 0.1;
     if (left->per_y > kClearly && right->per_y > kClearly) {
-      problems.add(
-          places.all,
-          "lengths of both chains that grow towards +y",
-          "lengths that shrink towards +y, where the motors are; y_mm looks counted downwards");
+      problems.explain(places.all,
+                       "y_mm looks counted downwards: both chains grow towards +y, where the motors "
+                       "are. y_mm counts up the sheet.");
     }
   }
 }
@@ -270,22 +274,17 @@ bool check_entries(const MeasuredGrid& grid, const PointPlaces& places, Problems
     check_sides(grid, places, problems);
     return false;
   }
-  const input_checks::Findings found = input_checks::check_points(grid);
+  const input_checks::Findings found = input_checks::check_points(grid, places.written);
   if (found.whole && found.whole->is_doubtful) {
-    problems.warn(places.all,
-                  fmt::format("{}, where one would expect {}", found.whole->found, found.whole->expected));
+    problems.warn(places.all, found.whole->sentence());
   } else if (found.whole) {
-    problems.add(found.whole->from_row ? places.of(*found.whole->from_row, "") : places.all,
-                 found.whole->found,
-                 found.whole->expected);
+    problems.explain(found.whole->from_row ? places.of(*found.whole->from_row, "") : places.all,
+                     found.whole->sentence());
     return true;
   }
   for (const input_checks::RowFinding& row : found.rows) {
     if (row.is_impossible) {
-      const model::MarkPoint mark = grid.points[row.row].mark;
-      problems.add(places.of(row.row, ""),
-                   fmt::format("({:.10g}, {:.10g})", mark.x_mm, mark.y_mm),
-                   fmt::format("a place that the machine reaches. {}", row.sentence));
+      problems.explain(places.of(row.row, ""), row.sentence);
     } else {
       problems.warn(places.of(row.row, ""), row.sentence);
     }
@@ -323,9 +322,13 @@ void check_points_together(const MeasuredGrid& grid,
   constexpr std::size_t kSpanFrom = 8;
   const std::size_t count = grid.points.size();
   if (count < fewest_points) {
-    problems.add(places.all,
-                 fmt::format("{} point{}", count, count == 1 ? "" : "s"),
-                 fmt::format("at least {} points", fewest_points));
+    problems.explain(places.all,
+                     fmt::format("{} filled in, and it takes at least {}: measure {} more.",
+                                 count == 0   ? "No point is"
+                                 : count == 1 ? "Only 1 point is"
+                                              : fmt::format("Only {} points are", count),
+                                 fewest_points,
+                                 fewest_points - count));
   }
   const bool has_commands =
       std::any_of(grid.points.begin(), grid.points.end(), [](const MeasuredPoint& point) {

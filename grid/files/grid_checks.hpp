@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "grid/files/problems.hpp"
+#include "grid/input_checks/findings.hpp"
 #include "grid/observation/measured_grid.hpp"
 
 namespace chaintrue::grid::files {
@@ -39,6 +40,7 @@ struct PointPlaces {
   std::string all;
   /// One point, or one field of it: "/points/3", "line 5, column 8".
   std::function<std::string(std::size_t index, std::string_view field)> of;
+  input_checks::Written written = input_checks::Written::in_json;
 };
 
 /// Removes the points that were left blank and reports them; `places` are then those of the others.

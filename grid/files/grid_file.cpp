@@ -15,6 +15,7 @@
 #include "grid/files/reading_record.hpp"
 #include "grid/files/schemas.hpp"
 #include "grid/files/whole_file.hpp"
+#include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -220,10 +221,11 @@ ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Pro
   const bool commanded = std::any_of(header.begin(), header.end(), [](const std::string& name) {
     return name.rfind("commanded_", 0) == 0;
   });
-  const std::vector<CsvColumn> columns = {{"x_mm", kCoordinate, true, commanded},
-                                          {"y_mm", kCoordinate, true, commanded},
-                                          {"left_mm", kLength, !commanded, true},
-                                          {"right_mm", kLength, !commanded, true},
+  const double unit = options.inches ? input_checks::kMmPerInch : 1.0;
+  const std::vector<CsvColumn> columns = {{"x_mm", kCoordinate, true, commanded, unit},
+                                          {"y_mm", kCoordinate, true, commanded, unit},
+                                          {"left_mm", kLength, !commanded, true, unit},
+                                          {"right_mm", kLength, !commanded, true, unit},
                                           {"order", {"", 0.0, kLargestOrder}, false},
                                           {"commanded_x_mm", kCoordinate, commanded},
                                           {"commanded_y_mm", kCoordinate, commanded}};
@@ -256,12 +258,15 @@ ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Pro
       problems.add("", "a header line only", "at least one line of numbers below it");
     problems.throw_if_any();
   }
-  const PointPlaces places{"the points", [&table](std::size_t index, std::string_view field) {
+  const PointPlaces places{"the points",
+                           [&table](std::size_t index, std::string_view field) {
                              const CsvRow& cells = table.cells[index];
                              return field == "order" && !cells[kOrder].text.empty()
                                         ? cells[kOrder].place()
                                         : cells.front().place();
-                           }};
+                           },
+                           options.inches ? input_checks::Written::in_json
+                                          : input_checks::Written::in_table};
   return finish(std::move(stated), places, options, problems);
 }
 

@@ -39,6 +39,9 @@ struct GridOptions {
   std::size_t fewest_points = 8;
   /// Used for a file that names no machine: the machine of the map to be checked.
   std::optional<model::Machine> otherwise = std::nullopt;
+  /// What was measured is in inches, in a CSV whose header says mm: marks and lengths, but not the
+  /// commands. JSON is as its keys say.
+  bool inches = false;
 };
 
 struct ReadGrid {

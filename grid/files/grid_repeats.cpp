@@ -83,6 +83,11 @@ Comparison compare_commands(const MeasuredGrid& grid, const StatedNoise& noise) 
   return errors;
 }
 
+std::string difference_in_words(double mm) {
+  constexpr double kMetreMm = 1000.0;
+  return mm < kMetreMm ? fmt::format("{:.2f} mm", mm) : fmt::format("{:.1f} m", mm / kMetreMm);
+}
+
 void warn_of_pair(const Comparison& comparison,
                   const Compared& a,
                   const Compared& b,
@@ -104,14 +109,14 @@ void warn_of_pair(const Comparison& comparison,
   if (is_asked_about(a.index) || is_asked_about(b.index)) return;
   const bool first_is_worse = first_mm >= second_mm;
   problems.warn(places.of(b.index, ""),
-                fmt::format("measured also at {}, {:.2f} mm away; the two disagree by {:.2f} mm "
-                            "({}), where the noise "
-                            "allows {:.2f} mm",
+                fmt::format("this mark was measured twice, also at {}, and the two differ by {} ({}), "
+                            "where {:.1f} mm would be usual{}. Is a digit or a minus wrong in one of "
+                            "them?",
                             places.of(a.index, ""),
-                            apart_mm,
-                            std::max(first_mm, second_mm),
+                            difference_in_words(std::max(first_mm, second_mm)),
                             first_is_worse ? comparison.first_name : comparison.second_name,
-                            allowed_mm));
+                            allowed_mm,
+                            apart_mm < 0.5 ? "" : fmt::format(" {:.0f} mm apart", apart_mm)));
 }
 
 void warn_of_pairs(Comparison comparison, const PointPlaces& places, Problems& problems) {

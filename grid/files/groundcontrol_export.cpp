@@ -144,7 +144,7 @@ TypedMachine typed_machine(const Machine& machine, std::vector<std::string>& rem
       take_up->second(typed, effect);
       continue;
     }
-    const model::effects::Effect* known = model::effects::find_effect(effect.effect);
+    const model::effects::Effect* known = model::effects::find_effect(machine, effect.effect);
     remarks.push_back(fmt::format("GroundControl has no setting for the effect {}{}{}{}{}",
                                   effect.effect,
                                   effect.side.empty() ? "" : " ",
@@ -186,7 +186,7 @@ void remark_on_what_cannot_be_typed(const Machine& machine, std::vector<std::str
     const bool left = side == Side::left;
     const double zero_mm = machine.chain_zero[side];
     if (std::abs(zero_mm) <= kWorthSayingMm) continue;
-    remarks.push_back(fmt::format("the {} chain reads {:.2f} mm too {}; set its zero anew",
+    remarks.push_back(fmt::format("the {} chain reads {:.2f} mm too {}; reset its zero",
                                   left ? "left" : "right",
                                   std::abs(zero_mm),
                                   zero_mm > 0.0 ? "long" : "short"));
@@ -259,8 +259,8 @@ void write_weights(const TypedMachine& typed, Lines& lines, std::vector<std::str
     }
   } else if (typed.stretch_was_named) {
     remarks.push_back(
-        fmt::format("GroundControl's own firmware knows no stretch of the chain; WebControl and "
-                    "the holey firmware do (chainelongationfactor, $45): {} per N",
+        fmt::format("GroundControl's own firmware has no chain stretch; WebControl and the holey "
+                    "firmware have it (chainelongationfactor, $45): {} per N",
                     per_n));
   }
 }

@@ -110,7 +110,7 @@ class IniReader {
 };
 
 /// The numbers of the file by key.
-using Numbers = std::map<std::string, std::optional<double>>;
+using SettingValues = std::map<std::string, std::optional<double>>;
 
 /// The unit of a file in which the router is too small for mm.
 std::optional<OtherUnit> other_unit_of(const IniTable& table) {
@@ -129,7 +129,7 @@ std::optional<OtherUnit> other_unit_of(const IniTable& table) {
   return other_unit(*value_of("bedwidth"));
 }
 
-void place_motors(const Numbers& numbers, Machine& machine) {
+void place_motors(const SettingValues& numbers, Machine& machine) {
   const double half_spacing = 0.5 * numbers.at("motorspacingx").value();
   const double y = 0.5 * machine.bed.height_mm + numbers.at("motoroffsety").value();
   const double tilt = numbers.at("topbeamtilt").value_or(0.0) * kDegreeRad;
@@ -138,7 +138,7 @@ void place_motors(const Numbers& numbers, Machine& machine) {
   machine.motors.right = {half_spacing * std::cos(tilt), y + half_spacing * std::sin(tilt)};
 }
 
-void attach_sled(const Numbers& numbers, bool has_brackets, Machine& machine) {
+void attach_sled(const SettingValues& numbers, bool has_brackets, Machine& machine) {
   if (has_brackets) {
     machine.attachment = Brackets{numbers.at("sledwidth").value(),
                                   numbers.at("sledheight").value(),
@@ -149,26 +149,26 @@ void attach_sled(const Numbers& numbers, bool has_brackets, Machine& machine) {
 }
 
 /// A tolerance other than 0 is the pitch that the owner measured for this chain.
-void state_pitch(const Numbers& numbers, Machine& machine, Problems& problems) {
-  std::vector<std::string> stated;
+void state_pitch(const SettingValues& numbers, Machine& machine, Problems& problems) {
+  std::vector<std::string> links;
   for (const auto& [key, side] :
        {std::pair("leftchaintolerance", "left"), std::pair("rightchaintolerance", "right")}) {
     const double percent = numbers.at(key).value_or(0.0);
     if (percent == 0.0) continue;
     machine.effects.push_back({"chain_pitch_error", side, {{"elongation", percent / 100.0}}});
-    stated.push_back(fmt::format("{:g} % on the {}", percent, side));
+    links.push_back(fmt::format(
+        "{:g} % {} ({})", std::abs(percent), percent > 0.0 ? "longer" : "shorter", side));
   }
-  if (stated.empty()) return;
+  if (links.empty()) return;
   const model::effects::Effect* effect = model::effects::find_effect("chain_pitch_error");
   problems.warn("",
-                fmt::format("the chain tolerances are taken as how much longer than nominal the "
-                            "links are, {}, each good to {:g} %, 1 sigma (/effects)",
-                            fmt::join(stated, " and "),
+                fmt::format("chain tolerance: links {} than new, each number good to {:g} % (/effects)",
+                            fmt::join(links, " and "),
                             100.0 * effect->parameters.front().prior_sigma));
 }
 
 /// Sled, chain and frame: from the file if stated, otherwise the default machine's, with a warning.
-void weigh(const Numbers& numbers, Machine& machine, Problems& problems) {
+void weigh(const SettingValues& numbers, Machine& machine, Problems& problems) {
   const auto assume = [&problems](std::string what) {
     problems.warn("", fmt::format("the settings do not say {}", std::move(what)));
   };
@@ -201,8 +201,8 @@ void weigh(const Numbers& numbers, Machine& machine, Problems& problems) {
                   machine.uncertainty.ring_radius_mm));
 }
 
-Numbers read_numbers(IniReader& reader, std::optional<bool> has_brackets) {
-  Numbers numbers;
+SettingValues read_numbers(IniReader& reader, std::optional<bool> has_brackets) {
+  SettingValues numbers;
   for (const NumberKey& key : kNumberKeys) {
     const bool is_of_this_sled =
         key.need == Need::ring ? has_brackets == false : has_brackets == true;
@@ -215,7 +215,7 @@ Numbers read_numbers(IniReader& reader, std::optional<bool> has_brackets) {
   return numbers;
 }
 
-Machine machine_of(const Numbers& numbers, bool has_brackets, bool over_top) {
+Machine machine_of(const SettingValues& numbers, bool has_brackets, bool over_top) {
   Machine machine;
   machine.bed = {numbers.at("bedwidth").value(), numbers.at("bedheight").value()};
   place_motors(numbers, machine);
@@ -238,18 +238,19 @@ Machine machine_of(const Numbers& numbers, bool has_brackets, bool over_top) {
 ReadMachine machine_of_settings(const IniTable& table, Tolerances tolerances, Problems& problems) {
   IniReader reader(table, problems);
   if (const auto unit = other_unit_of(table)) {
-    problems.add(reader.place_of_key("bedwidth"),
-                 fmt::format("bedwidth = {}", table.find(kSections, "bedwidth")->text),
-                 fmt::format("all lengths in mm; those of this file look like {} (multiply by {:g})",
-                             unit->word,
-                             unit->mm));
+    problems.explain(reader.place_of_key("bedwidth"),
+                     fmt::format("the lengths of this file look like {} (bedwidth = {}): multiply them "
+                                 "by {:g}.",
+                                 unit->word,
+                                 table.find(kSections, "bedwidth")->text,
+                                 unit->mm));
     problems.throw_if_any();
   }
   const auto kinematics = reader.word("kinematicstype", {"Triangular", "Quadrilateral"});
   const auto feed = reader.word("chainoversprocket", {"Top", "Bottom"});
   const auto has_brackets =
       kinematics ? std::optional(*kinematics == "Quadrilateral") : std::nullopt;
-  const Numbers numbers = read_numbers(reader, has_brackets);
+  const SettingValues numbers = read_numbers(reader, has_brackets);
   if (const auto teeth = numbers.at("gearteeth"); teeth && *teeth != std::floor(*teeth)) {
     problems.add(
         reader.place_of_key("gearteeth"), fmt::format("{}", *teeth), "a whole number (gearteeth)");

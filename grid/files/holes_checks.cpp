@@ -57,25 +57,26 @@ bool check_other_unit(const MeasuredHoles& set, const HolesPlaces& places, Probl
   const double half_width_mm = 0.5 * (set.machine ? set.machine->bed : model::Bed{}).width_mm;
   const double share = farthest_mm / half_width_mm;
   if (set.holes.size() < 3 || share >= kOfCentimetres) return false;
-  problems.add(places.holes,
-               fmt::format("holes within {:.4g} of the middle", farthest_mm),
-               fmt::format("holes spread over the bed, in mm; these and their distances look like {}",
-                           share < kOfInches ? "inches (multiply by 25.4)"
-                                             : "centimetres (multiply by 10)"));
+  problems.explain(
+      places.holes,
+      fmt::format(
+          "these and their distances look like {} (no hole is farther than {:.4g} "
+          "from the middle).",
+          share < kOfInches ? "inches: multiply them by 25.4" : "centimetres: multiply them by 10",
+          farthest_mm));
   return true;
 }
 
 /// Where an error of the whole file was found it is reported; what is asked about single distances is
 /// returned.
 std::vector<input_checks::RowFinding> check_entries(const MeasuredHoles& set,
-                                                  const HolesPlaces& places,
-                                                  Problems& problems) {
-  input_checks::Findings found = input_checks::check_distances(set);
+                                                    const HolesPlaces& places,
+                                                    Problems& problems) {
+  input_checks::Findings found = input_checks::check_distances(set, places.written);
   if (found.whole) {
-    problems.add(found.whole->from_row ? places.distance(*found.whole->from_row, "distance_mm")
-                                       : places.distances,
-                 found.whole->found,
-                 found.whole->expected);
+    problems.explain(found.whole->from_row ? places.distance(*found.whole->from_row, "distance_mm")
+                                           : places.distances,
+                     found.whole->sentence());
   }
   return std::move(found.rows);
 }
@@ -209,9 +210,9 @@ void check_enough(const MeasuredHoles& set,
 
 /// Without the offset the map would be distorted by the same amount.
 void check_tape_zero(const MeasuredHoles& set,
-                bool is_stated,
-                const HolesPlaces& places,
-                Problems& problems) {
+                     bool is_stated,
+                     const HolesPlaces& places,
+                     Problems& problems) {
   const auto offset = suspected_tape_zero_offset_mm(set);
   if (!offset) return;
   const std::string found = fmt::format("distances all about {:.1f} mm {} than commanded",
@@ -224,7 +225,7 @@ void check_tape_zero(const MeasuredHoles& set,
       input_checks::kTapeMarkMm * std::round(total_mm / input_checks::kTapeMarkMm);
   if (std::abs(total_mm - mark_mm) < kAtTheMarkMm) total_mm = mark_mm;
   const std::string state =
-      fmt::format("state {:.0f} mm (hook_offset_mm of the tape, or --hook-offset-mm)", total_mm);
+      fmt::format("give {:.0f} mm (hook_offset_mm of the tape, or --hook-offset-mm)", total_mm);
   if (is_stated) {
     problems.warn(places.distances,
                   fmt::format("{}, the short ones like the long ones. Was the hook's offset taken "
@@ -258,7 +259,7 @@ void leave_out_blanks(std::vector<StatedDistance>& distances,
   if (kept.empty()) {
     problems.add(places.distances,
                  fmt::format("{} distances, all left blank", blank.size()),
-                 "what the tape said, written into distance_mm");
+                 "tape readings, written into distance_mm");
     problems.throw_if_any();
   }
   problems.warn(places.distances,

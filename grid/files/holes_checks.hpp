@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "grid/files/problems.hpp"
+#include "grid/input_checks/findings.hpp"
 #include "grid/observation/measured_holes.hpp"
 
 namespace chaintrue::grid::files {
@@ -33,6 +34,7 @@ struct HolesPlaces {
   std::string distances;
   std::function<std::string(std::size_t index)> hole;
   std::function<std::string(std::size_t index, std::string_view field)> distance;
+  input_checks::Written written = input_checks::Written::in_json;
 };
 
 /// Removes the distances that were left blank and reports them; `places` are then those of the

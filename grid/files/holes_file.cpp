@@ -86,7 +86,8 @@ ReadHoles parse_json_holes(const std::string& text,
 ReadHoles parse_csv_holes(const std::string& text,
                           const HolesOptions& options,
                           Problems& problems) {
-  HolesTables tables = read_holes_tables(text, problems);
+  HolesTables tables =
+      read_holes_tables(text, options.inches ? input_checks::kMmPerInch : 1.0, problems);
   return finish(std::move(tables.stated), tables.places, options, problems);
 }
 

@@ -54,6 +54,8 @@ struct HolesOptions {
   std::size_t fewest_distances = kFewestHoleDistances;
   /// Used for a file that names no machine.
   std::optional<model::Machine> otherwise = std::nullopt;
+  /// The distances are in inches, in a CSV whose header says mm. JSON is as its keys say.
+  bool inches = false;
 };
 
 struct ReadHoles {

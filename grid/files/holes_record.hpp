@@ -44,6 +44,8 @@ struct HolesTables {
   HolesPlaces places;
 };
 /// \throws InputError with every problem.
-[[nodiscard]] HolesTables read_holes_tables(const std::string& text, Problems& problems);
+[[nodiscard]] HolesTables read_holes_tables(const std::string& text,
+                                            double tape_unit,
+                                            Problems& problems);
 
 }  // namespace chaintrue::grid::files

@@ -66,7 +66,8 @@ void read_hole_row(const CsvRow& row, StatedHoles& stated, Problems& problems) {
   stated.is_hole_spoilt.push_back(problems.list().size() > before);
 }
 
-void read_distance_row(const CsvRow& row, bool has_sigma, StatedHoles& stated, Problems& problems) {
+void read_distance_row(
+    const CsvRow& row, bool has_sigma, double unit, StatedHoles& stated, Problems& problems) {
   const std::size_t before = problems.list().size();
   StatedDistance distance;
   distance.from = cell_of(row, 0).text;
@@ -74,7 +75,8 @@ void read_distance_row(const CsvRow& row, bool has_sigma, StatedHoles& stated, P
   const CsvCell reading = cell_of(row, 2);
   distance.is_blank = reading.text.empty();
   if (!distance.is_blank) {
-    distance.distance_mm = required_number(reading, "distance_mm", kTapeDistance, problems);
+    distance.distance_mm =
+        number_in_unit(reading, unit, "distance_mm", kTapeDistance, problems).value_or(0.0);
   }
   const CsvCell sigma = cell_of(row, 3);
   if (has_sigma && !sigma.text.empty()) {
@@ -86,7 +88,7 @@ void read_distance_row(const CsvRow& row, bool has_sigma, StatedHoles& stated, P
 
 }  // namespace
 
-HolesTables read_holes_tables(const std::string& text, Problems& problems) {
+HolesTables read_holes_tables(const std::string& text, double tape_unit, Problems& problems) {
   const std::vector<CsvRow> rows = split_csv(text, separator_of(text), problems);
   StatedHoles stated;
   std::vector<CsvCell> hole_cells;
@@ -113,7 +115,7 @@ HolesTables read_holes_tables(const std::string& text, Problems& problems) {
       read_hole_row(row, stated, problems);
     } else if (table == Table::distances) {
       distance_rows.push_back(row);
-      read_distance_row(row, has_sigma, stated, problems);
+      read_distance_row(row, has_sigma, tape_unit, stated, problems);
     } else {
       problems.add(row.front().place(),
                    row.front().text,
@@ -138,7 +140,8 @@ HolesTables read_holes_tables(const std::string& text, Problems& problems) {
           if (kDistanceHeader[c] == field) return cell_of(found[index], c).place();
         }
         return found[index].front().place();
-      }};
+      },
+      tape_unit != 1.0 ? input_checks::Written::in_json : input_checks::Written::in_table};
   return {std::move(stated), std::move(places)};
 }
 

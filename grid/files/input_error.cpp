@@ -22,6 +22,7 @@ std::string all_messages(const std::vector<InputProblem>& problems) {
 
 std::string InputProblem::message() const {
   const std::string where = place.empty() ? file : fmt::format("{}: {}", file, place);
+  if (!sentence.empty()) return file.empty() ? sentence : fmt::format("{}: {}", where, sentence);
   if (value.empty()) return fmt::format("{}: missing, expected {}", where, expected);
   return fmt::format("{}: found {}, expected {}", where, value, expected);
 }

@@ -16,8 +16,11 @@ struct InputProblem {
   std::string place;
   /// As found, shortened to 60 characters; empty where something is missing.
   std::string value;
-  /// A sentence: what was expected, and the likely mistake if one is recognised.
+  /// What was expected.
   std::string expected;
+  /// Where the likely mistake is recognised: what it is and what to do, in the owner's words. It then
+  /// stands for value and expected in the message.
+  std::string sentence = {};
   /// `grid.json: /points/3/x_mm: found "abc", expected a number in mm`
   [[nodiscard]] std::string message() const;
 };

@@ -85,7 +85,7 @@ std::string likely_error(std::string_view text, std::size_t offset) {
   if (rest.substr(0, 2) == "//" || rest.substr(0, 2) == "/*" || rest.substr(0, 1) == "#") {
     return R"(; JSON has no comments, use the key "comment")";
   }
-  if (rest.substr(0, 1) == "'") return "; texts stand between double quotes";
+  if (rest.substr(0, 1) == "'") return "; put texts between double quotes";
   return {};
 }
 

@@ -30,6 +30,8 @@ class Cursor {
   [[nodiscard]] const Json& json() const { return *json_; }
   [[nodiscard]] std::string pointer() const;
   [[nodiscard]] Problems& problems() const { return *problems_; }
+  /// The whole document.
+  [[nodiscard]] const Json& root() const { return parent_ == nullptr ? *json_ : parent_->root(); }
   /// A key that is absent reads as null.
   [[nodiscard]] Cursor child(std::string_view key) const;
   [[nodiscard]] Cursor element(std::size_t index) const;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "grid/files/effect_record.hpp"
 #include "grid/files/machine_record.hpp"
 #include "grid/files/other_unit.hpp"
 #include "grid/files/record_values.hpp"
@@ -154,7 +155,7 @@ const Record<Uncertainty>& uncertainty_record() {
             for (const char* key : {"motor_position_mm", "chain_zero_mm", "ring_radius_mm"}) {
               const Cursor value = at.child(key);
               if (!at.has(key) || value.json().is_null())
-                value.warn("not stated, its default is assumed");
+                value.warn("not given, its default is assumed");
             }
           });
   return record;
@@ -202,25 +203,26 @@ void check_machine(const Cursor& at, Machine& machine) {
   if (!at.has("uncertainty") || at.child("uncertainty").json().is_null()) {
     const Uncertainty& assumed = machine.uncertainty;
     at.child("uncertainty")
-        .warn(fmt::format(
-            "not stated; assumed are motor positions to {} mm, chain zeros to {} mm and the ring's "
-            "radius to {} mm (1 sigma)",
-            assumed.motor_position_mm,
-            assumed.chain_zero_mm,
-            assumed.ring_radius_mm));
+        .warn(fmt::format("not given; assumed are motor positions to {} mm, chain zeros to {} mm "
+                          "and the ring's radius to {} mm (1 sigma)",
+                          assumed.motor_position_mm,
+                          assumed.chain_zero_mm,
+                          assumed.ring_radius_mm));
   }
   if (is_in_other_unit(machine)) {
     const OtherUnit unit = other_unit(machine.bed.width_mm);
     const auto size = [](double width, double height) {
       return fmt::format("{:.6g} x {:.6g}", width, height);
     };
-    at.problems().add(
+    at.problems().explain(
         at.pointer(),
-        fmt::format("a bed of {}", size(machine.bed.width_mm, machine.bed.height_mm)),
-        fmt::format("all lengths in mm; these look like {} (times {:g} the bed is {} mm)",
-                    unit.word,
-                    unit.mm,
-                    size(machine.bed.width_mm * unit.mm, machine.bed.height_mm * unit.mm)));
+        fmt::format(
+            "these look like {}: multiply all lengths by {:g}, then the bed is {} mm, where it "
+            "is {} now.",
+            unit.word,
+            unit.mm,
+            size(machine.bed.width_mm * unit.mm, machine.bed.height_mm * unit.mm),
+            size(machine.bed.width_mm, machine.bed.height_mm)));
     return;
   }
   for (const model::MachineProblem& problem : model::problems_of(machine)) {
@@ -231,6 +233,7 @@ void check_machine(const Cursor& at, Machine& machine) {
   }
   // The sums of effects and machine are checked only if the machine itself is valid.
   if (!at.clean()) return;
+  check_declared_on_bed(at.child("declared_effects"), machine);
   for (const model::MachineProblem& problem : model::effects::problems_of_effects(machine)) {
     at.problems().add(at.pointer() + problem.parameter, problem.value, problem.expected);
   }
@@ -325,6 +328,12 @@ const Record<Machine>& machine_record() {
                 if (auto value = controller_record().read(at)) machine.controller = *value;
               },
               write_controller)
+          .custom(
+              "declared_effects",
+              false,
+              declared_expected(),
+              [](const Cursor& at, Machine& machine) { read_declared(at, machine.declared); },
+              [](const Machine& machine) { return write_declared(machine.declared); })
           .sparse("effects", &Machine::effects, list(object(effect_record())))
           .check(check_machine);
   return record;

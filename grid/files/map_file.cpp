@@ -8,6 +8,7 @@
 #include "grid/files/content_hash.hpp"
 #include "grid/files/json_reader.hpp"
 #include "grid/files/map_surface_record.hpp"
+#include "grid/files/provenance_record.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
@@ -41,29 +42,30 @@ const Record<OutsideRule>& outside_record() {
   return record;
 }
 
+Value<NoiseSource> noise_source() {
+  std::vector<std::pair<std::string, NoiseSource>> names;
+  for (const NoiseSource source :
+       {NoiseSource::stated, NoiseSource::repeats, NoiseSource::fit, NoiseSource::assumed}) {
+    names.emplace_back(name(source), source);
+  }
+  return choice<NoiseSource>(std::move(names));
+}
+
 const Record<MapNoise>& map_noise_record() {
   static const auto record =
       Record<MapNoise>("the noise that the fit went by")
           .required("length_mm", &MapNoise::length_mm, number(kNotNegative))
           .required("position_mm", &MapNoise::position_mm, number(kNotNegative))
-          .required("source", &MapNoise::source, one_of({"stated", "repeats", "fit", "assumed"}))
+          .required("source", &MapNoise::source, noise_source())
           .required("factor_found", &MapNoise::factor_found, number(kNotNegative));
-  return record;
-}
-
-const Record<ErrorSummary>& summary_record() {
-  static const auto record =
-      Record<ErrorSummary>("rms and maximum")
-          .required("rms_mm", &ErrorSummary::rms_mm, number(kNotNegative))
-          .required("maximum_mm", &ErrorSummary::maximum_mm, number(kNotNegative));
   return record;
 }
 
 const Record<HeldOutError>& held_out_record() {
   static const auto record =
       Record<HeldOutError>("held-out errors")
-          .required("chain", &HeldOutError::chain, object(summary_record()))
-          .required("tool", &HeldOutError::tool, object(summary_record()))
+          .required("chain", &HeldOutError::chain, object(error_summary_record()))
+          .required("tool", &HeldOutError::tool, object(error_summary_record()))
           .required("tool_x_rms_mm", &HeldOutError::tool_x_rms_mm, number(kNotNegative))
           .required("tool_y_rms_mm", &HeldOutError::tool_y_rms_mm, number(kNotNegative));
   return record;
@@ -80,7 +82,7 @@ const Record<MapAccuracy>& accuracy_record() {
           .constant("relative_to", kRelativeTo)
           .required("leave_one_out", &MapAccuracy::leave_one_out, object(held_out_record()))
           .required("blocked", &MapAccuracy::blocked, object(held_out_record()))
-          .required("expected_tool", &MapAccuracy::expected_tool, object(summary_record()))
+          .required("expected_tool", &MapAccuracy::expected_tool, object(error_summary_record()))
           .required("expected_worst_at", &MapAccuracy::expected_worst_at, object(mark_record()));
   return record;
 }
@@ -167,7 +169,7 @@ const Record<MirrorTest>& mirror_record() {
                   test.points = static_cast<std::size_t>(*count);
               },
               [](const MirrorTest& test) { return std::optional<Json>(test.points); })
-          .required("difference", &MirrorTest::difference, object(summary_record()))
+          .required("difference", &MirrorTest::difference, object(error_summary_record()))
           .required("mean_mm", &MirrorTest::mean_mm, number(kErrorMm))
           .required("worst_at", &MirrorTest::worst_at, object(mark_record()))
           .required("worst_signed_mm", &MirrorTest::worst_signed_mm, number(kErrorMm))
@@ -183,8 +185,8 @@ const Record<DistancesUsed>& distances_record() {
           .required("used", &DistancesUsed::used, integer(0, kMost))
           .required("set_aside", &DistancesUsed::rejected, integer(0, kMost))
           .required("tape_sigma_mm", &DistancesUsed::tape_sigma_mm, number(kNotNegative))
-          .required("left_out_all", &DistancesUsed::left_out_all, object(summary_record()))
-          .required("left_out_good", &DistancesUsed::left_out_good, object(summary_record()));
+          .required("left_out_all", &DistancesUsed::left_out_all, object(error_summary_record()))
+          .required("left_out_good", &DistancesUsed::left_out_good, object(error_summary_record()));
   return record;
 }
 
@@ -251,7 +253,8 @@ Record<MapContents> make_map_record() {
           false,
           number(kSigmaFactor).expected,
           [](const Cursor& at, MapContents& map) {
-            if (const auto factor = number(kSigmaFactor).read(at)) map.sigma_factor_beyond = *factor;
+            if (const auto factor = number(kSigmaFactor).read(at))
+              map.sigma_factor_beyond = *factor;
           },
           [](const MapContents& map) -> std::optional<Json> {
             if (map.sigma_factor_beyond == MapContents{}.sigma_factor_beyond) return std::nullopt;
@@ -264,7 +267,7 @@ Record<MapContents> make_map_record() {
       .optional("mirror", &MapContents::mirror, object(mirror_record()))
       .optional("distances", &MapContents::distances, object(distances_record()))
       .required("notes", &MapContents::notes, list(text()));
-  add_content_hash(record)
+  add_content_hash(add_made_by_key(record))
       .schema_also({{"oneOf", {{{"required", {"on_machine"}}}, {{"required", {"direct"}}}}}})
       .check(check_map);
   return record;
@@ -292,8 +295,8 @@ CompensationMap read_map(const std::filesystem::path& path, std::vector<Warning>
   return parse_map(read_whole_file(path), name_in_messages(path), warnings);
 }
 
-std::string write_map(const CompensationMap& map) {
-  return print_with_hash(map_record().write(map.contents()));
+std::string write_map(const CompensationMap& map, const std::optional<Provenance>& made_by) {
+  return print_with_hash(with_made_by(map_record().write(map.contents()), made_by));
 }
 
 Json map_schema() { return map_record().schema(); }

@@ -12,11 +12,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "grid/files/input_error.hpp"
 #include "grid/map/compensation_map.hpp"
+#include "grid/provenance.hpp"
 
 namespace chaintrue::grid::files {
 
@@ -28,6 +30,7 @@ namespace chaintrue::grid::files {
 [[nodiscard]] CompensationMap parse_map(const std::string& text,
                                         const std::string& file,
                                         std::vector<Warning>* warnings = nullptr);
-[[nodiscard]] std::string write_map(const CompensationMap& map);
+[[nodiscard]] std::string write_map(const CompensationMap& map,
+                                    const std::optional<Provenance>& made_by = std::nullopt);
 
 }  // namespace chaintrue::grid::files

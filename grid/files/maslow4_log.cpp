@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "grid/files/belts_checks.hpp"
+#include "grid/files/maslow4_places.hpp"
 #include "grid/files/maslow4_scan.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/files/yaml_values.hpp"
@@ -120,35 +121,6 @@ BeltMachine machine_of(const Maslow4Options& options,
   return machine;
 }
 
-void take_run(const ScannedRun& run,
-              PointRange range,
-              Orientation orientation,
-              MeasuredBelts& belts,
-              std::vector<std::size_t>& lines) {
-  const bool commands_known = [&] {
-    for (std::size_t i = 0; i < run.points.size(); ++i) {
-      if (!run.commanded.contains(static_cast<int>(i))) return false;
-    }
-    return true;
-  }();
-  for (std::size_t i = range.first; i <= range.last; ++i) {
-    const int waypoint = static_cast<int>(i);
-    BeltPoint point;
-    point.lengths_mm = run.points[i].lengths_mm;
-    point.order = static_cast<int>(belts.points.size());
-    const auto commanded = run.commanded.find(waypoint);
-    if (commanded != run.commanded.end()) point.commanded = commanded->second;
-    const auto thrown_away = run.thrown_away_mm.find(waypoint);
-    if (thrown_away != run.thrown_away_mm.end()) point.thrown_away_mm = thrown_away->second;
-    if (orientation == Orientation::flat && commands_known) {
-      const model::BedPoint before = run.commanded.at(std::max(waypoint - 1, 0));
-      point.pulled = pulled_after(orientation, before, *point.commanded, i);
-    }
-    belts.points.push_back(std::move(point));
-    lines.push_back(run.points[i].line);
-  }
-}
-
 std::vector<LoggedRun> logged(const std::vector<ScannedRun>& runs) {
   std::vector<LoggedRun> result;
   std::size_t first = 0;
@@ -212,26 +184,107 @@ PointRange point_range_of(const std::string& text, const std::string& option) {
                      "first and last point, counted from 0, as in 0:98"}});
 }
 
+namespace {
+
+/// Nothing to read: what a log is, or why the run in it failed.
+void report_nothing(const ScannedLog& log, const model::BeltMachine& machine, Problems& problems) {
+  if (log.stopped) {
+    MeasuredBelts none;
+    none.machine = machine;
+    problems.add(fmt::format("line {}", log.stopped->line),
+                 log.stopped->said.empty() ? "the log's end" : log.stopped->said,
+                 "a list of readings, CLBM:[...]. " + words_of(*log.stopped, none));
+    return;
+  }
+  problems.add("",
+               "no readings",
+               "a log of Find Anchors, or a list of readings: "
+               "{bl:2960.58, br:3150.08, tr:3067.72, tl:3049.85}");
+}
+
+/// The runs with places, each of one frame.
+std::vector<ScannedRun> runs_of(ScannedLog& log,
+                                const model::BeltMachine& machine,
+                                Problems& problems) {
+  std::vector<ScannedRun> runs = std::move(log.runs);
+  for (ScannedRun& run : runs) rebuild_from_singles(run, problems);
+  std::erase_if(runs, [](const ScannedRun& run) { return run.points.empty(); });
+  part_frames(machine, runs, problems);
+  return runs;
+}
+
+/// What the settings say of a pull.
+std::optional<BeltPull> settings_pull(Settings& settings) {
+  double pull_ma = 0.0;
+  const bool is_known = settings.take({"Maslow_Calibration_Current_Threshold"}, pull_ma);
+  if (!is_known || !(pull_ma > 0.0)) return std::nullopt;
+  return BeltPull{pull_ma, BeltPull::Unit::milliampere};
+}
+
+/// The places of the range, from the runs that it reaches into.
+PlacesOfLog take_wanted(const std::vector<ScannedRun>& runs,
+                        PointRange wanted,
+                        Maslow4Import& result,
+                        Problems& problems) {
+  PlacesOfLog places;
+  bool is_first = true;
+  std::vector<std::pair<std::size_t, PointRange>> parts;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const PointRange own = result.runs[i].points;
+    if (own.last < wanted.first || own.first > wanted.last) continue;
+    if (is_first) result.taken = i;
+    is_first = false;
+    const PointRange within{std::max(own.first, wanted.first) - own.first,
+                            std::min(own.last, wanted.last) - own.first};
+    take_places(runs[i], within, result.belts.machine.orientation, places);
+    parts.emplace_back(i, within);
+  }
+  for (const auto& [run, within] : parts)
+    report_unreadable(runs[run], within, places.points.size(), problems);
+  return places;
+}
+
+/// What is known of these belts as a whole.
+void check_all(MeasuredBelts& belts,
+               std::vector<std::size_t>& lines,
+               Maslow4Import& result,
+               Problems& problems) {
+  const BeltPlaces places{"the readings",
+                          [&lines](std::size_t index, std::string_view) {
+                            return fmt::format("line {}", lines[index]);
+                          },
+                          "the settings"};
+  for (const model::MachineProblem& problem : model::problems_of(belts.machine)) {
+    problems.add(
+        fmt::format("the settings' {}", problem.parameter), problem.value, problem.expected);
+  }
+  leave_out_copies(belts, lines, problems);
+  check_belt_points(belts, places, problems);
+  problems.throw_if_any();
+  leave_out_nowhere(belts, lines, problems);
+  result.is_enough = check_belts_together(belts, places, BeltsUse::import, problems);
+  problems.throw_if_any();
+}
+
+}  // namespace
+
 Maslow4Import parse_maslow4(const std::string& text,
                             const std::string& file,
                             const Maslow4Options& options) {
   Problems problems(file);
-  const std::vector<ScannedRun> runs = scan_maslow4(text, problems);
-  if (runs.empty() && !problems.any()) {
-    problems.add("",
-                 "no readings",
-                 "a log of Find Anchors, or a list of readings: "
-                 "{bl:2960.58, br:3150.08, tr:3067.72, tl:3049.85}");
-  }
+  ScannedLog log = scan_maslow4(text, file);
   Maslow4Import result;
   Settings settings(options, result.assumed);
   result.belts.machine = machine_of(options, settings, result.assumed);
+  result.settings_pull = settings_pull(settings);
   problems.add_warnings(settings.problems().warnings());
   try {
     settings.problems().throw_if_any();
   } catch (const InputError& error) {
     problems.add_all(error);
   }
+  const std::vector<ScannedRun> runs = runs_of(log, result.belts.machine, problems);
+  if (runs.empty()) report_nothing(log, result.belts.machine, problems);
   problems.throw_if_any();
   result.runs = logged(runs);
   check_choice(options, result.runs, problems);
@@ -240,34 +293,23 @@ Maslow4Import parse_maslow4(const std::string& text,
   belts.name = std::filesystem::path(file).filename().string();
   result.taken = options.run ? static_cast<std::size_t>(*options.run - 1) : runs.size() - 1;
   const PointRange wanted = options.points.value_or(result.runs[result.taken].points);
-  std::vector<std::size_t> lines;
-  bool is_first = true;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const PointRange own = result.runs[i].points;
-    if (own.last < wanted.first || own.first > wanted.last) continue;
-    if (is_first) result.taken = i;
-    is_first = false;
-    const PointRange within{std::max(own.first, wanted.first) - own.first,
-                            std::min(own.last, wanted.last) - own.first};
-    take_run(runs[i], within, belts.machine.orientation, belts, lines);
-  }
+  PlacesOfLog places = take_wanted(runs, wanted, result, problems);
+  problems.throw_if_any();
+  belts.points = std::move(places.points);
   // The machine's own figures refer to the whole run.
   const ScannedRun& taken = runs[result.taken];
-  if (taken.points.size() == belts.points.size()) belts.firmware_fit = taken.fit;
+  const PointRange all = result.runs[result.taken].points;
+  if (wanted.first == all.first && wanted.last == all.last) belts.firmware_fit = taken.fit;
   choose_lengths(options, taken.is_list, belts.machine, result.assumed);
-  const BeltPlaces places{"the readings",
-                          [&lines](std::size_t index, std::string_view) {
-                            return fmt::format("line {}", lines[index]);
-                          },
-                          ""};
-  for (const model::MachineProblem& problem : model::problems_of(belts.machine)) {
-    problems.add(
-        fmt::format("the settings' {}", problem.parameter), problem.value, problem.expected);
+  const bool is_last = result.taken + 1 == runs.size();
+  if (is_last && !log.list_has_end) {
+    problems.warn(
+        "",
+        "the log ends in the middle of a list: the readings before are taken; paste it once "
+        "more from its beginning to its end if it goes on");
   }
-  check_belt_points(belts, places, problems);
-  problems.throw_if_any();
-  check_belts_together(belts, places, BeltsUse::import, problems);
-  problems.throw_if_any();
+  check_all(belts, places.lines, result, problems);
+  if (is_last && log.stopped) result.stopped = words_of(*log.stopped, belts);
   result.warnings = problems.warnings();
   return result;
 }

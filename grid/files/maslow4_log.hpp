@@ -17,6 +17,10 @@
 /// previous one continues it. Any other list, a heading ("Run 2:") and a list of waypoints from 0 on
 /// begin another run.
 ///
+/// A reading that is damaged is left out, with its line; one print of a list gives what another lost.
+/// Colours, other output and lines that a terminal broke in two are read over. Where a run stopped
+/// before its list was printed, places come of single readings that agree to a centimetre.
+///
 /// Sources: MaslowCNC/Maslow_4, firmware/FluidNC/src/Maslow/Calibration.cpp (the format, which belts
 /// are pulled, that the lengths are horizontal spans) and Maslow.cpp before pull 157 of October 2024
 /// (that they were slanting); firmware/FluidNC/data/maslow.yaml (the settings).
@@ -68,9 +72,14 @@ struct Maslow4Import {
   std::size_t taken = 0;             ///< into the runs; for a range of points the run of its first
   std::vector<std::string> assumed;  ///< sentences: values that neither log nor settings contain
   std::vector<Warning> warnings;
+  /// Of the settings, which say it of one of several runs at most; where the log prints it points have it.
+  std::optional<BeltPull> settings_pull;
+  bool is_enough = false;              ///< for a fit of the anchors
+  std::optional<std::string> stopped;  ///< why the last run did not come to its end, and what to do
 };
 
-/// `file` is the name used in messages. \throws InputError with every problem.
+/// `file` is the name used in messages. \throws InputError with every problem: where fewer than five
+/// readings can be read though others are there, or where they contradict each other as a whole.
 [[nodiscard]] Maslow4Import parse_maslow4(const std::string& text,
                                           const std::string& file,
                                           const Maslow4Options& options = {});

@@ -1,81 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/maslow4_scan.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include "grid/files/belts_record.hpp"
+#include "grid/files/maslow4_text.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
 using model::Belt;
 using model::kBelts;
+using Singles = model::PerBelt<std::vector<double>>;
 
-std::string_view unquoted(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\n\"'";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+/// What could not be read may be anything.
+bool same(const ScannedReading& a, const ScannedReading& b) {
+  return !a.lengths_mm || !b.lengths_mm || *a.lengths_mm == *b.lengths_mm;
 }
 
-/// The number that begins at `from`, blanks skipped.
-std::optional<double> number_at(std::string_view line, std::size_t from) {
-  while (from < line.size() && line[from] == ' ') ++from;
-  const std::size_t end = line.find_first_not_of("+-.0123456789eE", from);
-  return number_of(line.substr(from, end == std::string_view::npos ? end : end - from));
-}
-
-std::optional<double> number_after(std::string_view line, std::string_view word) {
-  const std::size_t at = line.find(word);
-  return at == std::string_view::npos ? std::nullopt : number_at(line, at + word.size());
-}
-
-/// The number of a waypoint; empty if a line that looks like a message contains none.
-std::optional<int> waypoint_of(std::optional<double> number) {
-  constexpr double kMost = 1e6;  // the firmware's are a few hundred
-  if (!number || !(*number >= 0.0) || !(*number <= kMost) || *number != std::floor(*number))
-    return std::nullopt;
-  return static_cast<int>(*number);
-}
-
-/// "Run 2:", "// run three", but not "More runs:" or a sentence that runs on.
-bool is_heading(std::string_view line) {
-  std::string word;
-  std::size_t at = line.find_first_not_of("/# \t");
-  for (; at < line.size() && std::isalpha(static_cast<unsigned char>(line[at])) != 0; ++at) {
-    word += static_cast<char>(std::tolower(static_cast<unsigned char>(line[at])));
-  }
-  if (word != "run" || at >= line.size() || line[at] != ' ') return false;
-  const std::string_view rest = unquoted(line.substr(at));
-  constexpr std::size_t kLongestName = 12;
-  return !rest.empty() && rest.find(' ') == std::string_view::npos && rest.size() <= kLongestName;
+/// `list` begins with `points`, or the other way round.
+bool begins_alike(const std::vector<ScannedReading>& points,
+                  const std::vector<ScannedReading>& list) {
+  const auto shared = static_cast<std::ptrdiff_t>(std::min(points.size(), list.size()));
+  return std::equal(points.begin(), points.begin() + shared, list.begin(), same);
 }
 
 class Scanner {
  public:
-  Scanner(const std::string& text, Problems& problems) : text_(text), problems_(problems) {}
+  explicit Scanner(const std::string& file) : reader_(file) {}
 
-  std::vector<ScannedRun> scan() {
-    std::size_t begin = 0;
-    while (begin < text_.size()) {
-      const std::size_t end = std::min(text_.find('\n', begin), text_.size());
-      ++line_;
-      take_line(begin, end);
-      begin = end + 1;
+  ScannedLog scan(const std::string& text) {
+    for (const LogLine& line : log_lines(text)) {
+      line_ = line.number;
+      take_line(line.text);
     }
-    finish();
-    return std::move(runs_);
+    return finish();
   }
 
  private:
   ScannedRun& run() {
-    if (runs_.empty()) runs_.emplace_back();
+    if (runs_.empty()) begin_run("");
     return runs_.back();
   }
 
@@ -87,102 +55,63 @@ class Scanner {
     }
     runs_.emplace_back();
     runs_.back().heading = std::move(heading);
+    runs_.back().first_line = line_;
+    runs_.back().pull_ma = pull_ma_;
+    ended_.reset();
   }
 
-  void take_line(std::size_t begin, std::size_t end) {
-    const std::string_view line(text_.data() + begin, end - begin);
-    if (open_reading_) {
-      take_braces(line);
-      return;
-    }
+  void take_line(std::string_view line) {
     const std::size_t comment = line.find("//");
-    const std::size_t brace = line.find('{');
+    const std::size_t brace = line.find_first_of("{}");
+    const bool is_list = line.find("CLBM:") != std::string_view::npos;
+    if (is_list) open_list();
+    if (reader_.is_open() && !is_list) {
+      if (is_other_output(line)) return take_message(line);
+      return take_braces(line.substr(0, comment), false);
+    }
     if (brace == std::string_view::npos || comment < brace) {
-      if (is_heading(line)) begin_run(std::string(unquoted(line)));
-      if (list_line_ == 0) take_message(line);
-      if (line.find("CLBM:[") != std::string_view::npos) open_list();
-      close_list(line);
+      if (is_heading(line)) {
+        close_list();
+        begin_run(std::string(unquoted(line)));
+      }
+      take_message(line);
+      if (is_open_list_ && !is_other_output(line)) take_braces(line.substr(0, comment), false);
       return;
     }
-    if (line.find("CLBM:[") != std::string_view::npos) open_list();
-    take_braces(line.substr(0, comment));
+    take_braces(line.substr(0, comment), is_list);
   }
 
   void open_list() {
-    list_line_ = line_;
+    give_up();
+    close_list();
+    is_open_list_ = true;
+  }
+
+  void close_list() {
+    is_open_list_ = false;
+    take_list();
     list_.clear();
   }
 
-  void close_list(std::string_view line) {
-    if (list_line_ == 0 || line.find(']') == std::string_view::npos) return;
-    list_line_ = 0;
-    take_list();
-  }
-
-  /// Readings of a line, or its part of a list that continues over lines.
-  void take_braces(std::string_view line) {
-    for (std::size_t at = 0; at < line.size(); ++at) {
-      const char c = line[at];
-      if (open_reading_) {
-        if (c == '}') {
-          open_reading_ = false;
-          take_reading();
-        } else {
-          reading_ += c;
-        }
-      } else if (c == '{') {
-        open_reading_ = true;
-        reading_.clear();
-        reading_line_ = line_;
-        reading_column_ = at + 1;
-      } else if (c == ']') {
-        close_list("]");
-      }
-    }
-    if (open_reading_) reading_ += ' ';
-  }
-
-  /// `bl:2960.58, br:3150.08, tr:3067.72, tl:3049.85`; objects of other programs are skipped.
-  void take_reading() {
-    ScannedPoint point;
-    point.line = reading_line_;
-    model::PerBelt<bool> seen;
-    bool is_reading = false;
-    bool is_whole = true;
-    std::size_t begin = 0;
-    while (begin < reading_.size()) {
-      const std::size_t end = std::min(reading_.find(',', begin), reading_.size());
-      const std::string_view part(reading_.data() + begin, end - begin);
-      begin = end + 1;
-      const std::size_t colon = part.find(':');
-      const auto belt = model::belt_of(unquoted(part.substr(0, colon)));
-      if (!belt || colon == std::string_view::npos) continue;
-      is_reading = true;
-      if (seen[*belt]) {
-        is_whole = false;
-        problems_.add(place(), std::string(unquoted(part)), "each belt once in a reading");
-      }
-      seen[*belt] = true;
-      const auto value = checked_number(
-          unquoted(part.substr(colon + 1)), place(), name(*belt), kBeltLengthMm, problems_);
-      if (value) point.lengths_mm[*belt] = *value;
-      is_whole = is_whole && value.has_value();
-    }
-    if (!is_reading) return;
-    for (const Belt belt : kBelts) {
-      if (seen[belt]) continue;
-      is_whole = false;
-      problems_.add(
-          place(),
-          fmt::format("{{{}}}", unquoted(reading_)),
-          fmt::format("a length of {} as well: a reading has tl, tr, bl and br", name(belt)));
-    }
-    if (!is_whole) return;
-    if (list_line_ != 0) {
-      list_.push_back(point);
+  /// Of a list whose heading was lost several readings stand on a line.
+  void take_braces(std::string_view line, bool is_list) {
+    const bool is_bare_list =
+        !is_list && !is_open_list_ && std::count(line.begin(), line.end(), '{') > 1;
+    ReadingReader::Found found = reader_.take(line, line_);
+    if (is_bare_list) is_open_list_ = true;
+    is_bare_ = is_bare_list || (is_bare_ && is_open_list_);
+    if (is_open_list_) {
+      for (ScannedReading& reading : found.readings) list_.push_back(std::move(reading));
+      if (found.list_ends || (is_bare_ && !reader_.is_open())) close_list();
     } else {
-      run().points.push_back(point);
+      for (ScannedReading& reading : found.readings) run().points.push_back(std::move(reading));
     }
+  }
+
+  void give_up() {
+    auto reading = reader_.give_up();
+    if (!reading) return;
+    (is_open_list_ ? list_ : run().points).push_back(*std::move(reading));
   }
 
   /// Waypoints may be printed again in the middle of a run: a list that begins with the previous
@@ -190,33 +119,32 @@ class Scanner {
   void join_longer_list() {
     if (runs_.size() < 2 || !runs_.back().points.empty()) return;
     ScannedRun& before = runs_[runs_.size() - 2];
-    const bool goes_on =
-        before.points.size() <= list_.size() &&
-        std::equal(before.points.begin(),
-                   before.points.end(),
-                   list_.begin(),
-                   [](const auto& a, const auto& b) { return a.lengths_mm == b.lengths_mm; });
-    if (!goes_on) return;
-    for (const auto& [waypoint, at] : runs_.back().commanded) before.commanded[waypoint] = at;
-    for (auto& [waypoint, lengths] : runs_.back().thrown_away_mm) {
+    if (before.points.size() > list_.size() || !begins_alike(before.points, list_)) return;
+    ScannedRun& own = runs_.back();
+    for (const auto& [waypoint, at] : own.commanded) before.commanded[waypoint] = at;
+    for (auto& [waypoint, lengths] : own.thrown_away_mm)
       before.thrown_away_mm[waypoint] = std::move(lengths);
-    }
+    for (auto& [waypoint, lengths] : own.last_attempt_mm)
+      before.last_attempt_mm[waypoint] = std::move(lengths);
+    before.last_measured = std::max(before.last_measured, own.last_measured);
+    before.last_announced = std::max(before.last_announced, own.last_announced);
     runs_.pop_back();
   }
 
-  /// A list grows and is printed again; single points follow one by one.
+  /// A list grows and is printed again; single points follow one by one. Where one print is damaged
+  /// the other may have the reading.
   void take_list() {
     if (list_.empty()) return;
-    const auto same = [](const ScannedPoint& a, const ScannedPoint& b) {
-      return a.lengths_mm == b.lengths_mm;
-    };
     join_longer_list();
-    std::vector<ScannedPoint>& points = run().points;
-    const std::size_t shared = std::min(points.size(), list_.size());
-    const bool is_again = std::equal(
-        points.begin(), points.begin() + static_cast<std::ptrdiff_t>(shared), list_.begin(), same);
-    if (points.empty() || is_again) {
-      if (list_.size() > points.size()) points = list_;
+    std::vector<ScannedReading>& points = run().points;
+    if (begins_alike(points, list_)) {
+      for (std::size_t i = 0; i < list_.size(); ++i) {
+        if (i >= points.size()) {
+          points.push_back(list_[i]);
+        } else if (!points[i].lengths_mm && list_[i].lengths_mm) {
+          points[i] = list_[i];
+        }
+      }
     } else if (list_.size() == 1) {
       if (!same(points.back(), list_.front())) points.push_back(list_.front());
     } else {
@@ -224,15 +152,20 @@ class Scanner {
       run().points = list_;
     }
     run().is_list = true;
+    if (list_.size() > 1)
+      run().list_is_short = static_cast<int>(list_.size()) < run().last_measured + 1;
   }
 
   void take_message(std::string_view line) {
     if (line.find("Waypoints [") != std::string_view::npos) {
+      close_list();
       if (line.find("Waypoints [0-") != std::string_view::npos) begin_run("");
       take_waypoints(line);
     } else if (const auto measured = waypoint_of(number_after(line, "Measured waypoint "))) {
       if (*measured == 0 && !run().points.empty()) begin_run("");
+      run().last_measured = std::max(run().last_measured, *measured);
       note_thrown_away(*measured);
+      ended_.reset();
     } else if (const auto at = waypoint_of(number_after(line, "Waypoint "));
                at && line.find("coordinates:") != std::string_view::npos) {
       const auto x = number_after(line, "X=");
@@ -240,6 +173,15 @@ class Scanner {
       if (x && y) run().commanded[*at] = {*x, *y};
     } else if (const auto rms = number_after(line, "Find Anchors fit: rms=")) {
       run().fit = FirmwareFit{*rms, number_after(line, "max=").value_or(0.0)};
+      ended_.reset();
+    } else if (const auto pull_ma = number_after(line, "Maslow_Calibration_Current_Threshold=")) {
+      constexpr double kMostMilliamperes = 1e5;
+      if (*pull_ma > 0.0 && *pull_ma < kMostMilliamperes) pull_ma_ = *pull_ma;
+      if (!runs_.empty() && runs_.back().points.empty()) runs_.back().pull_ma = pull_ma_;
+    } else if (const auto kind = stop_of(line)) {
+      if (*kind == StopKind::readings_disagree) attempt_ = {};
+      if (!ended_ || *kind == StopKind::gave_up_reading)
+        ended_ = RunStopped{*kind, line_, std::string(unquoted(line))};
     } else {
       take_single_reading(line);
     }
@@ -259,7 +201,9 @@ class Scanner {
       const auto waypoint = waypoint_of(number_of(unquoted(entry.substr(0, colon))));
       const auto x = number_of(unquoted(entry.substr(colon + 1, comma - colon - 1)));
       const auto y = number_of(unquoted(entry.substr(comma + 1)));
-      if (waypoint && x && y) run().commanded[*waypoint] = {*x, *y};
+      if (!waypoint || !x || !y) continue;
+      run().commanded[*waypoint] = {*x, *y};
+      run().last_announced = std::max(run().last_announced, *waypoint);
     }
   }
 
@@ -271,55 +215,67 @@ class Scanner {
         std::pair{"Bottom Right ", Belt::br}};
     for (const auto& [label, belt] : kLabels) {
       const auto value = number_after(line, label);
-      if (value && kBeltLengthMm.holds(*value)) loose_[belt].push_back(*value);
+      if (!value || !kBeltLengthMm.holds(*value)) continue;
+      loose_[belt].push_back(*value);
+      attempt_[belt].push_back(*value);
     }
   }
 
   /// Single readings that were discarded are printed before the measurement of their waypoint.
   void note_thrown_away(int waypoint) {
-    if (loose_ == model::PerBelt<std::vector<double>>{}) return;
-    run().thrown_away_mm[waypoint] = std::move(loose_);
-    loose_ = {};
-  }
-
-  void finish() {
-    if (open_reading_) {
-      problems_.add(
-          place(),
-          fmt::format("{{{}", unquoted(reading_)),
-          "the whole log: it ends in the middle of a reading; paste it once more from its "
-          "beginning to its end");
-    } else if (list_line_ != 0) {
-      problems_.add(
-          fmt::format("line {}", list_line_),
-          fmt::format("a list of {} readings without an end", list_.size()),
-          "the whole log: the list CLBM:[...] ends with \"]\"; paste it once more from its "
-          "beginning to its end");
+    if (loose_ != Singles{}) {
+      run().thrown_away_mm[waypoint] = std::move(loose_);
+      run().last_attempt_mm[waypoint] = std::move(attempt_);
     }
-    std::erase_if(runs_, [](const ScannedRun& run) { return run.points.empty(); });
+    loose_ = {};
+    attempt_ = {};
   }
 
-  [[nodiscard]] std::string place() const {
-    return line_and_column(reading_line_, reading_column_);
+  ScannedLog finish() {
+    ScannedLog log;
+    log.list_has_end = !reader_.is_open() && !is_open_list_;
+    give_up();
+    close_list();
+    if (!runs_.empty()) {
+      const ScannedRun& last = runs_.back();
+      const auto measured = std::max(last.last_measured, static_cast<int>(last.points.size()) - 1);
+      // A log without an end says why where it ends; what is measured and announced tells the rest.
+      if (!ended_ && last.last_measured >= 0 && measured < last.last_announced)
+        ended_ = RunStopped{StopKind::log_ends, line_, ""};
+      // An error of something else, after the last waypoint.
+      if (ended_ && ended_->kind == StopKind::other_error && !last.points.empty() &&
+          measured >= last.last_announced)
+        ended_.reset();
+      if (ended_) {
+        ended_->last_measured = measured;
+        ended_->last_announced = last.last_announced;
+        ended_->readings_mm = attempt_;
+      }
+    }
+    log.stopped = std::move(ended_);
+    std::erase_if(runs_, [](const ScannedRun& run) {
+      return run.points.empty() && run.last_attempt_mm.empty();
+    });
+    log.runs = std::move(runs_);
+    return log;
   }
 
-  const std::string& text_;
-  Problems& problems_;
+  ReadingReader reader_;
   std::vector<ScannedRun> runs_;
   std::size_t line_ = 0;
-  std::size_t list_line_ = 0;  ///< where an open list began; 0: none is open
-  std::vector<ScannedPoint> list_;
-  bool open_reading_ = false;
-  std::string reading_;
-  std::size_t reading_line_ = 0;
-  std::size_t reading_column_ = 0;
-  model::PerBelt<std::vector<double>> loose_;
+  bool is_open_list_ = false;
+  bool is_bare_ = false;  ///< the open list has no heading: it ends with its line
+  std::vector<ScannedReading> list_;
+  Singles loose_;
+  Singles attempt_;  ///< of these the last attempt's
+  std::optional<RunStopped> ended_;
+  std::optional<double> pull_ma_;
 };
 
 }  // namespace
 
-std::vector<ScannedRun> scan_maslow4(const std::string& text, Problems& problems) {
-  return Scanner(text, problems).scan();
+ScannedLog scan_maslow4(const std::string& text, const std::string& file) {
+  return Scanner(file).scan(text);
 }
 
 }  // namespace chaintrue::grid::files

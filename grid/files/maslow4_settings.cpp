@@ -21,9 +21,9 @@ double scale_of(const BeltScale& scale) { return 1.0 / scale.factor; }
 
 bool is_in_force(const BeltMachine& machine, const BeltScale& scale) {
   constexpr double kSeenSigmas = 2.0;
-  const double seen = kSeenSigmas * scale.sigma;
-  return std::abs(machine.scale_x - scale_of(scale)) < seen &&
-         std::abs(machine.scale_y - scale_of(scale)) < seen;
+  const double detectable = kSeenSigmas * scale.sigma;
+  return std::abs(machine.scale_x - scale_of(scale)) < detectable &&
+         std::abs(machine.scale_y - scale_of(scale)) < detectable;
 }
 
 void add_line(Maslow4Settings& settings, model::Belt belt, char axis, double value) {
@@ -101,7 +101,7 @@ Maslow4Settings write_maslow4_settings(const Diagnosis& found) {
     for (const Cause& cause : found.causes) add_cause(cause, machine, settings);
   } else if (found.verdict == Verdict::named_set) {
     settings.remarks.emplace_back(
-        "Which of several causes acts is not decided; the anchors are those beside the likeliest. "
+        "Which of several causes acts is not decided; the anchors are those with the likeliest. "
         "Decide it first: the diagnosis says what would.");
   }
   add_scale(machine, found.belts->scale, settings);

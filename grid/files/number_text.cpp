@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "grid/files/parse_double.hpp"
+#include "grid/files/length_text.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -80,7 +81,8 @@ std::optional<double> checked_number(std::string_view text,
                                      std::string_view name,
                                      const Range& range,
                                      Problems& problems) {
-  const auto value = number_of(text);
+  auto value = number_of(text);
+  if (!value && range.unit == "mm") value = length_with_unit_mm(text);
   if (value && range.holds(*value)) return value;
   const std::string_view hint =
       looks_like_decimal_comma(text) ? ", with a decimal point, not a comma" : "";

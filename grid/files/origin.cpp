@@ -26,6 +26,8 @@ constexpr std::array kPlainTypes = {std::pair{"chaintrue_map", Origin::map},
 constexpr std::array kSignedTypes = {std::pair{"chaintrue_grid", Origin::measured},
                                      std::pair{"chaintrue_holes", Origin::measured},
                                      std::pair{"chaintrue_belts", Origin::measured},
+                                     std::pair{"chaintrue_drawing", Origin::measured},
+                                     std::pair{"chaintrue_plotter", Origin::machine},
                                      std::pair{"chaintrue_machine", Origin::machine}};
 
 /// The first words of the description of a file format.
@@ -98,9 +100,18 @@ Origin origin_of_list(std::string_view text) {
                                                                      : Origin::changed;
 }
 
-std::string signed_json(const std::string& text) {
+/// A file that bears a signature and is of this kind; others keep their bytes, maps have a hash of their own.
+bool is_signed_kind(const Json& document, Origin kind) {
+  return document.is_object() && document.contains("file_type") &&
+         std::any_of(kSignedTypes.begin(), kSignedTypes.end(), [&](const auto& type) {
+           return type.second == kind && document.at("file_type") == type.first;
+         });
+}
+
+std::string signed_json(const std::string& text, Origin kind) {
   Problems ignored("");
   const Json document = parse_json(text, ignored);
+  if (!is_signed_kind(document, kind)) return text;
   Json comments = Json::array();
   for (const std::string& comment : comments_of(document)) {
     if (!is_signature(comment)) comments.push_back(comment);
@@ -129,7 +140,8 @@ Origin origin_of(std::string_view text) {
   const std::string_view first_line = text.substr(0, text.find('\n'));
   if (first_line.starts_with("<svg") && first_line.ends_with(kMark)) return Origin::drawing;
   if (first_line.starts_with("(compensated by chaintrue") ||
-      first_line.starts_with("(chaintrue plan:") || first_line.starts_with("(chaintrue square:")) {
+      first_line.starts_with("(chaintrue plan:") || first_line.starts_with("(chaintrue square:") ||
+      first_line.starts_with("; chaintrue start:")) {
     return Origin::program;
   }
   if (text.find("\nMeasured less map  ") != std::string_view::npos) return Origin::table;
@@ -138,7 +150,7 @@ Origin origin_of(std::string_view text) {
 
 std::string signed_text(const std::string& text, Origin kind) {
   if (text.starts_with("{") && (kind == Origin::measured || kind == Origin::machine))
-    return signed_json(text);
+    return signed_json(text, kind);
   if (kind == Origin::list && !text.starts_with("{")) return text + signature_line(text);
   if (kind == Origin::page && text.starts_with(kPageHead))
     return std::string(kPageHead) + std::string(kMark) + "\n" + text.substr(kPageHead.size());

@@ -25,8 +25,8 @@ enum class Origin {
   map,
   diagnosis,
   anchors,
-  measured,  ///< chaintrue_grid, chaintrue_holes or chaintrue_belts
-  machine,
+  measured,  ///< chaintrue_grid, chaintrue_holes, chaintrue_belts or chaintrue_drawing
+  machine,   ///< chaintrue_machine or chaintrue_plotter
   answer,  ///< the truth of a simulation
   check,
   page,         ///< HTML

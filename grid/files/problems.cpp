@@ -70,6 +70,10 @@ void Problems::add(std::string place, std::string_view value, std::string expect
   list_.push_back({file_, std::move(place), shortened(value), std::move(expected)});
 }
 
+void Problems::explain(std::string place, std::string sentence) {
+  list_.push_back({file_, std::move(place), {}, {}, std::move(sentence)});
+}
+
 void Problems::warn(std::string place, std::string sentence) {
   warnings_.push_back({file_, std::move(place), std::move(sentence)});
 }
@@ -97,7 +101,7 @@ void Problems::throw_if_any() const {
     const std::size_t more = shown.size() - kMostProblems;
     shown.resize(kMostProblems);
     shown.push_back(
-        {file_, "", fmt::format("{} more problems", more), "those above to be mended first"});
+        {file_, "", fmt::format("{} more problems", more), "those above corrected first"});
   }
   throw InputError(std::move(shown));
 }
@@ -143,7 +147,8 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   std::string best;
   std::size_t fewest = most_errors + 1;
   for (const std::string& candidate : candidates) {
-    const std::size_t slips = is_without_unit(word, candidate) ? 0 : errors_between(word, candidate);
+    const std::size_t slips =
+        is_without_unit(word, candidate) ? 0 : errors_between(word, candidate);
     if (slips < fewest && slips < candidate.size()) {
       fewest = slips;
       best = candidate;

@@ -25,6 +25,8 @@ class Problems {
 
   /// `value` is shortened to 60 characters and made printable here.
   void add(std::string place, std::string_view value, std::string expected);
+  /// A recognised mistake: `sentence` says what it is and what to do.
+  void explain(std::string place, std::string sentence);
   void warn(std::string place, std::string sentence);
   /// Adds those of another file that this one names.
   void add_all(const InputError& error);

@@ -13,4 +13,12 @@ Value<model::Setting> setting_word() {
   return choice<model::Setting>(std::move(names));
 }
 
+const Record<ErrorSummary>& error_summary_record() {
+  static const auto record =
+      Record<ErrorSummary>("rms and maximum")
+          .required("rms_mm", &ErrorSummary::rms_mm, number(kNotNegative))
+          .required("maximum_mm", &ErrorSummary::maximum_mm, number(kNotNegative));
+  return record;
+}
+
 }  // namespace chaintrue::grid::files

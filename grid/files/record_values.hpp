@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "grid/files/json_reader.hpp"
+#include "grid/map/compensation_map.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::files {
@@ -30,5 +31,8 @@ inline constexpr int kMostNumbered = 1000000;
 
 /// The name of a setting of the machine or of the sheet.
 [[nodiscard]] Value<model::Setting> setting_word();
+
+/// An rms and a maximum, mm.
+[[nodiscard]] const Record<ErrorSummary>& error_summary_record();
 
 }  // namespace chaintrue::grid::files

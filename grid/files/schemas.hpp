@@ -16,5 +16,8 @@ namespace chaintrue::grid::files {
 [[nodiscard]] Json sweep_schema();
 [[nodiscard]] Json belts_schema();
 [[nodiscard]] Json anchors_schema();
+[[nodiscard]] Json effect_schema();
+[[nodiscard]] Json plotter_schema();
+[[nodiscard]] Json drawing_schema();
 
 }  // namespace chaintrue::grid::files

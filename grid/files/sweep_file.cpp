@@ -214,7 +214,7 @@ const Record<StatedSweep>& sweep_record() {
 void read_machines(const fs::path& path, StatedSweep& stated, Problems& problems) {
   // Several levels may name one file; its warnings are given once.
   std::map<std::string, model::Machine> known;
-  const auto beside = [&](const std::string& name) {
+  const auto alongside = [&](const std::string& name) {
     const auto [at, is_new] = known.try_emplace(name);
     if (!is_new) return at->second;
     try {
@@ -228,8 +228,8 @@ void read_machines(const fs::path& path, StatedSweep& stated, Problems& problems
   };
   for (const StatedMachine& from : stated.machines) {
     sweep::MachineLevel level{from.name, {}, {}, from.model, from.unmodelled_mm};
-    level.truth = beside(from.machine_file);
-    level.stated = from.stated_file.empty() ? level.truth : beside(from.stated_file);
+    level.truth = alongside(from.machine_file);
+    level.stated = from.stated_file.empty() ? level.truth : alongside(from.stated_file);
     stated.spec.machines.push_back(level);
   }
 }

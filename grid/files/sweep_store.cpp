@@ -58,13 +58,13 @@ double double_of(std::uint64_t bits) {
 
 CellRecord record_of(std::uint64_t cell, const CellResult& r) {
   CellRecord record{cell,
-                static_cast<std::uint64_t>(r.status),
-                bits_of(r.chain_rms_mm),
-                bits_of(r.chain_max_mm),
-                bits_of(r.tool_rms_mm),
-                bits_of(r.tool_max_mm),
-                bits_of(r.expected_tool_rms_mm),
-                0};
+                    static_cast<std::uint64_t>(r.status),
+                    bits_of(r.chain_rms_mm),
+                    bits_of(r.chain_max_mm),
+                    bits_of(r.tool_rms_mm),
+                    bits_of(r.tool_max_mm),
+                    bits_of(r.expected_tool_rms_mm),
+                    0};
   record.back() = checksum(record);
   return record;
 }
@@ -199,7 +199,7 @@ void ResultStore::for_each(
   CellRecord record;
   for (std::uint64_t cell = 0; cell < cells(); ++cell) {
     if (std::fread(record.data(), kRecordBytes, 1, sorted.get()) != 1 || record[0] != cell)
-      throw std::logic_error("sweep: the sorted cells are torn");
+      throw std::logic_error("sweep: sorted cells are damaged");
     visit(cell, result_of(record));
   }
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -13,6 +14,8 @@
 #include "grid/files/input_error.hpp"
 #include "grid/files/pending_file.hpp"
 #include "grid/files/read_log.hpp"
+#include "grid/files/sha256.hpp"
+#include "grid/files/sources.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -23,7 +26,8 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-std::string read_to_the_end(std::FILE* file, const std::string& name) {
+std::string read_to_the_end(std::FILE* file, const fs::path& path) {
+  const std::string name = name_in_messages(path);
   note_as_read(fileno(file));
   std::string text;
   char buffer[1 << 16];
@@ -34,6 +38,9 @@ std::string read_to_the_end(std::FILE* file, const std::string& name) {
                 fmt::format("a read error ({})", system_words(errno)),
                 "a file that can be read to its end");
   }
+  Sha256 hash;
+  hash.add(text);
+  note_source({name_without_folders(path), hash.text()});
   return text;
 }
 
@@ -64,9 +71,51 @@ void refuse_what_is_no_text(const std::string& text, const std::string& name) {
   }
 }
 
-std::string read_text(std::FILE* file, const std::string& name) {
-  std::string text = read_to_the_end(file, name);
-  refuse_what_is_no_text(text, name);
+void put_utf8(std::uint32_t code, std::string& text) {
+  const auto put = [&text](std::uint32_t byte) { text += static_cast<char>(byte); };
+  if (code < 0x80) return put(code);
+  if (code < 0x800) {
+    put(0xC0 | code >> 6);
+  } else if (code < 0x10000) {
+    put(0xE0 | code >> 12);
+    put(0x80 | (code >> 6 & 0x3F));
+  } else {
+    put(0xF0 | code >> 18);
+    put(0x80 | (code >> 12 & 0x3F));
+    put(0x80 | (code >> 6 & 0x3F));
+  }
+  put(0x80 | (code & 0x3F));
+}
+
+/// What Excel saves as "Unicode text" begins with a byte order mark of UTF-16; other text is as it is.
+std::string utf8_of(std::string text) {
+  const bool is_little = text.starts_with("\xFF\xFE");
+  if (!is_little && !text.starts_with("\xFE\xFF")) return text;
+  std::string result;
+  std::uint32_t high = 0;
+  for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
+    const auto byte = [&](std::size_t k) {
+      return std::uint32_t{static_cast<unsigned char>(text[k])};
+    };
+    const std::uint32_t unit = is_little ? byte(i) | byte(i + 1) << 8 : byte(i) << 8 | byte(i + 1);
+    const bool is_low = unit >= 0xDC00 && unit < 0xE000;
+    if (unit >= 0xD800 && unit < 0xDC00) {
+      high = unit;
+    } else {
+      // Half of a pair alone becomes the sign for what cannot be read.
+      put_utf8(!is_low     ? unit
+               : high != 0 ? 0x10000 + ((high - 0xD800) << 10) + (unit - 0xDC00)
+                           : 0xFFFD,
+               result);
+      high = 0;
+    }
+  }
+  return result;
+}
+
+std::string read_text(std::FILE* file, const fs::path& path) {
+  std::string text = utf8_of(read_to_the_end(file, path));
+  refuse_what_is_no_text(text, name_in_messages(path));
   return text;
 }
 
@@ -77,13 +126,19 @@ std::string name_in_messages(const fs::path& path) {
 }
 
 std::string read_whole_file(const fs::path& path) {
-  if (path == "-") return read_text(stdin, name_in_messages(path));
+  if (path == "-") return read_text(stdin, path);
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) refuse_file(path.string(), "a directory", "a file");
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (!file)
-    refuse_file(path.string(), system_words(errno), "a file that can be opened for reading");
-  return read_text(file.get(), path.string());
+  if (!file) {
+    const std::string name = path.string();
+    const std::string sentence =
+        errno == ENOENT
+            ? fmt::format("There is no file {}{}.", name, path.has_parent_path() ? "" : " here")
+            : fmt::format("{} cannot be read: {}.", name, system_words(errno));
+    throw InputError({{"", "", name, "a file that can be opened for reading", sentence}});
+  }
+  return read_text(file.get(), path);
 }
 
 void write_whole_file(const fs::path& path, std::string_view text) {

@@ -54,7 +54,8 @@ Eigen::RowVectorXd basis_of(const MeasuredHoles& set, const HoleDistance& distan
 
 Eigen::VectorXd distance_sigmas(const MeasuredHoles& set) {
   Eigen::VectorXd sigma(kDistanceBasis);
-  const double tape_zero_mm = std::hypot(kTapeZeroMm, set.tape.tape_zero_offset_sigma_mm.value_or(0.0));
+  const double tape_zero_mm =
+      std::hypot(kTapeZeroMm, set.tape.tape_zero_offset_sigma_mm.value_or(0.0));
   sigma << kSheetMm, kSheetMm, kSheetMm, kPerMetreMm, kPerMetreMm, kPerMetreMm, tape_zero_mm;
   return sigma;
 }
@@ -103,18 +104,21 @@ void scale_holes(MeasuredHoles& set, double factor) {
   }
 }
 
-void add_units(Attempts& attempts) {
+void add_units(Attempts& attempts, Written written) {
   const auto unit = [&](const char* word, double factor) {
-    attempts.add(fmt::format("all numbers in mm; the distances look like {}, the holes' x_mm and "
-                             "y_mm like mm (multiply the distances by {:g})",
-                             word,
-                             factor),
-                 [=](MeasuredHoles& set) { scale_distances(set, factor); });
-    attempts.add(fmt::format("all numbers in mm; the holes' x_mm and y_mm look like {}, the "
-                             "distances like mm (multiply the holes by {:g})",
-                             word,
-                             factor),
-                 [=](MeasuredHoles& set) { scale_holes(set, factor); });
+    attempts.add(
+        fmt::format("the distances look like {}, the holes' x_mm and y_mm like mm: multiply the "
+                    "distances by {:g}{}",
+                    word,
+                    factor,
+                    factor == kMmPerInch ? or_say_inches(written) : ""),
+        [=](MeasuredHoles& set) { scale_distances(set, factor); });
+    attempts.add(
+        fmt::format("the holes' x_mm and y_mm look like {}, the distances like mm: multiply the "
+                    "holes by {:g}",
+                    word,
+                    factor),
+        [=](MeasuredHoles& set) { scale_holes(set, factor); });
   };
   unit("inches", kMmPerInch);
   unit("centimetres", 10.0);
@@ -127,17 +131,29 @@ void add_axes(Attempts& attempts) {
       for (Hole& hole : set.holes) hole.commanded = meant(hole.commanded);
     });
   };
-  holes("+x to the right: the sign of the holes' x_mm looks turned round, or the edges left and "
-        "right exchanged",
-        [](model::BedPoint p) { return model::BedPoint{-p.x_mm, p.y_mm}; });
-  holes("+y up the sheet: the sign of the holes' y_mm looks turned round, or the edges top and "
-        "bottom exchanged",
-        [](model::BedPoint p) { return model::BedPoint{p.x_mm, -p.y_mm}; });
-  holes("+x to the right and +y up: the signs of the holes' x_mm and y_mm look turned round, or the "
-        "edges exchanged across",
-        [](model::BedPoint p) { return model::BedPoint{-p.x_mm, -p.y_mm}; });
-  holes("x_mm to the right and y_mm up the sheet; the holes' two columns look swapped",
-        [](model::BedPoint p) { return model::BedPoint{p.y_mm, p.x_mm}; });
+  holes(
+      "the sign of the holes' x_mm looks turned round, or the edges left and right exchanged: x_mm "
+      "counts to the right",
+      [](model::BedPoint p) {
+        return model::BedPoint{-p.x_mm, p.y_mm};
+      });
+  holes(
+      "the sign of the holes' y_mm looks turned round, or the edges top and bottom exchanged: y_mm "
+      "counts up the sheet",
+      [](model::BedPoint p) {
+        return model::BedPoint{p.x_mm, -p.y_mm};
+      });
+  holes(
+      "the signs of the holes' x_mm and y_mm look turned round, or the edges exchanged across: "
+      "they "
+      "count to the right and up the sheet",
+      [](model::BedPoint p) {
+        return model::BedPoint{-p.x_mm, -p.y_mm};
+      });
+  holes("the holes' two columns look swapped: x_mm counts to the right, y_mm up the sheet",
+        [](model::BedPoint p) {
+          return model::BedPoint{p.y_mm, p.x_mm};
+        });
 }
 
 /// A hole under another name, or written down wrongly, makes every distance from it wrong.
@@ -154,7 +170,7 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Atte
     const auto number = [&](const char* axis, double model::BedPoint::*of) {
       const double written = set.holes[h].commanded.*of;
       for (const NumberError& slip : number_errors(written, true)) {
-        attempts.add(fmt::format("the command that hole {} was cut at; its {} is {}: {}",
+        attempts.add(fmt::format("the {1} that hole {0} was cut at is {2}: {3}",
                                  name,
                                  axis,
                                  digits_of(written),
@@ -165,15 +181,12 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Atte
     };
     number("x_mm", &model::BedPoint::x_mm);
     number("y_mm", &model::BedPoint::y_mm);
-    attempts.add(
-        fmt::format("the command that hole {} was cut at; are its x_mm and y_mm swapped?", name),
-        [=](MeasuredHoles& meant) {
-          std::swap(meant.holes[h].commanded.x_mm, meant.holes[h].commanded.y_mm);
-        });
+    attempts.add(fmt::format("are x_mm and y_mm of hole {} swapped?", name),
+                 [=](MeasuredHoles& meant) {
+                   std::swap(meant.holes[h].commanded.x_mm, meant.holes[h].commanded.y_mm);
+                 });
     for (std::size_t other = 0; other < h; ++other) {
-      attempts.add(fmt::format("each hole under its own name; {} and {} look exchanged",
-                               set.holes[other].name,
-                               name),
+      attempts.add(fmt::format("the holes {} and {} look exchanged", set.holes[other].name, name),
                    [=](MeasuredHoles& meant) {
                      std::swap(meant.holes[h].commanded, meant.holes[other].commanded);
                    });
@@ -214,9 +227,10 @@ void add_row_errors(const MeasuredHoles& set, std::vector<Candidate>& candidates
       to.distance_mm = read;
     }
     candidates.push_back(
-        {fmt::format("each distance beside its own two holes: from here on they fit the line {}; is "
-                     "one left out or written twice?",
-                     by < 0 ? "before" : "after"),
+        {fmt::format(
+             "from here on the distances fit the two holes of the line {}: is one left out or "
+             "written twice?",
+             by < 0 ? "before" : "after"),
          distances_account(meant),
          static_cast<std::size_t>(from)});
   }
@@ -294,7 +308,7 @@ struct DistanceRows {
       const std::string question = question_of(row);
       if (question.empty()) continue;
       found.push_back({row,
-                       fmt::format("{} is {} off what the others tell: {}",
+                       fmt::format("{} is {} off what the others say: {}",
                                    words_of(set, set.distances[row]),
                                    length_in_words(residual_mm(row)),
                                    question)});
@@ -305,7 +319,7 @@ struct DistanceRows {
 
 }  // namespace
 
-Findings check_distances(const MeasuredHoles& set) {
+Findings check_distances(const MeasuredHoles& set, Written written) {
   if (set.distances.empty()) return {};
   const RobustTrend trend = distances_trend(set);
   const DistanceRows rows{set, trend};
@@ -316,7 +330,7 @@ Findings check_distances(const MeasuredHoles& set) {
                       std::find(is_gross.begin(), is_gross.end(), true) != is_gross.end();
   if (!is_odd) return {};
   Attempts attempts(set);
-  add_units(attempts);
+  add_units(attempts, written);
   add_axes(attempts);
   add_holes(set, is_gross, attempts);
   std::vector<Candidate>& candidates = attempts.candidates();
@@ -324,23 +338,24 @@ Findings check_distances(const MeasuredHoles& set) {
   const std::size_t tried = candidates.size() + 2 * set.distances.size();
   const Account plain{trend.log_likelihood, median_mm, trend.prior_chi_square};
   Findings findings;
-  findings.whole = whole_finding(
-      std::move(candidates),
-      plain,
-      tried,
-      kOddDistances,
-      fmt::format("distances {} off what was commanded (the median)", length_in_words(median_mm)));
+  findings.whole =
+      whole_finding(std::move(candidates),
+                    plain,
+                    tried,
+                    kOddDistances,
+                    fmt::format("half of the distances are over {} off what was commanded",
+                                length_in_words(median_mm)));
   if (findings.whole) return findings;
   findings.rows = rows.findings();
   constexpr std::size_t kFewestForStrangers = 6;
   if (set.distances.size() >= kFewestForStrangers && median_mm > kStrangeDistancesMm &&
       !suspected_tape_zero_offset_mm(set)) {
-    findings.whole =
-        WholeFinding{std::nullopt,
-                     fmt::format("half of the distances over {} off the commands",
-                                 length_in_words(median_mm)),
-                     "distances between these holes; are they of another sheet, or of other holes?",
-                     false};
+    findings.whole = WholeFinding{
+        std::nullopt,
+        "the distances are not those between these holes: are they of another sheet, or "
+        "of other holes?",
+        fmt::format("half of them are over {} off what was commanded", length_in_words(median_mm)),
+        false};
   }
   return findings;
 }

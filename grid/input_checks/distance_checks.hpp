@@ -11,6 +11,7 @@
 namespace chaintrue::grid::input_checks {
 
 /// Rows are distances.
-[[nodiscard]] Findings check_distances(const MeasuredHoles& set);
+[[nodiscard]] Findings check_distances(const MeasuredHoles& set,
+                                       Written written = Written::in_json);
 
 }  // namespace chaintrue::grid::input_checks

@@ -14,8 +14,8 @@ std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates,
                                           std::size_t tried,
                                           double odd_trend,
                                           std::string found) {
-  const double needed =
-      plain.log_likelihood + kHundredTimes + std::log(static_cast<double>(std::max<std::size_t>(tried, 1)));
+  const double needed = plain.log_likelihood + kHundredTimes +
+                        std::log(static_cast<double>(std::max<std::size_t>(tried, 1)));
   std::erase_if(candidates, [&](const Candidate& candidate) {
     const Account& account = candidate.account;
     return !(account.median_mm < kSoundMm) || !(account.prior_chi_square < odd_trend) ||
@@ -26,18 +26,28 @@ std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates,
     return a.account.log_likelihood > b.account.log_likelihood;
   });
   const Candidate& best = candidates.front();
-  WholeFinding finding{best.from_row, std::move(found), best.sentence, best.is_doubtful};
+  WholeFinding finding{
+      best.from_row, best.sentence, std::move(found), best.is_doubtful, best.account.median_mm};
   // Two accounts this near each other are both reported.
   constexpr double kAlike = 3.0;
   for (std::size_t i = 1; i < candidates.size(); ++i) {
     const Candidate& other = candidates[i];
     if (best.account.log_likelihood - other.account.log_likelihood > kAlike) break;
     if (other.sentence == best.sentence || other.from_row != best.from_row) continue;
-    finding.expected += fmt::format("; or {}", other.sentence);
+    finding.mistake += fmt::format("; or {}", other.sentence);
     break;
   }
-  finding.expected += fmt::format(" (so mended they agree to {:.1f} mm)", best.account.median_mm);
   return finding;
+}
+
+std::string_view or_say_inches(Written written) {
+  return written == Written::in_table ? ", or say --inches" : "";
+}
+
+std::string WholeFinding::sentence() const {
+  if (!mended_mm) return fmt::format("{} ({})", mistake, found);
+  return fmt::format(
+      "{} (as it is, {}; corrected, they agree to {:.1f} mm)", mistake, found, *mended_mm);
 }
 
 std::string length_in_words(double mm) {

@@ -10,13 +10,25 @@
 
 namespace chaintrue::grid::input_checks {
 
+/// How the numbers that are checked were written: of a table --inches can say that they are inches.
+enum class Written { in_json, in_table };
+/// What a question about inches ends with.
+[[nodiscard]] std::string_view or_say_inches(Written written);
+
 /// Of the whole file, or of all its rows from one on.
 struct WholeFinding {
   std::optional<std::size_t> from_row;
+  /// What the mistake looks like, and what to do.
+  std::string mistake;
+  /// How far off the file is as it stands.
   std::string found;
-  std::string expected;
   /// A machine that is stated as much off would look the same: to be asked, not refused.
   bool is_doubtful = false;
+  /// By how much the rows disagree once it is mended; unknown where no usual mistake explains them.
+  std::optional<double> mended_mm = std::nullopt;
+
+  /// "x_mm and y_mm look like inches: ... (half of the marks are ... off as it stands; ...)"
+  [[nodiscard]] std::string sentence() const;
 };
 
 /// Of one row.

@@ -43,11 +43,12 @@ std::vector<std::size_t> looked_at(std::size_t count) {
 }
 
 void try_whole_errors(const PointAccounts& accounts,
-                     const MeasuredGrid& grid,
-                     const Points& points,
-                     const Places& places,
-                     std::vector<Candidate>& candidates) {
-  for (const WholeError& slip : whole_errors(grid)) {
+                      const MeasuredGrid& grid,
+                      const Points& points,
+                      const Places& places,
+                      Written written,
+                      std::vector<Candidate>& candidates) {
+  for (const WholeError& slip : whole_errors(grid, written)) {
     Points meant = points;
     for (std::size_t i = 0; i < meant.size(); ++i) {
       slip.mend(meant[i],
@@ -70,8 +71,7 @@ std::size_t errors_from(const Points& points, const Places& places, std::ptrdiff
     if (!is_there) return log_density_of(kLostMm, kCoarseMm, 2);
     const model::BedPoint place = *places[static_cast<std::size_t>(of)];
     const model::MarkPoint mark = points[row].mark;
-    return log_density_of(
-        std::hypot(mark.x_mm - place.x_mm, mark.y_mm - place.y_mm), kCoarseMm, 2);
+    return log_density_of(std::hypot(mark.x_mm - place.x_mm, mark.y_mm - place.y_mm), kCoarseMm, 2);
   };
   std::size_t from = 0;
   double best = -1.0;
@@ -92,10 +92,10 @@ std::size_t errors_from(const Points& points, const Places& places, std::ptrdiff
 }
 
 void try_row_errors(const PointAccounts& accounts,
-                   const Points& points,
-                   const Places& places,
-                   std::string_view readings,
-                   std::vector<Candidate>& candidates) {
+                    const Points& points,
+                    const Places& places,
+                    std::string_view readings,
+                    std::vector<Candidate>& candidates) {
   for (const std::ptrdiff_t by : {-1, 1}) {
     const std::size_t from = errors_from(points, places, by);
     // One row alone is no slipped list, and the last one of all may have no other.
@@ -108,8 +108,7 @@ void try_row_errors(const PointAccounts& accounts,
       slipped[i] = is_there ? places[static_cast<std::size_t>(of)] : std::nullopt;
     }
     candidates.push_back(
-        {fmt::format("each mark with its own {}: from here on x_mm and y_mm fit those of the line "
-                     "{}; is a line {}?",
+        {fmt::format("from here on x_mm and y_mm fit the {} of the line {}: is a line {}?",
                      readings,
                      by < 0 ? "before" : "after",
                      by < 0 ? "written twice, or one left out of the other columns"
@@ -119,8 +118,8 @@ void try_row_errors(const PointAccounts& accounts,
   }
   Places reversed = places;
   std::reverse(reversed.begin(), reversed.end());
-  candidates.push_back({fmt::format("each mark with its own {}: the lines look as if one of the "
-                                    "lists runs from its end to its beginning",
+  candidates.push_back({fmt::format("the lines look as if one of the two lists, marks and {}, runs "
+                                    "from its end to its beginning",
                                     readings),
                         account_of(accounts, points, reversed),
                         std::nullopt});
@@ -157,8 +156,8 @@ void try_other_order(const PointAccounts& accounts,
   if (!nearest) return;
   Account account = account_of(accounts, points, *nearest);
   account.log_likelihood -= std::lgamma(static_cast<double>(points.size()) + 1.0);  // orders
-  candidates.push_back({fmt::format("each mark with its own {}: the marks are those of other lines; "
-                                    "are the two lists sorted differently?",
+  candidates.push_back({fmt::format("the {} belong to the marks of other lines: are the two lists "
+                                    "sorted differently?",
                                     readings),
                         account,
                         std::nullopt});
@@ -168,11 +167,11 @@ std::optional<WholeFinding> strangers(const Account& plain, std::size_t count) {
   if (count < kFewestStrangePoints || plain.median_mm < kStrangePointsMm) return std::nullopt;
   return WholeFinding{
       std::nullopt,
+      "marks and readings do not belong together, and no usual typing error explains it; are they "
+      "of another sheet, another list or another machine?",
       std::isfinite(plain.median_mm)
-          ? fmt::format("half of the points over {:.0f} mm off the machine", plain.median_mm)
-          : std::string("readings that the machine cannot have"),
-      "marks and readings of one list and one machine, which no usual slip of the pen makes of "
-      "these; are they of another sheet, another list or another machine?",
+          ? fmt::format("half of the points are over {:.0f} mm off the machine", plain.median_mm)
+          : std::string("no machine can have these readings"),
       false};
 }
 
@@ -181,9 +180,10 @@ std::string_view readings_of(const MeasuredGrid& grid) {
 }
 
 std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
-                                          const MeasuredGrid& grid,
-                                          const Places& places,
-                                          const RobustTrend& trend) {
+                                        const MeasuredGrid& grid,
+                                        const Places& places,
+                                        const RobustTrend& trend,
+                                        Written written) {
   const Points& all = grid.points;
   Points points;
   Places at;
@@ -193,7 +193,7 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
   }
   const Account plain = account_of(accounts, points, at);
   std::vector<Candidate> candidates;
-  try_whole_errors(accounts, grid, points, at, candidates);
+  try_whole_errors(accounts, grid, points, at, written, candidates);
   try_other_order(accounts, points, at, readings_of(grid), candidates);
   // Neighbours in the file are needed for these, and with all rows their own account of as it is.
   const Account plain_of_all{
@@ -212,14 +212,15 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
       tried,
       kOddPoints,
       std::isfinite(plain.median_mm)
-          ? fmt::format("marks {} off where the machine puts them (the median)",
+          ? fmt::format("half of the marks are over {} off where the machine puts them",
                         length_in_words(plain.median_mm))
-          : std::string("readings that the machine cannot have"));
+          : std::string("the machine cannot have these readings"));
   if (finding && finding->from_row) {
     const auto from = static_cast<Eigen::Index>(*finding->from_row);
     std::vector<double> residual_mm;
-    for (Eigen::Index i = from; i < trend.residual_mm.size(); ++i) residual_mm.push_back(trend.residual_mm[i]);
-    finding->found = fmt::format("marks {} off the machine from here on (the median)",
+    for (Eigen::Index i = from; i < trend.residual_mm.size(); ++i)
+      residual_mm.push_back(trend.residual_mm[i]);
+    finding->found = fmt::format("half of the marks from here on are over {} off",
                                  length_in_words(median(std::move(residual_mm))));
   }
   if (finding) return finding;
@@ -279,8 +280,7 @@ struct PointRows {
     std::optional<RowError> best;
     double most = as_it_is;
     for (RowError& slip : row_errors(grid.points[row])) {
-      const double likely =
-          log_density_of(off_of(slip, row), trend.scale_mm, 2) - slip.penalty;
+      const double likely = log_density_of(off_of(slip, row), trend.scale_mm, 2) - slip.penalty;
       if (likely <= most) continue;
       most = likely;
       best = std::move(slip);
@@ -288,8 +288,8 @@ struct PointRows {
     return best;
   }
   /// Another gross row whose mark this row's reading fits, and the other way round.
-  [[nodiscard]] std::optional<std::size_t> exchanged_with(std::size_t row,
-                                                          const std::vector<std::size_t>& gross) const {
+  [[nodiscard]] std::optional<std::size_t> exchanged_with(
+      std::size_t row, const std::vector<std::size_t>& gross) const {
     const auto fits = [&](std::size_t reading, std::size_t mark) {
       return places[reading] &&
              accounts.off(trend, grid.points[mark].mark, *places[reading]).norm() <
@@ -310,9 +310,8 @@ struct PointRows {
     }
     if (!accounts.can_hold(mark)) {
       return {row,
-              fmt::format("Mark {} lies where the machine cannot hold the sled: {}",
-                          number,
-                          slip.question),
+              fmt::format(
+                  "Mark {} lies where the machine cannot hold the sled: {}", number, slip.question),
               true};
     }
     const auto apart = places[row] ? apart_from_its_repeat(grid.points, places, row) : std::nullopt;
@@ -321,12 +320,16 @@ struct PointRows {
                                      : fmt::format("{}: {}", slip.number, slip.question);
     if (apart && *apart > kGrossMm) {
       return {row,
-              fmt::format(
-                  "Mark {} was measured twice, {} apart. {}", number, length_in_words(*apart), question),
+              fmt::format("Mark {} was measured twice, {} apart. {}",
+                          number,
+                          length_in_words(*apart),
+                          question),
               false};
     }
     if (!std::isfinite(residual_mm(row))) {
-      return {row, fmt::format("Mark {} has lengths that the machine cannot have. {}", number, question), false};
+      return {row,
+              fmt::format("Mark {} has lengths that the machine cannot have. {}", number, question),
+              false};
     }
     return {row,
             fmt::format("Mark {} lies {} off where the others put it. {}",
@@ -361,7 +364,7 @@ struct PointRows {
 
 }  // namespace
 
-Findings check_points(const MeasuredGrid& grid) {
+Findings check_points(const MeasuredGrid& grid, Written written) {
   if (!grid.machine || !model::problems_of(*grid.machine).empty() || grid.points.empty()) return {};
   const PointAccounts accounts(grid);
   const Places places = accounts.places_of(grid.points);
@@ -371,7 +374,7 @@ Findings check_points(const MeasuredGrid& grid) {
   for (std::size_t row = 0; row < grid.points.size(); ++row) is_odd = is_odd || rows.is_gross(row);
   if (!is_odd) return {};
   Findings findings;
-  findings.whole = of_the_file(accounts, grid, places, trend);
+  findings.whole = of_the_file(accounts, grid, places, trend, written);
   if (!findings.whole || findings.whole->is_doubtful) findings.rows = rows.findings();
   return findings;
 }

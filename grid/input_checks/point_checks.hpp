@@ -15,6 +15,6 @@
 namespace chaintrue::grid::input_checks {
 
 /// Nothing of a grid without a possible machine.
-[[nodiscard]] Findings check_points(const MeasuredGrid& grid);
+[[nodiscard]] Findings check_points(const MeasuredGrid& grid, Written written = Written::in_json);
 
 }  // namespace chaintrue::grid::input_checks

@@ -44,9 +44,8 @@ class List {
     slips_.back().is_doubtful = is_doubtful;
   }
   void reading(std::string sentence, std::function<void(MeasuredPoint&)> meant) {
-    slips_.push_back({std::move(sentence),
-                      [meant](MeasuredPoint& point, BedPoint) { meant(point); },
-                      true});
+    slips_.push_back(
+        {std::move(sentence), [meant](MeasuredPoint& point, BedPoint) { meant(point); }, true});
   }
   [[nodiscard]] std::vector<WholeError> take() { return std::move(slips_); }
 
@@ -55,18 +54,30 @@ class List {
 };
 
 void add_axes(List& list) {
-  list.mark("+x to the right of the bed's middle: the sign of x_mm looks turned round",
-            [](MarkPoint m, BedPoint) { return MarkPoint{-m.x_mm, m.y_mm}; });
-  list.mark("+y up the sheet: y_mm looks counted downwards",
-            [](MarkPoint m, BedPoint) { return MarkPoint{m.x_mm, -m.y_mm}; });
-  list.mark("+x to the right and +y up: the signs of x_mm and y_mm both look turned round",
-            [](MarkPoint m, BedPoint) { return MarkPoint{-m.x_mm, -m.y_mm}; });
-  list.mark("x_mm to the right and y_mm up the sheet; the two columns look swapped",
-            [](MarkPoint m, BedPoint) { return MarkPoint{m.y_mm, m.x_mm}; });
-  list.mark("x_mm to the right and y_mm up the sheet; the axes look turned by a quarter",
-            [](MarkPoint m, BedPoint) { return MarkPoint{m.y_mm, -m.x_mm}; });
-  list.mark("x_mm to the right and y_mm up the sheet; the axes look turned by a quarter",
-            [](MarkPoint m, BedPoint) { return MarkPoint{-m.y_mm, m.x_mm}; });
+  list.mark("the sign of x_mm looks turned round: x_mm counts to the right of the bed's middle",
+            [](MarkPoint m, BedPoint) {
+              return MarkPoint{-m.x_mm, m.y_mm};
+            });
+  list.mark("y_mm looks counted downwards: it counts up the sheet", [](MarkPoint m, BedPoint) {
+    return MarkPoint{m.x_mm, -m.y_mm};
+  });
+  list.mark(
+      "the signs of x_mm and y_mm both look turned round: they count to the right and up the sheet",
+      [](MarkPoint m, BedPoint) {
+        return MarkPoint{-m.x_mm, -m.y_mm};
+      });
+  list.mark("the two columns look swapped: x_mm counts to the right, y_mm up the sheet",
+            [](MarkPoint m, BedPoint) {
+              return MarkPoint{m.y_mm, m.x_mm};
+            });
+  list.mark("the axes look turned by a quarter: x_mm counts to the right, y_mm up the sheet",
+            [](MarkPoint m, BedPoint) {
+              return MarkPoint{m.y_mm, -m.x_mm};
+            });
+  list.mark("the axes look turned by a quarter: x_mm counts to the right, y_mm up the sheet",
+            [](MarkPoint m, BedPoint) {
+              return MarkPoint{-m.y_mm, m.x_mm};
+            });
 }
 
 /// A minus in every row that needs one, where a column has none.
@@ -78,52 +89,62 @@ void add_signs(List& list, const MeasuredGrid& grid) {
   };
   const bool x = !has_minus(&MarkPoint::x_mm);
   const bool y = !has_minus(&MarkPoint::y_mm);
-  const auto left_of = [](double written, double place) {
-    return std::copysign(written, place);
-  };
+  const auto left_of = [](double written, double place) { return std::copysign(written, place); };
   if (x) {
-    list.mark("a minus on x_mm left of the bed's middle: all the minus signs of x_mm look left out",
-              [=](MarkPoint m, BedPoint p) { return MarkPoint{left_of(m.x_mm, p.x_mm), m.y_mm}; });
+    list.mark("all the minus signs of x_mm look left out: places left of the bed's middle need one",
+              [=](MarkPoint m, BedPoint p) {
+                return MarkPoint{left_of(m.x_mm, p.x_mm), m.y_mm};
+              });
   }
   if (y) {
-    list.mark("a minus on y_mm below the bed's middle: all the minus signs of y_mm look left out",
-              [=](MarkPoint m, BedPoint p) { return MarkPoint{m.x_mm, left_of(m.y_mm, p.y_mm)}; });
+    list.mark("all the minus signs of y_mm look left out: places below the bed's middle need one",
+              [=](MarkPoint m, BedPoint p) {
+                return MarkPoint{m.x_mm, left_of(m.y_mm, p.y_mm)};
+              });
   }
   if (x && y) {
-    list.mark("minus signs left of and below the bed's middle: all of them look left out",
-              [=](MarkPoint m, BedPoint p) {
-                return MarkPoint{left_of(m.x_mm, p.x_mm), left_of(m.y_mm, p.y_mm)};
-              });
+    list.mark(
+        "all the minus signs look left out: places left of the bed's middle and below it need them",
+        [=](MarkPoint m, BedPoint p) {
+          return MarkPoint{left_of(m.x_mm, p.x_mm), left_of(m.y_mm, p.y_mm)};
+        });
   }
 }
 
-void add_units(List& list, std::string_view readings) {
+/// --inches is of marks and lengths together, and leaves commands as they are.
+void add_units(List& list, bool reads_lengths, Written written) {
+  const std::string_view readings = reads_lengths ? "lengths" : "commands";
+  const std::string_view for_marks = reads_lengths ? "" : or_say_inches(written);
+  const std::string_view for_all = reads_lengths ? or_say_inches(written) : "";
   const auto marks_in = [&](std::string_view unit, double factor) {
-    list.mark(fmt::format("all numbers in mm; x_mm and y_mm look like {}, the {} like mm (multiply "
-                          "x_mm and y_mm by {:g})",
-                          unit,
-                          readings,
-                          factor),
-              [factor](MarkPoint m, BedPoint) {
-                return MarkPoint{factor * m.x_mm, factor * m.y_mm};
-              });
+    list.mark(
+        fmt::format("x_mm and y_mm look like {}, the {} like mm: multiply x_mm and y_mm by {:g}{}",
+                    unit,
+                    readings,
+                    factor,
+                    factor == kMmPerInch ? for_marks : ""),
+        [factor](MarkPoint m, BedPoint) {
+          return MarkPoint{factor * m.x_mm, factor * m.y_mm};
+        });
   };
   marks_in("inches", kMmPerInch);
   marks_in("centimetres", kMmPerCm);
   marks_in("metres", kMmPerM);
   const auto readings_in = [&](std::string_view unit, double factor) {
-    list.reading(fmt::format("all numbers in mm; the {0} look like {1}, x_mm and y_mm like mm "
-                             "(multiply the {0} by {2:g})",
-                             readings,
-                             unit,
-                             factor),
-                 [factor](MeasuredPoint& point) { scale_reading(point, factor); });
     list.reading(
-        fmt::format("all of them in mm; these look like {} (multiply by {:g})", unit, factor),
-        [factor](MeasuredPoint& point) {
-          scale_reading(point, factor);
-          scale_mark(point, factor);
-        });
+        fmt::format("the {0} look like {1}, x_mm and y_mm like mm: multiply the {0} by {2:g}",
+                    readings,
+                    unit,
+                    factor),
+        [factor](MeasuredPoint& point) { scale_reading(point, factor); });
+    list.reading(fmt::format("these look like {}: multiply all of them by {:g}{}",
+                             unit,
+                             factor,
+                             factor == kMmPerInch ? for_all : ""),
+                 [factor](MeasuredPoint& point) {
+                   scale_reading(point, factor);
+                   scale_mark(point, factor);
+                 });
   };
   readings_in("inches", kMmPerInch);
   readings_in("centimetres", kMmPerCm);
@@ -140,8 +161,7 @@ void add_shifts(List& list, const model::Bed& bed, bool reads_lengths) {
       const char* too = sign > 0.0 ? "small" : "large";
       const auto words = [&](const char* what) {
         return fmt::format(
-            "distances from the bed's middle; all {} look {:g} mm too {}: was {}, or is the "
-            "machine stated as much off?",
+            "all {} look {:g} mm too {}: was {}, or are the machine's measures off by that?",
             what,
             by_mm,
             too,
@@ -159,7 +179,7 @@ void add_shifts(List& list, const model::Bed& bed, bool reads_lengths) {
                                      std::tuple(1.0, -1.0, "upper left"),
                                      std::tuple(-1.0, -1.0, "upper right")}) {
     const auto words = fmt::format(
-        "x_mm and y_mm from the bed's middle; they look counted from its {} corner", corner);
+        "x_mm and y_mm look counted from the bed's {} corner: they count from its middle", corner);
     list.shift(-x * half_width, -y * half_height, words);
     if (x < 0.0 || y < 0.0) {
       list.mark(words, [=, x = x, y = y](MarkPoint m, BedPoint) {
@@ -170,22 +190,22 @@ void add_shifts(List& list, const model::Bed& bed, bool reads_lengths) {
 }
 
 void add_lengths(List& list) {
-  list.reading("each chain's length under its own name; the columns left_mm and right_mm look swapped",
-               [](MeasuredPoint& point) {
-                 if (point.lengths) std::swap(point.lengths->left_mm, point.lengths->right_mm);
-               });
+  list.reading("the columns left_mm and right_mm look swapped", [](MeasuredPoint& point) {
+    if (point.lengths) std::swap(point.lengths->left_mm, point.lengths->right_mm);
+  });
   const auto longer = [&](double left_mm, double right_mm, std::string_view what, double by_mm) {
     for (const double sign : {1.0, -1.0}) {
-      list.reading(fmt::format("lengths from the sprocket's 12 o'clock; {} look {:g} mm too {}: was "
-                               "the tape held at another mark?",
-                               what,
-                               by_mm,
-                               sign > 0.0 ? "small" : "large"),
-                   [=](MeasuredPoint& point) {
-                     if (!point.lengths) return;
-                     point.lengths->left_mm += sign * left_mm;
-                     point.lengths->right_mm += sign * right_mm;
-                   });
+      list.reading(
+          fmt::format("{} look {:g} mm too {}: they count from the sprocket's 12 o'clock; was the "
+                      "tape held at another mark?",
+                      what,
+                      by_mm,
+                      sign > 0.0 ? "small" : "large"),
+          [=](MeasuredPoint& point) {
+            if (!point.lengths) return;
+            point.lengths->left_mm += sign * left_mm;
+            point.lengths->right_mm += sign * right_mm;
+          });
     }
   };
   for (const double by_mm : {kTapeMarkMm, kMmPerFoot}) {
@@ -197,7 +217,7 @@ void add_lengths(List& list) {
 
 }  // namespace
 
-std::vector<WholeError> whole_errors(const MeasuredGrid& grid) {
+std::vector<WholeError> whole_errors(const MeasuredGrid& grid, Written written) {
   const bool reads_lengths =
       std::any_of(grid.points.begin(), grid.points.end(), [](const MeasuredPoint& point) {
         return point.lengths.has_value();
@@ -206,7 +226,7 @@ std::vector<WholeError> whole_errors(const MeasuredGrid& grid) {
   add_signs(list, grid);
   add_axes(list);
   if (reads_lengths) add_lengths(list);
-  add_units(list, reads_lengths ? "lengths" : "commands");
+  add_units(list, reads_lengths, written);
   if (grid.machine) add_shifts(list, grid.machine->bed, reads_lengths);
   return list.take();
 }

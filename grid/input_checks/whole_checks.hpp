@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/input_checks/findings.hpp"
 #include "grid/observation/measured_grid.hpp"
 
 namespace chaintrue::grid::input_checks {
@@ -25,6 +26,6 @@ struct WholeError {
 };
 
 /// Those that a file like this one may have.
-[[nodiscard]] std::vector<WholeError> whole_errors(const MeasuredGrid& grid);
+[[nodiscard]] std::vector<WholeError> whole_errors(const MeasuredGrid& grid, Written written);
 
 }  // namespace chaintrue::grid::input_checks

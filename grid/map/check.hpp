@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/failure.hpp"
 #include "model/mechanism_change.hpp"
 
 namespace chaintrue::grid {
@@ -30,10 +31,9 @@ struct QuantityFound {
   double sigma = 0.0;  ///< 0 where `of` states the value
 };
 
-/// What may have changed: nothing, a change of the mechanism's (mechanism_change.hpp), unknown,
-/// bad_point.
+/// What may have changed: nothing, a change of the mechanism's, unknown, or a bad point.
 struct CheckHypothesis {
-  std::string what;
+  model::Change what = model::Change::nothing;
   std::string side;  ///< of what, in words of files; empty: of the whole
   CheckVerdict verdict = CheckVerdict::valid;
   double probability = 0.0;
@@ -52,7 +52,7 @@ struct CheckHypothesis {
 
 /// How far one new reading is from what was calibrated, in its own numbers.
 struct CheckResidual {
-  std::string what;  ///< "point 3, left chain", "A-B"
+  std::string name;  ///< "point 3, left chain", "A-B"
   double residual_mm = 0.0;
   double sigma_mm = 0.0;  ///< of noise and calibration together
 };
@@ -90,16 +90,14 @@ struct Check {
   }
 };
 
-struct CheckFailure {
-  enum class Reason {
-    too_many_readings,
-    no_machine,   ///< commands without a controller
-    no_lengths,   ///< a command that its controller cannot reach, or points without lengths
-    unreachable,  ///< a place off the map, or where its machine cannot hold the tool
-    no_noise,     ///< nothing says how well new readings should agree
-    nowhere,      ///< lengths that end nowhere together
-  } reason;
-  std::string sentence;
+enum class CheckReason {
+  too_many_readings,
+  no_machine,   ///< commands without a controller
+  no_lengths,   ///< a command that its controller cannot reach, or points without lengths
+  unreachable,  ///< a place off the map, or where its machine cannot hold the tool
+  no_noise,     ///< nothing says how well new readings should agree
+  nowhere,      ///< lengths that end nowhere together
 };
+using CheckFailure = Failure<CheckReason>;
 
 }  // namespace chaintrue::grid

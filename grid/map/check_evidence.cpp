@@ -64,7 +64,7 @@ Proposal proposal_of(const CheckReadings& readings, const model::MechanismChange
   return proposal;
 }
 
-Proposal plain(const char* what, CheckVerdict verdict, double prior) {
+Proposal plain(model::Change what, CheckVerdict verdict, double prior) {
   Proposal proposal;
   proposal.hypothesis.what = what;
   proposal.hypothesis.verdict = verdict;
@@ -76,12 +76,12 @@ Proposal plain(const char* what, CheckVerdict verdict, double prior) {
 std::vector<Proposal> proposals_of(const CheckReadings& readings) {
   const model::ChangePriors& prior = model::kChangePriors;
   std::vector<Proposal> all;
-  all.push_back(plain("nothing", CheckVerdict::valid, prior.nothing));
+  all.push_back(plain(model::Change::nothing, CheckVerdict::valid, prior.nothing));
   for (const model::MechanismChange& change : readings.changes)
     all.push_back(proposal_of(readings, change));
-  all.push_back(plain("unknown", CheckVerdict::measure_again, prior.unknown));
+  all.push_back(plain(model::Change::unknown, CheckVerdict::measure_again, prior.unknown));
   for (const CheckUnit& unit : readings.units) {
-    Proposal bad = plain("bad_point",
+    Proposal bad = plain(model::Change::bad_point,
                          CheckVerdict::measure_again,
                          prior.bad_point / static_cast<double>(readings.units.size()));
     bad.hypothesis.count = static_cast<int>(unit.index);
@@ -155,8 +155,8 @@ class Evidence {
   /// The posterior of q goes into the hypothesis; `unit` is which one is bad, of such a hypothesis.
   [[nodiscard]] double weigh(Proposal& proposal, std::size_t unit) const {
     const double prior = std::log(proposal.prior);
-    if (proposal.hypothesis.what == "unknown") return prior + of_unknown();
-    if (proposal.hypothesis.what == "bad_point") return prior + of_bad_unit(unit);
+    if (proposal.hypothesis.what == model::Change::unknown) return prior + of_unknown();
+    if (proposal.hypothesis.what == model::Change::bad_point) return prior + of_bad_unit(unit);
     return prior + of_change(proposal);
   }
 
@@ -244,7 +244,7 @@ std::vector<CheckHypothesis> weighed_hypotheses(const CheckReadings& readings) {
   std::size_t unit = 0;
   for (Proposal& proposal : proposals) {
     weights.push_back(evidence.weigh(proposal, unit));
-    unit += proposal.hypothesis.what == "bad_point" ? 1 : 0;
+    unit += proposal.hypothesis.what == model::Change::bad_point ? 1 : 0;
   }
   const double most = *std::max_element(weights.begin(), weights.end());
   double sum = 0.0;

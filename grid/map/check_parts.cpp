@@ -72,12 +72,11 @@ MeasuredHoles merged(const MeasuredHoles& set) {
 tl::unexpected<CheckFailure> too_many(std::size_t found, std::size_t most, const char* what) {
   return check_fails(
       Reason::too_many_readings,
-      fmt::format(
-          "{} {} are more than a check takes ({}); three to five that lie far from each other tell "
-          "as much, and a map of all of them is made by chaintrue fit",
-          found,
-          what,
-          most));
+      fmt::format("{} {} are more than a check takes ({}); three to five far from each other show "
+                  "as much; for a map of all of them, use chaintrue fit",
+                  found,
+                  what,
+                  most));
 }
 
 /// Lays the sheet where the readings put it, as far as its prior lets them, and the marks with it.
@@ -117,12 +116,13 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
   // A map is free of what belongs to the paper and to the visit: so must be what is held against it.
   const auto corrected = corrected_data(with_machine);
   if (!corrected) {
-    return check_fails(corrected.error().reason == FitFailure::Reason::no_lengths ? Reason::no_lengths
-                                                                           : Reason::unreachable,
-                corrected.error().sentence);
+    return check_fails(corrected.error().reason == FitFailure::Reason::no_lengths
+                           ? Reason::no_lengths
+                           : Reason::unreachable,
+                       corrected.error().sentence());
   }
   const auto points = length_points(corrected->grid);
-  if (!points) return check_fails(Reason::no_lengths, points.error().sentence);
+  if (!points) return check_fails(Reason::no_lengths, points.error().sentence());
   CheckedPart part;
   part.notes = corrected->notes;
   part.points = merged(*points);
@@ -143,7 +143,7 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
   if (!set.machine) {
     return check_fails(
         Reason::no_machine,
-        "the holes name no machine; what was commanded becomes chain lengths by its controller");
+        "the holes name no machine, whose controller turns commands into chain lengths");
   }
   MeasuredHoles once = merged(with_true_tape(set));
   if (once.distances.size() > kMostCheckedDistances)
@@ -151,13 +151,13 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
   if (once.holes.size() > kMostCheckedHoles)
     return too_many(once.holes.size(), kMostCheckedHoles, "holes");
   auto distances = observation::TapeDistances::in_given_order(std::move(once));
-  if (!distances) return check_fails(Reason::no_lengths, distances.error().sentence);
+  if (!distances) return check_fails(Reason::no_lengths, distances.error().sentence());
   CheckedPart part;
   for (const observation::Place& place : distances->places()) {
     const auto mark = map.inverse(place.lengths);
     if (!mark) {
       return check_fails(Reason::unreachable,
-                  fmt::format("hole {}: {}", place.name, explain(mark.error())));
+                         fmt::format("hole {}: {}", place.name, mark.error().sentence()));
     }
     part.marks.push_back(*mark);
   }

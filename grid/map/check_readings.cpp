@@ -152,10 +152,10 @@ class Gathered {
     if (at_.covariance.empty()) return;
     // The map's own doubt at the hole, which all of its distances share.
     const Eigen::Matrix2d root = at_.covariance[first + hole].llt().matrixL();
-    const Eigen::RowVector2d seen = by_length * root;
+    const Eigen::RowVector2d found = by_length * root;
     const auto holes = 2 * static_cast<Eigen::Index>(set.holes.size());
     for (Eigen::Index axis = 0; axis < 2; ++axis)
-      shared_.emplace_back(at_row, shared_columns_ + holes + column + axis, seen[axis]);
+      shared_.emplace_back(at_row, shared_columns_ + holes + column + axis, found[axis]);
   }
 
   void add_size_and_tape_zero(const MeasuredHoles& set,
@@ -211,10 +211,9 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
     auto part =
         std::visit([&map](const auto& one) { return checked_part(map, one); }, file.measured);
     if (!part) {
-      return tl::unexpected(
-          CheckFailure{part.error().reason,
-                       (files.size() > 1 ? file.name + ": " : std::string{}) +
-                           part.error().sentence});
+      return tl::unexpected(CheckFailure{
+          part.error().reason,
+          (files.size() > 1 ? file.name + ": " : std::string{}) + part.error().sentence()});
     }
     marks.insert(marks.end(), part->marks.begin(), part->marks.end());
     parts.push_back(*std::move(part));

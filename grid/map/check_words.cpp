@@ -29,17 +29,18 @@ void decide(Check& check) {
 }
 
 std::string clause_of(const CheckHypothesis& h, const CheckWords& words) {
-  if (h.what == "nothing") return "nothing has changed";
-  if (h.what == "bad_point") return fmt::format("{} is wrong by itself", h.name);
-  if (h.what == "unknown") return "something has changed that follows no known pattern";
+  if (h.what == model::Change::nothing) return "nothing has changed";
+  if (h.what == model::Change::bad_point) return fmt::format("{} alone is wrong", h.name);
+  if (h.what == model::Change::unknown)
+    return "something has changed that follows no known pattern";
   return words.change(h);
 }
 
 std::string sentence_of(const Check& check, const CheckWords& words) {
   const CheckHypothesis& first = check.hypotheses.front();
   const double percent = 100.0 * check.probability[static_cast<std::size_t>(check.verdict)];
-  if (first.what == "bad_point") {
-    return fmt::format("Measure {} again ({:.0f} %): it is wrong by itself, and says nothing of {}.",
+  if (first.what == model::Change::bad_point) {
+    return fmt::format("Measure {} again ({:.0f} %): it alone is wrong, and says nothing of {}.",
                        first.name,
                        percent,
                        words.subject);
@@ -61,8 +62,8 @@ std::string not_separable_of(const Check& check, const CheckWords& words) {
     if (h.probability >= kWorthNaming)
       others.push_back(fmt::format("{} ({:.0f} %)", clause_of(h, words), 100.0 * h.probability));
   }
-  std::string text = fmt::format(
-      "These {} cannot tell apart: {}.", words.readings, fmt::join(others, "; "));
+  std::string text =
+      fmt::format("These {} cannot tell apart: {}.", words.readings, fmt::join(others, "; "));
   if (!check.decided) {
     text += fmt::format(" Measure more {}, far from each other, before you rely on either.",
                         words.readings);

@@ -19,17 +19,31 @@ using model::BedPoint;
 using model::ChainLengths;
 using model::MarkPoint;
 
-MapFailure::MapFailure(model::PoseFailure why) : MapFailure(model::mechanism_failure(why)) {}
+std::string_view name(NoiseSource source) {
+  switch (source) {
+    case NoiseSource::stated:
+      return "stated";
+    case NoiseSource::repeats:
+      return "repeats";
+    case NoiseSource::fit:
+      return "fit";
+    case NoiseSource::assumed:
+      break;
+  }
+  return "assumed";
+}
 
-std::string explain(const MapFailure& failure) {
-  switch (failure.reason) {
-    case MapFailure::outside_map:
+MapFailure unreachable(const model::MechanismFailure& why) {
+  return MapFailure(MapReason::unreachable).because_of(why.reason.words);
+}
+
+std::string_view sentence_of(MapReason reason) {
+  switch (reason) {
+    case MapReason::outside_map:
       return "the point is off the bed that was measured";
-    case MapFailure::unreachable:
-      return fmt::format("the chains cannot hold the sled there{}{}",
-                         failure.cause ? ": " : "",
-                         failure.cause ? failure.cause->sentence : "");
-    case MapFailure::not_converged:
+    case MapReason::unreachable:
+      return "the chains cannot hold the sled there";
+    case MapReason::not_converged:
       break;
   }
   return "no point of the bed was found for these chain lengths";
@@ -146,12 +160,12 @@ CompensationMap CompensationMap::with_outside(OutsideRule rule) const {
 }
 
 tl::expected<CompensationMap::Lengths, MapFailure> CompensationMap::lengths(MarkPoint mark) const {
-  if (!answers_at(mark)) return tl::unexpected(MapFailure::outside_map);
+  if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
   return field_->at(mark);
 }
 
 tl::expected<MapAnswer, MapFailure> CompensationMap::query(MarkPoint mark) const {
-  if (!answers_at(mark)) return tl::unexpected(MapFailure::outside_map);
+  if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
   const auto found = field_->with_covariance(mark);
   if (!found) return tl::unexpected(found.error());
   MapAnswer answer;
@@ -179,7 +193,7 @@ tl::expected<MarkPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted
     const Eigen::Vector2d missing(wanted.left_mm - here->lengths.left_mm,
                                   wanted.right_mm - here->lengths.right_mm);
     const Eigen::Vector2d move = here->mark_jacobian.inverse() * missing;
-    if (!move.allFinite()) return tl::unexpected(MapFailure::not_converged);
+    if (!move.allFinite()) return tl::unexpected(MapReason::not_converged);
     // A step may leave the domain on the way, but not run off to where the chains cannot hold the
     // sled.
     mark.x_mm = std::clamp(mark.x_mm + move.x(), domain.x_min - 50.0, domain.x_max + 50.0);
@@ -190,11 +204,11 @@ tl::expected<MarkPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted
                              std::clamp(mark.y_mm, domain.y_min, domain.y_max)};
       if (std::hypot(within.x_mm - mark.x_mm, within.y_mm - mark.y_mm) < kConvergedMm)
         mark = within;
-      if (!answers_at(mark)) return tl::unexpected(MapFailure::outside_map);
+      if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
       return mark;
     }
   }
-  return tl::unexpected(MapFailure::not_converged);
+  return tl::unexpected(MapReason::not_converged);
 }
 
 std::optional<model::Machine> stated_machine(const CompensationMap& map) {

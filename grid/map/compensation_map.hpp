@@ -69,12 +69,20 @@ struct MapAccuracy {
   model::MarkPoint expected_worst_at;
 };
 
+enum class NoiseSource {
+  stated,
+  repeats,
+  fit,
+  assumed,  ///< of a direct map where none is stated
+};
+/// As in files.
+[[nodiscard]] std::string_view name(NoiseSource source);
+
 /// The noise that the fit went by.
 struct MapNoise {
   double length_mm = 0.0;
   double position_mm = 0.0;
-  /// "stated", "repeats" or "fit"; "assumed" for a direct map without a stated noise
-  std::string source;
+  NoiseSource source = NoiseSource::stated;
   /// The noise found in the residuals, as a multiple of the one above.
   double factor_found = 1.0;
 };

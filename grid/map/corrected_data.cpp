@@ -25,7 +25,7 @@ bool is_of_the_paper(const Effect& effect) { return effect.station == Station::p
 template <class Keep>
 Machine with_effects_that(Machine machine, Keep keep) {
   std::erase_if(machine.effects, [&](const AppliedEffect& applied) {
-    const Effect* effect = find_effect(applied.effect);
+    const Effect* effect = find_effect(machine, applied.effect);
     return effect == nullptr || !keep(*effect);
   });
   return machine;
@@ -49,9 +49,9 @@ tl::expected<std::vector<model::ChainLengths>, FitFailure> readings_with(
   if (read) return *std::move(read);
   return tl::unexpected(
       FitFailure{FitFailure::Reason::point_unreachable,
-                 fmt::format("point {} cannot be reached by the machine as stated: {}",
-                             read.error().index + 1,
-                             model::explain(read.error().reason))});
+                 fmt::format("point {} cannot be reached by the machine in your file: {}",
+                             read.error().place + 1,
+                             read.error().sentence())});
 }
 
 /// Takes the visit effects out of the readings, which are in the order of the points.
@@ -60,7 +60,7 @@ tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid,
                                                 const Machine& without) {
   const auto points = length_points(grid);
   if (!points)
-    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, points.error().sentence});
+    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, points.error().sentence()});
   std::vector<model::Visit> visits;
   for (const MeasuredPoint& point : grid.points)
     visits.push_back({model::identity_placement(point.mark), *point.order});
@@ -108,13 +108,13 @@ tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid)
       both.effects.insert(both.effects.end(), visit.effects.begin(), visit.effects.end());
       if (auto done = correct_readings(corrected.grid, both, rest); !done)
         return tl::unexpected(done.error());
-      corrected.notes.push_back(fmt::format(
-          "The readings were freed of what depends on the visit ({}).", names_of(visit)));
+      corrected.notes.push_back(
+          fmt::format("What changed during the session was taken out of the readings ({}).", names_of(visit)));
     } else {
-      corrected.notes.push_back(fmt::format(
-          "The readings could not be freed of {}: the points do not say in which order they were "
-          "visited.",
-          names_of(visit)));
+      corrected.notes.push_back(
+          fmt::format("{} could not be removed from the readings: the points do not give the order "
+                      "of the visits.",
+                      names_of(visit)));
     }
   }
   corrected.grid.machine->effects = rest.effects;

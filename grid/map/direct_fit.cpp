@@ -119,15 +119,14 @@ tl::expected<void, FitFailure> check_full(const Lattice& lattice) {
   const Eigen::Index ny = lattice.visits.cols();
   const auto missing = (lattice.visits.array() == 0).count();
   if (missing == 0 && nx >= 2 && ny >= 2) return {};
-  return tl::unexpected(FitFailure{FitFailure::Reason::not_a_grid,
-                                   fmt::format("--surface direct needs a point on every crossing "
-                                               "of full rows and columns; these points make {} "
-                                               "columns and {} rows with {} crossings empty. Where "
-                                               "the sled stood beside its marks, --surface "
-                                               "residual takes the points as they are",
-                                               nx,
-                                               ny,
-                                               missing)});
+  return tl::unexpected(FitFailure{
+      FitFailure::Reason::not_a_grid,
+      fmt::format("--surface direct needs a point on every crossing of full rows and columns; "
+                  "these points make {} columns and {} rows with {} crossings empty. Where the "
+                  "sled stood off its marks, --surface residual takes the points as they are",
+                  nx,
+                  ny,
+                  missing)});
 }
 
 }  // namespace
@@ -136,7 +135,7 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
                                                      const FitOptions& options) {
   const auto points = length_points(grid);
   if (!points)
-    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, points.error().sentence});
+    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, points.error().sentence()});
   Lattice lattice = lattice_of(*points);
   if (auto full = check_full(lattice); !full) return tl::unexpected(full.error());
 
@@ -155,7 +154,10 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
   map.edge_mm = area.edge_mm();
   const StatedNoise assumed;
   const StatedNoise noise = grid.noise.value_or(assumed);
-  map.noise = {noise.length_mm, noise.position_mm, grid.noise ? "stated" : "assumed", 1.0};
+  map.noise = {noise.length_mm,
+               noise.position_mm,
+               grid.noise ? NoiseSource::stated : NoiseSource::assumed,
+               1.0};
   std::vector<HeldOutResidual> lines = columns.residuals;
   lines.insert(lines.end(), rows.residuals.begin(), rows.residuals.end());
   map.accuracy.leave_one_out = summarise(lines);
@@ -169,10 +171,9 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
                     options.ends,
                     std::hypot(columns.interpolation_sigma_mm, rows.interpolation_sigma_mm)};
   map.notes.push_back(
-      "The lengths were interpolated as they are, without a machine: between few points that errs "
-      "by millimetres near "
-      "the motors, however well each point was measured. Leave-one-out here means a column or a "
-      "row at a time, blocked the worse of the two.");
+      "The lengths were interpolated without a machine: between few points that is off by "
+      "millimetres near the motors, however well each point was measured. Leave-one-out here means "
+      "a column or a row at a time, blocked the worse of the two.");
   const CompensationMap bare(map);
   for (const LengthPoint& point : *points) {
     const auto here = bare.lengths(point.mark);

@@ -27,9 +27,8 @@ class DistancesPart final : public FitPart {
 
   [[nodiscard]] std::string few_good(std::size_t bad, std::size_t all) const override {
     std::string sentence = fmt::format(
-        "{} of {} distances contradict the others or the machine as stated; check the "
-        "machine's measures, the controller's settings in force and which holes the "
-        "distances join",
+        "{} of {} distances contradict the others or the machine file; check the machine's "
+        "measures, the settings that the controller runs with, and which holes the distances join",
         bad,
         all);
     if (const auto tape_zero = suspected_tape_zero_offset_mm(set())) {
@@ -54,12 +53,11 @@ class DistancesPart final : public FitPart {
                                         fit.distances.end(),
                                         [](const FittedDistance& one) { return one.rejected; });
     draft.sources.push_back(fmt::format(
-        "{} distances between {} holes of {}{}, which come out within {:.2f} mm rms left out one "
-        "at a time",
+        "{} distances between {} holes of {}{}, each predicted by the others within {:.2f} mm rms",
         fit.distances.size(),
         fit.holes.size(),
         name,
-        rejected == 0 ? "" : fmt::format(" ({} set aside)", rejected),
+        rejected == 0 ? "" : fmt::format(" ({} left out)", rejected),
         fit.left_out_good.rms_mm));
     if (fitting.input.surface == estimation::SurfaceUse::on_evidence)
       add_holes(draft, fitting, fit);
@@ -78,19 +76,20 @@ class DistancesPart final : public FitPart {
       draft.map.points.push_back(map_point(hole));
     }
     if (fit.file > 0) return;
-    draft.map.noise = {0.0, set().hole_sigma_mm, "stated", fitting.estimate.noise_factor};
+    draft.map.noise = {
+        0.0, set().hole_sigma_mm, NoiseSource::stated, fitting.estimate.noise_factor};
     draft.tape_sigma_mm = set().tape.sigma_mm;
   }
 
   /// Of a file alone: how large the noise is relative to what was stated.
   void note_noise(double factor, std::vector<std::string>& notes) const {
     if (factor <= kNoiseDisagreement) return;
-    notes.push_back(fmt::format(
-        "The distances scatter {:.1f} times as much as stated ({:g} mm of tape, {:g} mm "
-        "of hole): the intervals are that much wider.",
-        factor,
-        set().tape.sigma_mm,
-        set().hole_sigma_mm));
+    notes.push_back(
+        fmt::format("The distances scatter {:.1f} times as much as you said ({:g} mm of tape, {:g} "
+                    "mm of hole): the results are that much less certain.",
+                    factor,
+                    set().tape.sigma_mm,
+                    set().hole_sigma_mm));
   }
 
   void note_frame(std::vector<std::string>& notes) const {
@@ -103,9 +102,8 @@ class DistancesPart final : public FitPart {
     }
     if (free.empty()) return;
     notes.push_back(
-        fmt::format("No edge of the sheet tells its place {}: there the sheet is laid so that the "
-                    "holes lie, as "
-                    "a whole, where they were commanded.",
+        fmt::format("No edge gives the sheet's place {}: there it is laid so that the holes as a "
+                    "whole lie where they were commanded.",
                     free));
   }
 
@@ -118,14 +116,13 @@ tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredHoles& 
   if (set.distances.empty())
     throw precondition("a fit of no distances between {} holes", set.holes.size());
   if (!set.machine) {
-    return tl::unexpected(
-        FitFailure{FitFailure::Reason::no_machine,
-                   "the holes name no machine; what was commanded becomes chain lengths by its "
-                   "controller: give --machine"});
+    return tl::unexpected(FitFailure{FitFailure::Reason::no_machine,
+                                     "the holes name no machine, whose controller turns commands "
+                                     "into chain lengths: give --machine"});
   }
   auto distances = observation::TapeDistances::in_given_order(set);
   if (!distances) {
-    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, distances.error().sentence});
+    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, distances.error().sentence()});
   }
   if (auto possible = check_readings_of(*set.machine, set.readings, "set's"); !possible)
     return tl::unexpected(possible.error());

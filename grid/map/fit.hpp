@@ -4,7 +4,7 @@
 ///
 /// \code
 ///   const auto map = fit(grid);
-///   if (!map) fmt::print("{}\n", map.error().sentence);
+///   if (!map) fmt::print("{}\n", map.error().sentence());
 /// \endcode
 #pragma once
 
@@ -13,6 +13,7 @@
 
 #include "grid/map/compensation_map.hpp"
 #include "grid/progress.hpp"
+#include "model/failure.hpp"
 
 namespace chaintrue::grid {
 
@@ -30,19 +31,17 @@ struct FitOptions {
   Progress progress{};
 };
 
-struct FitFailure {
-  enum class Reason {
-    no_machine,  ///< the residual surface needs one
-    not_a_grid,  ///< the direct surface needs full rows and columns
-    no_lengths,  ///< a point gives a command that its controller cannot reach, or no controller is
-                 ///< stated
-    point_unreachable,  ///< a point where the stated machine cannot hold the sled
-    rank_deficient,
-    impossible_readings,  ///< the grid's readings leave no possible machine
-    not_converged,
-  } reason;
-  std::string sentence;
+enum class FitReason {
+  no_machine,  ///< the residual surface needs one
+  not_a_grid,  ///< the direct surface needs full rows and columns
+  no_lengths,  ///< a point gives a command that its controller cannot reach, or no controller is
+               ///< stated
+  point_unreachable,  ///< a point where the stated machine cannot hold the sled
+  rank_deficient,
+  impossible_readings,  ///< the grid's readings leave no possible machine
+  not_converged,
 };
+using FitFailure = Failure<FitReason>;
 
 /// The machine's effects of the paper and of the visit (drift, skips, hysteresis) are taken out of
 /// the data first (corrected_data.hpp) and are not in the map; its other effects are.

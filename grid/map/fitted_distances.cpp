@@ -40,7 +40,7 @@ void note_set_aside(const MeasuredHoles& set,
     if (!distance.rejected) continue;
     const HoleDistance& reading = set.distances[k];
     notes.push_back(
-        fmt::format("{} ({:g} mm on the tape) was set aside: it is {:.1f} mm {} than the others "
+        fmt::format("{} ({:g} mm on the tape) was left out: it is {:.1f} mm {} than the others "
                     "make it, {:.1f} times what tape and holes allow. Measure it again.",
                     words_of(set, reading),
                     reading.distance_mm,
@@ -53,8 +53,8 @@ void note_set_aside(const MeasuredHoles& set,
   for (const auto& [hole, count] : at_hole) {
     if (count < 2) continue;
     notes.push_back(
-        fmt::format("{} of the distances set aside end at hole {}: perhaps it is the hole that is "
-                    "off its place, not the tape.",
+        fmt::format("{} of the distances that were left out end at hole {}: perhaps it is the hole "
+                    "that is off its place, not the tape.",
                     count,
                     set.holes[hole].name));
   }
@@ -66,10 +66,11 @@ std::string tape_zero_sentence(const FoundTapeZero& zero) {
       std::abs(zero.mm),
       zero.sigma_mm,
       zero.mm > 0.0 ? "long" : "short",
-      zero.mm > 0.0 ? "is the hook or the bit's width in it? Measure from centre to centre, or "
-                      "state it (--hook-offset-mm)."
-                    : "was it measured between the near edges of the holes, or is the hook's offset "
-                      "too large?");
+      zero.mm > 0.0
+          ? "is the hook or the bit's width in it? Measure from centre to centre, or give it "
+            "(--hook-offset-mm)."
+          : "was it measured between the near edges of the holes, or is the hook's offset "
+            "too large?");
 }
 
 }  // namespace
@@ -141,7 +142,8 @@ std::vector<std::string> distance_notes(const MeasuredHoles& set, const FittedDi
                     "ones: was the tape's hook offset left out or taken off twice?",
                     std::abs(*tape_zero),
                     *tape_zero > 0.0 ? "longer" : "shorter"));
-  } else if (fit.tape_zero && std::abs(fit.tape_zero->mm) >= kTapeZeroSigmas * fit.tape_zero->sigma_mm) {
+  } else if (fit.tape_zero &&
+             std::abs(fit.tape_zero->mm) >= kTapeZeroSigmas * fit.tape_zero->sigma_mm) {
     notes.push_back(tape_zero_sentence(*fit.tape_zero));
   }
   return notes;

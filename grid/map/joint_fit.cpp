@@ -30,13 +30,13 @@ FitFailure failure_of(const estimation::EstimationFailure& failure) {
   using Of = estimation::EstimationFailure::Reason;
   switch (failure.reason) {
     case Of::place_unreachable:
-      return {FitFailure::Reason::point_unreachable, failure.sentence};
+      return {FitFailure::Reason::point_unreachable, failure.sentence()};
     case Of::rank_deficient:
-      return {FitFailure::Reason::rank_deficient, failure.sentence};
+      return {FitFailure::Reason::rank_deficient, failure.sentence()};
     case Of::not_converged:
       break;
   }
-  return {FitFailure::Reason::not_converged, failure.sentence};
+  return {FitFailure::Reason::not_converged, failure.sentence()};
 }
 
 tl::expected<void, FitFailure> check_one_machine(const std::vector<MeasuredFile>& files) {
@@ -69,7 +69,7 @@ tl::expected<Parts, FitFailure> parts_of(const std::vector<MeasuredFile>& files,
         set == nullptr ? part_of(*file.grid()) : part_of(with_grids ? with_true_tape(*set) : *set);
     if (!part) {
       return fail(part.error().reason,
-                  (files.size() > 1 ? file.name + ": " : std::string{}) + part.error().sentence);
+                  (files.size() > 1 ? file.name + ": " : std::string{}) + part.error().sentence());
     }
     parts.push_back(*std::move(part));
   }
@@ -134,8 +134,8 @@ tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>
     return fail(
         FitFailure::Reason::rank_deficient,
         alone ? parts[k]->few_good(bad, all)
-              : fmt::format("{}: {} of {} {} contradict the other files or the machine as stated: "
-                            "are all of one machine, with the same chains hung on the same teeth?",
+              : fmt::format("{}: {} of {} {} contradict the other files or the machine file: are "
+                            "all of one machine, with the same chains hung on the same teeth?",
                             files[k].name,
                             bad,
                             all,
@@ -163,7 +163,7 @@ tl::expected<void, FitFailure> state_noises(const std::vector<MeasuredFile>& fil
       if (auto good = check_enough_good({files[k]}, one, alone->estimate); !good)
         alone = tl::unexpected(good.error());
     }
-    if (!alone) return fail(alone.error().reason, files[k].name + ": " + alone.error().sentence);
+    if (!alone) return fail(alone.error().reason, files[k].name + ": " + alone.error().sentence());
     one.front()->take_noise(*alone);
     parts[k] = std::move(one.front());
   }
@@ -181,13 +181,14 @@ void note_zeros(const std::vector<MeasuredFile>& files,
     if (!own(k)) continue;
     const std::string words = estimation::words_of(*own(k));
     if (words.empty()) continue;
-    notes.push_back(fmt::format(
-        "{}: the chains' zeros are other than in {}: {}. The map holds for the zeros of {}; where the "
-        "machine has the other ones now, name that file first.",
-        files[k].name,
-        files[of_map].name,
-        words,
-        files[of_map].name));
+    notes.push_back(
+        fmt::format("{}: the chains' zeros are other than in {}: {}. The map holds for the zeros "
+                    "of {}; where the "
+                    "machine has the other ones now, name that file first.",
+                    files[k].name,
+                    files[of_map].name,
+                    words,
+                    files[of_map].name));
   }
 }
 
@@ -204,8 +205,8 @@ std::vector<std::string> notes_of(const Parts& parts,
   if (parts.size() > 1) {
     notes.push_back(
         fmt::format("Fitted together: {}. The map's frame is that of {}; the noise is what each "
-                    "file states, times {:.2f} as found, which the fewest degrees of freedom that "
-                    "any of them states, {:g}, hold near 1.",
+                    "file gives, times {:.2f} as found, which the fewest degrees of freedom in any "
+                    "of them, {:g}, hold near 1.",
                     fmt::join(draft.sources, "; "),
                     files.front().name,
                     fitting.estimate.noise_factor,
@@ -218,15 +219,13 @@ std::vector<std::string> notes_of(const Parts& parts,
   if (fitting.input.surface == estimation::SurfaceUse::on_evidence) {
     notes.emplace_back(
         fitting.estimate.has_surface
-            ? "The distances ask for more than settings can explain: the map bends "
-              "smoothly where they do."
-            : "The distances do not ask for more than settings and chain scales: the map "
-              "is the calibrated machine. What no setting explains is not in its expected "
-              "error.");
+            ? "The distances show more than settings can explain: the map bends smoothly there."
+            : "Settings and chain scales explain the distances: the map is the calibrated machine. "
+              "What no setting explains is not in its expected error.");
   }
   if (!fitting.estimate.converged) {
     notes.push_back(fmt::format(
-        "The fit had not quite settled after its last pass: some {} hover between good and "
+        "The fit had not quite come to rest after its last pass: some {} hover between good and "
         "bad. Measure the ones with the largest errors again.",
         parts.size() > 1 ? "readings" : parts.front()->observation->kind().units));
   }
@@ -254,18 +253,20 @@ CompensationMap with_held_out_error(CompensationMap map, const std::vector<Fitte
   constexpr double kClearly = 2.0;
   const MapNoise& noise = map.contents().noise;
   const double expected_mm = map.contents().accuracy.expected_tool.rms_mm;
-  if (noise.source != "stated" || noise.factor_found < kClearly || !(expected_mm > 0.0)) return map;
-  const double left_out_mm2 = std::pow(map.contents().accuracy.blocked.tool.rms_mm, 2) -
-                              stated_noise_mm2(points, noise);
+  const bool is_stated = noise.source == NoiseSource::stated;
+  if (!is_stated || noise.factor_found < kClearly || !(expected_mm > 0.0)) return map;
+  const double left_out_mm2 =
+      std::pow(map.contents().accuracy.blocked.tool.rms_mm, 2) - stated_noise_mm2(points, noise);
   if (left_out_mm2 <= expected_mm * expected_mm) return map;
   const double larger_mm = std::sqrt(left_out_mm2);
   return with_larger_error(map, larger_mm / expected_mm)
-      .with_notes_first({fmt::format(
-          "The fit itself expects the tool within {:.2f} mm rms, but points in parts of the bed that "
-          "were left out come out {:.2f} mm off beyond the stated noise: the larger is stated. "
-          "Something acts that this map does not know; chaintrue diagnose looks for it.",
-          expected_mm,
-          larger_mm)});
+      .with_notes_first(
+          {fmt::format("The fit itself expects the tool within {:.2f} mm rms, but points in parts "
+                       "of the bed that were left out come out {:.2f} mm off, more than the "
+                       "readings can err: the larger number is given. Something acts that this map "
+                       "does not know; chaintrue diagnose looks for it.",
+                       expected_mm,
+                       larger_mm)});
 }
 
 /// What the map says of itself, gathered file by file.

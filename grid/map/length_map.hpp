@@ -20,29 +20,22 @@
 #include <tl/expected.hpp>
 
 #include "grid/map/measured_area.hpp"
+#include "model/failure.hpp"
 #include "interp/surface.hpp"
 #include "model/kinematics.hpp"
 #include "model/mechanism.hpp"
 
 namespace chaintrue::grid {
 
-/// Why there is no answer.
-struct MapFailure {
-  enum class Reason {
-    outside_map,    ///< off the domain, or refused
-    unreachable,    ///< the machine cannot hold the tool there
-    not_converged,  ///< the inverse found no point
-  };
-  using enum Reason;
-  MapFailure(Reason why) : reason(why) {}  // NOLINT: most reasons are the whole answer
-  explicit MapFailure(model::MechanismFailure why) : reason(unreachable), cause(why) {}
-  explicit MapFailure(model::PoseFailure why);
-
-  Reason reason;
-  std::optional<model::MechanismFailure> cause;  ///< of `unreachable`
-  friend bool operator==(const MapFailure&, const MapFailure&) = default;
+enum class MapReason {
+  outside_map,    ///< off the domain, or refused
+  unreachable,    ///< the machine cannot hold the tool there
+  not_converged,  ///< the inverse found no point
 };
-[[nodiscard]] std::string explain(const MapFailure& failure);
+[[nodiscard]] std::string_view sentence_of(MapReason reason);
+/// Of `unreachable` it has the cause.
+using MapFailure = Failure<MapReason>;
+[[nodiscard]] MapFailure unreachable(const model::MechanismFailure& why);
 
 struct LengthsAnswer {
   Eigen::VectorXd lengths_mm;  ///< in the order of the names

@@ -52,9 +52,8 @@ tl::expected<CheckReadings, CheckFailure> readings_of(
     if (!line) {
       return tl::unexpected(CheckFailure{
           CheckFailure::Reason::unreachable,
-          fmt::format("{}: {}",
-                      observed.name_of(static_cast<std::size_t>(u)),
-                      line.error().reason.sentence)});
+          fmt::format(
+              "{}: {}", observed.name_of(static_cast<std::size_t>(u)), line.error().sentence())});
     }
     readings.residual_mm.segment(unit.first_row, unit.rows) =
         observed.measured().segment(unit.first_row, unit.rows) - line->predicted;

@@ -106,8 +106,8 @@ MirrorTest test_mirror(const CompensationMap& map) {
   }
   if (test.points == 0) {
     test.sentence =
-        "No point's mirror image lies on the measured part of the bed, so the mirror claim was not "
-        "tested.";
+        "No point's mirror image lies on the measured part of the bed, so the chains were not "
+        "compared.";
     return test;
   }
   test.difference = tally.summary();

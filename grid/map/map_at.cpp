@@ -56,7 +56,7 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
     const model::MarkPoint mark = marks[static_cast<std::size_t>(i)];
     const auto refused = [&mark](const MapFailure& failure) {
       return no_answer(
-          fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, explain(failure)));
+          fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, failure.sentence()));
     };
     if (is_joint) {
       const auto here = map.lengths(mark);

@@ -16,16 +16,16 @@ std::string chain_words(const std::string& side) {
 }
 
 std::string words_of_chains(const CheckHypothesis& h) {
-  if (h.what == "zero" && h.side == "both") {
+  if (h.what == model::Change::zero && h.side == "both") {
     return fmt::format("the zeros have shifted, the left by {:+.2f} mm and the right by {:+.2f} mm",
                        h.added(0).value,
                        h.added(1).value);
   }
-  if (h.what == "zero") {
+  if (h.what == model::Change::zero) {
     return fmt::format(
         "the zero of {} has shifted by {:+.2f} mm", chain_words(h.side), h.size());
   }
-  if (h.what == "tooth") {
+  if (h.what == model::Change::tooth) {
     return fmt::format("{} skipped {} {}: it reads {:.2f} mm too {}",
                        chain_words(h.side),
                        std::abs(h.count) == 1 ? "one" : "two",
@@ -33,12 +33,12 @@ std::string words_of_chains(const CheckHypothesis& h) {
                        std::abs(h.size()),
                        h.count > 0 ? "much" : "little");
   }
-  if (h.what == "pitch" || h.what == "zeros_and_pitch") {
+  if (h.what == model::Change::pitch || h.what == model::Change::zeros_and_pitch) {
     const double growth = h.elongation(h.side == "right" ? 1 : 0).value;
     return fmt::format("the links of {} have grown by {:.3f} %{}",
                        chain_words(h.side),
                        100.0 * growth,
-                       h.what == "pitch" ? "" : ", and the zeros have shifted");
+                       h.what == model::Change::pitch ? "" : ", and the zeros have shifted");
   }
   return "a motor has moved";
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid/chain_rows.hpp"
+#include "model/chains/chain_mechanism.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -52,14 +53,14 @@ class ModelField final : public MapField {
  private:
   [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(MarkPoint mark) const override {
     const auto reading = model_.at(surface_.sheet.to_bed(mark));
-    if (!reading) return tl::unexpected(MapFailure(reading.error()));
+    if (!reading) return tl::unexpected(unreachable(model::mechanism_failure(reading.error())));
     return corrected(mark, *reading);
   }
 
   [[nodiscard]] tl::expected<WithCovariance, MapFailure> continued_with_covariance(
       MarkPoint mark) const override {
     const auto reading = model_.at(surface_.sheet.to_bed(mark));
-    if (!reading) return tl::unexpected(MapFailure(reading.error()));
+    if (!reading) return tl::unexpected(unreachable(model::mechanism_failure(reading.error())));
     return WithCovariance{corrected(mark, *reading), covariance(mark, *reading)};
   }
 
@@ -128,7 +129,7 @@ class LatticeField final : public MapField {
  private:
   [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(MarkPoint mark) const override {
     const auto reading = model_.at(sheet_.to_bed(mark));
-    if (!reading) return tl::unexpected(MapFailure(reading.error()));
+    if (!reading) return tl::unexpected(unreachable(model::mechanism_failure(reading.error())));
     const auto spline = splines_.at(mark);
     const Eigen::Vector2d factor(1.0 + scale_.left, 1.0 + scale_.right);
     MapLengths here;
@@ -251,10 +252,10 @@ std::optional<MapField::Change> MapField::change(MarkPoint mark) const {
   for (const Side side : model::kSides) {
     const Eigen::Index row = row_of(side);
     const interp::ValueGradient own = both[side]->at(mark.x_mm, mark.y_mm);
-    const interp::ValueGradient told =
+    const interp::ValueGradient reply =
         interp::evaluate(*both[side], beyond_->hull, beyond_->policy, {mark.x_mm, mark.y_mm}).z;
-    change.lengths_mm[row] = told.value - own.value;
-    change.jacobian.row(row) << told.dx - own.dx, told.dy - own.dy;
+    change.lengths_mm[row] = reply.value - own.value;
+    change.jacobian.row(row) << reply.dx - own.dx, reply.dy - own.dy;
   }
   return change;
 }

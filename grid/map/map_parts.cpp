@@ -67,11 +67,11 @@ void note_settings_off(const std::vector<SettingResult>& settings,
                        std::vector<std::string>& notes) {
   for (const SettingResult& setting : settings) {
     if (!setting.off) continue;
-    notes.push_back(fmt::format(
-        "{} ended {:+.3f} from what was stated, more than three times its stated uncertainty: "
-        "measure it again, or something else imitates it.",
-        model::name(setting.setting),
-        setting.calibrated - setting.stated));
+    notes.push_back(
+        fmt::format("{} came out {:+.3f} from what your file says, more than three times what it "
+                    "can be off: measure it again, or something else imitates it.",
+                    model::name(setting.setting),
+                    setting.calibrated - setting.stated));
   }
 }
 

@@ -57,24 +57,24 @@ std::span<const std::string_view> MechanismMap::length_names() const {
 
 tl::expected<LengthsAnswer, MapFailure> MechanismMap::query(model::BedPoint point) const {
   if (!area_.domain().contains(point.x_mm, point.y_mm))
-    return tl::unexpected(MapFailure::outside_map);
+    return tl::unexpected(MapReason::outside_map);
   const auto found = fitted_.mechanism->predict(
       fitted_.sheet->in_frame(point), {}, model::Derivatives::by_position);
-  if (!found) return tl::unexpected(MapFailure(found.error()));
+  if (!found) return tl::unexpected(unreachable(found.error()));
   return LengthsAnswer{found->lengths_mm, sigma(point), tool_sigma_mm(point), status(point)};
 }
 
 tl::expected<model::ChainLengths, MapFailure> MechanismMap::lengths(model::BedPoint point) const {
   if (!area_.domain().contains(point.x_mm, point.y_mm))
-    return tl::unexpected(MapFailure::outside_map);
+    return tl::unexpected(MapReason::outside_map);
   const auto found = lengths_of(fitted_, point);
-  if (!found) return tl::unexpected(MapFailure(found.error()));
+  if (!found) return tl::unexpected(unreachable(found.error()));
   return *found;
 }
 
 tl::expected<model::BedPoint, MapFailure> MechanismMap::tool(model::ChainLengths lengths) const {
   const auto found = fitted_.mechanism->locate_by_first(lengths);
-  if (!found) return tl::unexpected(MapFailure(found.error()));
+  if (!found) return tl::unexpected(unreachable(found.error()));
   return fitted_.sheet->on_sheet(*found);
 }
 

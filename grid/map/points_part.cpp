@@ -58,15 +58,14 @@ void replace_residuals(std::vector<FittedPoint>& points, const LatticeFit& latti
 
 void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual& lattice) {
   notes.emplace_back(
-      "The readings bear no noise and stand on full rows and columns: the map passes through every "
+      "The readings have no noise and stand on full rows and columns: the map passes through every "
       "one of them.");
   for (Eigen::Index iy = 0; iy < lattice.doubt_mm.cols(); ++iy) {
     for (Eigen::Index ix = 0; ix < lattice.doubt_mm.rows(); ++ix) {
       if (lattice.doubt_mm(ix, iy) == 0.0) continue;
       notes.push_back(
-          fmt::format("No reading at ({:.0f}, {:.0f}) was used: what stands there is foretold by "
-                      "the row or column through it, to "
-                      "about {:.2g} mm.",
+          fmt::format("No reading at ({:.0f}, {:.0f}) was used: the map there comes from the row "
+                      "or column through it, good to about {:.2g} mm.",
                       lattice.x_nodes_mm[static_cast<std::size_t>(ix)],
                       lattice.y_nodes_mm[static_cast<std::size_t>(iy)],
                       lattice.doubt_mm(ix, iy)));
@@ -90,7 +89,7 @@ class PointsPart final : public FitPart {
       noise_ = {std::max(grid_.noise->length_mm, kLeastNoiseMm),
                 std::max(grid_.noise->position_mm, kLeastNoiseMm)};
       noise = {interp::NoiseKnowledge::from_repeats, grid_.noise->dof};
-      source_ = "stated";
+      source_ = NoiseSource::stated;
     }
     observe();
   }
@@ -102,7 +101,7 @@ class PointsPart final : public FitPart {
       noise_.length_mm *= repeats->factor;
       noise_.position_mm *= repeats->factor;
       noise = {interp::NoiseKnowledge::from_repeats, repeats->dof};
-      source_ = "repeats";
+      source_ = NoiseSource::repeats;
       observe();
       alone.input.observations.front() = observation;
       alone.input.noise = noise;
@@ -122,15 +121,15 @@ class PointsPart final : public FitPart {
     const double left = 2.0 * static_cast<double>(points_.size()) - estimate.effective_parameters;
     noise_ = {estimate.noise_factor * noise_.length_mm, estimate.noise_factor * noise_.position_mm};
     noise = {interp::NoiseKnowledge::from_repeats,
-             source_ == "repeats" ? noise.degrees_of_freedom : std::max(left, 1.0)};
+             source_ == NoiseSource::repeats ? noise.degrees_of_freedom : std::max(left, 1.0)};
     lattice_.reset();
     observe();
   }
 
   [[nodiscard]] std::string few_good(std::size_t bad, std::size_t all) const override {
     return fmt::format(
-        "{} of {} points contradict the others or the machine as stated; check the "
-        "machine's measures, the order of the columns and the units",
+        "{} of {} points contradict the others or the machine file; check the machine's measures, "
+        "the order of the columns and the units",
         bad,
         all);
   }
@@ -163,7 +162,7 @@ class PointsPart final : public FitPart {
         fmt::format("{} points of {}{}",
                     points.size(),
                     name,
-                    rejected == 0 ? "" : fmt::format(" ({} set aside)", rejected)));
+                    rejected == 0 ? "" : fmt::format(" ({} left out)", rejected)));
     if (lattice_) {
       std::get<ModelSurface>(draft.map.surface).lattice = lattice_->residual;
       append_lattice_notes(draft.last_notes, lattice_->residual);
@@ -241,19 +240,18 @@ class PointsPart final : public FitPart {
   /// Of a file alone: how large the noise is relative to what was stated.
   static void note_noise(MapDraft& draft) {
     const MapNoise& noise = draft.map.noise;
-    if (noise.source == "stated" && noise.factor_found > kNoiseDisagreement) {
-      draft.notes.push_back(fmt::format(
-          "The readings scatter {:.1f} times as much as stated: check how the marks and the "
-          "lengths were measured.",
-          noise.factor_found));
+    if (noise.source == NoiseSource::stated && noise.factor_found > kNoiseDisagreement) {
+      draft.notes.push_back(
+          fmt::format("The readings scatter {:.1f} times as much as you said: check how the marks "
+                      "and the lengths were measured.",
+                      noise.factor_found));
     }
-    if (noise.source != "stated") {
+    if (noise.source != NoiseSource::stated) {
+      const double good_mm = noise.position_mm > 0.0 ? noise.position_mm : noise.length_mm;
       draft.notes.push_back(fmt::format(
-          "No noise was stated; from the {} it is about {:.2f} mm in a length and {:.2f} "
-          "mm in a position.",
-          noise.source == "repeats" ? "repeated points" : "scatter of the points",
-          noise.length_mm * noise.factor_found,
-          noise.position_mm * noise.factor_found));
+          "Your readings look good to about {:.2f} mm{}.",
+          good_mm * noise.factor_found,
+          noise.source == NoiseSource::repeats ? ", by the marks that were measured twice" : ""));
     }
   }
 
@@ -262,9 +260,8 @@ class PointsPart final : public FitPart {
                             const std::string& name,
                             std::vector<std::string>& notes) {
     notes.push_back(
-        fmt::format("{} {} at ({:.0f}, {:.0f}) was set aside: it lies {:.1f} mm beside where "
-                    "the others put it, {:.0f} times what "
-                    "the noise allows. Measure it again.",
+        fmt::format("{} {} at ({:.0f}, {:.0f}) is off by {:.1f} mm, {:.0f} times what the readings "
+                    "are good to, and was left out. Measure it again.",
                     name.empty() ? "Point" : name + ": point",
                     number,
                     point.mark.x_mm,
@@ -276,7 +273,7 @@ class PointsPart final : public FitPart {
   MeasuredGrid grid_;  ///< corrected
   std::vector<LengthPoint> points_;
   observation::PointNoise noise_;
-  std::string source_ = "fit";  ///< of the noise, as MapNoise has it
+  NoiseSource source_ = NoiseSource::fit;
   /// Takes the place of the surface where readings without noise lie on a lattice.
   std::optional<LatticeFit> lattice_;
 };
@@ -285,16 +282,15 @@ class PointsPart final : public FitPart {
 
 tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredGrid& grid) {
   if (!grid.machine) {
-    return tl::unexpected(FitFailure{
-        FitFailure::Reason::no_machine,
-        "the grid names no machine; a residual surface stands on one: give --machine, or "
-        "ask for --surface direct"});
+    return tl::unexpected(FitFailure{FitFailure::Reason::no_machine,
+                                     "the grid names no machine; a residual surface needs one: "
+                                     "give --machine, or ask for --surface direct"});
   }
   auto corrected = corrected_data(grid);
   if (!corrected) return tl::unexpected(corrected.error());
   auto points = length_points(corrected->grid);
   if (!points)
-    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, points.error().sentence});
+    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, points.error().sentence()});
   const MeasuredGrid& own = corrected->grid;
   if (auto possible = check_readings_of(*own.machine, own.readings, "grid's"); !possible)
     return tl::unexpected(possible.error());

@@ -2,7 +2,6 @@
 #include "grid/map/settings_to_type.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "model/controllers/payout.hpp"
+#include "grid/map/controller_error.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid {
@@ -48,72 +47,20 @@ std::vector<FreeSetting> free_settings(const Machine& machine) {
   };
   std::vector<FreeSetting> present;
   for (const FreeSetting& setting : all) {
-    const bool told = (machine.controller.settings.*setting.value).has_value();
+    const bool written = (machine.controller.settings.*setting.value).has_value();
     // What is known exactly does not move.
-    if (told && setting.sigma > 0.0) present.push_back(setting);
+    if (written && setting.sigma > 0.0) present.push_back(setting);
   }
   return present;
-}
-
-/// A place of the measured part as the map has it.
-struct Place {
-  model::BedPoint at;
-  model::ChainLengths lengths;
-  Eigen::Matrix2d to_tool;
-};
-
-std::vector<Place> measured_places(const CompensationMap& map) {
-  // Closer than any wave of a map between a few dozen points, and quick.
-  constexpr int kColumns = 25;
-  constexpr int kRows = 13;
-  const model::Bed& bed = map.machine()->bed;
-  std::vector<Place> places;
-  for (int row = 0; row < kRows; ++row) {
-    for (int column = 0; column < kColumns; ++column) {
-      const model::BedPoint at{bed.width_mm * ((column + 0.5) / kColumns - 0.5),
-                               bed.height_mm * ((row + 0.5) / kRows - 0.5)};
-      const model::MarkPoint mark = map.to_mark(at);
-      if (map.status(mark) != MapStatus::inside) continue;
-      if (const auto answer = map.lengths(mark))
-        places.push_back({at, answer->lengths, answer->mark_jacobian.inverse()});
-    }
-  }
-  return places;
-}
-
-/// (1) at every place, x and y one below the other; nothing where the controller cannot go to one.
-std::optional<Eigen::VectorXd> tool_errors(Machine machine,
-                                           const ControllerSettings& settings,
-                                           const std::vector<Place>& places) {
-  machine.controller.settings = settings;
-  const auto controller = model::make_controller_kinematics(machine);
-  Eigen::VectorXd errors(2 * static_cast<Eigen::Index>(places.size()));
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto paid_out = controller->lengths(places[i].at);
-    if (!paid_out) return std::nullopt;
-    errors.segment<2>(2 * static_cast<Eigen::Index>(i)) =
-        places[i].to_tool * Eigen::Vector2d(paid_out->left_mm - places[i].lengths.left_mm,
-                                            paid_out->right_mm - places[i].lengths.right_mm);
-  }
-  return errors;
-}
-
-ErrorSummary summary_of(const Eigen::VectorXd& errors) {
-  ErrorSummary result;
-  const Eigen::Index places = errors.size() / 2;
-  for (Eigen::Index i = 0; i < places; ++i)
-    result.maximum_mm = std::max(result.maximum_mm, errors.segment<2>(2 * i).norm());
-  result.rms_mm = std::sqrt(errors.squaredNorm() / static_cast<double>(places));
-  return result;
 }
 
 /// One step of Gauss and Newton from `now`; `weight` is of an error's square relative to the priors'.
 std::optional<ControllerSettings> improved(const Machine& machine,
                                            const ControllerSettings& now,
                                            const std::vector<FreeSetting>& free,
-                                           const std::vector<Place>& places,
+                                           const std::vector<MeasuredPlace>& places,
                                            double weight) {
-  const auto errors = tool_errors(machine, now, places);
+  const auto errors = controller_errors(machine, now, places);
   if (!errors) return std::nullopt;
   const auto unknowns = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd by_setting(errors->size(), unknowns);
@@ -124,8 +71,8 @@ std::optional<ControllerSettings> improved(const Machine& machine,
     ControllerSettings less = now;
     *(more.*setting.value) += setting.step;
     *(less.*setting.value) -= setting.step;
-    const auto up = tool_errors(machine, more, places);
-    const auto down = tool_errors(machine, less, places);
+    const auto up = controller_errors(machine, more, places);
+    const auto down = controller_errors(machine, less, places);
     if (!up || !down) return std::nullopt;
     by_setting.col(k) = (*up - *down) * (setting.sigma / (2.0 * setting.step));
     prior_pull[k] =
@@ -178,8 +125,8 @@ tl::expected<SettingsToType, SettingsFailure> settings_to_type(const Compensatio
   const model::ControllerKind kind = machine->controller.kind;
   const bool maslow =
       kind == model::ControllerKind::maslow_classic || kind == model::ControllerKind::holey;
-  const std::vector<Place> places = measured_places(map);
-  const auto before = tool_errors(*machine, machine->controller.settings, places);
+  const std::vector<MeasuredPlace> places = measured_places(map, MapFrame::bed);
+  const auto before = controller_errors(*machine, machine->controller.settings, places);
   if (!maslow || !std::holds_alternative<model::Ring>(machine->attachment) || !before ||
       places.empty()) {
     return failure(SettingsFailure::Reason::another_controller,
@@ -189,7 +136,7 @@ tl::expected<SettingsToType, SettingsFailure> settings_to_type(const Compensatio
   const std::vector<FreeSetting> free = free_settings(*machine);
   SettingsToType result;
   result.settings = machine->controller.settings;
-  result.as_it_is = result.typed = summary_of(*before);
+  result.as_it_is = result.typed = summary_of_errors(*before);
   result.points = good_points(map);
   // Places tell no more than the points that they come from; below a twentieth of a millimetre no
   // bed is cut.
@@ -210,12 +157,12 @@ tl::expected<SettingsToType, SettingsFailure> settings_to_type(const Compensatio
     settings = *better;
   }
   round_to_type(free, machine->controller.settings, settings);
-  const auto after = tool_errors(*machine, settings, places);
+  const auto after = controller_errors(*machine, settings, places);
   // A tenth of the error is not worth a new set of numbers.
   constexpr double kWorthTyping = 0.9;
-  if (!after || summary_of(*after).rms_mm > kWorthTyping * result.as_it_is.rms_mm) return result;
+  if (!after || summary_of_errors(*after).rms_mm > kWorthTyping * result.as_it_is.rms_mm) return result;
   result.settings = settings;
-  result.typed = summary_of(*after);
+  result.typed = summary_of_errors(*after);
   result.worth_typing = true;
   return result;
 }

@@ -3,15 +3,9 @@
 /// The settings with which a Maslow's controller, left as it is, comes nearest to a map: numbers to
 /// type in once, in place of G-code compensated for every job.
 ///
-/// Least squares, by Gauss and Newton, of the tool's error over the measured part of the bed
-///
-///   e(p) = J(p)^-1 (controller(s, p) - map(p))                                              (1)
-///
-/// with each setting held to the one in force by how well such a number is usually known.
-///
-/// Notation
-///   p  a place, in the bed's frame       s  the settings
-///   J  d(left, right)/d(p) of the map    e  to first order: a millimetre of error is off by 1 um
+/// Least squares, by Gauss and Newton, of the tool's error over the measured part of the bed,
+/// (1) of controller_error.hpp at places of the bed, with each setting held to the one in force by
+/// how well such a number is usually known.
 ///
 /// A firmware's formulas cannot say all that a map can: `typed` is what is left with them.
 ///
@@ -26,6 +20,7 @@
 #include <tl/expected.hpp>
 
 #include "grid/map/compensation_map.hpp"
+#include "model/failure.hpp"
 
 namespace chaintrue::grid {
 
@@ -41,13 +36,11 @@ struct SettingsToType {
   bool worth_typing = false;
 };
 
-struct SettingsFailure {
-  enum class Reason {
-    no_machine,         ///< a map of splines through the lengths
-    another_controller  ///< whose settings are not a Maslow's, or a sled on brackets
-  } reason;
-  std::string sentence;
+enum class SettingsReason {
+  no_machine,         ///< a map of splines through the lengths
+  another_controller  ///< whose settings are not a Maslow's, or a sled on brackets
 };
+using SettingsFailure = Failure<SettingsReason>;
 
 [[nodiscard]] tl::expected<SettingsToType, SettingsFailure> settings_to_type(
     const CompensationMap& map);

@@ -204,7 +204,7 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
     const LengthsAtPlace& own = readings_[place];
     const auto at =
         view.mechanism->predict(line.positions[static_cast<std::size_t>(p)], own.visit, wanted);
-    if (!at) return tl::unexpected(Unreachable{place, at.error()});
+    if (!at) return tl::unexpected(at.error().at(place));
     const auto here = Eigen::seqN(lengths * p, lengths);
     line.residual_mm(here) = own.lengths_mm - at->lengths_mm;
     line.by_position.block(lengths * p, 2 * p, lengths, 2) = at->by_position;
@@ -221,8 +221,7 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
     }
     const auto own = distance_line(*view.mechanism, distances_[k], ends);
     if (!own) {
-      return tl::unexpected(
-          Unreachable{block.places.empty() ? 0 : block.places.front(), own.error()});
+      return tl::unexpected(own.error().at(block.places.empty() ? 0 : block.places.front()));
     }
     line.residual_mm[row] = distances_[k].distance_mm - own->predicted_mm;
     for (std::size_t e = 0; e < 2; ++e) {
@@ -259,8 +258,9 @@ tl::expected<void, Unreachable> BeltLengthReadings::find_positions(const View& v
     line = *std::move(there);
     if (move.norm() < kConvergedMm) return {};
   }
-  return tl::unexpected(Unreachable{block.places.front(),
-                                    {"not_converged", "no position was found for these lengths"}});
+  constexpr model::MechanismReason kNotConverged{"not_converged",
+                                                 "no position was found for these lengths"};
+  return tl::unexpected(Unreachable(kNotConverged, block.places.front()));
 }
 
 tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& view,
@@ -283,7 +283,7 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& 
                                          position ? *position : view.mechanism->extent().centre(),
                                          deciding);
     }
-    if (!position) return tl::unexpected(Unreachable{place, position.error()});
+    if (!position) return tl::unexpected(position.error().at(place));
     positions.push_back(*position);
   }
   auto line = line_at(view, block, std::move(positions), with_parameters);

@@ -74,7 +74,7 @@ tl::expected<Eigen::VectorXd, Unreachable> ChainLengthReadings::predicted(const 
   const auto lengths = model::readings(view.chains(), visits);
   if (!lengths)
     return tl::unexpected(
-        Unreachable{lengths.error().index, model::mechanism_failure(lengths.error().reason)});
+        model::mechanism_failure(lengths.error().reason).at(lengths.error().place));
   Eigen::VectorXd all(rows());
   for (std::size_t i = 0; i < lengths->size(); ++i) {
     model::ChainLengths own = (*lengths)[i];
@@ -99,7 +99,7 @@ tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const model::MarkPoint place = frame.place(places_[i].mark);
     const auto reading = view.chains().at(view.sheet.to_bed(place));
-    if (!reading) return tl::unexpected(Unreachable{i, model::mechanism_failure(reading.error())});
+    if (!reading) return tl::unexpected(model::mechanism_failure(reading.error()).at(i));
     PlaceState state{*reading, places_[i].mark, reading->position_jacobian * view.sheet.rotation()};
     model::ChainLengths lengths = reading->lengths;
     if (view.correction != nullptr) {

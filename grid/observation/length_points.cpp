@@ -45,21 +45,22 @@ void take_tape_error(Machine& machine, const ExtraReading& reading) {
 
 using TakeReading = std::function<void(Machine&, const ExtraReading&)>;
 
-const std::map<std::string, TakeReading>& machine_readings() {
-  static const std::map<std::string, TakeReading> kReadings = {
-      {"sled_mass_kg", [](Machine& m, const ExtraReading& r) { m.sled.mass_kg = r.value; }},
-      {"chain_mass_kg_per_m",
+const std::map<ReadingOf, TakeReading>& machine_readings() {
+  static const std::map<ReadingOf, TakeReading> kReadings = {
+      {ReadingOf::sled_mass, [](Machine& m, const ExtraReading& r) { m.sled.mass_kg = r.value; }},
+      {ReadingOf::chain_mass,
        [](Machine& m, const ExtraReading& r) { m.chain.mass_kg_per_m = r.value; }},
-      {"ring_radius_mm", take_ring_radius},
-      {"link_pitch_mm", take_link_pitch},
-      {"tape_error_mm_per_m", take_tape_error},
+      {ReadingOf::ring_radius, take_ring_radius},
+      {ReadingOf::link_pitch, take_link_pitch},
+      {ReadingOf::tape_error, take_tape_error},
   };
   return kReadings;
 }
 
 tl::unexpected<NoLengths> no_lengths(std::size_t index, const std::string& why) {
   return tl::unexpected(
-      NoLengths{fmt::format("point {} gives a command and no lengths, but {}", index + 1, why)});
+      NoLengths{LengthPointsReason::no_lengths,
+                fmt::format("point {} gives a command and no lengths, but {}", index + 1, why)});
 }
 
 }  // namespace
@@ -77,13 +78,12 @@ tl::expected<std::vector<LengthPoint>, NoLengths> length_points(const MeasuredGr
     if (point.lengths) {
       result.lengths = *point.lengths;
     } else {
-      if (!controller)
-        return no_lengths(i, "no machine is stated whose controller would tell them");
+      if (!controller) return no_lengths(i, "no machine is given whose controller would say them");
       if (!point.commanded) return no_lengths(i, "the command is missing");
       const auto paid_out = controller->lengths(*point.commanded);
       if (!paid_out)
         return no_lengths(
-            i, fmt::format("the controller cannot go there: {}", model::explain(paid_out.error())));
+            i, fmt::format("the controller cannot go there: {}", paid_out.error().sentence()));
       result.lengths = *paid_out;
       result.commanded = point.commanded;
     }
@@ -99,8 +99,7 @@ observation::ChainLengthReadings chain_length_readings(
     const std::optional<SheetUncertainty>& sheet) {
   std::vector<observation::Place> places;
   for (const LengthPoint& point : points) {
-    places.push_back(
-        {point.index, std::to_string(point.index + 1), point.mark, point.lengths, 0});
+    places.push_back({point.index, std::to_string(point.index + 1), point.mark, point.lengths, 0});
   }
   std::optional<observation::SheetPrior> prior;
   if (sheet) prior = observation::SheetPrior{sheet->shift_mm, 1e-3 * sheet->rotation_mrad};
@@ -150,6 +149,26 @@ std::vector<ExtraReading> combined(const std::vector<ExtraReading>& readings) {
 
 }  // namespace
 
+std::string_view name(ReadingOf what) {
+  switch (what) {
+    case ReadingOf::beam_rise:
+      return "beam_rise_mm";
+    case ReadingOf::chain_mass:
+      return "chain_mass_kg_per_m";
+    case ReadingOf::link_pitch:
+      return "link_pitch_mm";
+    case ReadingOf::motor_spacing:
+      return "motor_spacing_mm";
+    case ReadingOf::ring_radius:
+      return "ring_radius_mm";
+    case ReadingOf::sled_mass:
+      return "sled_mass_kg";
+    case ReadingOf::tape_error:
+      break;
+  }
+  return "tape_error_mm_per_m";
+}
+
 Machine with_readings(Machine machine, const std::vector<ExtraReading>& readings) {
   for (const ExtraReading& reading : combined(readings)) {
     const auto take = machine_readings().find(reading.what);
@@ -161,7 +180,7 @@ Machine with_readings(Machine machine, const std::vector<ExtraReading>& readings
 std::vector<ExtraReading> setting_readings(const std::vector<ExtraReading>& readings) {
   std::vector<ExtraReading> result;
   for (const ExtraReading& reading : readings) {
-    if (reading.what == "motor_spacing_mm" || reading.what == "beam_rise_mm")
+    if (reading.what == ReadingOf::motor_spacing || reading.what == ReadingOf::beam_rise)
       result.push_back(reading);
   }
   return result;

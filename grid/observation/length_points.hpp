@@ -25,9 +25,8 @@ struct LengthPoint {
 };
 
 /// A point gives a command that its controller cannot reach, or no controller is stated.
-struct NoLengths {
-  std::string sentence;
-};
+enum class LengthPointsReason { no_lengths };
+using NoLengths = Failure<LengthPointsReason>;
 
 /// Every point's lengths. A point that gives a command has the lengths that the machine's
 /// controller pays out for it.

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/machine.hpp"
@@ -34,10 +35,21 @@ struct SheetUncertainty {
   double rotation_mrad = 10.0;
 };
 
-/// A measurement that is not a point: motor_spacing_mm, beam_rise_mm, ring_radius_mm, sled_mass_kg, link_pitch_mm,
-/// chain_mass_kg_per_m.
+/// What is read that is not a point, in the order of the names, by which readings are sorted.
+enum class ReadingOf {
+  beam_rise,      ///< mm
+  chain_mass,     ///< kg per m
+  link_pitch,     ///< mm
+  motor_spacing,  ///< mm
+  ring_radius,    ///< mm
+  sled_mass,      ///< kg
+  tape_error,     ///< mm per m
+};
+/// As in files, with its unit: "beam_rise_mm".
+[[nodiscard]] std::string_view name(ReadingOf what);
+
 struct ExtraReading {
-  std::string what;
+  ReadingOf what = ReadingOf::motor_spacing;
   std::string side;
   double value = 0.0;
   double sigma = 0.0;

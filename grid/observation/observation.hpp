@@ -158,11 +158,8 @@ struct Linearisation {
   std::vector<UnitState> units;
 };
 
-/// The machine cannot hold the tool at a place.
-struct Unreachable {
-  std::size_t place = 0;
-  model::MechanismFailure reason{};
-};
+/// The machine cannot hold the tool at a place, by its number.
+using Unreachable = Failure<model::MechanismReason, std::size_t>;
 
 /// A single reading of a unit.
 struct UnitReading {

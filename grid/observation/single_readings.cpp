@@ -31,30 +31,30 @@ double summed_size(const Machine& machine, std::string_view effect, const std::s
 
 using Predict = double (*)(const Machine&, const ExtraReading&);
 
-const std::map<std::string, Predict, std::less<>>& predictions() {
-  static const std::map<std::string, Predict, std::less<>> kPredictions = {
-      {"motor_spacing_mm",
+const std::map<ReadingOf, Predict>& predictions() {
+  static const std::map<ReadingOf, Predict> kPredictions = {
+      {ReadingOf::motor_spacing,
        [](const Machine& m, const ExtraReading&) {
          return m.motors.right.x_mm - m.motors.left.x_mm;
        }},
-      {"beam_rise_mm",
+      {ReadingOf::beam_rise,
        [](const Machine& m, const ExtraReading&) {
          return m.motors.right.y_mm - m.motors.left.y_mm;
        }},
-      {"ring_radius_mm",
+      {ReadingOf::ring_radius,
        [](const Machine& m, const ExtraReading&) {
          const auto* ring = std::get_if<model::Ring>(&m.attachment);
          return (ring != nullptr ? ring->radius_mm : 0.0) + summed_size(m, "ring_radius", "");
        }},
-      {"link_pitch_mm",
+      {ReadingOf::link_pitch,
        [](const Machine& m, const ExtraReading& r) {
          return m.sprocket.pitch_mm * (1.0 + summed_size(m, "chain_pitch_error", r.side));
        }},
-      {"chain_mass_kg_per_m",
+      {ReadingOf::chain_mass,
        [](const Machine& m, const ExtraReading&) {
          return m.chain.mass_kg_per_m * (1.0 + summed_size(m, "chain_sag", ""));
        }},
-      {"tape_error_mm_per_m",
+      {ReadingOf::tape_error,
        [](const Machine& m, const ExtraReading& r) {
          return 1000.0 * summed_size(m, "tape_scale", r.side);
        }},
@@ -68,7 +68,7 @@ const Kind single_readings{"single_readings", "reading", "readings", "", false};
 
 bool is_predictable(const Machine& machine, const ExtraReading& reading) {
   if (predictions().find(reading.what) == predictions().end()) return false;
-  return reading.what != "ring_radius_mm" ||
+  return reading.what != ReadingOf::ring_radius ||
          std::holds_alternative<model::Ring>(machine.attachment);
 }
 
@@ -85,7 +85,7 @@ SingleReadings::SingleReadings(std::vector<ExtraReading> readings)
   for (std::size_t k = 0; k < readings_.size(); ++k) {
     if (!(readings_[k].sigma > 0.0)) {
       throw precondition("a reading of {} with sigma {}; it must be positive",
-                         readings_[k].what,
+                         name(readings_[k].what),
                          readings_[k].sigma);
     }
     measured_(static_cast<Eigen::Index>(k)) = readings_[k].value;
@@ -133,8 +133,9 @@ std::string SingleReadings::untestable(const model::effects::Effect& effect,
 
 std::string SingleReadings::name_of(std::size_t unit) const {
   const ExtraReading& reading = readings_.at(unit);
-  return reading.side.empty() ? fmt::format("the reading of {}", reading.what)
-                              : fmt::format("the reading of {} ({})", reading.what, reading.side);
+  return reading.side.empty()
+             ? fmt::format("the reading of {}", name(reading.what))
+             : fmt::format("the reading of {} ({})", name(reading.what), reading.side);
 }
 
 }  // namespace chaintrue::grid::observation

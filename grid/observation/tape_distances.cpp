@@ -159,8 +159,13 @@ DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& g
 }
 
 bool is_of_tape(const model::effects::Effect& effect, model::effects::EffectSide side) {
-  return effect.station == model::effects::Station::paper &&
-         side == model::effects::EffectSide::both;
+  if (effect.station != model::effects::Station::paper || side != model::effects::EffectSide::both)
+    return false;
+  // What is declared may be more than a scale.
+  const std::vector<double> values = model::effects::nominal_values(effect);
+  const model::MarkPoint x = effect.write({1.0, 0.0}, side, values);
+  const model::MarkPoint y = effect.write({0.0, 1.0}, side, values);
+  return x.y_mm == 0.0 && y.x_mm == 0.0 && x.x_mm == y.y_mm;
 }
 
 double tape_factor(const model::Machine& machine) {
@@ -206,7 +211,7 @@ tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::in_given_order(
                       hole.name,
                       hole.commanded.x_mm,
                       hole.commanded.y_mm,
-                      model::explain(lengths.error()))});
+                      lengths.error().sentence())});
     }
     result.places_.push_back(
         {i, hole.name, model::identity_placement(hole.commanded), *lengths, static_cast<int>(i)});
@@ -262,7 +267,7 @@ tl::expected<std::vector<PlaceState>, Unreachable> TapeDistances::placed(const V
         break;
       reading = view.chains().find(own, start);
     }
-    if (!reading) return tl::unexpected(Unreachable{i, model::mechanism_failure(reading.error())});
+    if (!reading) return tl::unexpected(model::mechanism_failure(reading.error()).at(i));
     PlaceState state{*reading,
                      view.sheet.to_mark(reading->pose.position),
                      reading->position_jacobian * view.sheet.rotation()};

@@ -77,11 +77,8 @@ struct NumberedFrom {
   std::size_t distance = 0;
 };
 
-struct TapeDistancesFailure {
-  enum class Reason { no_lengths };
-  Reason reason = Reason::no_lengths;
-  std::string sentence;
-};
+enum class TapeDistancesReason { no_lengths };
+using TapeDistancesFailure = Failure<TapeDistancesReason>;
 
 class TapeDistances final : public Observation {
  public:

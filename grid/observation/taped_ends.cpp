@@ -14,7 +14,7 @@ struct PlacedEnd {
 
 using MaybePlaced = tl::expected<PlacedEnd, model::MechanismFailure>;
 
-constexpr model::MechanismFailure kNoHole{
+constexpr model::MechanismReason kNoHole{
     "no_hole", "the lengths that were paid out for a hole end nowhere together"};
 
 MaybePlaced hole_at(const model::Mechanism& mechanism, const AtHole& hole) {

@@ -53,11 +53,10 @@ tl::expected<HolesPass, FitFailure> HolesRounds::add(const MeasuredHoles& set,
   }
   if (const std::string difference = difference_of_settings(stated_, *set.machine);
       !difference.empty()) {
-    return tl::unexpected(FitFailure{
-        FitFailure::Reason::impossible_readings,
-        fmt::format("{}: passes are of one machine as it was first stated; what changes from pass "
-                    "to pass are the controller's settings",
-                    difference)});
+    return tl::unexpected(FitFailure{FitFailure::Reason::impossible_readings,
+                                     fmt::format("{}: passes share one machine file; only the "
+                                                 "controller's settings change from pass to pass",
+                                                 difference)});
   }
   MeasuredHoles own = set;
   std::erase_if(own.readings, [this](const ExtraReading& reading) {
@@ -123,7 +122,7 @@ tl::expected<SimulatedRounds, FitFailure> simulate_rounds(const model::Machine& 
     return tl::unexpected(FitFailure{FitFailure::Reason::point_unreachable, std::move(sentence)});
   };
   const auto plan = plan_holes(stated, request.plan);
-  if (!plan) return cannot_be_cut(plan.error().sentence);
+  if (!plan) return cannot_be_cut(plan.error().sentence());
   synthetic::HolesSpec spec;
   spec.draw_settings = true;
   spec.scale_sigma = request.elongation_sigma;
@@ -146,14 +145,14 @@ tl::expected<SimulatedRounds, FitFailure> simulate_rounds(const model::Machine& 
                                    : tl::expected<BedPoint, model::PoseFailure>(wanted[i]);
       if (!command) {
         return cannot_be_cut(
-            fmt::format("hole {}: {}", design.holes[i].name, model::explain(command.error())));
+            fmt::format("hole {}: {}", design.holes[i].name, command.error().sentence()));
       }
       design.holes[i].commanded = *command;
     }
     // An independent noise stream for each round.
     spec.seed = request.seed + 1000003ULL * static_cast<std::uint64_t>(number);
     auto made = synthetic::simulate_holes(design, spec, truth);
-    if (!made) return cannot_be_cut(made.error().sentence);
+    if (!made) return cannot_be_cut(made.error().sentence());
     auto pass = passes.add(made->set, wanted);
     if (!pass) return tl::unexpected(pass.error());
     last = made->set;

@@ -48,7 +48,8 @@ class Separation {
       : readings_(readings), covariance_(readings.covariance.dense()) {}
 
   /// (1), both chains.
-  [[nodiscard]] model::PerSide<double> squared_sigmas(const std::vector<std::size_t>& points) const {
+  [[nodiscard]] model::PerSide<double> squared_sigmas(
+      const std::vector<std::size_t>& points) const {
     std::vector<Eigen::Index> rows;
     for (const std::size_t point : points) {
       rows.push_back(2 * static_cast<Eigen::Index>(point));
@@ -138,13 +139,14 @@ tl::expected<CheckReadings, PlanFailure> readings_at(const CompensationMap& map,
     if (!answer) {
       return tl::unexpected(PlanFailure{
           PlanFailure::Reason::unreachable,
-          fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, explain(answer.error()))});
+          fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, answer.error().sentence())});
     }
     grid.points.push_back({mark, answer->lengths, {}, {}});
   }
   auto readings = check_readings(map, grid);
   if (!readings) {
-    return tl::unexpected(PlanFailure{PlanFailure::Reason::unreachable, readings.error().sentence});
+    return tl::unexpected(
+        PlanFailure{PlanFailure::Reason::unreachable, readings.error().sentence()});
   }
   return *std::move(readings);
 }
@@ -160,9 +162,10 @@ model::PerSide<double> roots(const model::PerSide<double>& squares) {
 
 }  // namespace
 
-tl::expected<model::PerSide<double>, PlanFailure> expected_sigmas(const CompensationMap& map,
-                                                              const std::vector<MarkPoint>& marks,
-                                                              const CheckPlanRequest& request) {
+tl::expected<model::PerSide<double>, PlanFailure> expected_sigmas(
+    const CompensationMap& map,
+    const std::vector<MarkPoint>& marks,
+    const CheckPlanRequest& request) {
   if (map.machine() == nullptr) return tl::unexpected(no_machine());
   const auto readings = readings_at(map, marks, request);
   if (!readings) return tl::unexpected(readings.error());
@@ -179,7 +182,7 @@ tl::expected<CheckPlan, PlanFailure> plan_check(const CompensationMap& map,
   if (places.size() < static_cast<std::size_t>(request.points)) {
     return tl::unexpected(
         PlanFailure{PlanFailure::Reason::too_few_places,
-                    fmt::format("the map answers at {} of the places tried only", places.size())});
+                    fmt::format("the map answers at only {} of the places tried", places.size())});
   }
   const auto readings = readings_at(map, places, request);
   if (!readings) return tl::unexpected(readings.error());

@@ -54,8 +54,7 @@ std::vector<PlannedPlace> candidates(const model::Machine& machine, double margi
 bool is_free(const Holes& holes, std::size_t moving, MarkPoint place, double apart_mm) {
   for (std::size_t i = 0; i < holes.size(); ++i) {
     if (i == moving) continue;
-    if (std::hypot(holes[i]->place.x_mm - place.x_mm, holes[i]->place.y_mm - place.y_mm) <
-        apart_mm)
+    if (std::hypot(holes[i]->place.x_mm - place.x_mm, holes[i]->place.y_mm - place.y_mm) < apart_mm)
       return false;
   }
   return true;
@@ -251,11 +250,11 @@ tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
   check(machine, request);
   const std::vector<PlannedPlace> places = candidates(machine, request.margin_mm);
   if (places.size() < static_cast<std::size_t>(request.holes)) {
-    return tl::unexpected(PlanFailure{PlanFailure::Reason::too_few_places,
-                                      fmt::format("the machine can cut at {} of the places tried "
-                                                  "only; a wider margin leaves out those it "
-                                                  "cannot reach",
-                                                  places.size())});
+    return tl::unexpected(
+        PlanFailure{PlanFailure::Reason::too_few_places,
+                    fmt::format("the machine can cut at only {} of the places tried; a wider "
+                                "margin leaves out those it cannot reach",
+                                places.size())});
   }
   const Eigen::MatrixXd prior = prior_of(machine, request.edges);
   const ToolError error = tool_error(machine, request.edges);

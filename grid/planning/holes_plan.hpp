@@ -54,7 +54,7 @@ struct HolesPlanRequest {
 
 /// One result of the set: a combination of settings and scales, before and after.
 struct PlannedKnowledge {
-  std::string what;     ///< "motor spacing", "left chain scale"
+  std::string name;     ///< "motor spacing", "left chain scale"
   std::string unit;     ///< "mm", "%" or "mm per metre"
   double before = 0.0;  ///< one sigma as stated
   double after = 0.0;

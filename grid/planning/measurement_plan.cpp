@@ -49,7 +49,7 @@ class Planner {
                                     "margin leaves such places out",
                                     mark.x_mm,
                                     mark.y_mm,
-                                    model::explain(reading.error()))});
+                                    reading.error().sentence())});
       }
       const model::ChainLengths disturbance = synthetic::unmodelled(model::identity_placement(mark));
       grid.points.push_back(
@@ -60,7 +60,8 @@ class Planner {
            std::nullopt});
     }
     auto map = fit(grid);
-    if (!map) return tl::unexpected(PlanFailure{PlanFailure::Reason::no_map, map.error().sentence});
+    if (!map)
+      return tl::unexpected(PlanFailure{PlanFailure::Reason::no_map, map.error().sentence()});
     return *std::move(map);
   }
 

@@ -23,6 +23,7 @@
 
 #include "grid/map/compensation_map.hpp"
 #include "grid/observation/chain_lengths.hpp"
+#include "model/failure.hpp"
 
 namespace chaintrue::grid {
 
@@ -52,15 +53,13 @@ struct MeasurementPlan {
 };
 
 /// Why there is no plan, with the position.
-struct PlanFailure {
-  enum class Reason {
-    no_machine,
-    unreachable,     ///< a mark where the machine cannot hold the sled, or off the map
-    too_few_places,  ///< that could be measured or cut
-    no_map,          ///< no map can be fitted to the planned measurements
-  } reason;
-  std::string sentence;
+enum class PlanReason {
+  no_machine,
+  unreachable,     ///< a mark where the machine cannot hold the sled, or off the map
+  too_few_places,  ///< that could be measured or cut
+  no_map,          ///< no map can be fitted to the planned measurements
 };
+using PlanFailure = Failure<PlanReason>;
 
 /// \throws std::invalid_argument for a number of points out of range, or a margin that leaves no
 /// bed.

@@ -24,7 +24,7 @@ struct Secant {
 };
 
 struct Pattern {
-  SeenEffect seen;
+  SeenEffect found;
   Eigen::VectorXd white;
 };
 
@@ -54,7 +54,7 @@ std::optional<Stated> stated_of(const MeasuredHoles& set) {
   Stated stated{observation::marginal_covariance(*line, distances->nuisance_sigma()) +
                     line->by_setting * prior.asDiagonal() * line->by_setting.transpose(),
                 {}};
-  for (const model::effects::Effect* effect : model::effects::catalogue()) {
+  for (const model::effects::Effect* effect : model::effects::effects_of(*set.machine)) {
     if (!is_seen_by_distances(*effect)) continue;
     for (const model::effects::EffectSide side : effect->sides) {
       model::Machine machine = *set.machine;
@@ -77,26 +77,26 @@ std::vector<SeenEffect> seen_effects(const MeasuredHoles& set) {
   std::vector<Pattern> patterns;
   for (const Secant& secant : stated->secants) {
     Pattern pattern;
-    pattern.seen.effect = secant.effect->id;
-    pattern.seen.side = model::effects::name(secant.side);
+    pattern.found.effect = secant.effect->id;
+    pattern.found.side = model::effects::name(secant.side);
     pattern.white = factor.matrixL().solve(secant.change_mm);
-    pattern.seen.sigmas = pattern.white.norm();
+    pattern.found.sigmas = pattern.white.norm();
     patterns.push_back(std::move(pattern));
   }
   std::stable_sort(patterns.begin(), patterns.end(), [](const Pattern& a, const Pattern& b) {
-    return a.seen.sigmas > b.seen.sigmas;
+    return a.found.sigmas > b.found.sigmas;
   });
-  std::vector<SeenEffect> seen;
+  std::vector<SeenEffect> found;
   for (std::size_t i = 0; i < patterns.size(); ++i) {
     for (std::size_t j = 0; j < patterns.size(); ++j) {
       if (i == j) continue;
-      const double together = patterns[i].seen.sigmas * patterns[j].seen.sigmas;
+      const double together = patterns[i].found.sigmas * patterns[j].found.sigmas;
       if (together > 0.0 && std::abs(patterns[i].white.dot(patterns[j].white)) > kAlike * together)
-        patterns[i].seen.same_as.push_back(j);
+        patterns[i].found.same_as.push_back(j);
     }
-    seen.push_back(patterns[i].seen);
+    found.push_back(patterns[i].found);
   }
-  return seen;
+  return found;
 }
 
 }  // namespace chaintrue::grid

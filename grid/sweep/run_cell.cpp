@@ -111,17 +111,17 @@ CellResult hold_against_truth(const SweepSpec& spec,
     for (int column = 0; column < spec.evaluation_columns; ++column) {
       const BedPoint p{raster(width, column, spec.evaluation_columns),
                        raster(height, row, spec.evaluation_rows)};
-      const auto told = map.lengths(model::identity_placement(p));
+      const auto answer = map.lengths(model::identity_placement(p));
       const auto real = truth.at(p);
-      if (!told || !real) {
+      if (!answer || !real) {
         errors.miss();
         continue;
       }
       model::ChainLengths disturbed{};
       if (level.unmodelled_mm != 0.0) disturbed = synthetic::unmodelled(p);
       const Eigen::Vector2d chain{
-          told->lengths.left_mm - real->lengths.left_mm - level.unmodelled_mm * disturbed.left_mm,
-          told->lengths.right_mm - real->lengths.right_mm -
+          answer->lengths.left_mm - real->lengths.left_mm - level.unmodelled_mm * disturbed.left_mm,
+          answer->lengths.right_mm - real->lengths.right_mm -
               level.unmodelled_mm * disturbed.right_mm};
       errors.add(chain, real->position_jacobian.inverse() * chain);
     }

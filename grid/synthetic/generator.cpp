@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "model/calibration/setting.hpp"
+#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::synthetic {
 namespace {
@@ -109,9 +110,14 @@ std::vector<SettingOffset> drawn_offsets(const Machine& stated, const SyntheticS
 std::vector<std::size_t> miscounted(const Machine& machine, const std::vector<Visit>& visits) {
   std::vector<std::size_t> points;
   for (const model::AppliedEffect& effect : machine.effects) {
-    if (effect.effect != "link_miscount" || effect.parameters.at("links") == 0.0) continue;
+    const model::effects::Effect* known = model::effects::find_effect(machine, effect.effect);
+    if (known == nullptr || !known->at_one_visit) continue;
+    const auto value = [&](const model::effects::EffectParameter& parameter) {
+      return effect.parameters.at(std::string(parameter.name));
+    };
+    if (value(known->parameters.front()) == known->parameters.front().null) continue;
     for (std::size_t i = 0; i < visits.size(); ++i) {
-      if (visits[i].order == effect.parameters.at("visit")) points.push_back(i);
+      if (visits[i].order == value(known->parameters.back())) points.push_back(i);
     }
   }
   return points;
@@ -241,8 +247,8 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   const model::ReadingModel reading_model(answer.machine, spec.model);
   const auto lengths = model::readings(reading_model, visits, counting(progress, visits.size()));
   if (!lengths) {
-    const BedPoint place = visits[lengths.error().index].position;
-    return tl::unexpected(UnreachableMark{answer.sheet.to_mark(place), lengths.error().reason});
+    const BedPoint place = visits[lengths.error().place].position;
+    return tl::unexpected(lengths.error().at(answer.sheet.to_mark(place)));
   }
   answer.lengths = *lengths;
   for (std::size_t i = 0; spec.unmodelled_mm != 0.0 && i < visits.size(); ++i) {
@@ -282,7 +288,7 @@ PlacesRead read_places(const Machine& stated,
     if (reading) {
       reached.push_back(visits[i]);
     } else {
-      result.unreachable.emplace_back(i, reading.error());
+      result.unreachable.emplace_back(i, reading.error().reason);
     }
   }
   const auto lengths = model::readings(reading_model, reached, counting(progress, reached.size()));

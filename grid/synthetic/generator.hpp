@@ -123,10 +123,7 @@ struct SyntheticSession {
 };
 
 /// A mark that the machine cannot reach.
-struct UnreachableMark {
-  model::MarkPoint place;
-  model::PoseFailure reason = model::PoseFailure::not_converged;
-};
+using UnreachableMark = Failure<model::PoseReason, model::MarkPoint>;
 
 /// \throws std::invalid_argument for a machine or hidden effects with problems (check with
 /// problems_of and effects::problems_of_effects on true_machine()), and as marks().
@@ -142,7 +139,7 @@ struct UnreachableMark {
 struct PlacesRead {
   MeasuredGrid grid;
   /// Positions that cannot be reached; they are not in the grid and the session.
-  std::vector<std::pair<std::size_t, model::PoseFailure>> unreachable;
+  std::vector<std::pair<std::size_t, model::PoseReason>> unreachable;
 };
 [[nodiscard]] PlacesRead read_places(const model::Machine& stated,
                                      const std::vector<model::AppliedEffect>& hidden,

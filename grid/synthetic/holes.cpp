@@ -50,7 +50,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
   if (!design.machine) throw std::invalid_argument("holes are cut by a machine; none was given");
   const auto distances = observation::TapeDistances::in_given_order(design);
   if (!distances) {
-    return tl::unexpected(CutFailure{CutFailure::Reason::no_lengths, distances.error().sentence});
+    return tl::unexpected(CutFailure{CutFailure::Reason::no_lengths, distances.error().sentence()});
   }
   SyntheticHoles made{design, truth ? *truth : hidden_truth(*design.machine, spec), {}};
   const model::ReadingModel model(made.truth);
@@ -63,7 +63,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
                                                    design.holes[i].name,
                                                    design.holes[i].commanded.x_mm,
                                                    design.holes[i].commanded.y_mm,
-                                                   model::explain(reading.error()))});
+                                                   reading.error().sentence())});
     }
     const model::MarkPoint at = spec.sheet.to_mark(reading->pose.position);
     const double dx = design.hole_sigma_mm * hole_noise.normal();

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "grid/observation/measured_holes.hpp"
+#include "model/failure.hpp"
 #include "model/calibration/sheet_placement.hpp"
 
 namespace chaintrue::grid::synthetic {
@@ -46,13 +47,11 @@ struct SyntheticHoles {
   std::vector<std::size_t> bad_readings{};
 };
 
-struct CutFailure {
-  enum class Reason {
-    no_lengths,   ///< a command outside the controller's range
-    unreachable,  ///< the true machine has no pose with these lengths
-  } reason;
-  std::string sentence;
+enum class CutReason {
+  no_lengths,   ///< a command outside the controller's range
+  unreachable,  ///< the true machine has no pose with these lengths
 };
+using CutFailure = Failure<CutReason>;
 
 /// `design` has holes and the pairs to measure; the sigmas of the tape and of the holes are those
 /// of the noise, the tape zero offset is added; of the paper effects only the tape's scale on both

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include "grid/synthetic/random.hpp"
@@ -44,6 +46,49 @@ tl::expected<model::FramePoint, model::BeltFailure> place_of(const model::BeltMa
   return model::place_of_upper(truth, paid_out->tl, paid_out->tr);
 }
 
+std::vector<std::optional<BeltPull>> passes_of(const BeltsSpec& spec) {
+  if (spec.pulls.empty()) return {std::nullopt};
+  std::vector<std::optional<BeltPull>> passes;
+  for (const double pull : spec.pulls) passes.push_back(BeltPull{pull, BeltPull::Unit::relative});
+  return passes;
+}
+
+/// All places once, numbered on. \returns the place that cannot be reached.
+std::optional<BeltsUnreachable> add_pass(const model::BeltMachine& stated,
+                                         const model::BeltMachine& truth,
+                                         const BeltsSpec& spec,
+                                         const std::optional<BeltPull>& pull,
+                                         Random& noise,
+                                         MeasuredBelts& belts) {
+  const auto effects = model::belts::resolve_belt_effects(spec.hidden);
+  const std::vector<model::BedPoint> commands = commands_of(stated, spec);
+  const double over_least =
+      pull ? pull->value / *std::min_element(spec.pulls.begin(), spec.pulls.end()) : 1.0;
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    const auto place = place_of(stated, truth, commands[i]);
+    if (!place) return place.error().at(commands[i]);
+    BeltPoint point;
+    point.commanded = commands[i];
+    point.order = static_cast<int>(belts.points.size());
+    point.pull = pull;
+    const auto pulled =
+        pulled_after(stated.orientation, commands[i == 0 ? 0 : i - 1], commands[i], i);
+    // For an upright frame this is the default.
+    if (stated.orientation == model::Orientation::flat) point.pulled = pulled;
+    for (const Belt belt : kBelts) {
+      const auto length = model::belts::read_belt(
+          truth, effects, {belt, is_pulled(point, belt), *point.order, over_least}, *place);
+      if (!length) return length.error().at(commands[i]);
+      const double off = spec.heavy_tails ? noise.heavy_tailed() : noise.normal();
+      double& read = point.lengths_mm[belt];
+      read = *length + spec.noise_mm * off;
+      if (spec.rounding_mm > 0.0) read = spec.rounding_mm * std::round(read / spec.rounding_mm);
+    }
+    belts.points.push_back(std::move(point));
+  }
+  return std::nullopt;
+}
+
 void spoil(const BeltsSpec& spec, MeasuredBelts& belts) {
   Random random(spec.seed, kBadReadingStream);
   std::vector<std::size_t> points(belts.points.size());
@@ -70,31 +115,12 @@ tl::expected<MeasuredBelts, BeltsUnreachable> simulate_belts(const model::BeltMa
                                                              const model::BeltMachine& truth,
                                                              const BeltsSpec& spec) {
   check(spec);
-  const auto effects = model::belts::resolve_belt_effects(spec.hidden);
-  const std::vector<model::BedPoint> commands = commands_of(stated, spec);
-  Random noise(spec.seed, kNoiseStream);
   MeasuredBelts belts;
   belts.machine = stated;
-  for (std::size_t i = 0; i < commands.size(); ++i) {
-    const auto place = place_of(stated, truth, commands[i]);
-    if (!place) return tl::unexpected(BeltsUnreachable{commands[i], place.error()});
-    BeltPoint point;
-    point.commanded = commands[i];
-    point.order = static_cast<int>(i);
-    const auto pulled =
-        pulled_after(stated.orientation, commands[i == 0 ? 0 : i - 1], commands[i], i);
-    // For an upright frame this is the default.
-    if (stated.orientation == model::Orientation::flat) point.pulled = pulled;
-    for (const Belt belt : kBelts) {
-      const auto length = model::belts::read_belt(
-          truth, effects, {belt, is_pulled(point, belt), static_cast<int>(i)}, *place);
-      if (!length) return tl::unexpected(BeltsUnreachable{commands[i], length.error()});
-      const double off = spec.heavy_tails ? noise.heavy_tailed() : noise.normal();
-      double& read = point.lengths_mm[belt];
-      read = *length + spec.noise_mm * off;
-      if (spec.rounding_mm > 0.0) read = spec.rounding_mm * std::round(read / spec.rounding_mm);
-    }
-    belts.points.push_back(std::move(point));
+  Random noise(spec.seed, kNoiseStream);
+  for (const std::optional<BeltPull>& pull : passes_of(spec)) {
+    auto unreached = add_pass(stated, truth, spec, pull, noise, belts);
+    if (unreached) return tl::unexpected(*unreached);
   }
   spoil(spec, belts);
   return belts;

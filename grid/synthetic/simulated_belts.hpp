@@ -32,14 +32,15 @@ struct BeltsSpec {
   double rounding_mm = 0.0;   ///< readings are whole multiples; 0: not rounded
   int bad_readings = 0;       ///< number of readings of one belt with a gross error
   double bad_size_mm = 44.0;  ///< its size, of either sign
+  /// All places once with each of these pulls, relative; sizes of effects are those at the least.
+  /// Empty: once, without a word of the pull.
+  std::vector<double> pulls;
   std::vector<model::AppliedEffect> hidden;
   std::uint64_t seed = 1;
 };
 
-struct BeltsUnreachable {
-  model::BedPoint commanded;
-  model::BeltFailure reason = model::BeltFailure::circles_do_not_meet;
-};
+/// Its place is the command.
+using BeltsUnreachable = Failure<model::BeltReason, model::BedPoint>;
 
 /// Rows from below, there and back. \throws std::logic_error for anchors that are not known, effects
 /// with problems (model::belts::problems_of), fewer than two columns or rows, or more bad readings

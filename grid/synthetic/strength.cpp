@@ -32,11 +32,9 @@ std::vector<model::ChainLengths> lengths_of(const Machine& machine,
                                             const std::vector<Visit>& visits) {
   const auto lengths = model::readings(model::ReadingModel(machine), visits);
   if (!lengths) {
-    const model::BedPoint p = visits[lengths.error().index].position;
-    throw precondition("signature: ({}, {}) mm cannot be reached: {}",
-                       p.x_mm,
-                       p.y_mm,
-                       explain(lengths.error().reason));
+    const model::BedPoint p = visits[lengths.error().place].position;
+    throw precondition(
+        "signature: ({}, {}) mm cannot be reached: {}", p.x_mm, p.y_mm, lengths.error().sentence());
   }
   return *lengths;
 }
@@ -49,8 +47,12 @@ std::vector<std::vector<double>> place_choices(const Effect& effect, std::size_t
     const EffectParameter& parameter = effect.parameters[i];
     if (parameter.role != model::effects::ParameterRole::place) continue;
     const bool counts_visits = parameter.integer;
-    const double from = counts_visits ? 1.0 : std::max(parameter.lower, 0.0);
+    const bool declared = effect.law != nullptr;
+    const double from = counts_visits ? 1.0
+                        : declared    ? parameter.lower
+                                      : std::max(parameter.lower, 0.0);
     const double to = counts_visits ? static_cast<double>(visits) - 1.0
+                      : declared    ? parameter.upper
                                     : std::min(parameter.upper, std::numbers::pi);
     std::vector<std::vector<double>> more;
     for (const auto& choice : choices) {
@@ -113,7 +115,7 @@ SessionSignature signature(const Machine& stated,
   for (std::size_t i = 0; i < visits.size(); ++i) {
     const auto reading = plain.at(visits[i].position);
     if (!reading) {
-      throw precondition("signature: visit {}: {}", i, explain(reading.error()));
+      throw precondition("signature: visit {}: {}", i, reading.error().sentence());
     }
     const model::MarkPoint place = model::identity_placement(visits[i].position);
     const model::MarkPoint written = mark_frame.written(place);
@@ -142,7 +144,7 @@ StrengthTable::StrengthTable(const Machine& stated,
   const model::ReadingModel model(stated);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto reading = model.at(visits_[static_cast<std::size_t>(i)].position);
-    if (!reading) throw precondition("strength: visit {}: {}", i, explain(reading.error()));
+    if (!reading) throw precondition("strength: visit {}: {}", i, reading.error().sentence());
     const Eigen::Matrix2d& j = reading->position_jacobian;
     const Eigen::Matrix2d covariance =
         j * j.transpose() * (noise.position_mm * noise.position_mm) +
@@ -163,7 +165,7 @@ StrengthTable::StrengthTable(const Machine& stated,
   }
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(by_setting);
   settings_basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(by_setting.rows(), settings);
-  for (const Effect* effect : model::effects::catalogue()) {
+  for (const Effect* effect : model::effects::effects_of(stated_)) {
     for (const EffectSide side : effect->sides) add_entries(*effect, side);
   }
 }

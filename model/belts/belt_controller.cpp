@@ -3,9 +3,9 @@
 
 namespace chaintrue::model {
 
-PoseFailure pose_failure(BeltFailure failure) {
-  return failure == BeltFailure::inside_the_arm ? PoseFailure::link_does_not_fit
-                                                : PoseFailure::too_short;
+PoseFailure pose_failure(const BeltFailure& failure) {
+  return failure == BeltReason::inside_the_arm ? PoseReason::link_does_not_fit
+                                               : PoseReason::too_short;
 }
 
 BeltController::BeltController(const BeltMachine& machine)

@@ -35,6 +35,6 @@ class BeltController final : public ControllerKinematics {
 };
 
 /// The name of the same failure of a pose of two chains.
-[[nodiscard]] PoseFailure pose_failure(BeltFailure failure);
+[[nodiscard]] PoseFailure pose_failure(const BeltFailure& failure);
 
 }  // namespace chaintrue::model

@@ -17,7 +17,7 @@ struct Printed {
 
 tl::expected<Printed, BeltFailure> printed(const BeltMachine& machine, Belt belt, double span_mm) {
   const double level_mm = span_mm - reach_mm(machine);
-  if (!(level_mm > 0.0)) return tl::unexpected(BeltFailure::inside_the_arm);
+  if (!(level_mm > 0.0)) return tl::unexpected(BeltReason::inside_the_arm);
   const double c = height_mm(machine, belt);
   if (machine.lengths == BeltLengths::belt) {
     const double length = std::hypot(level_mm, c);  // (1)
@@ -32,13 +32,13 @@ tl::expected<Printed, BeltFailure> printed(const BeltMachine& machine, Belt belt
 
 }  // namespace
 
-std::string_view explain(BeltFailure failure) {
-  switch (failure) {
-    case BeltFailure::inside_the_arm:
+std::string_view sentence_of(BeltReason reason) {
+  switch (reason) {
+    case BeltReason::inside_the_arm:
       return "the tool would be nearer to the anchor than arm and extension are long";
-    case BeltFailure::shorter_than_height:
+    case BeltReason::shorter_than_height:
       return "the length is shorter than the anchor is high";
-    case BeltFailure::circles_do_not_meet:
+    case BeltReason::circles_do_not_meet:
       break;
   }
   return "two belts of these lengths end nowhere together";
@@ -55,7 +55,7 @@ tl::expected<BeltReading, BeltFailure> reading_at(const BeltMachine& machine,
   const Eigen::RowVector2d way(place.x_mm - anchor.x_mm, place.y_mm - anchor.y_mm);
   const double span_mm = std::hypot(way.x(), way.y());
   const auto length = printed(machine, belt, span_mm);
-  if (!length || span_mm == 0.0) return tl::unexpected(BeltFailure::inside_the_arm);
+  if (!length || span_mm == 0.0) return tl::unexpected(BeltReason::inside_the_arm);
   return BeltReading{length->length_mm, length->by_span / span_mm * way};
 }
 
@@ -73,7 +73,7 @@ tl::expected<PerBelt<double>, BeltFailure> lengths_at(const BeltMachine& machine
 tl::expected<double, BeltFailure> span_of(const BeltMachine& machine, Belt belt, double length_mm) {
   const double c = height_mm(machine, belt);
   if (machine.lengths != BeltLengths::span && !(length_mm > std::abs(c))) {
-    return tl::unexpected(BeltFailure::shorter_than_height);
+    return tl::unexpected(BeltReason::shorter_than_height);
   }
   double span_mm = length_mm;
   if (machine.lengths == BeltLengths::belt) {
@@ -81,7 +81,7 @@ tl::expected<double, BeltFailure> span_of(const BeltMachine& machine, Belt belt,
   } else if (machine.lengths == BeltLengths::belt_and_arm) {
     span_mm = std::sqrt((length_mm - c) * (length_mm + c));
   }
-  if (!(span_mm > reach_mm(machine))) return tl::unexpected(BeltFailure::inside_the_arm);
+  if (!(span_mm > reach_mm(machine))) return tl::unexpected(BeltReason::inside_the_arm);
   return span_mm;
 }
 
@@ -98,10 +98,10 @@ tl::expected<FramePoint, BeltFailure> crossing(FramePoint first,
   const double dx = second.x_mm - first.x_mm;
   const double dy = second.y_mm - first.y_mm;
   const double apart = std::hypot(dx, dy);
-  if (!(apart > 0.0)) return tl::unexpected(BeltFailure::circles_do_not_meet);
+  if (!(apart > 0.0)) return tl::unexpected(BeltReason::circles_do_not_meet);
   const double along = 0.5 * (apart + (first_mm - second_mm) * ((first_mm + second_mm) / apart));
   const double square = (first_mm - along) * (first_mm + along);
-  if (!(square >= 0.0)) return tl::unexpected(BeltFailure::circles_do_not_meet);
+  if (!(square >= 0.0)) return tl::unexpected(BeltReason::circles_do_not_meet);
   const double aside = std::sqrt(square);
   return FramePoint{first.x_mm + (along * dx + aside * dy) / apart,
                     first.y_mm + (along * dy - aside * dx) / apart};

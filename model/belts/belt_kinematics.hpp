@@ -23,7 +23,7 @@
 /// \code
 ///   const auto lengths = lengths_at(machine, {1500.0, 900.0});
 ///   const auto place = place_of_upper(machine, lengths->tl, lengths->tr);   // (1500, 900) again
-///   if (!place) say(explain(place.error()));
+///   if (!place) say(place.error().sentence());
 /// \endcode
 #pragma once
 
@@ -31,16 +31,18 @@
 #include <string_view>
 #include <tl/expected.hpp>
 
+#include "model/failure.hpp"
 #include "model/belts/belt_machine.hpp"
 
 namespace chaintrue::model {
 
-enum class BeltFailure {
+enum class BeltReason {
   inside_the_arm,       ///< the tool is nearer to the anchor than arm and extension are long
   shorter_than_height,  ///< no belt of that length comes down from its anchor
   circles_do_not_meet,  ///< circles of the two lengths do not intersect
 };
-[[nodiscard]] std::string_view explain(BeltFailure failure);
+[[nodiscard]] std::string_view sentence_of(BeltReason reason);
+using BeltFailure = Failure<BeltReason>;
 
 /// A length as the machine prints it, mm, with d(length)/d(place).
 struct BeltReading {

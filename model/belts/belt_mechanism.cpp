@@ -27,10 +27,10 @@ constexpr std::array kCoordinates = {
     Coordinate{"br_x_mm", Belt::br, &Anchor::x_mm, 0},
 };
 
-constexpr std::array<std::string_view, 4> kLengths = {"tl", "tr", "bl", "br"};
+constexpr std::array<std::string_view, 4> kBeltLengths = {"tl", "tr", "bl", "br"};
 
-constexpr MechanismFailure kAnchorsNotKnown{"anchors_not_known",
-                                            "nobody has said where the anchors are"};
+constexpr MechanismReason kAnchorsNotKnown{"anchors_not_known",
+                                           "the anchors' places are not given"};
 
 /// The scale's place among the parameters.
 constexpr auto kScale = static_cast<Eigen::Index>(kCoordinates.size());
@@ -62,20 +62,20 @@ void require_sound(const BeltMachine& machine) {
 
 }  // namespace
 
-std::string_view name(BeltFailure failure) {
-  switch (failure) {
-    case BeltFailure::inside_the_arm:
+std::string_view name(BeltReason reason) {
+  switch (reason) {
+    case BeltReason::inside_the_arm:
       return "inside_the_arm";
-    case BeltFailure::shorter_than_height:
+    case BeltReason::shorter_than_height:
       return "shorter_than_height";
-    case BeltFailure::circles_do_not_meet:
+    case BeltReason::circles_do_not_meet:
       break;
   }
   return "circles_do_not_meet";
 }
 
-MechanismFailure mechanism_failure(BeltFailure failure) {
-  return {name(failure), explain(failure)};
+MechanismFailure mechanism_failure(const BeltFailure& failure) {
+  return MechanismReason{name(failure.reason), sentence_of(failure.reason)};
 }
 
 std::shared_ptr<const BeltMechanism> make_belt_mechanism(const BeltMachine& machine,
@@ -105,7 +105,7 @@ BeltMechanism::BeltMechanism(BeltMachine machine,
   }
 }
 
-std::span<const std::string_view> BeltMechanism::lengths() const { return kLengths; }
+std::span<const std::string_view> BeltMechanism::lengths() const { return kBeltLengths; }
 
 MechanismExtent BeltMechanism::extent() const {
   const PerBelt<Anchor>& a = machine_.anchors;
@@ -136,7 +136,7 @@ std::vector<FixedPoint> BeltMechanism::fixed_points() const {
   std::vector<FixedPoint> points;
   for (const Belt belt : kBelts) {
     const Anchor& anchor = machine_.anchors[belt];
-    FixedPoint point{kLengths.at(static_cast<std::size_t>(belt)),
+    FixedPoint point{kBeltLengths.at(static_cast<std::size_t>(belt)),
                      {anchor.x_mm, anchor.y_mm},
                      Eigen::Matrix2Xd::Zero(2, values_.size())};
     for (std::size_t i = 0; i < kCoordinates.size(); ++i) {
@@ -157,13 +157,7 @@ FrameScale BeltMechanism::frame_scale() const {
 }
 
 std::span<const effects::Effect* const> BeltMechanism::effects() const {
-  static const std::vector<const effects::Effect*> all = [] {
-    std::vector<const effects::Effect*> made;
-    for (const belts::BeltEffect* effect : belts::belt_effects())
-      made.push_back(&belts::described(*effect));
-    return made;
-  }();
-  return all;
+  return belts::described_belt_effects();
 }
 
 std::vector<MachineProblem> BeltMechanism::problems_of_effects(
@@ -202,7 +196,7 @@ tl::expected<LengthsPrediction, MechanismFailure> BeltMechanism::predict(
     const auto reading =
         resolved_.empty() && machine_.lengths != BeltLengths::span
             ? reading_at(machine_, belt, place)
-            : belts::read_belt_with_slope(machine_, resolved_, {belt, pulled, visit.order}, place);
+            : belts::read_belt_with_slope(machine_, resolved_, {belt, pulled, visit.order, visit.pull}, place);
     if (!reading) return tl::unexpected(mechanism_failure(reading.error()));
     result.lengths_mm[row] = reading->length_mm;
     result.by_position.row(row) = reading->by_place;
@@ -251,25 +245,24 @@ std::vector<MechanismChange> BeltMechanism::possible_changes() const {
   ChangedQuantity of_all{.lengths = {}, .sigma = kBeltZeroShiftMm};
   for (const Belt belt : kBelts) {
     const auto at = static_cast<std::size_t>(belt);
-    MechanismChange zero{"zero",
-                         std::string(kLengths[at]),
+    MechanismChange zero{Change::zero,
+                         std::string(kBeltLengths[at]),
                          true,
                          (prior.one_zero + prior.tooth) / static_cast<double>(kBelts.size())};
     zero.quantities.push_back({.lengths = {at}, .sigma = kBeltZeroShiftMm});
     of_all.lengths.push_back(at);
     changes.push_back(std::move(zero));
   }
-  changes.push_back({"zero", "", true, prior.both_zeros, {of_all}});
+  changes.push_back({Change::zero, "", true, prior.both_zeros, {of_all}});
   for (const Belt belt : {Belt::tl, Belt::tr, Belt::br}) {
-    MechanismChange moved{"anchor",
-                          std::string(kLengths[static_cast<std::size_t>(belt)]),
+    MechanismChange moved{Change::anchor,
+                          std::string(kBeltLengths[static_cast<std::size_t>(belt)]),
                           false,
                           (prior.motors + prior.pitch) / 3.0};
     for (std::size_t i = 0; i < kCoordinates.size(); ++i) {
       if (kCoordinates[i].belt != belt) continue;
-      moved.quantities.push_back({.kind = ChangedQuantity::Kind::parameter,
-                                  .parameter = i,
-                                  .sigma = kAnchorShiftMm});
+      moved.quantities.push_back(
+          {.kind = ChangedQuantity::Kind::parameter, .parameter = i, .sigma = kAnchorShiftMm});
     }
     changes.push_back(std::move(moved));
   }

@@ -97,7 +97,7 @@ inline constexpr double kAnchorShiftMm = 5.0;
     std::optional<double> anchor_sigma_mm = std::nullopt,
     std::optional<BeltScaleKnowledge> scale = std::nullopt);
 
-[[nodiscard]] std::string_view name(BeltFailure failure);
-[[nodiscard]] MechanismFailure mechanism_failure(BeltFailure failure);
+[[nodiscard]] std::string_view name(BeltReason reason);
+[[nodiscard]] MechanismFailure mechanism_failure(const BeltFailure& failure);
 
 }  // namespace chaintrue::model

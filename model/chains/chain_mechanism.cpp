@@ -13,7 +13,7 @@
 namespace chaintrue::model {
 namespace {
 
-constexpr std::array<std::string_view, 2> kLengths = {"left", "right"};
+constexpr std::array<std::string_view, 2> kChainLengths = {"left", "right"};
 
 std::vector<MechanismParameter> stated_parameters(const Machine& machine) {
   std::vector<MechanismParameter> parameters;
@@ -59,8 +59,8 @@ PerSide<double> directions_of(const MechanismVisit& visit) {
 
 }  // namespace
 
-MechanismFailure mechanism_failure(PoseFailure failure) {
-  return {name(failure), explain(failure)};
+MechanismFailure mechanism_failure(const PoseFailure& failure) {
+  return MechanismReason{name(failure.reason), sentence_of(failure.reason)};
 }
 
 std::shared_ptr<const ChainMechanism> make_chain_mechanism(const Machine& machine) {
@@ -76,13 +76,14 @@ ChainMechanism::ChainMechanism(ReadingModel readings)
 ChainMechanism::ChainMechanism(ReadingModel readings, std::vector<MechanismParameter> parameters)
     : readings_(std::move(readings)),
       frame_(machine()),
+      effects_(effects::effects_of(machine())),
       parameters_(std::move(parameters)),
       values_(static_cast<Eigen::Index>(kMachineSettings.size())) {
   for (std::size_t i = 0; i < kMachineSettings.size(); ++i)
     values_[static_cast<Eigen::Index>(i)] = stated_value(machine(), kMachineSettings[i]);
 }
 
-std::span<const std::string_view> ChainMechanism::lengths() const { return kLengths; }
+std::span<const std::string_view> ChainMechanism::lengths() const { return kChainLengths; }
 
 MechanismExtent ChainMechanism::extent() const {
   const Bed& bed = machine().bed;
@@ -103,9 +104,7 @@ std::shared_ptr<const Mechanism> ChainMechanism::with_values(const Eigen::Vector
       new ChainMechanism(ReadingModel(changed, readings_.model()), parameters_));
 }
 
-std::span<const effects::Effect* const> ChainMechanism::effects() const {
-  return effects::catalogue();
-}
+std::span<const effects::Effect* const> ChainMechanism::effects() const { return effects_; }
 
 std::vector<MachineProblem> ChainMechanism::problems_of_effects(
     const std::vector<AppliedEffect>& applied) const {
@@ -156,13 +155,13 @@ std::vector<MechanismChange> changes_of_chains(double pitch_mm) {
   std::vector<MechanismChange> changes;
   for (const char* side : {"left", "right", "both"}) {
     const bool one = chains_of(side).size() == 1;
-    MechanismChange zero{"zero", side, true, one ? 0.5 * p.one_zero : p.both_zeros};
+    MechanismChange zero{Change::zero, side, true, one ? 0.5 * p.one_zero : p.both_zeros};
     add_zeros(side, zero);
     changes.push_back(std::move(zero));
-    MechanismChange pitch{"pitch", side, false, p.pitch / 3.0};
+    MechanismChange pitch{Change::pitch, side, false, p.pitch / 3.0};
     add_pitch(side, pitch);
     changes.push_back(std::move(pitch));
-    MechanismChange both{"zeros_and_pitch", side, false, p.zeros_and_pitch / 3.0};
+    MechanismChange both{Change::zeros_and_pitch, side, false, p.zeros_and_pitch / 3.0};
     add_zeros("both", both);
     add_pitch(side, both);
     changes.push_back(std::move(both));
@@ -171,7 +170,7 @@ std::vector<MechanismChange> changes_of_chains(double pitch_mm) {
     // A second tooth is four times as rare as the first.
     const double share = p.tooth * (std::abs(teeth) == 1 ? 0.2 : 0.05);
     for (const char* side : {"left", "right"}) {
-      MechanismChange tooth{"tooth", side, true, share, {}, teeth};
+      MechanismChange tooth{Change::tooth, side, true, share, {}, teeth};
       tooth.quantities.push_back({.lengths = chains_of(side), .mean = teeth * pitch_mm});
       changes.push_back(std::move(tooth));
     }
@@ -181,7 +180,7 @@ std::vector<MechanismChange> changes_of_chains(double pitch_mm) {
 
 std::vector<MechanismChange> ChainMechanism::possible_changes() const {
   std::vector<MechanismChange> changes = changes_of_chains(machine().sprocket.pitch_mm);
-  MechanismChange motors{"motors", "", false, kChangePriors.motors};
+  MechanismChange motors{Change::motors, "", false, kChangePriors.motors};
   for (std::size_t i = 0; i < kMachineSettings.size(); ++i) {
     if (parameters_[i].set_by_zeroing) continue;
     motors.quantities.push_back({.kind = ChangedQuantity::Kind::parameter,

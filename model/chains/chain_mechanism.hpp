@@ -52,6 +52,7 @@ class ChainMechanism final : public Mechanism {
 
   ReadingModel readings_;
   MarkFrame frame_;
+  std::vector<const effects::Effect*> effects_;
   std::vector<MechanismParameter> parameters_;
   Eigen::VectorXd values_;
 };
@@ -68,6 +69,6 @@ inline constexpr double kMotorShiftSigmaMm = 5.0;
 [[nodiscard]] std::vector<MechanismChange> changes_of_chains(double pitch_mm);
 
 /// Named as a pose's failure is.
-[[nodiscard]] MechanismFailure mechanism_failure(PoseFailure failure);
+[[nodiscard]] MechanismFailure mechanism_failure(const PoseFailure& failure);
 
 }  // namespace chaintrue::model

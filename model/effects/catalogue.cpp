@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
+
+#include "model/effects/declared_effect.hpp"
 
 namespace chaintrue::model::effects {
 
@@ -30,9 +33,9 @@ std::string quoted_list(std::span<const std::string_view> names) {
   return list;
 }
 
-std::string known_ids() {
+std::string known_ids(const Machine& machine) {
   std::vector<std::string_view> ids;
-  for (const Effect* effect : kCatalogue) ids.push_back(effect->id);
+  for (const Effect* effect : effects_of(machine)) ids.push_back(effect->id);
   return quoted_list(ids);
 }
 
@@ -48,6 +51,15 @@ std::string expected_value(const EffectParameter& parameter) {
                      parameter.integer ? "a whole number" : "a number",
                      parameter.lower,
                      parameter.upper);
+}
+
+/// Where it acts among the others: in the catalogue's order, those that are declared at the end, by
+/// their names.
+std::size_t order_of(const Effect& effect) {
+  const Declaration* declaration = declaration_of(effect);
+  if (declaration == nullptr) return place_in_catalogue(effect);
+  const Effect* stood = find_effect(declaration->instead_of);
+  return stood != nullptr ? place_in_catalogue(*stood) : std::size(kCatalogue);
 }
 
 const EffectSide* find_side(const Effect& effect, std::string_view side) {
@@ -90,7 +102,7 @@ void check_sums(const Machine& machine, std::vector<MachineProblem>& problems) {
   EquilibriumParameters parameters = equilibrium_parameters(machine);
   for (std::size_t i = 0; i < machine.effects.size(); ++i) {
     const AppliedEffect& named = machine.effects[i];
-    const Effect& effect = *find_effect(named.effect);
+    const Effect& effect = *find_effect(machine, named.effect);
     if (effect.alter == nullptr) continue;
     const std::string place = fmt::format("/effects/{}", i);
     if (effect.needs_machine != nullptr) {
@@ -131,6 +143,28 @@ const Effect* find_effect(std::string_view id) {
   return found == std::end(kCatalogue) ? nullptr : *found;
 }
 
+std::vector<const Effect*> effects_of(const Machine& machine) {
+  std::vector<const Effect*> all(std::begin(kCatalogue), std::end(kCatalogue));
+  for (const Effect* own : machine.declared) {
+    const std::string& instead_of = declaration_of(*own)->instead_of;
+    const auto stood = std::find_if(
+        all.begin(), all.end(), [&](const Effect* effect) { return effect->id == instead_of; });
+    if (stood == all.end()) {
+      all.push_back(own);
+    } else {
+      *stood = own;
+    }
+  }
+  return all;
+}
+
+const Effect* find_effect(const Machine& machine, std::string_view id) {
+  for (const Effect* own : machine.declared) {
+    if (own->id == id) return own;
+  }
+  return find_effect(id);
+}
+
 std::size_t place_in_catalogue(const Effect& effect) {
   const auto found = std::find(std::begin(kCatalogue), std::end(kCatalogue), &effect);
   if (found == std::end(kCatalogue)) {
@@ -144,10 +178,10 @@ std::vector<MachineProblem> problems_of_effects(const Machine& machine) {
   for (std::size_t i = 0; i < machine.effects.size(); ++i) {
     const AppliedEffect& applied = machine.effects[i];
     const std::string place = fmt::format("/effects/{}", i);
-    const Effect* effect = find_effect(applied.effect);
+    const Effect* effect = find_effect(machine, applied.effect);
     if (effect == nullptr) {
       problems.push_back(
-          {place + "/effect", applied.effect, "an effect of the catalogue: " + known_ids()});
+          {place + "/effect", applied.effect, "an effect of the catalogue: " + known_ids(machine)});
       continue;
     }
     if (find_side(*effect, applied.side) == nullptr) {
@@ -169,7 +203,7 @@ std::vector<ActingEffect> acting_effects(const Machine& machine) {
   }
   std::vector<ActingEffect> acting;
   for (const AppliedEffect& applied : machine.effects) {
-    const Effect* effect = find_effect(applied.effect);
+    const Effect* effect = find_effect(machine, applied.effect);
     ActingEffect one{effect, *find_side(*effect, applied.side), {}};
     for (const EffectParameter& parameter : effect->parameters) {
       one.values.push_back(applied.parameters.at(std::string(parameter.name)));
@@ -177,7 +211,8 @@ std::vector<ActingEffect> acting_effects(const Machine& machine) {
     acting.push_back(std::move(one));
   }
   std::stable_sort(acting.begin(), acting.end(), [](const ActingEffect& a, const ActingEffect& b) {
-    return place_in_catalogue(*a.effect) < place_in_catalogue(*b.effect);
+    return std::pair(order_of(*a.effect), a.effect->id) <
+           std::pair(order_of(*b.effect), b.effect->id);
   });
   return acting;
 }

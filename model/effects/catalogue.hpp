@@ -21,8 +21,15 @@ namespace chaintrue::model::effects {
 
 /// Every effect of effects.def, in that order.
 [[nodiscard]] std::span<const Effect* const> catalogue();
-/// Null where no effect has this name.
+/// Null where no effect of the catalogue has this name.
 [[nodiscard]] const Effect* find_effect(std::string_view id);
+
+/// The effects that may act on a machine: the catalogue, then those declared for it; one that is
+/// declared in place of an effect of the catalogue stands where that stood.
+[[nodiscard]] std::vector<const Effect*> effects_of(const Machine& machine);
+/// Among these; null where none has this name.
+[[nodiscard]] const Effect* find_effect(const Machine& machine, std::string_view id);
+
 /// Its index in the table; precondition: an effect of the catalogue.
 [[nodiscard]] std::size_t place_in_catalogue(const Effect& effect);
 
@@ -39,7 +46,7 @@ struct ActingEffect {
   std::vector<double> values;
 };
 
-/// The machine's effects in the catalogue's order.
+/// The machine's effects in the order of effects_of().
 /// \throws std::invalid_argument with the first of problems_of_effects where there is one.
 [[nodiscard]] std::vector<ActingEffect> acting_effects(const Machine& machine);
 

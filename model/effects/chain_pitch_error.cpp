@@ -30,7 +30,7 @@ extern constinit const Effect chain_pitch_error{
     .station = Station::chain,
     .sides = kAnyChain,
     .parameters = kParameters,
-    .cause = "the chain's links are worn or were never of the nominal pitch",
+    .cause = "the chain's links are worn or were never of the right length",
     .signature = "an error in proportion to the length of one chain, or of both",
     .equation = "L / (1 + e)",
     .source =

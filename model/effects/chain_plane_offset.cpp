@@ -49,7 +49,7 @@ extern constinit const Effect chain_plane_offset{
         "sled and chain leaving the plane they hang in: forces stay those of the flat machine",
     .typical = "20 to 40 mm",
     .remedy_kind = RemedyKind::change_the_machine,
-    .remedy = "level the chains with the sheet (spacers under the motors), or state the distance",
+    .remedy = "level the chains with the sheet (spacers under the motors), or enter the distance",
     .add = add,
 };
 

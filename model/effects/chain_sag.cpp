@@ -13,7 +13,7 @@ namespace {
 constexpr EffectParameter kParameters[] = {{
     .name = "relative_weight",
     .symbol = "q",
-    .meaning = "true chain mass over the stated one, less one",
+    .meaning = "true chain mass over the file's, less one",
     .nominal = 0.3,
     .lower = -0.95,
     .upper = 5.0,
@@ -32,7 +32,8 @@ extern constinit const Effect chain_sag{
     .station = Station::machine,
     .sides = kNoSide,
     .parameters = kParameters,
-    .cause = "the chain's mass per metre is not the stated one, so it sags more or less",
+    .cause =
+        "the chain's mass per metre is not what the machine file says, so it sags more or less",
     .signature =
         "up to millimetres in the lower corners, where one chain is long and slack; little "
         "elsewhere",
@@ -42,7 +43,7 @@ extern constinit const Effect chain_sag{
     .not_modelled = "dirt or oil that gathers on part of a chain",
     .typical = "30 %",
     .remedy_kind = RemedyKind::change_the_machine,
-    .remedy = "weigh a metre of chain and state its mass",
+    .remedy = "weigh a metre of chain and enter its mass",
     .alter = alter,
 };
 

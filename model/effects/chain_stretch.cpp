@@ -32,7 +32,7 @@ extern constinit const Effect chain_stretch{
     .station = Station::machine,
     .sides = kNoSide,
     .parameters = kParameters,
-    .cause = "the chain gives more under tension than stated",
+    .cause = "the chain gives more under tension than the machine file says",
     .signature = "the tool hangs low, most at the top centre, where both chains pull hardest",
     .equation = "c = c_stated + k; stretched length = S + integral of c T ds",
     .source =

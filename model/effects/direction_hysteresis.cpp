@@ -41,8 +41,7 @@ extern constinit const Effect direction_hysteresis{
     .needs = DataNeed::order,
     .remedy_kind = RemedyKind::compensate_on_its_own,
     .remedy =
-        "grease the ring and take up the play, or let it be taken out along the path's direction; "
-        "a map "
+        "grease the ring and take up the play, or compensate it along the path's direction; a map "
         "over x and y cannot hold it",
     .add_by_direction = add_by_direction,
 };

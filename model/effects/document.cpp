@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "model/effects/catalogue.hpp"
+#include "model/effects/declared_law.hpp"
 
 namespace chaintrue::model::effects {
 namespace {
@@ -95,7 +96,7 @@ std::string catalogue_document() {
       if (effect->station == chapter.station) text += paragraph(*effect);
     }
   }
-  text.pop_back();
+  text += declared_chapter();
   return text;
 }
 

@@ -13,7 +13,7 @@
 ///
 /// Of the six functions an effect sets exactly one. A new effect is one file that defines its
 /// constant and one line in effects.def; a line without its file does not link, and the contract
-/// suite runs over the table.
+/// suite runs over the table. A user declares an effect in a file: declared_effect.hpp.
 ///
 /// Symbols used by the equations of the catalogue, i = left or right:
 ///   phi_i  angle of the chain below the horizontal where it leaves the sprocket [rad]
@@ -24,6 +24,7 @@
 ///   n      number of the visit (`order`)
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string_view>
 
@@ -74,20 +75,60 @@ struct ChainAtRest {
   ChainState state;
   double length_mm = 0.0;  ///< L0
   double turn_mm = 0.0;    ///< teeth * pitch: what one turn of the sprocket pays out
+  double pitch_mm = 0.0;
+  BedPoint position;  ///< of the tool
 };
 
-/// The change of a chain's length, and its derivatives by the three numbers that effects depend on.
+/// The change of a chain's length, and its derivatives by what effects depend on.
 struct ChainAddition {
   double length_mm = 0.0;
-  double per_angle_mm_per_rad = 0.0;  ///< d/d phi
-  double per_free_length = 0.0;       ///< d/d S
-  double per_length = 0.0;            ///< d/d L0
+  double per_angle_mm_per_rad = 0.0;     ///< d/d phi
+  double per_free_length = 0.0;          ///< d/d S
+  double per_length = 0.0;               ///< d/d L0
+  double per_tension_mm_per_n = 0.0;     ///< d/d T
+  double per_horizontal_mm_per_n = 0.0;  ///< d/d H
+  double per_x = 0.0;                    ///< d/d x of the tool, the chain's state held
+  double per_y = 0.0;
 };
 
 /// What the written reading depends on besides the lengths.
 struct VisitNote {
   int order = 0;          ///< n
   double pitch_mm = 0.0;  ///< nominal, of the sprocket
+};
+
+/// What a declared effect is made of (declared_effect.hpp).
+class DeclaredLaw;
+
+/// A function of an effect: one of the catalogue's, or the formula of a declared effect. Equal to
+/// nullptr where the effect has none.
+template <class Signature>
+class EffectFunction;
+
+template <class Result, class... Arguments>
+class EffectFunction<Result(Arguments...)> {
+ public:
+  using OfCatalogue = Result (*)(Arguments...);
+  using OfFormula = Result (*)(const DeclaredLaw&, Arguments...);
+
+  constexpr EffectFunction(std::nullptr_t = nullptr) {}  // NOLINT(google-explicit-constructor)
+  constexpr EffectFunction(OfCatalogue function)         // NOLINT(google-explicit-constructor)
+      : of_catalogue_(function) {}
+  /// `law` must outlive it.
+  constexpr EffectFunction(const DeclaredLaw& law, OfFormula function)
+      : of_formula_(function), law_(&law) {}
+
+  Result operator()(Arguments... arguments) const {
+    return law_ != nullptr ? of_formula_(*law_, arguments...) : of_catalogue_(arguments...);
+  }
+  friend constexpr bool operator==(const EffectFunction& function, std::nullptr_t) {
+    return function.of_catalogue_ == nullptr && function.law_ == nullptr;
+  }
+
+ private:
+  OfCatalogue of_catalogue_ = nullptr;
+  OfFormula of_formula_ = nullptr;
+  const DeclaredLaw* law_ = nullptr;
 };
 
 struct Effect {
@@ -107,20 +148,22 @@ struct Effect {
   std::string_view remedy;  ///< what to do about it
 
   /// The written position of a mark whose true position is given.
-  MarkPoint (*write)(MarkPoint, EffectSide, Values) = nullptr;
+  EffectFunction<MarkPoint(MarkPoint, EffectSide, Values)> write = nullptr;
   void (*alter)(EquilibriumParameters&, Values) = nullptr;
-  ChainAddition (*add)(const ChainAtRest&, Values) = nullptr;
+  EffectFunction<ChainAddition(const ChainAtRest&, Values)> add = nullptr;
   /// `direction` is +1 where the chain has been paid out to its length, -1 where it has been taken
   /// in. In mm.
-  double (*add_by_direction)(double direction, Values) = nullptr;
+  EffectFunction<double(double direction, Values)> add_by_direction = nullptr;
   /// e: a counted length is the true one divided by 1 + e, after all additions to the chain.
-  double (*elongation)(Values) = nullptr;
+  EffectFunction<double(Values)> elongation = nullptr;
   /// In mm.
-  double (*misread)(const VisitNote&, Values) = nullptr;
+  EffectFunction<double(const VisitNote&, Values)> misread = nullptr;
   /// It acts only at the visit that its place parameter names.
   bool at_one_visit = false;
   /// Empty where the effect can act on such a machine, otherwise what it needs.
   std::string_view (*needs_machine)(const EquilibriumParameters&) = nullptr;
+  /// Of a declared effect; null for those of the catalogue.
+  const DeclaredLaw* law = nullptr;
 };
 
 [[nodiscard]] std::string_view name(Station station);

@@ -42,11 +42,11 @@ extern constinit const Effect link_miscount{
     .signature = "one point alone is off along one chain by a whole number of links",
     .equation = "+ pitch k at visit m alone",
     .source = "counting by hand",
-    .not_modelled = "a reading that is wrong by something else than whole links: a bad point",
+    .not_modelled = "a reading wrong by other than whole links: a bad point",
     .typical = "1 link, 6.35 mm",
     .needs = DataNeed::order,
     .remedy_kind = RemedyKind::correct_the_data,
-    .remedy = "read that point again; its reading is corrected or set aside",
+    .remedy = "read that point again; its reading is corrected or left out",
     .misread = misread,
     .at_one_visit = true,
 };

@@ -15,7 +15,7 @@ namespace {
 constexpr EffectParameter kParameters[] = {{
     .name = "offset_mm",
     .symbol = "d",
-    .meaning = "true ring radius less the stated one",
+    .meaning = "true ring radius less the file's",
     .nominal = 1.0,
     .lower = -50.0,
     .upper = 50.0,
@@ -40,7 +40,7 @@ extern constinit const Effect ring_radius{
     .station = Station::machine,
     .sides = kNoSide,
     .parameters = kParameters,
-    .cause = "the ring or linkage is larger or smaller than stated",
+    .cause = "the ring or linkage is larger or smaller than the machine file says",
     .signature =
         "like both chain zeros off together; only the sag in the lower corners tells them apart",
     .equation = "rho = rho_stated + d",
@@ -48,7 +48,7 @@ extern constinit const Effect ring_radius{
     .not_modelled = "a ring that is not round, carriages with play",
     .typical = "1 mm",
     .remedy_kind = RemedyKind::change_the_machine,
-    .remedy = "measure the ring from the bit to the chain's pin and state that radius",
+    .remedy = "measure the ring from the bit to the chain's pin and enter that radius",
     .alter = alter,
     .needs_machine = needs_machine,
 };

@@ -42,7 +42,7 @@ extern constinit const Effect tooth_skip{
     .signature = "from one visit on, one chain is off by a whole number of links",
     .equation = "+ pitch k for n >= m",
     .source = "a roller chain that skips does so by whole teeth",
-    .not_modelled = "a second skip back; state it as an effect of its own",
+    .not_modelled = "a second skip back; give it as an effect of its own",
     .typical = "1 link, 6.35 mm",
     .needs = DataNeed::order,
     .remedy_kind = RemedyKind::repair,

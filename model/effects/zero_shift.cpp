@@ -15,7 +15,7 @@ constexpr EffectParameter kParameters[] = {
     {
         .name = "shift_mm",
         .symbol = "z",
-        .meaning = "what every reading from then on is too long by",
+        .meaning = "how much too long each later reading is",
         .nominal = 3.0,
         .lower = -130.0,
         .upper = 130.0,
@@ -39,15 +39,17 @@ extern constinit const Effect zero_shift{
     .sides = kOneChain,
     .parameters = kParameters,
     .cause = "the zero of a chain moved during the measurement",
-    .signature = "from one visit on, one chain is off by the same amount, which need not be whole links",
+    .signature =
+        "from one visit on, one chain is off by the same amount, which need not be whole links",
     .equation = "+ z for n >= m",
-    .source = "a sprocket slips on its shaft when its grub screw is loose; a zero set anew on the way",
-    .not_modelled = "a second shift; state it as an effect of its own",
+    .source = "a sprocket slips on its shaft when its grub screw is loose; a zero set again midway",
+    .not_modelled = "a second shift; give it as an effect of its own",
     .typical = "1 to 10 mm",
     .needs = DataNeed::order,
     .remedy_kind = RemedyKind::repair,
     .remedy =
-        "check the sprocket's grub screw and set the chain to 12 o'clock again: a map is of the chain "
+        "check the sprocket's grub screw and set the chain to 12 o'clock again: a map is of the "
+        "chain "
         "as it hung before the shift",
     .misread = misread,
 };

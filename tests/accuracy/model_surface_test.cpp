@@ -67,7 +67,7 @@ grid::MeasuredGrid measured(const std::vector<MarkPoint>& places) {
 
 CompensationMap fitted(const grid::MeasuredGrid& grid) {
   auto map = grid::fit(grid);
-  if (!map) throw std::runtime_error(map.error().sentence);
+  if (!map) throw std::runtime_error(map.error().sentence());
   return *std::move(map);
 }
 
@@ -85,11 +85,11 @@ double largest_error_mm(const CompensationMap& map) {
   for (int iy = 0; iy <= 24; ++iy) {
     for (int ix = 0; ix <= 48; ++ix) {
       const MarkPoint p{bed.width_mm * (ix / 48.0 - 0.5), bed.height_mm * (iy / 24.0 - 0.5)};
-      const ChainLengths told = map.lengths(p).value().lengths;
+      const ChainLengths reply = map.lengths(p).value().lengths;
       const ChainLengths truth = truth_at(p);
       largest = std::max({largest,
-                          std::abs(told.left_mm - truth.left_mm),
-                          std::abs(told.right_mm - truth.right_mm)});
+                          std::abs(reply.left_mm - truth.left_mm),
+                          std::abs(reply.right_mm - truth.right_mm)});
     }
   }
   return largest;

@@ -98,7 +98,7 @@ TEST_P(RealScans, AFewMarksPredictAllOthers) {
   const grid::MeasuredGrid few = few_of(GetParam(), whole);
   ASSERT_EQ(few.points.size(), GetParam().fitted_points);
   const auto map = grid::fit(few);
-  ASSERT_TRUE(map) << map.error().sentence;
+  ASSERT_TRUE(map) << map.error().sentence();
   const Eigen::Vector2d rms = rms_at_others(GetParam(), whole, *map);
   fmt::print("{}: fitted at {} marks, the others: {:.3f} mm rms in X, {:.3f} mm in Y\n",
              GetParam().name,
@@ -127,7 +127,7 @@ TEST_P(RealScans, CausesMakeNoMapWorse) {
                is_stated ? "" : "not ",
                plain_mm,
                own_mm);
-    // The figures of README are to three digits.
+    // The figures of docs/accuracy.md are to three digits.
     EXPECT_LE(own_mm, plain_mm + 5e-4);
   }
 }

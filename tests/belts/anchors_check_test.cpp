@@ -68,7 +68,7 @@ TEST(AnchorsCheck, ABeltThatCountsFromElsewhereIsNamedWithItsSize) {
   for (const Check& check : checks(kNothing, shifted)) {
     const CheckHypothesis& first = check.hypotheses.front();
     EXPECT_FALSE(check.is_valid_as_it_is());
-    if (first.what != "zero" || first.side != "br") continue;
+    if (first.what != model::Change::zero || first.side != "br") continue;
     ++named;
     // Six places of which each leaves br some half of its noise, and the anchors' own doubt.
     EXPECT_NEAR(first.size(), 6.0, 4.0 * kNoiseMm);
@@ -91,7 +91,7 @@ TEST(AnchorsCheck, AnAnchorThatMovedIsNotCalledValid) {
 TEST(AnchorsCheck, OneBadReadingIsNamedByItsPointAndSaysNothingOfTheAnchors) {
   const auto spoilt = [](MeasuredBelts& belts) { belts.points[4].lengths_mm.tl += 20.0; };
   for (const Check& check : checks(kNothing, spoilt)) {
-    EXPECT_EQ(check.hypotheses.front().what, "bad_point") << check.sentence;
+    EXPECT_EQ(check.hypotheses.front().what, model::Change::bad_point) << check.sentence;
     EXPECT_EQ(check.hypotheses.front().count, 4);
     EXPECT_THAT(check.sentence, HasSubstr("Measure point 5 again"));
   }

@@ -11,6 +11,8 @@
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/holes_file.hpp"
+#include "grid/files/json_value.hpp"
+#include "grid/files/sources.hpp"
 #include "tests/belts/holes_simulation.hpp"
 #include "tests/cli/command_fixture.hpp"
 
@@ -22,6 +24,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing_support::content_of;
 using testing_support::Outcome;
+using testing_support::without_origin;
 
 /// Positions of X and Y words; a missing word keeps its value.
 std::vector<BedPoint> corners_of(const std::string& program) {
@@ -60,7 +63,7 @@ class BeltAndHoleCommands : public testing_support::CommandFixture {
   /// Rms distance of the cut shape, after a best-fit placement, from the intended rectangle: for
   /// each of its points the nearest point of the outline.
   [[nodiscard]] double residual_mm(const std::string& program,
-                              const model::BeltMachine& believed) const {
+                                   const model::BeltMachine& believed) const {
     std::vector<BedPoint> cut;
     BedPoint least{1e9, 1e9};
     BedPoint most{-1e9, -1e9};
@@ -94,13 +97,15 @@ TEST_F(BeltAndHoleCommands, OneFitWhicheverFileComesFirst) {
   ASSERT_EQ(fit.code, 0) << fit.err;
   EXPECT_THAT(fit.err,
               AllOf(HasSubstr("Scale: by the tape everything is 1.00"),
-                    HasSubstr("Holes: 24 distances, each foretold by all others to"),
-                    HasSubstr("Beside its upper two belts the tool lies up to"),
+                    HasSubstr("Holes: 24 distances, which agree with each other to about "),
+                    HasSubstr("off where its upper two belts put it"),
                     HasSubstr("  A-B ")));
   ASSERT_EQ(run("fit holes.json --with belts.json -o other.json").code, 0);
-  EXPECT_EQ(content_of(folder_ / "anchors.json"), content_of(folder_ / "other.json"));
-  const auto found = grid::files::parse_anchors(content_of(folder_ / "anchors.json"), "a.json");
-  EXPECT_EQ(grid::files::write_anchors(found), content_of(folder_ / "anchors.json"));
+  EXPECT_EQ(without_origin(content_of(folder_ / "anchors.json")),
+            without_origin(content_of(folder_ / "other.json")));
+  const std::string text = content_of(folder_ / "anchors.json");
+  const auto found = grid::files::parse_anchors(text, "a.json");
+  EXPECT_EQ(grid::files::write_anchors(found, grid::files::made_by_of(text, "a.json")), text);
   const Outcome alone = run("fit holes.json -o alone.json");
   EXPECT_EQ(alone.code, 0) << alone.err;
   EXPECT_THAT(alone.err, HasSubstr("Holes: 24 distances"));
@@ -115,15 +120,15 @@ TEST_F(BeltAndHoleCommands, ACompensatedProgramCutsTrueOnTheUnmodifiedController
   const double before = residual_mm(content_of(folder_ / "part.nc"), believed);
   const double after = residual_mm(content_of(folder_ / "part.true.nc"), believed);
   std::cout << "tool off the outline, mm: " << before << " as it is, " << after << " compensated\n";
-  const std::string words = "along the cuts (one sigma): ";
-  const std::size_t at = made.err.find(words);
-  ASSERT_NE(at, std::string::npos) << made.err;
-  const double stated = std::stod(made.err.substr(at + words.size()));
+  EXPECT_THAT(made.err, HasSubstr("Expect cuts within about "));
+  const Outcome asked = run("gcode verify part.nc part.true.nc --map anchors.json --json");
+  ASSERT_EQ(asked.code, 0) << asked.err;
+  const double stated = grid::files::Json::parse(asked.out).at("expected_mm").get<double>();
   std::cout << "stated, mm: " << stated << "\n";
   // One draw of few independent parts, and a half wave of the tool's between nine holes, which their
   // prior takes for smoother than it is: 2.1 sigmas here.
   EXPECT_LT(after, 2.5 * stated);
-  EXPECT_GT(before, 1.0);          // 0.4 % of the 800 and 400 mm from the middle to an edge
+  EXPECT_GT(before, 1.0);  // 0.4 % of the 800 and 400 mm from the middle to an edge
   // A third of the tool's displacement from its belts: nine holes resolve a half wave between them.
   EXPECT_LT(after, 1.0);
   const Outcome verified = run("gcode verify part.nc part.true.nc --map anchors.json");
@@ -155,7 +160,20 @@ TEST_F(BeltAndHoleCommands, BeltsAloneCompensateForTheAnchorsAndSayWhatTheyDoNot
   const Outcome made = run("gcode compensate part.nc --map anchors.json -o part.true.nc");
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("The scale is not known: parts come out as true as a turn"));
-  EXPECT_THAT(made.err, testing::Not(HasSubstr("Expected error of the tool")));
+  EXPECT_THAT(made.err,
+              testing::AllOf(HasSubstr("Expect cuts within about "),
+                             HasSubstr("That is in the belts' own millimetres")));
+  // The same error, and the same of the scale, from the commands that look at a program.
+  const Outcome verified = run("gcode verify part.nc part.true.nc --map anchors.json");
+  EXPECT_EQ(verified.code, 0) << verified.err;
+  EXPECT_THAT(verified.out,
+              testing::AllOf(HasSubstr("Expect cuts within about"),
+                             HasSubstr("That is in the belts' own millimetres")));
+  const Outcome as_json = run("gcode verify part.nc part.true.nc --map anchors.json --json");
+  EXPECT_THAT(as_json.out, testing::Not(HasSubstr("\"expected_mm\": null")));
+  EXPECT_THAT(run("gcode check part.nc --map anchors.json").out,
+              testing::AllOf(HasSubstr("Expect cuts within about"),
+                             HasSubstr("That is in the belts' own millimetres")));
   // Its page shows the frame of the anchors, not half of the usual bed of a chain machine.
   const Outcome page =
       run("gcode compensate part.nc --map anchors.json -o again.nc --report page.html");

@@ -48,7 +48,7 @@ TEST_P(BeltsFitOfLengths, WithoutNoiseTheAnchorsAreTheTrueOnes) {
                                            .anchors_known = known,
                                            .lengths = GetParam()});
       const auto fit = fit_belts(set.belts);
-      ASSERT_TRUE(fit) << "seed " << seed << ": " << fit.error().sentence;
+      ASSERT_TRUE(fit) << "seed " << seed << ": " << fit.error().sentence();
       // A cost converged to 1e-12 leaves 1e-6 of a millimetre for each reading, and some thirty
       // times more for the anchors.
       EXPECT_LT(off(*fit, set).cwiseAbs().maxCoeff(), 1e-4) << "seed " << seed;
@@ -66,7 +66,7 @@ TEST_P(BeltsFitOfLengths, AnchorsAreOffByAsMuchAsIsSaid) {
     const SimulatedBelts set =
         simulate({.seed = static_cast<std::uint64_t>(seed), .lengths = GetParam()});
     const auto fit = fit_belts(set.belts);
-    ASSERT_TRUE(fit) << "seed " << seed << ": " << fit.error().sentence;
+    ASSERT_TRUE(fit) << "seed " << seed << ": " << fit.error().sentence();
     const AnchorVector error = off(*fit, set);
     square += error.dot(fit->covariance_mm2.llt().solve(error));
     spread_square += fit->residual_sigma_mm * fit->residual_sigma_mm;
@@ -353,7 +353,7 @@ TEST(BeltsFit, WhatCannotBeFittedHasAReasonAndASentence) {
   MeasuredBelts swapped = set.belts;
   for (BeltPoint& point : swapped.points) std::swap(point.lengths_mm.tl, point.lengths_mm.tr);
   EXPECT_EQ(fit_belts(swapped).error().reason, Reason::no_frame);
-  EXPECT_THAT(fit_belts(swapped).error().sentence, HasSubstr("under its own belt"));
+  EXPECT_THAT(fit_belts(swapped).error().sentence(), HasSubstr("under its own belt"));
   MeasuredBelts hole = set.belts;
   hole.machine.anchors_known = false;
   hole.distances.push_back({CutHole{{0.0, 0.0}}, Belt::bl, 1800.0, 1.0});

@@ -36,16 +36,16 @@ TEST_F(BeltCommands, FromTheLogToTheLinesToPaste) {
   const Outcome fit = run("fit belts.json -v -o anchors.json");
   ASSERT_EQ(fit.code, 0) << fit.err;
   EXPECT_THAT(fit.err,
-              AllOf(HasSubstr("31 places, 124 readings: one belt's reading is off by 0.90 mm"),
+              AllOf(HasSubstr("31 places, 124 readings: one belt's reading is off by 0.23 mm"),
                     HasSubstr("(Find Anchors fit: rms) that is 0.61 mm"),
                     HasSubstr("Its own message said rms 0.61 mm and max 1.53 mm."),
-                    HasSubstr("Scale: not known."),
+                    HasSubstr("Scale: not known, for belts cannot tell it."),
                     HasSubstr("Tape the distance from the "),
-                    HasSubstr("Lower belts as the upper two foretell them"),
+                    HasSubstr("Lower belts as the upper two predict them"),
                     HasSubstr("Next: chaintrue export maslow4 anchors.json")));
   const Outcome lines = run("export maslow4 anchors.json");
   ASSERT_EQ(lines.code, 0) << lines.err;
-  EXPECT_THAT(lines.out, StartsWith("$/kinematics/MaslowKinematics/tlX=-39."));
+  EXPECT_THAT(lines.out, StartsWith("$/kinematics/MaslowKinematics/tlX=-32."));
   EXPECT_THAT(
       lines.out,
       AllOf(HasSubstr("\n$/kinematics/MaslowKinematics/brY=0.00\n"), Not(HasSubstr("Scale"))));
@@ -87,6 +87,12 @@ TEST_F(BeltCommands, ADiagnosisHasItsAnchorsToPasteAndSaysWhatNoNumberTakesOut) 
                 "-o pulled.json")
                 .code,
             0);
+  const Outcome fit = run("fit pulled.json -o pulled_anchors.json");
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_THAT(fit.err, HasSubstr(" % longer than they count, and these anchors go with that."));
+  EXPECT_THAT(content_of(folder_ / "pulled_anchors.json"), HasSubstr("\"effect\": \"belt_stretch\""));
+  // Its own readings agree with them once the stretch is counted.
+  EXPECT_EQ(run("check pulled_anchors.json pulled.json").code, 0);
   ASSERT_EQ(run("diagnose pulled.json -o pulled_diagnosis.json").code, 0);
   const Outcome pulled = run("export maslow4 pulled_diagnosis.json");
   ASSERT_EQ(pulled.code, 0) << pulled.err;
@@ -155,8 +161,9 @@ TEST_F(BeltCommands, AnchorsAnswerQueriesHaveAPageAndAreChecked) {
   EXPECT_EQ(run("query anchors.json 9000 0").code, 4);
   EXPECT_EQ(run("query anchors.json 1 2 --frame bed").code, 3);
   ASSERT_EQ(run("report anchors.json -o anchors.html").code, 0);
-  EXPECT_THAT(content_of(folder_ / "anchors.html"),
-              AllOf(HasSubstr("The anchors are known to"), HasSubstr("belt_frame"), HasSubstr("rests on")));
+  EXPECT_THAT(
+      content_of(folder_ / "anchors.html"),
+      AllOf(HasSubstr("With these anchors"), HasSubstr("belt_frame"), HasSubstr("rests on")));
   EXPECT_EQ(run("report anchors.json --certificate -o c.html").code, 3);
   ASSERT_EQ(run("simulate --belts anchors.json --grid 3x2 --length-noise-mm 0.6 --seed 5 -o new.json")
                 .code,
@@ -213,7 +220,7 @@ TEST_F(BeltCommands, BadInputWritesNothing) {
   EXPECT_EQ(bad.code, 3);
   EXPECT_THAT(bad.err, HasSubstr("tl and tr swapped, or bl and br"));
   EXPECT_FALSE(exists("anchors.json"));
-  EXPECT_EQ(run("import maslow4 " + fixtures_ + "/bad/maslow4_cut.txt -o belts.json").code, 3);
+  EXPECT_EQ(run("import maslow4 " + fixtures_ + "/bad/maslow4_readings.txt -o belts.json").code, 3);
   EXPECT_EQ(run("import maslow4 " + log_ + " --points 9 -o belts.json").code, 3);
   EXPECT_EQ(run("import maslow4 " + log_ + " --lengths cubits -o belts.json").code, 2);
   EXPECT_FALSE(exists("belts.json"));

@@ -27,7 +27,7 @@ struct GoldenSet {
   std::vector<BeltHoles> holes = {};
 };
 
-/// Everything that is told of a fit, as names and numbers.
+/// Everything that is reported of a fit, as names and numbers.
 using GoldenNumbers = std::vector<std::pair<std::string, double>>;
 
 inline std::vector<GoldenSet> simulated_golden_sets() {
@@ -86,13 +86,13 @@ inline std::vector<GoldenSet> simulated_golden_sets() {
   taped.belts.points[12].lengths_mm.tl += 44.0;
   sets.push_back(taped);
   for (const bool few : {false, true}) {
-    for (const double beside : {0.0, 3.0}) {
+    for (const double alongside : {0.0, 3.0}) {
       SimulatedHoles own =
-          simulate_with_holes({.seed = 5, .unmodelled_mm = beside, .few_holes = few});
+          simulate_with_holes({.seed = 5, .unmodelled_mm = alongside, .few_holes = few});
       // The stored numbers are of a tape whose zero is known exactly.
       own.holes.set.tape.tape_zero_offset_sigma_mm = 0.0;
       sets.push_back(
-          {fmt::format("holes_{}_{}", few ? "few" : "many", beside > 0.0 ? "beside" : "straight"),
+          {fmt::format("holes_{}_{}", few ? "few" : "many", alongside > 0.0 ? "beside" : "straight"),
            own.belts,
            {own.holes}});
     }

@@ -91,7 +91,7 @@ TEST(OneEstimator, EndsWhereNoAnchorAndNoPlaceLowersTheSumOfSquares) {
     if (!set.holes.empty() || ends_at_a_hole(set.belts)) continue;
     SCOPED_TRACE(set.name);
     const auto fit = fit_belts(set.belts);
-    ASSERT_TRUE(fit) << fit.error().sentence;
+    ASSERT_TRUE(fit) << fit.error().sentence();
     const Slopes slopes = slopes_at(set.belts, *fit);
     for (Eigen::Index i = 0; i < 5; ++i) {
       // A slope times the coordinate's sigma is the distance from the minimum in sigmas: passes end
@@ -110,7 +110,7 @@ TEST(OneEstimator, FindsTheSameFromACentimetreAside) {
     if (!set.holes.empty() || !set.belts.distances.empty()) continue;
     SCOPED_TRACE(set.name);
     const auto fit = fit_belts(set.belts);
-    ASSERT_TRUE(fit) << fit.error().sentence;
+    ASSERT_TRUE(fit) << fit.error().sentence();
     belts::Counting counting;
     for (const FittedPlace& place : fit->places) {
       model::PerBelt<bool> counts;
@@ -120,7 +120,7 @@ TEST(OneEstimator, FindsTheSameFromACentimetreAside) {
     belts::AnchorVector start = belts::anchors_of(fit->machine);
     start += (belts::AnchorVector() << 9.0, -11.0, -8.0, 10.0, 12.0).finished();
     const auto estimate = belts::estimate_anchors(set.belts, counting, start);
-    ASSERT_TRUE(estimate) << estimate.error().sentence;
+    ASSERT_TRUE(estimate) << estimate.error().sentence();
     EXPECT_TRUE(estimate->converged);
     for (std::size_t i = 0; i < fit->coordinates.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);

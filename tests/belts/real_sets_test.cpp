@@ -8,6 +8,7 @@
 
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/repeated_pulls.hpp"
+#include "grid/diagnosis/anchors_with_causes.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/maslow4_log.hpp"
 #include "grid/files/whole_file.hpp"
@@ -52,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Sets,
 TEST_P(RealBelts, AnchorsAloneLeaveWhatAnotherProgramFoundThatTheyLeave) {
   ASSERT_EQ(import_.belts.points.size(), GetParam().places);
   const auto fit = fit_belts(import_.belts);
-  ASSERT_TRUE(fit) << fit.error().sentence;
+  ASSERT_TRUE(fit) << fit.error().sentence();
   // The last digit of the other program's figure.
   EXPECT_NEAR(fit->rms_mm, GetParam().rms_mm, 0.006);
   EXPECT_TRUE(fit->bad.empty());
@@ -82,30 +83,67 @@ TEST(RealBeltSets, HalfOfARebuiltFrameForetellsTheOtherAsAnotherProgramFound) {
   EXPECT_NEAR(fit->half_left_out->rms_mm, 1.92, 0.05);
 }
 
-TEST(RealBeltSets, FiveRunsOfOneFrameAgreeWithinThreeTimesWhatIsSaid) {
+TEST(RealBeltSets, FiveRunsOfOneFrameScatterByWhatTheirSigmasSay) {
   const std::filesystem::path path =
       std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "ten_runs_1_to_5.txt";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
   const std::string text = files::read_whole_file(path);
+  constexpr int kRuns = 5;
   std::vector<BeltsFit> fits;
-  for (int run = 1; run <= 5; ++run) {
+  for (int run = 1; run <= kRuns; ++run) {
     files::Maslow4Options options;
     options.run = run;
     const auto import = files::parse_maslow4(text, "ten_runs.txt", options);
-    ASSERT_EQ(import.runs.size(), 5U);
     ASSERT_EQ(import.belts.points.size(), 100U);
-    fits.push_back(fit_belts(import.belts).value());
+    fits.push_back(diagnosis::fit_with_causes(import.belts).value());
   }
-  for (const BeltsFit& fit : fits) {
-    for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
-      const AnchorCoordinate& one = fit.coordinates[i];
-      const AnchorCoordinate& first = fits.front().coordinates[i];
-      // The machine is zeroed again for each run, with an error of some tenths of a millimetre that
-      // the sigmas of one run do not include.
-      EXPECT_LT(std::abs(one.fitted_mm - first.fitted_mm),
-                3.0 * std::hypot(one.sigma_mm, first.sigma_mm))
-          << one.name;
+  double ratio = 0.0;
+  for (std::size_t i = 0; i < fits.front().coordinates.size(); ++i) {
+    double mean = 0.0, said = 0.0, scatter = 0.0;
+    for (const BeltsFit& fit : fits) mean += fit.coordinates[i].fitted_mm / kRuns;
+    for (const BeltsFit& fit : fits) {
+      scatter += std::pow(fit.coordinates[i].fitted_mm - mean, 2) / (kRuns - 1);
+      said += std::pow(fit.coordinates[i].sigma_mm, 2) / kRuns;
     }
+    ratio += scatter / said / static_cast<double>(fits.front().coordinates.size());
+  }
+  // 20 degrees of freedom: nineteen times in twenty between 0.48 and 1.71 of the variance.
+  EXPECT_GT(ratio, 0.5);
+  EXPECT_LT(ratio, 1.7);
+}
+
+TEST_P(RealBelts, AFitHasTheAnchorsOfADiagnosisAndStretchIsInIt) {
+  const auto fit = diagnosis::fit_with_causes(import_.belts);
+  ASSERT_TRUE(fit) << fit.error().sentence();
+  diagnosis::DiagnosisOptions options;
+  options.next_measurements = false;
+  const auto found = diagnosis::diagnose(import_.belts, options);
+  ASSERT_TRUE(found);
+  for (std::size_t i = 0; i < fit->coordinates.size(); ++i) {
+    EXPECT_EQ(fit->coordinates[i].fitted_mm, found->belts->coordinates[i].fitted_mm);
+    EXPECT_EQ(fit->coordinates[i].sigma_mm, found->belts->coordinates[i].sigma_mm);
+  }
+  ASSERT_FALSE(fit->causes.empty());
+  EXPECT_EQ(fit->causes.front().effect, "belt_stretch");
+  // Published frames stretch by 0.25 to 0.55 %, to 0.2 % each.
+  EXPECT_GT(fit->causes.front().parameters.at("elongation"), 0.001);
+  EXPECT_LT(fit->causes.front().parameters.at("elongation"), 0.007);
+}
+
+TEST(RealBeltSets, MorePlacesOfOneFrameMoveItsAnchorsByNoMoreThanWasSaid) {
+  const std::filesystem::path path =
+      std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "concrete_anchors.txt";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
+  auto import = files::parse_maslow4(files::read_whole_file(path), "concrete.txt");
+  const auto all = diagnosis::fit_with_causes(import.belts);
+  import.belts.points.resize(57);
+  const auto first = diagnosis::fit_with_causes(import.belts);
+  ASSERT_TRUE(all && first);
+  for (std::size_t i = 0; i < all->coordinates.size(); ++i) {
+    // Three times what the fewer say: the others are among the more.
+    EXPECT_LT(std::abs(all->coordinates[i].fitted_mm - first->coordinates[i].fitted_mm),
+              3.0 * first->coordinates[i].sigma_mm)
+        << all->coordinates[i].name;
   }
 }
 
@@ -116,7 +154,7 @@ TEST(RealBeltSets, SixPlacesOfAStartAreFittedAndSaidToBeUncertain) {
   const auto import = files::parse_maslow4(files::read_whole_file(path), "clbm.txt");
   ASSERT_EQ(import.belts.points.size(), 6U);
   const auto fit = fit_belts(import.belts);
-  ASSERT_TRUE(fit) << fit.error().sentence;
+  ASSERT_TRUE(fit) << fit.error().sentence();
   EXPECT_EQ(fit->checks, 7);
   // Five owners' frames from such a start were 1567 to 1830 mm high.
   EXPECT_GT(fit->coordinates[1].sigma_mm, 20.0);
@@ -133,7 +171,7 @@ TEST(RealBeltSets, ATensionTestIsOnALineAndTellsTheStretchOfEachPull) {
   ASSERT_FALSE(fit);
   // Four positions within 10 mm.
   EXPECT_EQ(fit.error().reason, BeltsFitFailure::Reason::not_determined);
-  EXPECT_NE(fit.error().sentence.find("what the pulled ones stretch by"), std::string::npos);
+  EXPECT_NE(fit.error().sentence().find("what the pulled ones stretch by"), std::string::npos);
   const auto pulls = repeated_pulls(import.belts);
   ASSERT_EQ(pulls.size(), 4U);
   // 4.38 of 1855.75 and 5.80 of 1855.04 mm, and so on, from the owner's notes; the last pair is his
@@ -168,7 +206,7 @@ std::optional<diagnosis::Diagnosis> diagnosed(const char* file, int run) {
 
 class RealBeltCauses : public testing::TestWithParam<RealCause> {};
 
-// rms: the required figures; foretold: the required figure, otherwise no worse than anchors alone.
+// rms: the required figures; predicted: the required figure, otherwise no worse than anchors alone.
 INSTANTIATE_TEST_SUITE_P(Sets,
                          RealBeltCauses,
                          testing::Values(RealCause{"concrete", "concrete_anchors.txt", 1, 0.46, 1.37},

@@ -38,7 +38,7 @@ TEST_F(Command, FitWritesTheSameMapTwice) {
 TEST_F(Command, FitTalksOnStandardErrorAlone) {
   const Outcome outcome = run("fit " + grid_ + " -o map.json");
   EXPECT_EQ(outcome.out, "");
-  EXPECT_THAT(outcome.err, HasSubstr("mm rms"));
+  EXPECT_THAT(outcome.err, HasSubstr("With this map it misses by about"));
 }
 
 TEST_F(Command, QueryAnswersPointsFromArgumentsFileAndStandardInputAlike) {

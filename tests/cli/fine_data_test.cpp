@@ -50,7 +50,7 @@ TEST_F(FineData, NameTheCauseWithItsSize) {
     const auto& size = found.causes[0].parameters.at(0);
     // Four sigmas: one draw in 16 000 lies beyond them.
     EXPECT_LT(std::abs(size.value - kTruth), 4.0 * size.sigma);
-    EXPECT_THAT(found.notes, testing::Contains(testing::HasSubstr("taken to be good to 0.01 mm")));
+    EXPECT_THAT(found.notes, testing::Contains(testing::HasSubstr("; 0.01 mm was used instead")));
   }
 }
 
@@ -116,8 +116,8 @@ TEST_F(FineData, StatedFarBelowWhatTheDataScatterAreAnsweredInWords) {
   ASSERT_EQ(fit.code, 0);
   EXPECT_THAT(fit.err,
               testing::AnyOf(testing::HasSubstr("contradict the others"),
-                             testing::HasSubstr("had not quite settled"),
-                             testing::HasSubstr("times as much as stated")));
+                             testing::HasSubstr("had not quite come to rest"),
+                             testing::HasSubstr("times as much as you said")));
   // A reading that was not fitted adds its own 0.2 mm; the surface follows those that were.
   const auto accuracy = grid::files::read_map(folder_ / "m.json").contents().accuracy;
   EXPECT_GT(accuracy.leave_one_out.chain.rms_mm, 0.2);

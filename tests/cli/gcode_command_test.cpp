@@ -48,7 +48,8 @@ TEST_F(GcodeCommand, AProgramWithoutUnitsIsSaidToBeTakenAsMillimetres) {
                            "verify bare.nc out.nc --map map.json"}) {
     const Outcome outcome = run(std::string("gcode ") + verb);
     EXPECT_EQ(outcome.code, 0) << verb << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("before it says G20 or G21; it is taken to be in millimetres"))
+    EXPECT_THAT(outcome.err,
+                HasSubstr("before it says G20 or G21; it is taken to be in millimetres"))
         << verb;
   }
   write("stated.nc", "G21\nG0 X0 Y0\nG1 X100 F500\nM2\n");

@@ -32,7 +32,7 @@ TEST_F(Slips, OfAWholeFileMakeNoMap) {
   expect_no_map("bad/grid_x_mirrored.json", "the sign of x_mm looks turned round");
   expect_no_map("bad/grid_no_minus.json", "all the minus signs of x_mm look left out");
   expect_no_map("bad/grid_marks_in_centimetres.json", "x_mm and y_mm look like centimetres");
-  expect_no_map("bad/grid_a_row_left_out.json", "fit those of the line after");
+  expect_no_map("bad/grid_a_row_left_out.json", "fit the command of the line after");
   expect_no_map("bad/grid_mark_above_the_motors.json",
                 "Mark 8 lies above the motors: are x and y swapped?");
 }
@@ -44,7 +44,7 @@ TEST_F(Slips, OfARowAreAskedAboutAndSetAside) {
   EXPECT_THAT(digits.err,
               AllOf(HasSubstr("/points/9: Mark 10 lies 90 mm off where the others put it. x_mm "
                               "-436.3: is it -346.3 rather than -436.3?"),
-                    HasSubstr("Point 10 at (-436, 399) was set aside")));
+                    HasSubstr("Point 10 at (-436, 399) is off by")));
 }
 
 TEST_F(Slips, AMapThatIsFarOffIsNotToBeCutWith) {
@@ -55,12 +55,13 @@ TEST_F(Slips, AMapThatIsFarOffIsNotToBeCutWith) {
             0);
   const Outcome fitted = run("fit wild.json -o map.json");
   EXPECT_EQ(fitted.code, 1) << fitted.err;
-  EXPECT_THAT(fitted.err, HasSubstr("This map is not to be cut with"));
+  EXPECT_THAT(fitted.err, HasSubstr("Do not cut with this map"));
   ASSERT_TRUE(exists("map.json"));
   const Outcome exported = run("export groundcontrol map.json -o settings.ini");
   EXPECT_EQ(exported.code, 1);
-  EXPECT_THAT(exported.err,
-              AllOf(HasSubstr("not to be cut with"), HasSubstr("--force goes on all the same")));
+  EXPECT_THAT(
+      exported.err,
+      AllOf(HasSubstr("Do not cut with this map"), HasSubstr("--force goes on all the same")));
   EXPECT_FALSE(exists("settings.ini"));
   EXPECT_EQ(run("export groundcontrol map.json -o settings.ini --force").code, 0);
   const std::string compensate =
@@ -68,7 +69,7 @@ TEST_F(Slips, AMapThatIsFarOffIsNotToBeCutWith) {
   EXPECT_EQ(run(compensate).code, 1);
   EXPECT_FALSE(exists("true.nc"));
   EXPECT_THAT(run(compensate + " --force").err,
-              testing::Not(HasSubstr("not to be cut with")));
+              testing::Not(HasSubstr("Do not cut with this map")));
 }
 
 }  // namespace

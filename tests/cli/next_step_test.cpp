@@ -85,6 +85,15 @@ TEST_F(NextStep, OfEveryVerbWorks) {
   }
 }
 
+TEST_F(NextStep, CallsTheCommandAsItWasCalled) {
+  const std::string query = " query map.json 100 200";
+  const Outcome by_path = run_line(CHAINTRUE_COMMAND + query);
+  EXPECT_THAT(by_path.err, HasSubstr("Next: " CHAINTRUE_COMMAND " report"));
+  const Outcome relative = run_line("ln -s " CHAINTRUE_COMMAND " . && ./chaintrue" + query);
+  EXPECT_THAT(relative.err, HasSubstr("Next: ./chaintrue report"));
+  EXPECT_THAT(run(query).err, HasSubstr("Next: chaintrue report"));
+}
+
 TEST_F(NextStep, IsNotSaidInAPipe) {
   EXPECT_EQ(next_of(run_line(CHAINTRUE_COMMAND " query - 100 200 <map.json").err), "");
 }

@@ -185,7 +185,7 @@ TEST_F(Options, WhatAMachineDoesNotSayIsToldByEveryVerbOnce) {
     SCOPED_TRACE(verb);
     const Outcome outcome = run(verb);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    const std::string words = "m.json: /uncertainty: not stated; assumed are motor positions";
+    const std::string words = "m.json: /uncertainty: not given; assumed are motor positions";
     const std::size_t first = outcome.err.find(words);
     EXPECT_NE(first, std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.err.find(words, first + 1), std::string::npos) << "told twice";
@@ -234,7 +234,7 @@ TEST_F(Options, AnchorsThatWereChangedAreRefused) {
 
 /// A map of version 1.0, without a hash of its content.
 std::string without_hash(std::string map) {
-  map.replace(map.find("\"1.2\""), 5, "\"1.0\"");
+  map.replace(map.find("\"1.3\""), 5, "\"1.0\"");
   const std::size_t hash = map.rfind(",\n  \"content_hash\"");
   map.erase(hash, map.rfind('\n', map.size() - 2) - hash);
   return map;

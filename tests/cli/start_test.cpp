@@ -67,7 +67,7 @@ TEST_F(Start, MakesAFolderWhoseNextStepWorks) {
     EXPECT_TRUE(exists(std::string("shop/") + file)) << file;
   }
   EXPECT_THAT(start.err,
-              HasSubstr("Next: chaintrue fit shop/marks.csv --machine shop/machine.json -o "
+              HasSubstr("Next: chaintrue fit shop/marks.csv --machine shop/machine.json --causes -o "
                         "shop/map.json\n"));
   // Nothing was measured yet; this is the message of the next step.
   const Outcome next = run("fit shop/marks.csv --machine shop/machine.json -o shop/map.json");
@@ -155,11 +155,12 @@ TEST_F(Start, SmallBedsArePlannedDownToTheSmallest) {
  "sprocket": {"teeth": 10, "pitch_mm": 6.35}, "feed": "over_top",
  "attachment": {"kind": "ring", "radius_mm": 40}, "chain": {"mass_kg_per_m": 0.14, "compliance_per_n": 5.17e-6},
  "sled": {"mass_kg": 3}, "frame": {"tilt_from_vertical_deg": 15}})");
-    for (const char* line : {"start small.json shop --force",
-                             "plan --machine small.json --points 28 -o marks.csv --force",
-                             "plan --machine small.json --holes 9 -o holes.csv --force",
-                             "simulate --machine small.json --holes 9 --seed 1 -o holes.json --force",
-                             "passes --machine small.json --passes 1 --seed 1"}) {
+    for (const char* line :
+         {"start small.json shop --force",
+          "plan --machine small.json --points 28 -o marks.csv --force",
+          "plan --machine small.json --holes 9 -o holes.csv --force",
+          "simulate --machine small.json --holes 9 --seed 1 -o holes.json --force",
+          "passes --machine small.json --passes 1 --seed 1"}) {
       const Outcome outcome = run(line);
       EXPECT_EQ(outcome.code, 0) << line << "\n" << outcome.err;
     }

@@ -130,11 +130,17 @@ TEST(BeltEffects, EachEquationByHand) {
       };
   const BeltVisit pulled{Belt::bl, true, 12};
   const BeltVisit held{Belt::bl, false, 12};
+  const BeltVisit harder{Belt::bl, true, 12, 1.6};
   // Rounding of 3 m.
   EXPECT_NEAR(added(belt_stretch, BeltSide::none, {0.004}, pulled), -0.004 * bl, 1e-11);
   EXPECT_EQ(added(belt_stretch, BeltSide::none, {0.004}, held), 0.0);
   EXPECT_NEAR(added(anchor_flex, BeltSide::none, {1.5}, pulled), -1.5, 1e-11);
   EXPECT_EQ(added(anchor_flex, BeltSide::none, {1.5}, held), 0.0);
+  // What gives with the pull scales with it, what the encoder counts does not.
+  EXPECT_NEAR(added(belt_stretch, BeltSide::none, {0.004}, harder), -0.0064 * bl, 1e-11);
+  EXPECT_NEAR(added(anchor_flex, BeltSide::none, {1.5}, harder), -2.4, 1e-11);
+  EXPECT_EQ(added(belt_scale, BeltSide::bl, {0.01}, harder),
+            added(belt_scale, BeltSide::bl, {0.01}, pulled));
   EXPECT_NEAR(added(belt_scale, BeltSide::bl, {0.01}, held), bl / 1.01 - bl, 1e-11);
   EXPECT_NEAR(added(belt_zero, BeltSide::all, {-153.4}, held), -153.4, 1e-11);
   EXPECT_NEAR(added(tooth_skip, BeltSide::bl, {22.0, 12.0}, held), 43.975, 1e-11);

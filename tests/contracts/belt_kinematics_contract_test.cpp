@@ -74,9 +74,9 @@ INSTANTIATE_TEST_SUITE_P(Every,
 TEST_P(BeltKinematicsLaws, TheUpperTwoLengthsOfAPlaceLeadBackToIt) {
   for (const FramePoint place : places()) {
     const auto lengths = lengths_at(machine(), place);
-    ASSERT_TRUE(lengths) << explain(lengths.error());
+    ASSERT_TRUE(lengths) << lengths.error().sentence();
     const auto back = place_of_upper(machine(), lengths->tl, lengths->tr);
-    ASSERT_TRUE(back) << explain(back.error());
+    ASSERT_TRUE(back) << back.error().sentence();
     // Rounding of 3 m of belt, 4e-13 mm, over the flattest angle of the belts here, 5 degrees.
     EXPECT_NEAR(back->x_mm, place.x_mm, 1e-9);
     EXPECT_NEAR(back->y_mm, place.y_mm, 1e-9);
@@ -169,10 +169,10 @@ TEST(BeltKinematics, CommandsCountFromWhereTheDiagonalsCross) {
 TEST(BeltKinematics, WhatCannotBeHasAName) {
   BeltMachine machine = plain();
   machine.lengths = BeltLengths::belt;
-  EXPECT_EQ(lengths_at(machine, {-27.6, 2000.0}).error(), BeltFailure::inside_the_arm);
-  EXPECT_EQ(lengths_at(machine, {-27.6, 2064.9}).error(), BeltFailure::inside_the_arm);
-  EXPECT_EQ(span_of(machine, Belt::tl, 99.0).error(), BeltFailure::shorter_than_height);
-  EXPECT_EQ(place_of_upper(machine, 900.0, 900.0).error(), BeltFailure::circles_do_not_meet);
+  EXPECT_EQ(lengths_at(machine, {-27.6, 2000.0}).error(), BeltReason::inside_the_arm);
+  EXPECT_EQ(lengths_at(machine, {-27.6, 2064.9}).error(), BeltReason::inside_the_arm);
+  EXPECT_EQ(span_of(machine, Belt::tl, 99.0).error(), BeltReason::shorter_than_height);
+  EXPECT_EQ(place_of_upper(machine, 900.0, 900.0).error(), BeltReason::circles_do_not_meet);
   machine.anchors_known = false;
   EXPECT_THROW((void)lengths_at(machine, {1000.0, 1000.0}), std::logic_error);
   EXPECT_THROW((void)centre_of(machine), std::logic_error);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Laws of every effect of the catalogue, on every side. An effect is included by its line in
-/// effects.def.
+/// Laws of every effect of the catalogue, on every side, and of declared ones. An effect is included
+/// by its line in effects.def.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 
 #include "model/effects/catalogue.hpp"
 #include "model/reading_model.hpp"
+#include "tests/contracts/declared_examples.hpp"
 
 namespace chaintrue::model::effects {
 namespace {
@@ -32,11 +33,17 @@ std::string case_name(const ::testing::TestParamInfo<Case>& info) {
 
 void PrintTo(const Case& c, std::ostream* os) { *os << c.effect->id << ":" << name(c.side); }
 
-std::vector<Case> all_cases() {
+std::vector<Case> cases_of(std::span<const Effect* const> effects) {
   std::vector<Case> cases;
-  for (const Effect* effect : catalogue()) {
+  for (const Effect* effect : effects) {
     for (const EffectSide side : effect->sides) cases.push_back({effect, side});
   }
+  return cases;
+}
+
+std::vector<Case> all_cases() {
+  std::vector<Case> cases = cases_of(catalogue());
+  for (const Case& own : cases_of(declared_examples())) cases.push_back(own);
   return cases;
 }
 
@@ -58,14 +65,15 @@ std::vector<Visit> session() {
 Machine machine_with(const std::vector<AppliedEffect>& effects) {
   Machine machine;
   machine.effects = effects;
+  machine.declared = declared_examples();
   return machine;
 }
 
 // Everything observable in a session: the written coordinates of each mark and the reading there,
 // one after the other.
-std::vector<double> seen(const Machine& machine, const std::vector<Visit>& visits) {
+std::vector<double> found(const Machine& machine, const std::vector<Visit>& visits) {
   const auto lengths = readings(ReadingModel(machine), visits);
-  EXPECT_TRUE(lengths.has_value()) << "visit " << (lengths ? 0 : lengths.error().index);
+  EXPECT_TRUE(lengths.has_value()) << "visit " << (lengths ? 0 : lengths.error().place);
   const MarkFrame mark_frame(machine);
   std::vector<double> numbers;
   for (std::size_t i = 0; lengths && i < visits.size(); ++i) {
@@ -77,7 +85,7 @@ std::vector<double> seen(const Machine& machine, const std::vector<Visit>& visit
 }
 
 std::vector<double> seen_with(const std::vector<AppliedEffect>& effects) {
-  return seen(machine_with(effects), session());
+  return found(machine_with(effects), session());
 }
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -249,10 +257,10 @@ TEST_P(EffectContract, HasAMirrorImage) {
   const ActingEffect here{&effect(), side(), nominal_values(effect())};
   const ActingEffect image = mirrored(here);
   const std::vector<double> a =
-      seen(machine_with({applied(*here.effect, here.side, here.values)}), visits);
+      found(machine_with({applied(*here.effect, here.side, here.values)}), visits);
   for (Visit& visit : visits) visit.position.x_mm = -visit.position.x_mm;
   const std::vector<double> b =
-      seen(machine_with({applied(*image.effect, image.side, image.values)}), visits);
+      found(machine_with({applied(*image.effect, image.side, image.values)}), visits);
   ASSERT_EQ(a.size(), b.size());
   // The equilibrium is solved to 1e-10 mm on the bed; its two chains are eliminated in the same
   // order in both cases.
@@ -321,9 +329,9 @@ TEST_P(EffectContract, KeepsThePositionJacobianExact) {
         };
         return (step(h_mm) - step(-h_mm)) / (2.0 * h_mm);
       };
-      const Eigen::Vector2d extrapolated = (4.0 * slope(0.25) - slope(0.5)) / 3.0;
-      // Differences: rounding 1e-12 / 0.5 mm, and 0.5^4 times the fifth derivative of the
-      // sprocket's wave, 0.3 mm (2 pi / 63.5 mm)^5 / 30: below 1e-8 together.
+      const Eigen::Vector2d extrapolated = (4.0 * slope(0.125) - slope(0.25)) / 3.0;
+      // Differences: rounding 1e-12 / 0.25 mm, and 0.25^4 times the fifth derivative of a wave of
+      // half a turn, 0.2 mm (4 pi / 63.5 mm)^5 / 30: below 1e-8 together.
       EXPECT_LT((extrapolated - reading->position_jacobian.col(axis)).norm(), 1e-8)
           << p.x_mm << " " << p.y_mm;
     }
@@ -370,14 +378,21 @@ TEST_P(EffectContract, KeepsTheSettingsSensitivityExact) {
     const auto slope = [&](double h_mm) -> Eigen::Vector2d {
       return (moved(setting, h_mm) - moved(setting, -h_mm)) / (2.0 * h_mm);
     };
-    const Eigen::Vector2d extrapolated = (4.0 * slope(0.25) - slope(0.5)) / 3.0;
+    const Eigen::Vector2d extrapolated = (4.0 * slope(0.125) - slope(0.25)) / 3.0;
     // As above.
     EXPECT_LT((extrapolated - model.sensitivity(*reading, setting)).norm(), 1e-8)
         << static_cast<int>(setting);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, EffectContract, ::testing::ValuesIn(all_cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(Catalogue,
+                         EffectContract,
+                         ::testing::ValuesIn(cases_of(catalogue())),
+                         case_name);
+INSTANTIATE_TEST_SUITE_P(Declared,
+                         EffectContract,
+                         ::testing::ValuesIn(cases_of(declared_examples())),
+                         case_name);
 
 }  // namespace
 }  // namespace chaintrue::model::effects

@@ -5,12 +5,15 @@
 
 #include "grid/files/machine_file.hpp"
 #include "model/effects/catalogue.hpp"
+#include "tests/contracts/declared_examples.hpp"
 
 namespace chaintrue::model::effects {
 namespace {
 
 TEST(EffectFileContract, EveryEffectComesBackFromAMachineFile) {
-  for (const Effect* effect : catalogue()) {
+  Machine declaring;
+  declaring.declared = declared_examples();
+  for (const Effect* effect : effects_of(declaring)) {
     for (const EffectSide side : effect->sides) {
       SCOPED_TRACE(std::string(effect->id) + " " + std::string(name(side)));
       std::vector<double> values = nominal_values(*effect);
@@ -19,10 +22,12 @@ TEST(EffectFileContract, EveryEffectComesBackFromAMachineFile) {
         if (!effect->parameters[i].integer) values[i] += effect->parameters[i].prior_sigma / 3.0;
       }
       Machine machine;
+      if (effect->law != nullptr) machine.declared = {effect};
       machine.effects = {applied(*effect, side, values)};
       const std::string text = grid::files::write_machine(machine);
       const Machine back = grid::files::parse_machine(text, "machine.json");
       ASSERT_EQ(back.effects.size(), 1U);
+      EXPECT_EQ(back.declared, machine.declared);
       EXPECT_EQ(back.effects[0].effect, machine.effects[0].effect);
       EXPECT_EQ(back.effects[0].side, machine.effects[0].side);
       EXPECT_EQ(back.effects[0].parameters, machine.effects[0].parameters);  // to the last bit

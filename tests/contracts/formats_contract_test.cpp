@@ -14,12 +14,15 @@
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
+#include "grid/files/drawing_file.hpp"
+#include "grid/files/effect_file.hpp"
 #include "grid/files/formats.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/json_reader.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/map_file.hpp"
+#include "grid/files/plotter_file.hpp"
 #include "grid/files/sweep_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/fit.hpp"
@@ -70,12 +73,20 @@ std::string aged_map(std::string text, std::string_view) {
 
 /// Diagnoses of version 1.0 have neither the remainder nor the budget of the error; those of 1.1 have
 /// no belts, and those of 1.2 no next measurements of belts; this one has none of these. Those before 1.4
-/// have no parts of the bed.
+/// have no parts of the bed, and those before 1.5 do not say what is left without a part of the error.
+/// Those before 1.6 do not say what they were made from, nor how far the machine misses as it is used, and those
+/// before 1.7 no order that was found.
 std::string aged_diagnosis(std::string text, std::string_view version) {
   Problems problems("diagnosis.json");
   Json json = parse_json(text, problems);
+  json.erase("visiting_order");
+  if (version == "1.6") return print_json(json);
+  json.erase("made_by");
+  json.erase("tool_today");
+  if (version == "1.5") return print_json(json);
   json.erase("bed_parts");
   json.erase("sessions");
+  for (Json& line : json["budget"]["parts"]) line.erase("without_mm");
   if (version == "1.0") {
     json.erase("unexplained");
     json.erase("budget");
@@ -86,10 +97,13 @@ std::string aged_diagnosis(std::string text, std::string_view version) {
 /// Holes of version 1.0 have no machine on four belts; this one is of chains.
 std::string unchanged(std::string text, std::string_view) { return text; }
 
-/// Anchors of version 1.0 are of belts alone, those of 1.1 have no hash.
+/// Anchors of version 1.0 are of belts alone, those of 1.1 have no hash, those of 1.2 neither causes nor what they were
+/// made from; the hash of 1.2 is taken out, since it is of the version too.
 std::string aged_anchors(std::string text, std::string_view version) {
   Problems problems("anchors.json");
   Json json = parse_json(text, problems);
+  json.erase("made_by");
+  json["fit"].erase("causes");
   json.erase("content_hash");
   if (version == "1.0") json.erase("holes");
   return print_json(json);
@@ -152,6 +166,24 @@ const std::map<std::string_view, Sample>& samples() {
         },
         text_of("good/diagnosis_every_key.json"),
         aged_diagnosis}},
+      {kEffectFormat.file_type,
+       {[](const std::string& text) {
+          (void)parse_effect(text, "effect.json");
+          return std::vector<Warning>{};
+        },
+        text_of("effects/second_harmonic.json")}},
+      {kPlotterFormat.file_type,
+       {[](const std::string& text) {
+          (void)parse_plotter(text, "plotter.json");
+          return std::vector<Warning>{};
+        },
+        text_of("good/plotter_every_key.json")}},
+      {kDrawingFormat.file_type,
+       {[](const std::string& text) {
+          (void)parse_drawing(text, "drawing.json");
+          return std::vector<Warning>{};
+        },
+        text_of("good/drawing_every_key.json")}},
       {kSweepFormat.file_type, {read_sweep_text, text_of("sweeps/quick.json")}}};
   return by_type;
 }

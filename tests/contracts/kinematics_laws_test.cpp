@@ -114,10 +114,10 @@ TEST_P(KinematicsLaws, ForwardUndoesInverse) {
     SCOPED_TRACE(testing::Message()
                  << "seed " << kSeed << ", (" << p.x_mm << ", " << p.y_mm << ")");
     const PoseResult pose = kinematics_->inverse(p);
-    ASSERT_TRUE(pose) << explain(pose.error());
+    ASSERT_TRUE(pose) << pose.error().sentence();
     EXPECT_EQ(pose->position.x_mm, p.x_mm);
     const PoseResult back = kinematics_->forward(pose->lengths);
-    ASSERT_TRUE(back) << explain(back.error());
+    ASSERT_TRUE(back) << back.error().sentence();
     // Rounding of a length, 2e-13 mm, times the worst amplification of 2.4 and a few sums.
     EXPECT_NEAR(back->position.x_mm, p.x_mm, 2e-11);
     EXPECT_NEAR(back->position.y_mm, p.y_mm, 2e-11);
@@ -373,7 +373,7 @@ TEST_P(KinematicsLaws, WhatIsNoPoseIsNamed) {
                infinity = std::numeric_limits<double>::infinity();
   const auto failure = [&](BedPoint p) {
     const PoseResult pose = kinematics_->inverse(p);
-    return pose ? std::string("a pose") : std::string(name(pose.error()));
+    return pose ? std::string("a pose") : std::string(name(pose.error().reason));
   };
   EXPECT_EQ(failure({parameters().motors.right.x_mm + 30.0, 0.0}), "outside_verticals");
   EXPECT_EQ(failure({-1e9, 0.0}), "outside_verticals");

@@ -131,7 +131,7 @@ TEST_P(CalibratedMechanism, ItsMapAnswersBothWays) {
     const model::BedPoint at{random.uniform(e.x_min_mm, e.x_max_mm),
                              random.uniform(e.y_min_mm, e.y_max_mm)};
     const auto answer = map.query(at);
-    ASSERT_TRUE(answer) << explain(answer.error());
+    ASSERT_TRUE(answer) << answer.error().sentence();
     ASSERT_EQ(answer->lengths_mm.size(), std::ssize(map.length_names()));
     const auto first = map.lengths(at);
     ASSERT_TRUE(first);
@@ -139,7 +139,7 @@ TEST_P(CalibratedMechanism, ItsMapAnswersBothWays) {
     EXPECT_NEAR(first->left_mm, answer->lengths_mm[0], 1e-11);
     EXPECT_NEAR(first->right_mm, answer->lengths_mm[1], 1e-11);
     const auto tool = map.tool({answer->lengths_mm[0], answer->lengths_mm[1]});
-    ASSERT_TRUE(tool) << explain(tool.error());
+    ASSERT_TRUE(tool) << tool.error().sentence();
     // What Newton's steps end at.
     EXPECT_NEAR(tool->x_mm, at.x_mm, 1e-9);
     EXPECT_NEAR(tool->y_mm, at.y_mm, 1e-9);
@@ -147,7 +147,7 @@ TEST_P(CalibratedMechanism, ItsMapAnswersBothWays) {
   }
   const auto beyond = map.query({e.x_max_mm + 1.0, e.y_min_mm});
   ASSERT_FALSE(beyond);
-  EXPECT_EQ(beyond.error(), MapFailure::outside_map);
+  EXPECT_EQ(beyond.error(), MapReason::outside_map);
 }
 
 TEST_P(CalibratedMechanism, ItsMapsSigmasAreThoseOfItsParameters) {
@@ -218,7 +218,7 @@ TEST_P(CalibratedMechanism, AReadingThatIsWrongByItselfIsNamed) {
   places[3].lengths_mm[0] += 25.0;
   const auto check = check_lengths(fit, places);
   ASSERT_TRUE(check);
-  EXPECT_EQ(check->hypotheses.front().what, "bad_point");
+  EXPECT_EQ(check->hypotheses.front().what, model::Change::bad_point);
   EXPECT_EQ(check->hypotheses.front().count, 3);
   EXPECT_EQ(check->verdict, CheckVerdict::measure_again);
   EXPECT_NE(check->sentence.find("point 4"), std::string::npos) << check->sentence;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Laws of every mechanism: two chains, four belts, and a toy that exists only here.
+/// Laws of every mechanism: two chains, four belts, V-plotters of three kinds, and a toy that exists only here.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,6 +14,7 @@
 #include "model/calibration/setting.hpp"
 #include "model/chains/chain_mechanism.hpp"
 #include "model/effects/catalogue.hpp"
+#include "model/plotter/plotter_mechanism.hpp"
 #include "tests/contracts/toy_mechanism.hpp"
 
 namespace chaintrue::model {
@@ -71,8 +72,47 @@ BeltMachine four_belts_mirrored(BeltLengths lengths) {
   return machine;
 }
 
+/// A pen on cords from the wall, a bot with its motors in it, and a light body on heavy cords.
+std::vector<PlotterMachine> plotters() {
+  PlotterMachine point;
+  point.name = "point";
+  point.pin_rise_mm = 4.5;
+  point.pulley_radius_mm = 9.55;
+  point.zero_mm = {3.0, -2.0};
+  point.cord = {.mass_kg_per_m = 0.008, .compliance_per_n = 2e-5};
+  PlotterMachine bot = mural(1500.0);
+  bot.pin_rise_mm = -6.0;
+  bot.gondola.pen_right_mm = 3.0;
+  bot.scale_mm_per_m = {2.0, -1.0};
+  PlotterMachine light;
+  light.name = "light";
+  light.pin_spacing_mm = 2000.0;
+  light.feed = Feed::off_bottom;
+  light.pulley_radius_mm = 14.0;
+  light.gondola = {.spacing_mm = 60.0, .pen_below_mm = 35.0, .mass_below_mm = 55.0, .mass_kg = 0.4};
+  light.cord = {.mass_kg_per_m = 0.012, .compliance_per_n = 1e-4};
+  light.area = {-600.0, 600.0, -500.0, -1500.0};
+  return {point, bot, light};
+}
+
+PlotterMachine mirrored(PlotterMachine machine) {
+  machine.pin_rise_mm *= -1.0;
+  machine.gondola.pen_right_mm *= -1.0;
+  machine.gondola.mass_right_mm *= -1.0;
+  std::swap(machine.zero_mm.left_mm, machine.zero_mm.right_mm);
+  std::swap(machine.scale_mm_per_m.left_mm, machine.scale_mm_per_m.right_mm);
+  return machine;
+}
+
 std::vector<Tested> every_mechanism() {
   std::vector<Tested> all;
+  for (const PlotterMachine& machine : plotters()) {
+    all.push_back({"plotter_" + machine.name,
+                   [machine] { return make_plotter_mechanism(machine); },
+                   [machine] { return make_plotter_mechanism(mirrored(machine)); },
+                   0.0,
+                   {1, 0}});
+  }
   all.push_back({"chains",
                  [] { return make_chain_mechanism(leaning()); },
                  [] { return make_chain_mechanism(leaning_mirrored()); },
@@ -204,7 +244,7 @@ TEST_P(MechanismContract, DerivativesAreDifferences) {
     for (const MechanismVisit& visit : visits(*mechanism)) {
       for (const ToolPosition& q : positions(*mechanism)) {
         const auto at = state.mechanism->predict(q, visit);
-        ASSERT_TRUE(at) << q.x_mm << " " << q.y_mm << ": " << at.error().sentence;
+        ASSERT_TRUE(at) << q.x_mm << " " << q.y_mm << ": " << at.error().sentence();
         const auto lengths_at = [&](const Mechanism& m, double dx, double dy) {
           return m.predict({q.x_mm + dx, q.y_mm + dy}, visit)->lengths_mm;
         };
@@ -242,7 +282,7 @@ TEST_P(MechanismContract, LocateInvertsPredict) {
         const auto at = state.mechanism->predict(q, visit, Derivatives::by_position);
         ASSERT_TRUE(at);
         const auto found = state.mechanism->locate(at->lengths_mm, visit);
-        ASSERT_TRUE(found) << found.error().sentence;
+        ASSERT_TRUE(found) << found.error().sentence();
         // As stated in the header, with an allowance for the position error from lengths of 1e-10
         // mm.
         EXPECT_NEAR(found->x_mm, q.x_mm, 3e-9);
@@ -311,15 +351,15 @@ TEST_P(MechanismContract, ParametersAtTheirValuesChangeNothing) {
 TEST_P(MechanismContract, FailuresAreNamed) {
   const MechanismPtr mechanism = GetParam().make();
   const auto is_named = [](const MechanismFailure& failure) {
-    return !failure.sentence.empty() && !failure.name.empty() &&
-           std::all_of(failure.name.begin(), failure.name.end(), [](char c) {
+    return !failure.sentence().empty() && !failure.reason.name.empty() &&
+           std::all_of(failure.reason.name.begin(), failure.reason.name.end(), [](char c) {
              return (c >= 'a' && c <= 'z') || c == '_';
            });
   };
   const auto n = static_cast<Eigen::Index>(mechanism->lengths().size());
   const auto nowhere = mechanism->locate(Eigen::VectorXd::Constant(n, 200.0), {});
   ASSERT_FALSE(nowhere);
-  EXPECT_TRUE(is_named(nowhere.error())) << nowhere.error().name;
+  EXPECT_TRUE(is_named(nowhere.error())) << nowhere.error().reason.name;
   EXPECT_THROW((void)mechanism->locate(Eigen::VectorXd::Zero(n + 1), {}), std::invalid_argument);
   const AppliedEffect unknown{"no_such_effect", "", {}};
   ASSERT_FALSE(mechanism->problems_of_effects({unknown}).empty());
@@ -375,7 +415,7 @@ TEST(BeltMechanismTest, AnchorsThatNobodyKnowsHaveNoLengthsUntilTheyAreFound) {
   EXPECT_FALSE(mechanism->parameters().front().stated);
   EXPECT_FALSE(mechanism->parameters().front().prior_sigma);
   ASSERT_FALSE(mechanism->predict({1500.0, 1000.0}, {}));
-  EXPECT_EQ(mechanism->predict({1500.0, 1000.0}, {}).error().name, "anchors_not_known");
+  EXPECT_EQ(mechanism->predict({1500.0, 1000.0}, {}).error().reason.name, "anchors_not_known");
   const auto found =
       mechanism->with_values(make_belt_mechanism(four_belts(BeltLengths::span))->values());
   const auto at = found->predict({1500.0, 1000.0}, {});

@@ -12,6 +12,7 @@
 #include "grid/files/machine_file.hpp"
 #include "grid/observation/belt_lengths.hpp"
 #include "grid/observation/chain_lengths.hpp"
+#include "grid/observation/drawn_measures.hpp"
 #include "grid/observation/single_readings.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/synthetic/generator.hpp"
@@ -19,6 +20,7 @@
 #include "grid/synthetic/random.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "model/chains/chain_mechanism.hpp"
+#include "model/plotter/plotter_mechanism.hpp"
 
 namespace chaintrue::grid::observation {
 namespace {
@@ -113,12 +115,12 @@ std::shared_ptr<const Observation> holes(const Wanted& wanted) {
 
 std::shared_ptr<const Observation> parts(const Wanted& wanted) {
   synthetic::Random random(wanted.seed, 78);
-  std::vector<ExtraReading> readings = {{"motor_spacing_mm", "", 0.0, 1.0},
-                                        {"beam_rise_mm", "", 0.0, 0.5},
-                                        {"ring_radius_mm", "", 0.0, 0.5},
-                                        {"link_pitch_mm", "left", 0.0, 0.001},
-                                        {"chain_mass_kg_per_m", "", 0.0, 0.002},
-                                        {"tape_error_mm_per_m", "x", 0.0, 0.2}};
+  std::vector<ExtraReading> readings = {{ReadingOf::motor_spacing, "", 0.0, 1.0},
+                                        {ReadingOf::beam_rise, "", 0.0, 0.5},
+                                        {ReadingOf::ring_radius, "", 0.0, 0.5},
+                                        {ReadingOf::link_pitch, "left", 0.0, 0.001},
+                                        {ReadingOf::chain_mass, "", 0.0, 0.002},
+                                        {ReadingOf::tape_error, "x", 0.0, 0.2}};
   for (ExtraReading& reading : readings) {
     reading.value = predicted_reading(classic(), reading) + reading.sigma * random.normal();
   }
@@ -165,12 +167,48 @@ std::shared_ptr<const Observation> belts_at_places(const Wanted& wanted) {
   return std::make_shared<BeltLengthReadings>(std::move(places), true, kNoise, 15.0);
 }
 
+const std::shared_ptr<const model::Mechanism>& plotter() {
+  static const std::shared_ptr<const model::Mechanism> mechanism =
+      model::make_plotter_mechanism(model::mural(1500.0));
+  return mechanism;
+}
+
+/// Nine crosses that a plotter drew, lengths between all of them and the bows of their rows.
+std::shared_ptr<const Observation> drawing(const Wanted& wanted) {
+  std::vector<DrawnPoint> points;
+  for (const double y : {-400.0, -800.0, -1300.0}) {
+    for (const double x : {-420.0, 20.0, 400.0}) {
+      const auto at = plotter()->predict({x, y}, {});
+      points.push_back({std::string(1, static_cast<char>('A' + points.size())),
+                        {x, y},
+                        {at->lengths_mm[0], at->lengths_mm[1]}});
+    }
+  }
+  std::vector<DrawnMeasure> measures;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = i + 1; j < points.size(); j += 2)
+      measures.push_back({DrawnMeasure::Kind::length, i, j, 0, 0.0, 0.5});
+  }
+  for (const std::size_t row : {0U, 3U, 6U})
+    measures.push_back({DrawnMeasure::Kind::bow, row, row + 2, row + 1, 0.0, 0.3});
+  const DrawnMeasures exact(points, measures, 15.0);
+  const Eigen::VectorXd rows = *exact.predicted(View(plotter()));
+  synthetic::Random random(wanted.seed, 80);
+  for (const Unit& unit : exact.units())
+    measures[unit.index].value_mm =
+        rows[unit.first_row] + measures[unit.index].sigma_mm * random.normal();
+  if (wanted.slip) measures[kSpoilt].value_mm += 20.0;
+  turn_over(measures, wanted);
+  return std::make_shared<DrawnMeasures>(std::move(points), std::move(measures), 15.0);
+}
+
 const std::map<std::string_view, Simulate>& simulations() {
   static const std::map<std::string_view, Simulate> kSimulations = {
       {"chain_lengths", marks},
       {"tape_distances", holes},
       {"single_readings", parts},
-      {"belt_lengths", belts_at_places}};
+      {"belt_lengths", belts_at_places},
+      {"drawn_measures", drawing}};
   return kSimulations;
 }
 
@@ -185,6 +223,7 @@ class EveryObservation : public testing::TestWithParam<const Kind*> {
   }
   static std::shared_ptr<const model::Mechanism> mechanism() {
     if (GetParam()->id == "belt_lengths") return four_belts();
+    if (GetParam()->id == "drawn_measures") return plotter();
     return model::make_chain_mechanism(classic());
   }
   static View as_stated() { return View(mechanism()); }

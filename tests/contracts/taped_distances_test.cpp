@@ -99,7 +99,7 @@ TEST(TapedDistances, OneThatCannotBeReachedHasAName) {
   nowhere.lengths_mm.head<2>().setConstant(200.0);
   const auto line = distance_line(*mechanism, {nowhere, AtFixedPoint{0}, 100.0, 1.0}, {});
   ASSERT_FALSE(line);
-  EXPECT_FALSE(line.error().name.empty());
+  EXPECT_FALSE(line.error().reason.name.empty());
 }
 
 /// Four belts at three places, two of which a tape joins.

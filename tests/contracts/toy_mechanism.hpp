@@ -67,7 +67,7 @@ class ToyMechanism final : public Mechanism {
       const MechanismVisit& /*visit*/,
       Derivatives wanted = Derivatives::by_position_and_parameter) const override {
     if (!(position.y_mm < 0.0))
-      return tl::unexpected(MechanismFailure{"above_the_nails", "the point is above the nails"});
+      return tl::unexpected(MechanismReason{"above_the_nails", "the point is above the nails"});
     LengthsPrediction result;
     result.lengths_mm.resize(3);
     result.by_position.resize(3, 2);

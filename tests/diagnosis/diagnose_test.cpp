@@ -27,7 +27,7 @@ void expect_refused(const MeasuredGrid& grid,
   const auto answer = diagnose(grid, verdict_alone());
   ASSERT_FALSE(answer);
   EXPECT_EQ(answer.error().reason, reason);
-  EXPECT_THAT(answer.error().sentence, HasSubstr(words));
+  EXPECT_THAT(answer.error().sentence(), HasSubstr(words));
 }
 
 TEST(DiagnoseBadInput, TooFewPoints) {
@@ -53,7 +53,7 @@ TEST(DiagnoseBadInput, RepeatsStandInForStatedNoise) {
   grid.noise.reset();
   const auto answer = diagnose(grid, verdict_alone());
   ASSERT_TRUE(answer);
-  EXPECT_THAT(answer->notes, testing::Contains(HasSubstr("come from the repeats")));
+  EXPECT_THAT(answer->notes, testing::Contains(HasSubstr("By the marks that were measured twice")));
 }
 
 TEST(DiagnoseBadInput, NoMachine) {
@@ -64,16 +64,16 @@ TEST(DiagnoseBadInput, NoMachine) {
 
 TEST(DiagnoseBadInput, ReadingAgainstStatement) {
   MeasuredGrid grid = session_of({}, 1);
-  grid.readings.push_back({"motor_spacing_mm", "", 2900.0, 1.0});
+  grid.readings.push_back({ReadingOf::motor_spacing, "", 2900.0, 1.0});
   expect_refused(grid,
                  DiagnosisFailure::Reason::contradictory_settings,
-                 "motor_spacing_mm is 2900, but the machine states 2978.4");
+                 "motor_spacing_mm is 2900, but the machine file says 2978.4");
 }
 
 TEST(DiagnoseBadInput, TwoReadingsAgainstEachOther) {
   MeasuredGrid grid = session_of({}, 1);
-  grid.readings.push_back({"link_pitch_mm", "left", 6.350, 0.001});
-  grid.readings.push_back({"link_pitch_mm", "left", 6.370, 0.001});
+  grid.readings.push_back({ReadingOf::link_pitch, "left", 6.350, 0.001});
+  grid.readings.push_back({ReadingOf::link_pitch, "left", 6.370, 0.001});
   expect_refused(grid,
                  DiagnosisFailure::Reason::contradictory_settings,
                  "two readings of link_pitch_mm contradict each other");
@@ -133,7 +133,7 @@ TEST_P(EveryEffect, IsFoundWithItsSize) {
   }
   const auto applied = model::effects::applied(effect, side, values);
   const auto answer = diagnose(session_of({applied}, 7), verdict_alone());
-  ASSERT_TRUE(answer) << answer.error().sentence;
+  ASSERT_TRUE(answer) << answer.error().sentence();
   SCOPED_TRACE(answer->sentence);
   ASSERT_FALSE(answer->causes.empty());
   const Cause& lead = answer->causes.front();
@@ -185,8 +185,8 @@ TEST(Diagnose, ALinkReadingPartsPitchFromTape) {
   EXPECT_EQ(before->causes.front().cause.effect->id, "chain_pitch_error");
   ASSERT_EQ(before->causes.front().same_as.size(), 1u);
   EXPECT_TRUE(before->extended_machine.effects.empty()) << "not before somebody read the links";
-  grid.readings.push_back({"link_pitch_mm", "left", 6.350, 0.001});
-  grid.readings.push_back({"link_pitch_mm", "right", 6.350, 0.001});
+  grid.readings.push_back({ReadingOf::link_pitch, "left", 6.350, 0.001});
+  grid.readings.push_back({ReadingOf::link_pitch, "right", 6.350, 0.001});
   const auto after = diagnose(grid, verdict_alone());
   ASSERT_TRUE(after);
   ASSERT_EQ(after->verdict, Verdict::named) << after->sentence;
@@ -197,8 +197,8 @@ TEST(Diagnose, ALinkReadingPartsPitchFromTape) {
 
 TEST(Diagnose, AnotherTapePartsTapeFromPitch) {
   MeasuredGrid grid = session_of({{"tape_scale", "both", {{"scale", 0.003}}}}, 9);
-  grid.readings.push_back({"tape_error_mm_per_m", "x", 3.1, 0.15});
-  grid.readings.push_back({"tape_error_mm_per_m", "y", 2.9, 0.15});
+  grid.readings.push_back({ReadingOf::tape_error, "x", 3.1, 0.15});
+  grid.readings.push_back({ReadingOf::tape_error, "y", 2.9, 0.15});
   const auto tape = diagnose(grid, verdict_alone());
   ASSERT_TRUE(tape);
   ASSERT_EQ(tape->verdict, Verdict::named) << tape->sentence;

@@ -46,7 +46,7 @@ MeasuredHoles holes(const std::vector<model::AppliedEffect>& hidden, std::uint64
 
 Diagnosis diagnosed(const MeasuredHoles& set, const DiagnosisOptions& options = quick()) {
   const auto found = diagnose(set, options);
-  EXPECT_TRUE(found) << found.error().sentence;
+  EXPECT_TRUE(found) << found.error().sentence();
   return *found;
 }
 
@@ -79,7 +79,7 @@ void expect_refused(const MeasuredHoles& set,
   const auto found = diagnose(set, quick());
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().reason, reason);
-  EXPECT_THAT(found.error().sentence, HasSubstr(words));
+  EXPECT_THAT(found.error().sentence(), HasSubstr(words));
 }
 
 TEST(HolesDiagnosisBadInput, TooFewDistancesSayWhichAreMissing) {
@@ -87,7 +87,7 @@ TEST(HolesDiagnosisBadInput, TooFewDistancesSayWhichAreMissing) {
   set.distances.resize(6);
   expect_refused(set,
                  DiagnosisFailure::Reason::too_few_points,
-                 "6 distances are too few to name a cause: they tell four of the settings, and at "
+                 "6 distances are too few to name a cause: they give four of the settings, and at "
                  "least 8 are needed; nine holes and twenty distances are a good start. Measure "
                  "also ");
 }
@@ -98,7 +98,7 @@ TEST(HolesDiagnosisBadInput, AHookThatWasForgotten) {
   expect_refused(set,
                  DiagnosisFailure::Reason::contradictory_settings,
                  "all distances are about 40 mm longer than commanded, long ones and short ones "
-                 "alike: it looks as if the tape's hook offset, stated as 0 mm, is 40 mm");
+                 "by the same: it looks as if the tape's hook offset, given as 0 mm, is 40 mm");
 }
 
 TEST(HolesDiagnosisBadInput, NoMachine) {
@@ -179,9 +179,9 @@ TEST(HolesDiagnosis, AdditionsToTheChainsMoveDistancesAsThePathDoes) {
   ASSERT_TRUE(path);
   Eigen::VectorXd linear = Eigen::VectorXd::Zero(session->rows);
   for (std::size_t u = 0; u < system->units.size(); ++u) {
-    for (const observation::PlaceColumns& seen : system->units[u].places) {
-      const double added = -kElongation * session->places[seen.place].lengths.left_mm;
-      linear(system->units[u].first_row) += seen.by_chain(0, 0) * added;
+    for (const observation::PlaceColumns& place_columns : system->units[u].places) {
+      const double added = -kElongation * session->places[place_columns.place].lengths.left_mm;
+      linear(system->units[u].first_row) += place_columns.by_chain(0, 0) * added;
     }
   }
   // 1e-5 of the chain is some 0.02 mm; the nonlinear part is a millionth of that.

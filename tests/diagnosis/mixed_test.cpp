@@ -87,7 +87,7 @@ TEST(MixedDiagnosis, FillsTheWholeAnswer) {
   Measured measured(session_of({hidden}, 3));
   measured.add(holes_of({hidden}, 4));
   const auto found = diagnose(measured);
-  ASSERT_TRUE(found) << found.error().sentence;
+  ASSERT_TRUE(found) << found.error().sentence();
   EXPECT_EQ(found->observations, Observations::both);
   EXPECT_EQ(found->verdict, Verdict::named) << found->sentence;
   EXPECT_EQ(found->causes.front().cause.effect->id, "chain_pitch_error");
@@ -117,14 +117,14 @@ TEST(TwoSessions, AnotherZeroIsNoCauseAndIsTold) {
   MeasuredGrid second = session_of({}, 22);
   for (MeasuredPoint& point : second.points) point.lengths->left_mm += 5.0;
   const auto found = diagnose({{"first", first}, {"second", second}}, verdict_alone());
-  ASSERT_TRUE(found) << found.error().sentence;
+  ASSERT_TRUE(found) << found.error().sentence();
   EXPECT_EQ(found->verdict, Verdict::nothing_found) << found->sentence;
   EXPECT_THAT(found->notes,
               testing::Contains(testing::StartsWith(
                   "second: the chains' zeros are other than in first: left chain ")));
-  const auto alike = diagnose({{"first", first}, {"second", session_of({}, 22)}}, verdict_alone());
-  ASSERT_TRUE(alike);
-  EXPECT_THAT(alike->notes, testing::Not(testing::Contains(testing::HasSubstr("zeros"))));
+  const auto same = diagnose({{"first", first}, {"second", session_of({}, 22)}}, verdict_alone());
+  ASSERT_TRUE(same);
+  EXPECT_THAT(same->notes, testing::Not(testing::Contains(testing::HasSubstr("zeros"))));
 }
 
 TEST(MixedDiagnosis, ABadReadingOfEitherKindIsFound) {

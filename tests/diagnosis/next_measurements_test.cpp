@@ -34,6 +34,10 @@ MeasuredHoles holes_with(const model::AppliedEffect& hidden, std::uint64_t seed)
   return synthetic::simulate_holes(chaintrue::testing_support::nine_holes(), spec)->set;
 }
 
+std::string what_of(const NextMeasurement& next) {
+  return next.reading ? std::string(name(*next.reading)) : next.words;
+}
+
 /// Not affected by any alternative, nor by any setting.
 bool is_silent(const std::vector<Alternative>& alternatives, const Rows& rows) {
   return std::all_of(alternatives.begin(), alternatives.end(), [&](const Alternative& one) {
@@ -54,17 +58,17 @@ TEST(NextMeasurements, AReadingThatNoContestedCauseTouchesChangesNothing) {
     std::set<std::string> silent;
     for (const Candidate& candidate : next.all) {
       if (!is_silent(*alternatives, candidate.rows)) continue;
-      silent.insert(candidate.measurement.what);
+      silent.insert(what_of(candidate.measurement));
       Rows with_it = next.all.front().rows;
       const ExpectedDiscrimination without = expected_discrimination(*alternatives, with_it);
       with_it.insert(with_it.end(), candidate.rows.begin(), candidate.rows.end());
       const ExpectedDiscrimination with = expected_discrimination(*alternatives, with_it);
       // One more row of zeros: the same sums in other blocks.
-      EXPECT_NEAR(with.confusion, without.confusion, 1e-12) << candidate.measurement.what;
-      EXPECT_NEAR(with.named_alone, without.named_alone, 1e-12) << candidate.measurement.what;
+      EXPECT_NEAR(with.confusion, without.confusion, 1e-12) << what_of(candidate.measurement);
+      EXPECT_NEAR(with.named_alone, without.named_alone, 1e-12) << what_of(candidate.measurement);
     }
     for (const NextMeasurement& proposed : next_measurements(a)) {
-      EXPECT_EQ(silent.count(proposed.what), 0u) << proposed.what;
+      EXPECT_EQ(silent.count(what_of(proposed)), 0u) << what_of(proposed);
     }
     if (silent.count("tape_error_mm_per_m") > 0) ++sets;
   }
@@ -133,7 +137,7 @@ TEST(NextMeasurements, OfAClassEachCauseIsForetoldByItself) {
     ASSERT_TRUE(alternatives);
     Rows all;
     for (const Candidate& candidate : next.all) {
-      const std::string& what = candidate.measurement.what;
+      const std::string what = what_of(candidate.measurement);
       if (what != "tape_error_mm_per_m" && what != "link_pitch_mm") continue;
       all.push_back(candidate.rows.front());
       // Predicted with Gaussian log odds of one rival and a bound of the others, which errs by up to
@@ -171,7 +175,7 @@ class WithCandidate {
     for (MeasuredFile file : measured_.files()) {
       if (auto* grid = std::get_if<MeasuredGrid>(&file.measured)) {
         if (what.kind == MeasurementKind::reading) {
-          grid->readings.push_back({what.what, what.side, read(0), what.sigma});
+          grid->readings.push_back({*what.reading, what.side, read(0), what.sigma});
         } else if (what.kind != MeasurementKind::distance) {
           const auto visit = static_cast<int>(grid->points.size());
           grid->points.push_back(
@@ -295,7 +299,7 @@ TEST(NextMeasurements, OfAMixTheChosenOneLowersTheConfusionMost) {
     const WithCandidate with(measured, a, next);
     const std::vector<std::size_t> tried = ends_of_kinds(next, *alternatives);
     const NextMeasurement chosen = next_measurements(a).front();
-    ASSERT_EQ(chosen.what, next.all[tried.front()].measurement.what);
+    ASSERT_EQ(what_of(chosen), what_of(next.all[tried.front()].measurement));
     std::vector<double> left;
     for (const std::size_t c : tried) {
       left.push_back(0.0);
@@ -305,10 +309,10 @@ TEST(NextMeasurements, OfAMixTheChosenOneLowersTheConfusionMost) {
       }
       // The reading at its expected value represents the mean over all possible readings.
       const double prediction = expected_discrimination(*alternatives, next.all[c].rows).confusion;
-      EXPECT_NEAR(left.back(), prediction, 0.2 * prediction) << next.all[c].measurement.what;
+      EXPECT_NEAR(left.back(), prediction, 0.2 * prediction) << what_of(next.all[c].measurement);
     }
     // Equal if two are equally good.
-    EXPECT_LE(left.front(), 1.02 * *std::min_element(left.begin(), left.end())) << chosen.what;
+    EXPECT_LE(left.front(), 1.02 * *std::min_element(left.begin(), left.end())) << what_of(chosen);
     ++sets;
   }
   EXPECT_GT(sets, 0) << "no session asks the question";

@@ -3,7 +3,7 @@
 // out, one scan predicts the other, and an effect added to the real residuals is found. The scans
 // stay in ../shared/data; of the larger one every second mark is enough here. With CHAINTRUE_LONG
 // set in the environment every line is left out in turn. The results from all points are in
-// docs/diagnosis.md.
+// docs/diagnosis_rates.md.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

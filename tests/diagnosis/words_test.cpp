@@ -35,7 +35,7 @@ TEST(Words, APointIsMeasuredAgainUnlessThatPointIsAnOutlier) {
     put_into_words(*analysis, d);
     return d.what_to_do;
   };
-  const auto again = Contains(HasSubstr("Measure point 6 again before anything else"));
+  const auto again = Contains(HasSubstr("Measure point 6 again first"));
   EXPECT_THAT(what_to_do(Observations::points), Not(again));
   // The sixth distance, not a point.
   EXPECT_THAT(what_to_do(Observations::distances), again);

@@ -267,8 +267,8 @@ TEST(Readings, NameTheVisitThatCannotBeReached) {
   const auto result =
       readings(ReadingModel{Machine{}}, std::vector<Visit>{{{0.0, 0.0}, 0}, {{0.0, 2000.0}, 1}});
   ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().index, 1U);
-  EXPECT_EQ(result.error().reason, PoseFailure::above_sprockets);
+  EXPECT_EQ(result.error().place, 1U);
+  EXPECT_EQ(result.error().reason, PoseReason::above_sprockets);
 }
 
 TEST(Readings, AgreeWithTheRepeatablePartWhereNothingDependsOnTheVisit) {

@@ -57,13 +57,13 @@ double covered(const CompensationMap& map, const Owner& owner) {
   int within = 0;
   for (double x = -1100.0; x <= 1100.0; x += 200.0) {
     for (double y = -500.0; y <= 500.0; y += 200.0) {
-      const auto told = map.query({x, y});
+      const auto reply = map.query({x, y});
       const auto reading = truth.at(owner.sheet.to_bed({x, y}));
-      if (!told || !reading) continue;
-      within += std::abs(told->lengths.left_mm - reading->lengths.left_mm) <
-                1.96 * told->sigma.left_mm;
-      within += std::abs(told->lengths.right_mm - reading->lengths.right_mm) <
-                1.96 * told->sigma.right_mm;
+      if (!reply || !reading) continue;
+      within += std::abs(reply->lengths.left_mm - reading->lengths.left_mm) <
+                1.96 * reply->sigma.left_mm;
+      within += std::abs(reply->lengths.right_mm - reading->lengths.right_mm) <
+                1.96 * reply->sigma.right_mm;
       all += 2;
     }
   }
@@ -200,12 +200,12 @@ TEST(Estimate, AUnitLeftOutIsSeenAsByAFitWithoutIt) {
     (*input.fixed_weights)[out] = 0.0;
     const auto without = estimation::estimate(input);
     ASSERT_TRUE(without);
-    const auto& told = whole->units[static_cast<std::size_t>(out)];
+    const auto& reply = whole->units[static_cast<std::size_t>(out)];
     const auto& conditioned = without->units[static_cast<std::size_t>(out)];
     // The two differ by the curvature of the model over the change by one outlier group, a few 1e-3
     // mm.
-    EXPECT_LT((told.left_out - conditioned.left_out).cwiseAbs().maxCoeff(), 0.01);
-    EXPECT_NEAR(told.distance, conditioned.distance, 0.02);
+    EXPECT_LT((reply.left_out - conditioned.left_out).cwiseAbs().maxCoeff(), 0.01);
+    EXPECT_NEAR(reply.distance, conditioned.distance, 0.02);
   }
 }
 
@@ -214,12 +214,12 @@ TEST(FitTogether, AnotherMachineIsRefusedInWords) {
   own.holes.machine->motors.left.x_mm -= 5.0;
   const auto fit = joint_fit({{"points.json", own.points}, {"holes.json", own.holes}});
   ASSERT_FALSE(fit);
-  EXPECT_THAT(fit.error().sentence,
+  EXPECT_THAT(fit.error().sentence(),
               testing::AllOf(HasSubstr("holes.json"), HasSubstr("motor_left_x_mm is")));
   own.holes.machine.reset();
   const auto none = joint_fit({{"points.json", own.points}, {"holes.json", own.holes}});
   ASSERT_FALSE(none);
-  EXPECT_THAT(none.error().sentence, HasSubstr("holes.json names no machine"));
+  EXPECT_THAT(none.error().sentence(), HasSubstr("holes.json names no machine"));
   EXPECT_THROW((void)joint_fit({}), std::invalid_argument);
 }
 
@@ -230,7 +230,7 @@ TEST(FitTogether, TheMapSaysWhatCameFromWhere) {
   ASSERT_TRUE(fit);
   const auto& notes = fit->map.contents().notes;
   EXPECT_THAT(notes, testing::Contains(HasSubstr("12 points of points.json")));
-  EXPECT_THAT(notes, testing::Contains(HasSubstr("20 distances between 9 holes of holes.json (1 set aside)")));
+  EXPECT_THAT(notes, testing::Contains(HasSubstr("20 distances between 9 holes of holes.json (1 left out)")));
   EXPECT_THAT(notes,
               testing::Contains(HasSubstr("holes.json: " + words_of(own.holes, own.holes.distances[5]))));
 }

@@ -100,7 +100,7 @@ TEST(ControllerCheck, AShortArcIsAnnouncedWithItsErrorOnMaslows) {
   const std::string program = "G0 X1000 Y0\nF600 G3 X998.2005 Y59.9640 I-1000 J0\nM2\n";
   EXPECT_THAT(notes(ControllerKind::maslow_classic, program),
               ElementsAre(HasSubstr("2 arc_cut_straight: maslow_classic cuts so short or so wide "
-                                    "an arc as a straight line, here up to 0.450 mm beside it")));
+                                    "an arc as a straight line, here up to 0.450 mm off it")));
   EXPECT_THAT(notes(ControllerKind::fluidnc_wallplotter, program), IsEmpty());
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "grid/map/compensation_map.hpp"
+#include "model/chains/chain_mechanism.hpp"
 #include "tools/gcode/corrector.hpp"
 #include "tools/gcode/path_lengths.hpp"
 
@@ -13,20 +14,21 @@ namespace chaintrue::gcode {
 namespace {
 
 using model::PoseFailure;
+using model::PoseReason;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-constexpr PoseFailure kPoseFailures[] = {PoseFailure::outside_verticals,
-                                         PoseFailure::above_sprockets,
-                                         PoseFailure::link_does_not_fit,
-                                         PoseFailure::slack,
-                                         PoseFailure::too_short,
-                                         PoseFailure::not_converged};
+constexpr PoseReason kPoseReasons[] = {PoseReason::outside_verticals,
+                                       PoseReason::above_sprockets,
+                                       PoseReason::link_does_not_fit,
+                                       PoseReason::slack,
+                                       PoseReason::too_short,
+                                       PoseReason::not_converged};
 
 /// A machine that can hold the tool nowhere.
 class NoPose final : public grid::LengthMap {
  public:
-  explicit NoPose(PoseFailure why) : failure_(why) {}
+  explicit NoPose(PoseReason why) : failure_(grid::unreachable(model::mechanism_failure(why))) {}
   [[nodiscard]] tl::expected<model::ChainLengths, grid::MapFailure> lengths(
       model::BedPoint) const override {
     return tl::unexpected(failure_);
@@ -53,7 +55,7 @@ class NoPose final : public grid::LengthMap {
 /// A controller without any lengths.
 class NoCommand final : public model::ControllerKinematics {
  public:
-  explicit NoCommand(PoseFailure why) : why_(why) {}
+  explicit NoCommand(PoseReason why) : why_(why) {}
   [[nodiscard]] tl::expected<model::ChainLengths, PoseFailure> lengths(
       model::BedPoint) const override {
     return tl::unexpected(why_);
@@ -64,43 +66,44 @@ class NoCommand final : public model::ControllerKinematics {
   }
 
  private:
-  PoseFailure why_;
+  PoseReason why_;
 };
 
 TEST(FailureWords, APosesOwnCauseEndsTheSentence) {
-  for (const PoseFailure why : kPoseFailures) {
-    const std::string cause(model::explain(why));
-    const CorrectionFailure pose(CorrectionFailure::unreachable, why);
-    EXPECT_EQ(explain(pose), "cannot be reached by the machine: " + cause);
-    EXPECT_THAT(grid::explain(grid::MapFailure(why)), EndsWith(": " + cause));
+  for (const PoseReason why : kPoseReasons) {
+    const std::string cause = PoseFailure(why).sentence();
+    const grid::MapFailure nowhere = grid::unreachable(model::mechanism_failure(why));
+    const CorrectionFailure pose = correction_failure(nowhere);
+    EXPECT_EQ(pose.sentence(), "cannot be reached by the machine: " + cause);
+    EXPECT_THAT(nowhere.sentence(), EndsWith(": " + cause));
     const NoCommand controller(why);
     const NoPose map(why);
     const Corrector corrector(map, controller, firmware(model::ControllerKind::ideal));
     EXPECT_EQ(corrector.command({0.0, 0.0}).error(), pose);
-    EXPECT_EQ(explain(corrector.tool({0.0, 0.0}).error()),
+    EXPECT_EQ(corrector.tool({0.0, 0.0}).error().sentence(),
               "cannot be reached by the controller's own kinematics: " + cause);
   }
 }
 
 TEST(FailureWords, EveryReasonHasWordsOfItsOwn) {
   std::set<std::string> words;
-  for (const CorrectionFailure::Reason reason : {CorrectionFailure::outside_map,
-                                                 CorrectionFailure::unreachable,
-                                                 CorrectionFailure::not_converged,
-                                                 CorrectionFailure::controller})
-    words.insert(explain(CorrectionFailure(reason)));
+  for (const CorrectionReason reason : {CorrectionReason::outside_map,
+                                        CorrectionReason::unreachable,
+                                        CorrectionReason::not_converged,
+                                        CorrectionReason::controller})
+    words.insert(CorrectionFailure(reason).sentence());
   EXPECT_EQ(words.size(), 4u);
 }
 
 TEST(FailureWords, TheMessageAboutALineNamesTheCause) {
-  const NoPose map(PoseFailure::slack);
+  const NoPose map(PoseReason::slack);
   LineSource source = LineSource::from_text("G21 G90\nG1 X10 Y20 F500\n");
   Findings findings;
   ASSERT_TRUE(path_lengths(
       source, {}, map, {}, 50.0, [](const PathLengths&) {}, findings));
   ASSERT_FALSE(findings.problems.empty());
   EXPECT_THAT(findings.problems.front().message(),
-              HasSubstr(std::string(model::explain(PoseFailure::slack))));
+              HasSubstr(PoseFailure(PoseReason::slack).sentence()));
 }
 
 }  // namespace

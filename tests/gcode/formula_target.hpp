@@ -38,7 +38,7 @@ class FormulaMap final : public grid::LengthMap {
   [[nodiscard]] tl::expected<model::ChainLengths, grid::MapFailure> lengths(
       model::BedPoint p) const override {
     if (std::fabs(p.x_mm) > 1400.0 || std::fabs(p.y_mm) > 800.0)
-      return tl::unexpected(grid::MapFailure::outside_map);
+      return tl::unexpected(grid::MapReason::outside_map);
     const model::BedPoint d = displacement_(p);
     return model::ChainLengths{p.x_mm + d.x_mm, p.y_mm + d.y_mm};
   }

@@ -21,13 +21,13 @@ class Believes final : public model::ControllerKinematics {
   [[nodiscard]] tl::expected<model::ChainLengths, model::PoseFailure> lengths(
       model::BedPoint command) const override {
     const auto found = mechanism_.first_lengths({command.x_mm, command.y_mm});
-    if (!found) return tl::unexpected(model::PoseFailure::above_sprockets);
+    if (!found) return tl::unexpected(model::PoseReason::above_sprockets);
     return *found;
   }
   [[nodiscard]] tl::expected<model::BedPoint, model::PoseFailure> command(
       model::ChainLengths lengths) const override {
     const auto found = mechanism_.locate_by_first(lengths);
-    if (!found) return tl::unexpected(model::PoseFailure::not_converged);
+    if (!found) return tl::unexpected(model::PoseReason::not_converged);
     return model::BedPoint{found->x_mm, found->y_mm};
   }
 

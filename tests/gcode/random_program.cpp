@@ -302,7 +302,7 @@ std::string random_program(std::mt19937_64& random) { return Writer(random).run(
 tl::expected<model::ChainLengths, grid::MapFailure> TrueMachine::lengths(
     model::BedPoint point) const {
   const auto found = kinematics_->lengths(point);
-  if (!found) return tl::unexpected(grid::MapFailure::unreachable);
+  if (!found) return tl::unexpected(grid::MapReason::unreachable);
   return *found;
 }
 
@@ -317,7 +317,7 @@ tl::expected<grid::LengthsAnswer, grid::MapFailure> TrueMachine::query(
 tl::expected<model::BedPoint, grid::MapFailure> TrueMachine::tool(
     model::ChainLengths lengths) const {
   const auto found = kinematics_->command(lengths);
-  if (!found) return tl::unexpected(grid::MapFailure::unreachable);
+  if (!found) return tl::unexpected(grid::MapReason::unreachable);
   return *found;
 }
 

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t kMostReported = 20;
 
-int told(const std::vector<std::string>& failures, std::size_t count) {
+int reported(const std::vector<std::string>& failures, std::size_t count) {
   for (const std::string& failure : failures) fmt::print("{}\n\n", failure);
   return count == 0 ? 0 : 1;
 }
@@ -34,20 +34,20 @@ int run_follow(std::uint64_t count, std::uint64_t seed, std::uint64_t share, std
   const FollowRun run = follow(CHAINTRUE_FIXTURES, {seed, count, kMostReported, share, shares});
   fmt::print("{} programs from seed {}: {} compensated, {} changed outputs judged, {} wrong\n",
              run.programs, seed, run.compensated, run.judged_moved, run.failed);
-  return told(run.failures, run.failed);
+  return reported(run.failures, run.failed);
 }
 
 int run_language(std::uint64_t count, std::uint64_t seed) {
   const LanguageRun run = compare_language(seed, count, kMostReported);
   fmt::print("{} programs from seed {}: {} accepted by LinuxCNC, {} differ\n",
              count, seed, run.accepted, run.different);
-  return told(run.failures, run.different);
+  return reported(run.failures, run.different);
 }
 
 int run_output(std::uint64_t count, std::uint64_t seed) {
   const OutputRun run = compare_output(CHAINTRUE_FIXTURES, seed, count, true, kMostReported);
   fmt::print("{} outputs from seed {}: {} differ\n", run.outputs, seed, run.different);
-  return told(run.failures, run.different);
+  return reported(run.failures, run.different);
 }
 
 int generate(const std::string& folder) {

@@ -33,7 +33,7 @@ TEST(Draw, SameSeedSameBytes) {
 }
 
 TEST(Draw, StrengthsAndSizesAreInRangeAndEffectsEven) {
-  std::map<Cause, int> seen;
+  std::map<Cause, int> found;
   std::set<Order> orders;
   constexpr int kSets = 480;
   for (std::uint64_t seed = 1; seed <= kSets; ++seed) {
@@ -42,7 +42,7 @@ TEST(Draw, StrengthsAndSizesAreInRangeAndEffectsEven) {
     ASSERT_EQ(set.answer.hidden.size(), 1u);
     const Hidden& h = set.answer.hidden.front();
     const CauseCard& c = card(h.cause);
-    ++seen[h.cause];
+    ++found[h.cause];
     orders.insert(set.answer.order);
     EXPECT_GE(h.size, c.lower);
     EXPECT_LE(h.size, c.upper);
@@ -59,8 +59,8 @@ TEST(Draw, StrengthsAndSizesAreInRangeAndEffectsEven) {
     // Asked for by name alone: the frozen sets are drawn from the others.
     if (c.cause == Cause::zero_shift) continue;
     // 30 expected each, sigma 5.3; effects that cannot have the strength are replaced by others.
-    EXPECT_GT(seen[c.cause], 9) << c.id;
-    EXPECT_LT(seen[c.cause], 52) << c.id;
+    EXPECT_GT(found[c.cause], 9) << c.id;
+    EXPECT_LT(found[c.cause], 52) << c.id;
   }
 }
 

@@ -95,6 +95,8 @@ TEST(DiagnosisFile, HasItsKeysInTheOrderPromised) {
                           "causes",
                           "hypotheses",
                           "left_over",
+                          "tool_today",
+                          "visiting_order",
                           "bad_points",
                           "bad_point_shifts",
                           "not_testable",

@@ -14,12 +14,15 @@
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
+#include "grid/files/drawing_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/maslow4_log.hpp"
 #include "grid/files/optical_file.hpp"
+#include "grid/files/plotter_file.hpp"
+#include "grid/files/plotter_settings.hpp"
 #include "grid/files/points_file.hpp"
 #include "grid/files/whole_file.hpp"
 
@@ -88,6 +91,20 @@ Outcome maslow4_outcome(const std::string& text, const std::string& name) {
   return {write_belts(read.belts), messages_of(read.warnings), {}};
 }
 
+Outcome plotter_outcome(const std::string& text, const std::string& name) {
+  return {write_plotter(parse_plotter(text, name)), {}, {}};
+}
+
+Outcome drawing_outcome(const std::string& text, const std::string& name) {
+  return {write_drawing(parse_drawing(text, name)), {}, {}};
+}
+
+/// Of the controller of a V-plotter.
+Outcome settings_outcome(const std::string& text, const std::string& name) {
+  const ReadPlotter read = parse_plotter_settings(text, name);
+  return {write_plotter(read.plotter), messages_of(read.warnings), {}};
+}
+
 using Reader = std::function<Outcome(const std::string& text, const std::string& name)>;
 
 const std::map<std::string, Reader>& readers() {
@@ -100,7 +117,10 @@ const std::map<std::string, Reader>& readers() {
                                                         {"holes", holes_outcome},
                                                         {"belts", belts_outcome},
                                                         {"anchors", anchors_outcome},
-                                                        {"maslow4", maslow4_outcome}};
+                                                        {"maslow4", maslow4_outcome},
+                                                        {"plotter", plotter_outcome},
+                                                        {"drawing", drawing_outcome},
+                                                        {"plottersettings", settings_outcome}};
   return by_kind;
 }
 
@@ -142,9 +162,9 @@ std::vector<FixtureFile> fixtures_in(const std::string& folder) {
 }
 
 std::vector<std::string> remarks_in(const FixtureFile& fixture, const std::string& mark) {
-  std::filesystem::path beside = fixture.path;
-  beside += ".expect";
-  if (std::filesystem::exists(beside)) return lines_after(mark, read_whole_file(beside));
+  std::filesystem::path alongside = fixture.path;
+  alongside += ".expect";
+  if (std::filesystem::exists(alongside)) return lines_after(mark, read_whole_file(alongside));
   const std::string text = read_whole_file(fixture.path);
   if (fixture.path.extension() != ".json") return lines_after(mark, text);
   std::string comments;

@@ -44,7 +44,8 @@ TEST_P(GoodInput, IsReadAndWrittenTheSameEachTime) {
   // The output is a chaintrue file for every input.
   std::string kind = "points";
   // A diagnosis contains a machine, and holes or a grid may.
-  for (const char* known : {"diagnosis", "holes", "belts", "anchors", "grid", "machine"}) {
+  for (const char* known : 
+       {"diagnosis", "holes", "belts", "anchors", "grid", "machine", "plotter", "drawing"}) {
     if (kind == "points" &&
         first.written.find(std::string("chaintrue_") + known) != std::string::npos)
       kind = known;

@@ -131,7 +131,7 @@ TEST_P(GridOfAnyMachine, AllInInchesIsRecognised) {
     point.mark = {point.mark.x_mm / kInchMm, point.mark.y_mm / kInchMm};
     point.lengths = {point.lengths->left_mm / kInchMm, point.lengths->right_mm / kInchMm};
   }
-  EXPECT_THAT(said_of(grid_), ElementsAre(HasSubstr("these look like inches (multiply by 25.4)")));
+  EXPECT_THAT(said_of(grid_), ElementsAre(HasSubstr("These look like inches: multiply all of them by 25.4")));
 }
 
 TEST_P(GridOfAnyMachine, WithYDownwardsIsRecognised) {
@@ -155,7 +155,7 @@ TEST_P(GridOfAnyMachine, WithAMiscountedLinkInARepeatIsNamed) {
   EXPECT_THAT(said_of(grid_), IsEmpty());
   grid_.points.back().lengths->right_mm += 6.35;
   EXPECT_THAT(said_of(grid_),
-              ElementsAre(::testing::AllOf(HasSubstr("measured also at /points/3, 11.40 mm away"),
+              ElementsAre(::testing::AllOf(HasSubstr("measured twice, also at /points/3"),
                                            HasSubstr("(right)"))));
 }
 
@@ -163,7 +163,7 @@ TEST_P(GridOfAnyMachine, AHandfulIsEnoughForACheckAndStillKnowsItsSides) {
   const GridOptions few{machine_, {}, 1};
   grid_.points.resize(2);
   EXPECT_THAT(said_of(grid_, few), IsEmpty());
-  EXPECT_THAT(said_of(grid_), ElementsAre(HasSubstr("found 2 points, expected at least 8 points")));
+  EXPECT_THAT(said_of(grid_), ElementsAre(HasSubstr("Only 2 points are filled in, and it takes at least 8: measure 6 more.")));
   // The point farthest from the middle distinguishes its sides.
   grid_.points.resize(1);
   if (std::abs(grid_.points[0].mark.x_mm) < 150.0) return;

@@ -193,7 +193,7 @@ TEST(GroundcontrolSettings, OfARealMachineBecomeMachineAndController) {
     EXPECT_THAT(read.warnings[i].sentence, HasSubstr("assumed"));
   // The tolerances are the pitch that the owner measured for each chain.
   EXPECT_THAT(read.warnings.front().sentence,
-              HasSubstr("0.123725 % on the left and 0.16832 % on the right, each good to 0.1 %"));
+              HasSubstr("0.123725 % longer (left) and 0.16832 % longer (right) than new, each number good to 0.1 %"));
   ASSERT_EQ(machine.effects.size(), 2U);
   EXPECT_EQ(machine.effects[0].effect, "chain_pitch_error");
   EXPECT_EQ(machine.effects[0].side, "left");
@@ -261,8 +261,8 @@ TEST(GroundcontrolSettings, WhatHasNoSettingIsSaid) {
   machine.controller.settings.motor_spacing_mm = 2975.0;
   const auto remarks = write_groundcontrol(machine).remarks;
   EXPECT_THAT(remarks, Contains(HasSubstr("here it is 3.00 mm to the right")));
-  EXPECT_THAT(remarks, Contains("the left chain reads 1.50 mm too long; set its zero anew"));
-  EXPECT_THAT(remarks, Contains("the right chain reads 0.25 mm too short; set its zero anew"));
+  EXPECT_THAT(remarks, Contains("the left chain reads 1.50 mm too long; reset its zero"));
+  EXPECT_THAT(remarks, Contains("the right chain reads 0.25 mm too short; reset its zero"));
   EXPECT_THAT(remarks, Contains(HasSubstr("10.106 mm; here it is 10.190 mm")));
   EXPECT_THAT(remarks,
               Contains("GroundControl has no setting for the effect beam_flex; what can be done: "

@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"{\"a\": 1,\n \"b\" 2}", "file: line 2, column 6: found 2, expected JSON: ':' here"},
         Broken{"{\"a\": 1} x", "line 1, column 10: found x, expected JSON"},
         Broken{"{'a': 1}",
-               "line 1, column 2: found ', expected JSON: string literal here; texts stand"},
+               "line 1, column 2: found ', expected JSON: string literal here; put texts"},
         Broken{"[1, 2,]",
                "line 1, column 7: found ], expected JSON: '[', '{', or a literal here; the comma "
                "before it is one too many"},
@@ -159,7 +159,7 @@ TEST(Problems, TheFirstHundredAreListedAndTheRestCounted) {
   } catch (const InputError& error) {
     ASSERT_EQ(error.problems().size(), 101U);
     EXPECT_EQ(error.problems().back().message(),
-              "file: found 40 more problems, expected those above to be mended first");
+              "file: found 40 more problems, expected those above corrected first");
   }
 }
 

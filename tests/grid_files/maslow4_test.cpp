@@ -12,12 +12,12 @@ namespace chaintrue::grid::files {
 namespace {
 
 using model::Belt;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
-using testing::SizeIs;
+using ::testing::SizeIs;
 
 std::string fixture(const std::string& name) {
   return read_whole_file(std::filesystem::path(CHAINTRUE_FIXTURES) / name);
@@ -65,9 +65,9 @@ TEST(Maslow4Log, WhatNeitherItNorTheSettingsSayIsAssumedAndSaid) {
   EXPECT_EQ(machine.anchors.tr.x_mm, 2924.3);
   EXPECT_EQ(machine.anchors.br.x_mm, 2953.2);
   EXPECT_EQ(machine.surface_mm, 18.0);
-  Maslow4Options told = with_settings();
-  told.lengths = model::BeltLengths::belt_and_arm;
-  const Maslow4Import old = parse_maslow4(fixture("good/maslow4_log.txt"), "log.txt", told);
+  Maslow4Options answer = with_settings();
+  answer.lengths = model::BeltLengths::belt_and_arm;
+  const Maslow4Import old = parse_maslow4(fixture("good/maslow4_log.txt"), "log.txt", answer);
   EXPECT_THAT(old.assumed, IsEmpty());
   EXPECT_EQ(old.belts.machine.lengths, model::BeltLengths::belt_and_arm);
 }

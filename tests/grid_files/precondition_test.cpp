@@ -47,16 +47,16 @@ struct Site {
 
 void PrintTo(const Site& site, std::ostream* out) { *out << site.name; }
 
-class BrokenBy : public testing::TestWithParam<Site> {};
+class BrokenBy : public ::testing::TestWithParam<Site> {};
 
 TEST_P(BrokenBy, WhatIsNoNumberIsToldWithIt) {
-  EXPECT_THAT(words_of([] { GetParam().call(kNan); }), testing::HasSubstr("nan"));
+  EXPECT_THAT(words_of([] { GetParam().call(kNan); }), ::testing::HasSubstr("nan"));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Sites,
     BrokenBy,
-    testing::Values(
+    ::testing::Values(
         Site{"normal_quantile", [](double bad) { (void)synthetic::normal_quantile(bad); }},
         Site{"portable_log", [](double bad) { (void)synthetic::portable_log(bad); }},
         Site{"strength",

@@ -65,7 +65,7 @@ std::vector<PointPicture> sample_points(const model::Machine& machine) {
 
 diagnosis::HeldOutImprovement sample_improvement() {
   diagnosis::HeldOutImprovement improvement;
-  improvement.scheme = "eight blocks of the bed, each foretold by the others";
+  improvement.scheme = "eight blocks of the bed, each predicted by the others";
   improvement.uncalibrated = {3.91, 6.40, 3.42, 4.38};
   improvement.placed = diagnosis::HeldOut{2.20, 3.90, 1.95, 2.44};
   improvement.calibrated = {0.94, 1.71, 0.81, 1.08};
@@ -128,20 +128,22 @@ void add_causes(Diagnosis& found) {
 
 void add_follow_up(Diagnosis& found) {
   using diagnosis::MeasurementKind;
-  found.next_measurements = {
-      {MeasurementKind::reading, "link_pitch_mm", "left", std::nullopt, 0.001, 0.985},
-      {MeasurementKind::revisit,
-       "Visit point 1 again, last of all.",
-       "",
-       found.points[0].mark,
-       0.0,
-       0.99},
-      {MeasurementKind::point,
-       "Measure a new mark.",
-       "",
-       model::MarkPoint{1150.0, 540.0},
-       0.0,
-       0.995}};
+  diagnosis::NextMeasurement links{
+      MeasurementKind::reading, "", "left", std::nullopt, 0.001, 0.985};
+  links.reading = ReadingOf::link_pitch;
+  found.next_measurements = {links,
+                             {MeasurementKind::revisit,
+                              "Visit point 1 again, last of all.",
+                              "",
+                              found.points[0].mark,
+                              0.0,
+                              0.99},
+                             {MeasurementKind::point,
+                              "Measure a new mark.",
+                              "",
+                              model::MarkPoint{1150.0, 540.0},
+                              0.0,
+                              0.995}};
 }
 
 /// Every point and a column left out; without the third point another cause is named.
@@ -188,6 +190,8 @@ Diagnosis sample_diagnosis() {
   found.settings = {{model::Setting::motor_left_x_mm, -1489.2, 3.0, -1490.1, 0.4, false},
                     {model::Setting::chain_zero_right_mm, 0.0, 1.0, 6.2, 0.3, true},
                     {model::Setting::sheet_rotation_rad, 0.0, 0.01, 0.0021, 0.0003, false}};
+  found.visiting_order = {{.rows = false, .serpentine = true, .from_right = true, .from_below = false}, 0.998, true};
+  found.tool_today = ErrorSummary{4.83, 8.03};
   found.improvement = sample_improvement();
   found.points = sample_points(found.extended_machine);
   add_causes(found);
@@ -202,12 +206,9 @@ Diagnosis sample_diagnosis() {
   found.stability = sample_stability(found.points);
   found.normal_plot = diagnosis::NormalPlot{
       {-1.4, 0.1, 1.5}, {-1.3, 0.0, 1.3}, {-2.0, -0.7, 0.6}, {-0.6, 0.7, 2.0}, 0.42};
-  found.bed_parts = {{0.2,
-                      "",
-                      8,
-                      {"chain_pitch_error", "left", 0.96},
-                      {{"chain_pitch_error", "left", 0.96}}},
-                     {2.2, "", 8, {"nothing", "", 0.7}, {{"chain_pitch_error", "left", 0.2}}}};
+  found.bed_parts = {
+      {0.2, "", 8, {"chain_pitch_error", "left", 0.96}, {{"chain_pitch_error", "left", 0.96}}},
+      {2.2, "", 8, {"nothing", "", 0.7}, {{"chain_pitch_error", "left", 0.2}}}};
   found.sessions = {{0.0,
                      "monday.json",
                      34,

@@ -115,8 +115,8 @@ TEST(HolesFile, CentimetresAreNotCalledInches) {
 
 TEST(HolesFile, InchesAreRecognised) {
   EXPECT_THAT(problems_with("A,B,70.9\nB,C,31.5\nC,D,70.8\nD,A,31.5\nA,C,77.5\nB,D,77.5\n"),
-              ElementsAre(AllOf(HasSubstr("distances 1.7 m off what was commanded"),
-                                HasSubstr("the distances look like inches"))));
+              ElementsAre(AllOf(HasSubstr("the distances look like inches"), HasSubstr("multiply the distances by 25.4"),
+                                HasSubstr("half of the distances are over 1.7 m off what was commanded"))));
   EXPECT_THAT(problems_of("hole,x_mm,y_mm\nA,-35.4,15.7\nB,35.4,15.7\nC,35.4,-15.7\nD,-35.4,-15.7\n"
                           "from,to,distance_mm\n" +
                           std::string(kSix)),
@@ -139,13 +139,13 @@ TEST(HolesFile, AForgottenHookOffsetIsRefused) {
     EXPECT_THAT(error.problems()[0].message(),
                 AllOf(HasSubstr("distances all about 40.1 mm longer than commanded"),
                       HasSubstr("the tape's hook offset"),
-                      HasSubstr("the short ones are off like the long ones: state 40 mm")));
+                      HasSubstr("the short ones are off like the long ones: give 40 mm")));
   }
   HolesOptions options;
   // A stated offset of zero is accepted, with a warning.
   options.tape_zero_offset_mm = 0.0;
   EXPECT_THAT(parse_holes(long_by_40, "holes.csv", options).warnings[0].message(),
-              HasSubstr("state 40 mm"));
+              HasSubstr("give 40 mm"));
   options.tape_zero_offset_mm = 40.0;
   EXPECT_THAT(parse_holes(long_by_40, "holes.csv", options).warnings, IsEmpty());
   options.tape_zero_offset_mm = 80.0;

@@ -147,7 +147,7 @@ Tally tally(const MeasuredHoles& design, int sets) {
     const auto made = synthetic::simulate_holes(design, spec);
     const auto fit = joint_fit(made->set);
     if (!fit) {
-      ADD_FAILURE() << "seed " << seed << ": " << fit.error().sentence;
+      ADD_FAILURE() << "seed " << seed << ": " << fit.error().sentence();
       continue;
     }
     constexpr double kTwoSided95 = 1.95996;
@@ -231,7 +231,8 @@ TEST(HolesFit, AHookOffsetLeftOutIsSaidWhereTheFitFails) {
   EXPECT_TRUE(joint_fit(made->set)) << "stated, it does no harm";
   made->set.tape.tape_zero_offset_mm = 0.0;
   const auto fit = joint_fit(made->set);
-  const std::string words = fit ? testing::PrintToString(fit->map.contents().notes) : fit.error().sentence;
+  const std::string words =
+      fit ? testing::PrintToString(fit->map.contents().notes) : fit.error().sentence();
   EXPECT_THAT(words, HasSubstr("hook offset"));
 }
 
@@ -268,25 +269,25 @@ TEST(HolesFit, AReadingOfTheMotorSpacingMovesTheMotors) {
   MeasuredHoles set = synthetic::simulate_holes(nine_holes(), usual_holes(5))->set;
   const double without_mm = spacing(joint_fit(set)->estimate.machine);
   for (const double other_mm : {-10.0, 10.0}) {
-    set.readings = {{"motor_spacing_mm", "", without_mm + other_mm, 0.01}};
+    set.readings = {{ReadingOf::motor_spacing, "", without_mm + other_mm, 0.01}};
     const auto fit = joint_fit(set);
-    ASSERT_TRUE(fit) << fit.error().sentence;
+    ASSERT_TRUE(fit) << fit.error().sentence();
     // 0.01 mm of the reading against 1 mm of the distances: a thousandth of the difference remains,
     // plus the effect of ten millimetres on the estimated noise.
     EXPECT_NEAR(spacing(fit->estimate.machine), without_mm + other_mm, 0.1);
     const auto together = joint_fit({{"first", set}, {"second", nine_holes()}});
-    ASSERT_TRUE(together) << together.error().sentence;
+    ASSERT_TRUE(together) << together.error().sentence();
     EXPECT_NEAR(spacing(together->estimate.machine), without_mm + other_mm, 0.1);
   }
 }
 
 TEST(HolesFit, ImpossibleReadingsAreSaid) {
   MeasuredHoles set = nine_holes();
-  set.readings = {{"sled_mass_kg", "", -1.0, 0.1}};
+  set.readings = {{ReadingOf::sled_mass, "", -1.0, 0.1}};
   const auto fit = joint_fit(set);
   ASSERT_FALSE(fit);
   EXPECT_EQ(fit.error().reason, FitFailure::Reason::impossible_readings);
-  EXPECT_THAT(fit.error().sentence, HasSubstr("with the set's readings put in, "));
+  EXPECT_THAT(fit.error().sentence(), HasSubstr("with the set's readings put in, "));
 }
 
 TEST(HolesFit, AHoleOutOfReachIsSaid) {
@@ -294,12 +295,12 @@ TEST(HolesFit, AHoleOutOfReachIsSaid) {
   set.holes[0] = {"Z", {0.0, 1500.0}};
   const auto fit = joint_fit(set);
   ASSERT_FALSE(fit);
-  EXPECT_THAT(fit.error().sentence,
+  EXPECT_THAT(fit.error().sentence(),
               HasSubstr("hole Z at (0.0, 1500.0) is out of the controller's reach"));
   const auto distances = observation::TapeDistances::of(set);
   ASSERT_FALSE(distances);
   EXPECT_EQ(distances.error().reason, observation::TapeDistancesFailure::Reason::no_lengths);
-  EXPECT_EQ(distances.error().sentence, fit.error().sentence);
+  EXPECT_EQ(distances.error().sentence(), fit.error().sentence());
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST(HolesPlan, WithEdgesTheSheetsPlaceIsMeasured) {
   // Unknowns that a fit without edges cannot determine are known to the tape's accuracy.
   const auto known = [&plan](std::string_view what) {
     return std::find_if(plan->knowledge.begin(), plan->knowledge.end(), [&](const auto& one) {
-      return one.what == what;
+      return one.name == what;
     });
   };
   for (const char* what : {"the whole job, sideways", "the whole job, up or down"}) {
@@ -83,7 +83,7 @@ TEST(HolesPlan, WithoutEdgesTheSheetsPlaceIsNotSpokenOf) {
   const auto plan = plan_holes(classic(), {.holes = 9});
   ASSERT_TRUE(plan);
   for (const PlannedKnowledge& known : plan->knowledge)
-    EXPECT_THAT(known.what, testing::Not(HasSubstr("whole job")));
+    EXPECT_THAT(known.name, testing::Not(HasSubstr("whole job")));
 }
 
 TEST(HolesPlan, EveryDistanceLeftOutOfTheSheetsPlaceIsPaidForInTheWhole) {
@@ -157,18 +157,18 @@ TEST(HolesPlan, MoreDistancesAndABetterTapeTellMore) {
 }
 
 TEST(HolesPlan, SaysWhichEffectsItSees) {
-  const std::vector<SeenEffect> seen = seen_effects(testing_support::nine_holes());
-  const auto find = [&seen](std::string_view effect, std::string_view side) {
-    return std::find_if(seen.begin(), seen.end(), [&](const SeenEffect& one) {
+  const std::vector<SeenEffect> found = seen_effects(testing_support::nine_holes());
+  const auto find = [&found](std::string_view effect, std::string_view side) {
+    return std::find_if(found.begin(), found.end(), [&](const SeenEffect& one) {
       return one.effect == effect && one.side == side;
     });
   };
   // 0.1 % of two metres is 2 mm on a tape of half a millimetre.
-  ASSERT_NE(find("chain_pitch_error", "both"), seen.end());
+  ASSERT_NE(find("chain_pitch_error", "both"), found.end());
   EXPECT_GT(find("chain_pitch_error", "both")->sigmas, 3.0);
   // A tape is insensitive to effects of the visit and of the paper.
-  EXPECT_EQ(find("drift", "left"), seen.end());
-  EXPECT_EQ(find("tape_scale", "both"), seen.end());
+  EXPECT_EQ(find("drift", "left"), found.end());
+  EXPECT_EQ(find("tape_scale", "both"), found.end());
 }
 
 TEST(HolesPlan, WhereTheSheetLiesIsNoEffect) {
@@ -212,7 +212,7 @@ TEST(HolesRounds, ConvergeInAtMostThree) {
     request.most = 4;
     request.seed = seed;
     const auto result = simulate_rounds(classic(), request);
-    ASSERT_TRUE(result) << result.error().sentence;
+    ASSERT_TRUE(result) << result.error().sentence();
     const HolesPass& last = result->passes.back();
     converged += !last.next_pays && last.number <= 3;
     worst_mm = std::max(worst_mm, *last.true_mm);
@@ -248,7 +248,7 @@ TEST(HolesRounds, AReadingOfTheMachineCountsAndOnceHoweverManyPassesStateIt) {
   };
   const MeasuredHoles silent = first;
   const double without_mm = spacing_after(silent);
-  first.readings = {{"motor_spacing_mm", "", without_mm + 10.0, 0.5}};
+  first.readings = {{ReadingOf::motor_spacing, "", without_mm + 10.0, 0.5}};
   // 0.5 mm against some 1 mm of the distances of two rounds.
   EXPECT_GT(spacing_after(silent), without_mm + 5.0);
   EXPECT_EQ(spacing_after(first), spacing_after(silent)) << "the same reading once more";
@@ -260,7 +260,7 @@ TEST(HolesRounds, AnotherMachineIsRefused) {
   set.machine->motors.left.x_mm -= 5.0;
   const auto pass = passes.add(set);
   ASSERT_FALSE(pass);
-  EXPECT_THAT(pass.error().sentence, HasSubstr("motor_left_x_mm is"));
+  EXPECT_THAT(pass.error().sentence(), HasSubstr("motor_left_x_mm is"));
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ MeasuredGrid five_points(const model::Machine& machine, Random& random) {
 struct Case {
   const char* name;
   CheckVerdict verdict;
-  const char* what;
+  model::Change what;
   std::function<void(model::Machine&, Random&)> happens;
 };
 
@@ -88,17 +88,17 @@ void grow(model::Machine& machine, const char* side) {
 }
 
 const Case kCases[] = {
-    {"Nothing", CheckVerdict::valid, "nothing", [](model::Machine&, Random&) {}},
+    {"Nothing", CheckVerdict::valid, model::Change::nothing, [](model::Machine&, Random&) {}},
     {"ZerosShiftedByUpTo3mm",
      CheckVerdict::valid_after_rezeroing,
-     "zero",
+     model::Change::zero,
      [](model::Machine& machine, Random& random) {
        machine.chain_zero.left_mm += random.uniform(-3.0, 3.0);
        machine.chain_zero.right_mm += random.uniform(-3.0, 3.0);
      }},
     {"OneToothSkipped",
      CheckVerdict::valid_after_rezeroing,
-     "tooth",
+     model::Change::tooth,
      [](model::Machine& machine, Random& random) {
        const double skip_mm = random.uniform() < 0.5 ? -6.35 : 6.35;
        (random.uniform() < 0.5 ? machine.chain_zero.left_mm : machine.chain_zero.right_mm) +=
@@ -106,15 +106,15 @@ const Case kCases[] = {
      }},
     {"PitchOfTheChainsGrown",
      CheckVerdict::measure_again,
-     "pitch",
+     model::Change::pitch,
      [](model::Machine& machine, Random&) { grow(machine, "both"); }},
     {"PitchOfTheLeftChainGrown",
      CheckVerdict::measure_again,
-     "pitch",
+     model::Change::pitch,
      [](model::Machine& machine, Random&) { grow(machine, "left"); }},
     {"PitchOfTheRightChainGrown",
      CheckVerdict::measure_again,
-     "pitch",
+     model::Change::pitch,
      [](model::Machine& machine, Random&) { grow(machine, "right"); }},
 };
 
@@ -134,7 +134,7 @@ TEST_P(AfterSomething, IsRightInNineteenOfTwentyCasesAtThePlannedPoints) {
       model::Machine machine = one.truth;
       GetParam().happens(machine, random);
       const auto check = check_map(one.map, measured_at(one.planned, machine, random));
-      ASSERT_TRUE(check) << check.error().sentence;
+      ASSERT_TRUE(check) << check.error().sentence();
       ++count;
       right += check->verdict == GetParam().verdict;
       named += check->hypotheses.front().what == GetParam().what;
@@ -204,11 +204,11 @@ TEST(CheckPlan, NoSinglePointMovedTellsMore) {
 
 TEST(CheckPlan, WithPoorReadingsGrowthIsAllOfTheLengthsOverTheNoise) {
   // If readings are far less accurate than the map and than any shift of a zero, nothing else has
-  // this signature: told = e |l| / sigma, l the lengths at the points.
+  // this signature: it is known by e |l| / sigma, l the lengths at the points.
   const MeasuredMachine& one = machines()[2];
   constexpr double kPoorMm = 200.0;
-  const auto told = expected_sigmas(one.map, kFive, {.length_mm = kPoorMm});
-  ASSERT_TRUE(told);
+  const auto reply = expected_sigmas(one.map, kFive, {.length_mm = kPoorMm});
+  ASSERT_TRUE(reply);
   const model::ReadingModel model(one.truth);
   model::PerSide<double> squares;
   for (const MarkPoint& mark : kFive) {
@@ -218,7 +218,7 @@ TEST(CheckPlan, WithPoorReadingsGrowthIsAllOfTheLengthsOverTheNoise) {
   }
   for (const model::Side side : model::kSides) {
     // Zeros of 2 mm take 5 * 2^2 / 200^2 of it at most.
-    EXPECT_NEAR(told->operator[](side) / (model::kPitchGrowthSigma * std::sqrt(squares[side]) / kPoorMm),
+    EXPECT_NEAR(reply->operator[](side) / (model::kPitchGrowthSigma * std::sqrt(squares[side]) / kPoorMm),
                 1.0,
                 1e-3);
   }
@@ -268,7 +268,7 @@ TEST(MapCheck, APointThatIsWrongByItselfIsNamed) {
   MeasuredGrid grid = five_points(machines()[1].truth, random);
   grid.points[3].lengths->left_mm += 14.0;
   const auto check = check_map(machines()[1].map, grid);
-  EXPECT_EQ(check->hypotheses.front().what, "bad_point");
+  EXPECT_EQ(check->hypotheses.front().what, model::Change::bad_point);
   EXPECT_THAT(check->sentence, HasSubstr("Measure point 4 again"));
   EXPECT_THAT(files::write_map_check(*check), HasSubstr("\"point\": 3"));
 }
@@ -296,17 +296,17 @@ TEST(MapCheck, HolesTellAToothAndAGrownPitch) {
 /// Probabilities of the machine's possible changes, among these alone.
 std::vector<double> of_the_machine(const CompensationMap& map, const MeasuredFile& file) {
   const auto check = check_map(map, {file});
-  EXPECT_TRUE(check) << check.error().sentence;
-  std::vector<std::pair<std::string, double>> told;
+  EXPECT_TRUE(check) << check.error().sentence();
+  std::vector<std::pair<std::string, double>> reply;
   double sum = 0.0;
   for (const CheckHypothesis& h : check->hypotheses) {
-    if (h.what == "bad_point") continue;
-    told.emplace_back(fmt::format("{} {} {}", h.what, h.side, h.count), h.probability);
+    if (h.what == model::Change::bad_point) continue;
+    reply.emplace_back(fmt::format("{} {} {}", name(h.what), h.side, h.count), h.probability);
     sum += h.probability;
   }
-  std::sort(told.begin(), told.end());
+  std::sort(reply.begin(), reply.end());
   std::vector<double> result;
-  for (const auto& [what, probability] : told) result.push_back(probability / sum);
+  for (const auto& [what, probability] : reply) result.push_back(probability / sum);
   return result;
 }
 
@@ -385,7 +385,7 @@ int verdicts(CheckVerdict wanted, const std::function<MeasuredGrid(const Measure
   int count = 0;
   for (const MeasuredMachine& one : machines()) {
     const auto check = check_map(one.map, made(one));
-    EXPECT_TRUE(check) << check.error().sentence;
+    EXPECT_TRUE(check) << check.error().sentence();
     count += check && check->verdict == wanted ? 1 : 0;
   }
   return count;
@@ -474,7 +474,7 @@ TEST(MapCheck, APointOffTheMapIsSaid) {
   const auto check = check_map(machines()[0].map, grid);
   ASSERT_FALSE(check);
   EXPECT_EQ(check.error().reason, CheckFailure::Reason::unreachable);
-  EXPECT_THAT(check.error().sentence, HasSubstr("(5000.0, 0.0)"));
+  EXPECT_THAT(check.error().sentence(), HasSubstr("(5000.0, 0.0)"));
 }
 
 }  // namespace

@@ -75,8 +75,8 @@ TEST_F(MixedCommands, PlanSaysWhatToMeasureNextAndInWhichFile) {
   EXPECT_THAT(next.err, HasSubstr("  2. Measure the length of 100 links of the left chain, pulled taut, to 0.1 mm;"));
   EXPECT_THAT(content_of(folder_ / "next.svg"), HasSubstr("among 30 measured"));
   // One of the list is more informative than one that is not in it.
-  const double chosen = probability_with({"link_pitch_mm", "left", 6.35, 0.001});
-  const double other = probability_with({"ring_radius_mm", "", 139.1, 0.5});
+  const double chosen = probability_with({grid::ReadingOf::link_pitch, "left", 6.35, 0.001});
+  const double other = probability_with({grid::ReadingOf::ring_radius, "", 139.1, 0.5});
   EXPECT_GT(chosen, other);
 }
 
@@ -90,13 +90,13 @@ TEST_F(MixedCommands, ThePageShowsReadingsOfBothKinds) {
   EXPECT_THAT(content_of(folder_ / "d.html"),
               AllOf(HasSubstr("21 points and 14 distances"),
                     HasSubstr("What it does to the tool"),
-                    HasSubstr("The distances, as read less as predicted"),
-                    HasSubstr("Against the way it was measured"),
-                    HasSubstr("<h2>Bad readings, to be measured again</h2>"),
+                    HasSubstr("The distances, read minus expected"),
+                    HasSubstr("Against the tape's direction"),
+                    HasSubstr("<h2>Bad readings: measure them again</h2>"),
                     HasSubstr("mm too long ("),
                     Not(HasSubstr("up of its mark")),
                     HasSubstr("Both chains at every good point, and every good distance"),
-                    HasSubstr("At the border the outermost points were held out."),
+                    HasSubstr("At the border the outermost points were left out."),
                     ContainsRegex("mm a chain and 0.3 mm a (<abbr [^>]*>)?mark"),
                     HasSubstr("mm a reading of the tape and 0.3 mm a hole")));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Five sets of holes that one owner cut and measured in August and September 2018, with the
-// settings in force (madgrizzle/MaslowCalibration and madgrizzle/HoleyMaslow; see docs/holes.md).
+// settings in force (madgrizzle/MaslowCalibration and madgrizzle/HoleyMaslow; see docs/holes_rates.md).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -196,7 +196,7 @@ TEST_F(RealSets, DistancesArePredictedLeftOut) {
   Pool together;
   for (const Measured& frame : {first_frame(kHoleSigmaMm), second_frame(kHoleSigmaMm)}) {
     const auto fit = joint_fit(frame);
-    ASSERT_TRUE(fit) << fit.error().sentence;
+    ASSERT_TRUE(fit) << fit.error().sentence();
     add(together, *fit);
     fmt::print("frame of set {}: noise {:.2f}{}\n",
                frame.name(),
@@ -271,7 +271,7 @@ TEST_F(RealSets, WhatADiagnosisSaysOfEach) {
   all.push_back(first_frame(kHoleSigmaMm));
   for (const Measured& sets : all) {
     const auto found = diagnosis::diagnose(sets);
-    ASSERT_TRUE(found) << found.error().sentence;
+    ASSERT_TRUE(found) << found.error().sentence();
     // One cause cannot be identified from 8 or 16 distances of a real frame; four sets together
     // give a pattern, which the fit gives as a bend of the bed.
     EXPECT_TRUE(found->causes.empty()) << found->sentence;

@@ -24,7 +24,7 @@ TEST(UnknownTapeZero, EachFileHasOneOfItsOwn) {
   MeasuredHoles second = first;
   for (HoleDistance& distance : second.distances) distance.distance_mm += 3.0;
   const auto fit = joint_fit({{"first", first}, {"second", second}});
-  ASSERT_TRUE(fit) << fit.error().sentence;
+  ASSERT_TRUE(fit) << fit.error().sentence();
   // The same readings except for the tape zero offset: a part of 3 mm^2 x sigma^2 / 5 mm^2 goes to
   // neither.
   EXPECT_NEAR(fit->distances[1].tape_zero->mm - fit->distances[0].tape_zero->mm, 3.0, 0.05);
@@ -68,10 +68,10 @@ TEST(SessionZeros, WhatIsAddedToASessionIsItsOwn) {
   const MeasuredGrid first = marks_of(1);
   const MeasuredGrid second = marks_of(2);
   const auto before = joint_fit({{"first", first}, {"second", second}});
-  ASSERT_TRUE(before) << before.error().sentence;
+  ASSERT_TRUE(before) << before.error().sentence();
   for (const double shift_mm : {5.0, -40.0}) {
     const auto after = joint_fit({{"first", first}, {"second", with_zeros_more(second, shift_mm, 0.0)}});
-    ASSERT_TRUE(after) << after.error().sentence;
+    ASSERT_TRUE(after) << after.error().sentence();
     EXPECT_FALSE(after->estimate.observations[0].zeros);
     ASSERT_TRUE(after->estimate.observations[1].zeros);
     const auto& found = *after->estimate.observations[1].zeros;
@@ -112,7 +112,7 @@ TEST(SessionZeros, TheMapIsOfTheSessionThatIsNamedFirst) {
 TEST(SessionZeros, HolesShareThoseOfTheMachine) {
   const MeasuredHoles set = synthetic::simulate_holes(nine_holes(), usual_holes(6))->set;
   const auto fit = joint_fit({{"holes", set}, {"grid", marks_of(5)}, {"more", marks_of(7)}});
-  ASSERT_TRUE(fit) << fit.error().sentence;
+  ASSERT_TRUE(fit) << fit.error().sentence();
   EXPECT_FALSE(fit->estimate.observations[0].zeros);
   EXPECT_FALSE(fit->estimate.observations[1].zeros);
   EXPECT_TRUE(fit->estimate.observations[2].zeros);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/inputs/option_cells.hpp"
 
+#include <string>
+
+#include "tests/inputs/log_server.hpp"
+
 namespace chaintrue::inputs {
 namespace {
 
@@ -11,16 +15,33 @@ constexpr const char* kAskMap = "query map.json 0 0 700 300 1200 600 -1180 590 -
 constexpr const char* kCheckOfCommands =
     "check @map.json @commanded.csv --machine @classic.json --noise-length-mm 0.2 --noise-position-mm 0.3";
 
+const std::string& listening_line() {
+  static const std::string line =
+      "maslow4 --host 127.0.0.1 --port " + std::to_string(log_server_port()) + " --telnet -o log.txt";
+  return line;
+}
+/// By websocket, to something that is none.
+const std::string& websocket_line() {
+  static const std::string line =
+      "maslow4 --host 127.0.0.1 --port " + std::to_string(log_server_port()) + " -o log.txt";
+  return line;
+}
+const std::string& mute_line() {
+  static const std::string line = "maslow4 --host 127.0.0.1 --port " +
+                                  std::to_string(mute_server_port()) + " --patience-s 0.4 -o log.txt";
+  return line;
+}
+
 }  // namespace
 
 const std::vector<Use>& uses() {
   static const std::vector<Use> all = {
       {"grid", "fit", facts::grid | facts::one_grid | facts::residual | facts::no_causes, "fit @placed.json -o map.json", kAskMap},
-      {"csv", "fit", facts::grid | facts::one_grid | facts::residual | facts::no_causes,
+      {"csv", "fit", facts::grid | facts::one_grid | facts::residual | facts::no_causes | facts::table,
        "fit @grid.csv --machine @classic.json -o map.json", kAskMap},
       {"causes", "fit", facts::grid | facts::one_grid | facts::residual | facts::causes,
        "fit @worn_both.json --causes -o map.json", kAskMap},
-      {"direct", "fit", facts::grid | facts::one_grid | facts::direct,
+      {"direct", "fit", facts::grid | facts::one_grid | facts::direct | facts::table,
        "fit @lattice.csv --surface direct -o map.json", "query map.json 0 0 700 300 350 -150 1200 600 --json; query map.json 0 0 --frame bed"},
       {"fade", "fit", facts::grid | facts::one_grid | facts::residual | facts::no_causes | facts::fade,
        "fit @placed.json --outside fade -o map.json", kAskMap},
@@ -32,15 +53,16 @@ const std::vector<Use>& uses() {
        "fit @belts.json --with @belt_holes.json -o anchors.json"},
       {"belt_holes", "fit", facts::belt_holes | facts::residual | facts::no_causes,
        "fit @belt_holes.json -o anchors.json"},
+      {"drawing", "fit", facts::drawing, "fit @drawing.json -o found.json"},
       {"grid", "diagnose", facts::grid | facts::one_grid, "diagnose @worn.json -o d.json"},
-      {"csv", "diagnose", facts::grid | facts::one_grid,
+      {"csv", "diagnose", facts::grid | facts::one_grid | facts::table,
        "diagnose @grid.csv --machine @classic.json -o d.json"},
       {"holes", "diagnose", facts::holes, "diagnose @holes.json -o d.json"},
       {"mix", "diagnose", facts::grid | facts::holes,
        "diagnose @grid.json --with @holes.json -o d.json"},
       {"belts", "diagnose", facts::belts, "diagnose @belts.json -o d.json"},
       {"grid", "check", facts::map | facts::grid, "check @map.json @few.json"},
-      {"csv", "check", facts::map | facts::grid, "check @map.json @few.csv"},
+      {"csv", "check", facts::map | facts::grid | facts::table, "check @map.json @few.csv"},
       {"holes", "check", facts::map | facts::holes, "check @map.json @holes.json"},
       {"mix", "check", facts::map | facts::grid | facts::holes,
        "check @map.json @few.json --with @holes.json"},
@@ -75,12 +97,15 @@ const std::vector<Use>& uses() {
       {"map", "report", facts::map, "report @map.json -o page.html"},
       {"diagnosis", "report", facts::diagnosis, "report @diagnosis.json -o page.html"},
       {"anchors", "report", facts::anchors, "report @anchors.json -o page.html"},
+      {"machine", "maslow4", facts::connected, listening_line().c_str()},
+      {"log", "maslow4", facts::replayed, "maslow4 --replay @log.txt"},
       {"machine", "export groundcontrol", facts::machine, "export groundcontrol @stated.json"},
       {"map", "export groundcontrol", facts::map, "export groundcontrol @map.json"},
       {"diagnosis", "export groundcontrol", facts::diagnosis,
        "export groundcontrol @diagnosis.json"},
       {"anchors", "export maslow4", facts::anchors, "export maslow4 @anchors.json"},
       {"diagnosis", "export maslow4", facts::diagnosis, "export maslow4 @belts_diagnosis.json"},
+      {"plotter", "export plotter", facts::any, "export plotter @plotter.json"},
       {"map", "square", facts::map, "square --map @map.json"},
       {"program", "square", facts::map | facts::program, "square --map @map.json --gcode square.nc"},
       {"machines", "square", facts::machine,
@@ -108,6 +133,22 @@ namespace {
 std::vector<Telling> tellings() {
   using enum Shows;
   std::vector<Telling> all = {
+      // A machine that is listened to.
+      {"maslow4", "--host", "--host 127.0.0.9", in_words},
+      {"maslow4", "--replay", "--replay @notes.txt", in_form},
+      {"maslow4", "--port", "--port 1", in_words},
+      {"maslow4", "--telnet", "--telnet", in_words, "", websocket_line().c_str()},
+      {"maslow4", "--telnet", "--telnet", in_words, "log"},
+      {"maslow4", "--output", "-o other.txt", as_file},
+      {"maslow4", "--patience-s", "--patience-s 0.2", in_words, "", mute_line().c_str()},
+      {"maslow4", "--patience-s", "--patience-s 0.2", in_words, "log"},
+      {"maslow4", "--most-s", "--most-s 0.1", in_words, "", mute_line().c_str()},
+      {"maslow4", "--most-s", "--most-s 0.1", in_words, "log"},
+      {"maslow4", "--reconnect", "--reconnect 1", in_words},
+      {"maslow4", "--drive", "--drive", in_words},
+      {"maslow4", "--settings", "--settings @flat.yaml", in_form},
+      {"maslow4", "--lengths", "--lengths belt", in_form},
+      {"maslow4", "--orientation", "--orientation flat", in_form},
       // Files of measurements.
       {"fit", "--machine", "--machine @other.json"},
       {"fit", "--machine", "--machine @other.json", in_numbers, "direct",
@@ -115,6 +156,9 @@ std::vector<Telling> tellings() {
       {"fit", "--noise-length-mm", "--noise-length-mm 3"},
       {"fit", "--noise-position-mm", "--noise-position-mm 4"},
       {"fit", "--noise-dof", "--noise-dof 3"},
+      {"fit", "--inches", "--inches"},
+      {"fit", "--inches", "--inches", in_numbers, "csv",
+       "fit @grid_in_inches.csv --machine @classic.json -o map.json"},
       {"fit", "--tape-sigma-mm", "--tape-sigma-mm 4"},
       {"fit", "--hook-offset-mm", "--hook-offset-mm 3"},
       {"fit", "--hook-sigma-mm", "--hook-sigma-mm 6"},
@@ -145,16 +189,25 @@ std::vector<Telling> tellings() {
       {"fit", "--plain", "--plain --causes", in_words},
       {"fit", "--plain", "--plain", in_words, "causes"},
       {"fit", "--accept-class", "--accept-class"},
+      {"fit", "--wish-mm", "--wish-mm 0.2", in_words},
+      {"fit", "--effects", "--effects @own.json", in_numbers, "causes",
+       "fit @worn.json --causes -o map.json"},
+      {"fit", "--effects", "--effects @own.json"},
+      {"fit", "--without", "--without 3"},
       {"fit", "--verbose", "--verbose", in_words},
       {"fit", "--json", "--json", in_form},
       {"diagnose", "--machine", "--machine @other.json"},
       {"diagnose", "--noise-length-mm", "--noise-length-mm 3"},
       {"diagnose", "--noise-position-mm", "--noise-position-mm 4"},
       {"diagnose", "--noise-dof", "--noise-dof 3"},
+      {"diagnose", "--inches", "--inches"},
+      {"diagnose", "--inches", "--inches", in_numbers, "csv",
+       "diagnose @grid_in_inches.csv --machine @classic.json -o d.json"},
       {"diagnose", "--tape-sigma-mm", "--tape-sigma-mm 4"},
       {"diagnose", "--hook-offset-mm", "--hook-offset-mm 3"},
       {"diagnose", "--hook-sigma-mm", "--hook-sigma-mm 6"},
       {"diagnose", "--hole-sigma-mm", "--hole-sigma-mm 4"},
+      {"diagnose", "--effects", "--effects @own.json"},
       {"diagnose", "--with", "--with @holes.json"},
       {"diagnose", "--with", "--with @few.json", in_numbers, "mix"},
       {"diagnose", "--with", "--with @holes2.json", in_numbers, "holes"},
@@ -174,6 +227,7 @@ std::vector<Telling> tellings() {
       {"diagnose", "--accept-class", "--accept-class", in_form, "mix",
        "diagnose @worn_both.json --with @worn_holes.json -o d.json"},
       {"diagnose", "--accept-class", "--accept-class"},
+      {"diagnose", "--without", "--without 3"},
       {"diagnose", "--seed", "--seed 7"},
       {"diagnose", "--json", "--json", in_form},
       {"check", "--machine", "--machine @other.json", in_numbers, "grid", kCheckOfCommands},
@@ -186,6 +240,9 @@ std::vector<Telling> tellings() {
       {"check", "--settings", "--settings @stated.json", in_numbers, "grid", kCheckOfCommands},
       {"check", "--settings", "--settings @stated.json", in_numbers, "csv", kCheckOfCommands},
       {"check", "--noise-dof", "--noise-dof 3"},
+      {"check", "--inches", "--inches"},
+      {"check", "--inches", "--inches", in_numbers, "csv",
+       "check @map.json @few_in_inches.csv"},
       {"check", "--tape-sigma-mm", "--tape-sigma-mm 4"},
       {"check", "--hook-offset-mm", "--hook-offset-mm 3"},
       {"check", "--hook-sigma-mm", "--hook-sigma-mm 6"},
@@ -237,6 +294,7 @@ std::vector<Telling> tellings() {
       // What is made.
       {"simulate", "--machine", "--machine @other.json"},
       {"simulate", "--belts", "--belts @belts.json"},
+      {"simulate", "--pulls", "--pulls 1,1.6"},
       {"simulate", "--grid", "--grid 5x3"},
       {"simulate", "--random", "--random 8"},
       {"simulate", "--marks", "--marks @few_marks.csv"},
@@ -265,6 +323,8 @@ std::vector<Telling> tellings() {
       {"simulate", "--hole-sigma-mm", "--hole-sigma-mm 2"},
       {"simulate", "--hook-offset-mm", "--hook-offset-mm 20"},
       {"simulate", "--tape-rounding-mm", "--tape-rounding-mm 5"},
+      {"simulate", "--effects",
+       "--effects @own.json --effect own_chain_pitch_error:left:elongation=0.0008"},
       {"simulate", "--effect", "--effect chain_pitch_error:left:elongation=0.002"},
       {"simulate", "--effect", "--effect belt_stretch:-:elongation=0.004", in_numbers, "belts"},
       {"simulate", "--offset", "--offset motor_left_x_mm=6"},
@@ -291,6 +351,7 @@ std::vector<Telling> tellings() {
       {"export groundcontrol", "--output", "--output settings.txt", as_file},
       {"export groundcontrol", "--map-after", "--map-after after.json", as_file},
       {"export maslow4", "--output", "--output settings.txt", as_file},
+      {"export plotter", "--output", "--output settings.txt", as_file},
       {"square", "--map", "--map @map2.json"},
       {"square", "--machine", "--machine @other.json"},
       {"square", "--controller-machine", "--controller-machine @other.json"},
@@ -317,9 +378,9 @@ std::vector<Telling> tellings() {
       {"gcode", "--tolerance-mm", "--tolerance-mm 0.0005"},
       {"gcode", "--decimals", "--decimals 5"},
       {"gcode verify", "--decimals", "--decimals 2", in_numbers, "map",
-       "gcode verify @tiny.nc @short_true.nc --map @map.json"},
+       "gcode verify @tiny.nc @short_true.nc --map @map.json --tolerance-mm 0.02"},
       {"gcode verify", "--decimals", "--decimals 2", in_numbers, "anchors",
-       "gcode verify @tiny.nc @short_belts_true.nc --map @anchors.json"},
+       "gcode verify @tiny.nc @short_belts_true.nc --map @anchors.json --tolerance-mm 0.02"},
       {"gcode", "--largest-correction-mm", "--largest-correction-mm 0.002"},
       {"gcode", "--steepest-correction", "--steepest-correction 0.000002"},
       {"gcode verify", "--steepest-correction", "--steepest-correction 0.005", in_numbers, "map",

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -88,7 +89,7 @@ std::string fault_of(const Workshop& workshop, const Use& use, const Ran& base, 
   }
   static const std::vector<std::string> kEchoes = {
       "content_hash", "name", "tape", "hole_sigma_mm", "noise_dof", "seed", "tolerance_mm", "machine",
-      "extended_machine"};
+      "extended_machine", "made_by"};
   switch (telling->shows) {
     case Shows::in_numbers: {
       std::vector<std::string> echoes = kEchoes;
@@ -171,6 +172,8 @@ TEST_P(EveryOption, ActsOrIsRefused) {
       << "option_rules.def and --help differ";
   for (const Use& use : uses()) {
     if (use.verb != verb) continue;
+    // The same readings in another form; a diagnosis takes half a second.
+    if (verb == "diagnose" && std::string_view(use.name) == "csv" && std::getenv("CHAINTRUE_LONG") == nullptr) continue;
     const std::string then = *use.then == '\0' ? "" : std::string("; ") + use.then;
     const Ran base = workshop_->run(use.line + then);
     const Ran plain = then.empty() ? base : workshop_->run(use.line);
@@ -203,9 +206,9 @@ INSTANTIATE_TEST_SUITE_P(OfEveryVerb, EveryOption, testing::ValuesIn(verbs()), [
 });
 
 TEST_F(OptionMatrix, ForceReplacesAFileThatIsSomebodyElses) {
-  std::set<std::string> seen;
+  std::set<std::string> found;
   for (const Use& use : uses()) {
-    if (!seen.insert(use.verb).second) continue;
+    if (!found.insert(use.verb).second) continue;
     if (cli::refusal_of(use.verb, "--force", use.facts) != nullptr) continue;
     const std::vector<std::string> options = options_of(*workshop_, use.verb);
     if (std::find(options.begin(), options.end(), "--force") == options.end()) continue;

@@ -74,6 +74,26 @@ std::string narrow_holes(const std::string& holes) {
   return file.dump(1);
 }
 
+/// Numbers of a table in inches, under the same header.
+std::string as_inches(const std::string& csv) {
+  std::istringstream rows(csv);
+  std::string text;
+  std::getline(rows, text);
+  for (std::string row; std::getline(rows, row);) {
+    text += "\n";
+    std::istringstream cells(row);
+    const char* separator = "";
+    for (std::string cell; std::getline(cells, cell, ',');) {
+      std::ostringstream inches;
+      inches.precision(12);
+      inches << std::stod(cell) / 25.4;
+      text += separator + inches.str();
+      separator = ",";
+    }
+  }
+  return text + "\n";
+}
+
 /// Marks as places that the controller was sent to, 2 mm aside.
 std::string as_commands(const std::string& csv) {
   std::istringstream rows(csv);
@@ -129,8 +149,11 @@ std::string numbers_of_text(const std::string& text, const std::vector<std::stri
     gather_numbers(json, echoes, numbers);
     return numbers;
   }
+  // The head of a compensated program says which options were given.
+  static const std::regex origin(R"(\((?:chaintrue|option|from|sha256) [^)]*\))");
+  const std::string own = std::regex_replace(text, origin, "");
   static const std::regex number(R"([-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)");
-  for (std::sregex_iterator at(text.begin(), text.end(), number), end; at != end; ++at)
+  for (std::sregex_iterator at(own.begin(), own.end(), number), end; at != end; ++at)
     numbers += at->str() + " ";
   return numbers;
 }
@@ -149,7 +172,7 @@ std::map<std::string, std::string> made_by_the_command() {
       {"worn.json",
        "simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
        "--effect chain_pitch_error:left:elongation=0.0016 --seed 5 -o @worn.json"},
-      // Worn alike on both sides, or a tape that is long: one class.
+      // Worn equally on both sides, or a tape that is long: one class.
       {"worn_both.json",
        "simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
        "--effect chain_pitch_error:both:elongation=0.003 --seed 5 -o @worn_both.json"},
@@ -176,8 +199,9 @@ std::map<std::string, std::string> made_by_the_command() {
       {"rapid_belts_true.nc",
        "gcode compensate @rapid.nc --map @anchors.json --tolerance-mm 0.01 --keep-rapids-whole -o "
        "@rapid_belts_true.nc"},
-      {"short_true.nc", "gcode compensate @short.nc --map @map.json -o @short_true.nc"},
-      {"short_belts_true.nc", "gcode compensate @short.nc --map @anchors.json -o @short_belts_true.nc"},
+      {"short_true.nc", "gcode compensate @short.nc --map @map.json --tolerance-mm 0.02 -o @short_true.nc"},
+      {"short_belts_true.nc",
+       "gcode compensate @short.nc --map @anchors.json --tolerance-mm 0.02 -o @short_belts_true.nc"},
       {"slow_true.nc", "gcode compensate @slow.nc --map @map.json -o @slow_true.nc"},
       {"slow_belts_true.nc", "gcode compensate @slow.nc --map @anchors.json -o @slow_belts_true.nc"},
       {"diagnosis.json", "diagnose @grid.json -o @diagnosis.json"},
@@ -200,12 +224,19 @@ Workshop::Workshop() : folder_(temporary_folder()), lines_(made_by_the_command()
       {"holes.json", "holes/nine_holes.json"},
       {"belts.json", "belts/thirty_one_places.json"},
       {"classic.json", "machines/classic.json"},
+      {"own.json", "effects/catalogue/own_chain_pitch_error.json"},
       {"stated.json", "machines/groundcontrol.json"},
       {"every.json", "good/machine_every_key.json"},
-      {"part.nc", "gcode/bracket.nc"}};
+      {"drawing.json", "plotter/mural_drawing.json"},
+      {"plotter.json", "good/plotter_every_key.json"},
+      {"part.nc", "gcode/bracket.nc"},
+      {"log.txt", "good/maslow4_log.txt"},
+      {"notes.txt", "good/maslow4_notes.txt"}};
   for (const auto& [name, source] : copied) fs::copy_file(fixtures + "/" + source, folder_ / name);
   write("grid.csv", as_csv(text_of("grid.json"), 100));
   write("few.csv", as_csv(text_of("few.json"), 5));
+  write("grid_in_inches.csv", as_inches(text_of("grid.csv")));
+  write("few_in_inches.csv", as_inches(text_of("few.csv")));
   write("commanded.csv", as_commands(text_of("grid.csv")));
   write("commanded_lattice.csv", as_commands(text_of("lattice.csv")));
   // Another machine, on another bed.
@@ -223,14 +254,22 @@ Workshop::Workshop() : folder_(temporary_folder()), lines_(made_by_the_command()
   write("moved_belts.json", moved.dump(1));
   write("belt_holes.json", belt_holes(text_of("belts.json")));
   write("narrow_holes.json", narrow_holes(text_of("holes.json")));
+  // Links that are hardly longer than they should be, in place of the catalogue's.
+  Json own = Json::parse(text_of("own.json"));
+  own["parameters"][0]["upper"] = 0.001;
+  write("own.json", own.dump(1));
+  // Belts that are pulled behind each move, where the log alone is read as of an upright frame.
+  write("flat.yaml", replaced(content_of(fixtures + "/machines/maslow.yaml"), "Maslow_vertical: true", "Maslow_vertical: false"));
   write("marks.csv", "x_mm,y_mm\n-900,-400\n0,-380\n900,-390\n-880,410\n20,400\n910,380\n");
   write("few_marks.csv", "x_mm,y_mm\n-800,-300\n10,-280\n820,290\n30,20\n");
   write("simple.nc", "G21 G90 G17\nF600\nG0 X-900 Y400\nG1 X900 Y400\n/G1 X900 Y-400\nG1 X0 Y0\nM2\n");
   write("offset.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG41 D1\nG1 X300 Y0\nG40\nG1 X0 Y0\nM2\n");
-  // Long rapids bend; a move may be shorter than the last digits; a feed may be off by a hundredth.
+  // Long rapids bend; two digits do not show that a short rapid was made slow, three do; a feed may be off by a
+  // hundredth.
   write("rapid.nc", "G21 G90 G17\nF600\nG0 X-1100 Y550\nG0 X1100 Y-550\nG1 X0 Y0\nM2\n");
-  write("tiny.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG0 X100.03 Y0\nG1 X100.03 Y100\nM2\n");
-  write("short.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG1 X100.03 Y100\nM2\n");
+  write("tiny.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG0 X100.06 Y0\nG1 X100.06 Y100\nM2\n");
+  write("short.nc",
+        "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG1 X100.06 Y0 F300\nG1 X100.06 Y100 F600\nM2\n");
   write("slow.nc", replaced(text_of("simple.nc"), "F600", "F588"));
   // Whoever wants to know of line 6 has to come out of the loop first.
   write("loop.nc",

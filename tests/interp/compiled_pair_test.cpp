@@ -129,8 +129,8 @@ TEST(CompiledPair, InverseFindsEveryPointFromTheMiddleOfTheBed) {
 
 TEST(CompiledPair, InverseNamesWhatItCannotAnswer) {
   const CompiledPair table = CompiledPair::compile(kBed, 50, 25, chains);
-  const auto beside = table.value(kBed.x_max + 30.0, 0.0);
-  EXPECT_EQ(table.inverse(beside, {1000.0, 0.0}).status, InverseStatus::outside);
+  const auto alongside = table.value(kBed.x_max + 30.0, 0.0);
+  EXPECT_EQ(table.inverse(alongside, {1000.0, 0.0}).status, InverseStatus::outside);
   // Chains too short to meet: 3000 mm lie between the motors.
   EXPECT_EQ(table.inverse({1000.0, 1000.0}, {0.0, 0.0}).status, InverseStatus::not_converged);
   EXPECT_EQ(table.inverse({NAN, 1000.0}, {0.0, 0.0}).status, InverseStatus::not_converged);

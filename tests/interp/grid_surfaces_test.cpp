@@ -119,8 +119,8 @@ TEST(MissingNodes, ThatNothingReachesAreNamed) {
   values(1, 0) = values(2, 0) = values(1, 1) = values(1, 2) = NAN;
   const auto grid = fill_missing(even(0, 3, 4), even(0, 3, 4), values);
   ASSERT_FALSE(grid);
-  EXPECT_EQ(grid.error().ix, 1);
-  EXPECT_EQ(grid.error().iy, 0);
+  EXPECT_EQ(grid.error().place.ix, 1);
+  EXPECT_EQ(grid.error().place.iy, 0);
 }
 
 class Tilted final : public Surface {

@@ -207,7 +207,7 @@ TEST(Reml, PointsOnALineAreRefused) {
   const auto fit = fit_penalised(problem);
   ASSERT_FALSE(fit.has_value());
   EXPECT_EQ(fit.error().reason, FitFailure::Reason::rank_deficient);
-  EXPECT_EQ(fit.error().sentence,
+  EXPECT_EQ(fit.error().sentence(),
             "the points do not determine the fit: some combination of its unknowns is left free");
 }
 

@@ -17,8 +17,12 @@ LAYERS = {
     "grid": {"interp", "model"},
     "tools": {"interp", "model", "grid"},
 }
+# One header a library, for users: nothing in the project includes them.
+FOR_USERS = ("interp/interp.hpp", "model/model.hpp", "grid/grid.hpp")
 # Libraries of tools/ that are independent of the command line.
 WITHOUT_COMMAND_LINE = ("tools/gcode", "tools/report")
+# The only folder that opens a connection: linked into the command alone, so that nothing else may need it.
+CONNECTED = "tools/live"
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
 
@@ -38,13 +42,17 @@ def folder_of(path):
 
 
 def broken_layer(path, included):
+    if included in FOR_USERS:
+        return "it is for users"
     layer, of_included = path.parts[0], pathlib.PurePosixPath(included).parts[0]
     if of_included in LAYERS and of_included != layer and of_included not in LAYERS[layer]:
         return f"{layer} must not include {of_included}"
     folder = "/".join(path.parts[:2])
     if folder in WITHOUT_COMMAND_LINE and included.startswith("tools/cli/"):
         return f"{folder} must not include tools/cli"
-    if folder_of(path) == "grid" and folder_of(included).startswith("grid/"):
+    if folder != CONNECTED and included.startswith(CONNECTED + "/"):
+        return f"{folder} must not include {CONNECTED}"
+    if str(path) not in FOR_USERS and folder_of(path) == "grid" and folder_of(included).startswith("grid/"):
         return "what lies in grid/ itself must not include its folders"
     return ""
 
@@ -101,7 +109,8 @@ def finds_what_is_broken():
         "grid/map/fit.hpp": '#include "grid/estimation/estimate.hpp"\n',
         "grid/estimation/estimate.hpp": '#include "grid/observation/observation.hpp"\n',
         "grid/observation/observation.hpp": '#include "grid/map/fit.hpp"\n',
-        "tools/report/page.hpp": '#include "tools/cli/verb.hpp"\n',
+        "tools/report/page.hpp": '#include "tools/cli/verb.hpp"\n#include "model/model.hpp"\n',
+        "tools/cli/verb.hpp": '#include "tools/live/connection.hpp"\n',
     }
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
@@ -111,6 +120,7 @@ def finds_what_is_broken():
         found = "\n".join(failures_of(root)[0])
     return all(word in found for word in (
         "interp must not include model", "tools/report must not include tools/cli",
+        "tools/cli must not include tools/live", "it is for users",
         "what lies in grid/ itself", "grid/estimation -> grid/observation -> grid/map -> grid/estimation"))
 
 

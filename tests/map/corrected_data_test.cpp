@@ -52,7 +52,7 @@ synthetic::SyntheticSession session(const model::Machine& machine) {
 TEST(CorrectedData, AreTheTruePlacesAndTheRepeatableReadings) {
   const auto measured = session(machine_with({kOfThePaper, kOfTheMachine, kOfTheVisit}));
   const auto corrected = corrected_data(measured.grid);
-  ASSERT_TRUE(corrected) << corrected.error().sentence;
+  ASSERT_TRUE(corrected) << corrected.error().sentence();
   const model::ReadingModel repeatable(machine_with({kOfTheMachine}));
   double largest_taken_out_mm = 0.0;
   for (std::size_t i = 0; i < measured.grid.points.size(); ++i) {
@@ -100,7 +100,7 @@ TEST(CorrectedData, WithoutAnOrderSayWhatCouldNotBeTakenOut) {
   for (MeasuredPoint& point : measured.grid.points) point.order.reset();
   const auto corrected = corrected_data(measured.grid);
   ASSERT_TRUE(corrected);
-  EXPECT_THAT(corrected->notes, Contains(HasSubstr("could not be freed of direction_hysteresis")));
+  EXPECT_THAT(corrected->notes, Contains(HasSubstr("could not be removed from the readings: the points do not give")));
   EXPECT_EQ(corrected->grid.points[3].lengths->left_mm, measured.grid.points[3].lengths->left_mm);
 }
 
@@ -110,7 +110,7 @@ TEST(FitOnAnExtendedMachine, PutsNoEffectOfTheVisitOrThePaperIntoTheMap) {
   const auto clean = session(machine_with({kOfTheMachine}));
   const auto map = fit(disturbed.grid);
   const auto clean_map = fit(clean.grid);
-  ASSERT_TRUE(map) << map.error().sentence;
+  ASSERT_TRUE(map) << map.error().sentence();
   ASSERT_TRUE(clean_map);
   for (const model::MarkPoint place : {model::MarkPoint{0.0, 0.0},
                                        model::MarkPoint{-900.0, 400.0},

@@ -56,7 +56,7 @@ TEST(DirectFit, MeetsItsPointsAndRefusesToLeaveThem) {
   ASSERT_TRUE(map);
   for (const auto& point : map->contents().points)
     EXPECT_LT(point.mapped_mm.norm(), 1e-9);  // interpolation
-  EXPECT_EQ(map->query({-1.0, 200.0}).error(), grid::MapFailure::outside_map);
+  EXPECT_EQ(map->query({-1.0, 200.0}).error(), grid::MapReason::outside_map);
 }
 
 TEST(DirectFit, EstimatesTheErrorBetweenItsLines) {
@@ -91,7 +91,7 @@ TEST(DirectFit, RefusesPointsBesideTheGrid) {
   const auto map = grid::fit(grid, direct());
   ASSERT_FALSE(map);
   EXPECT_EQ(map.error().reason, grid::FitFailure::Reason::not_a_grid);
-  EXPECT_THAT(map.error().sentence, testing::HasSubstr("full rows and columns"));
+  EXPECT_THAT(map.error().sentence(), testing::HasSubstr("full rows and columns"));
 }
 
 TEST(DirectFit, ReadsBackAsWritten) {

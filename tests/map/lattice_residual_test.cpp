@@ -43,7 +43,7 @@ grid::MeasuredGrid lattice() {
 
 CompensationMap fitted_lattice(const grid::MeasuredGrid& grid) {
   auto map = grid::fit(grid);
-  if (!map) throw std::runtime_error(map.error().sentence);
+  if (!map) throw std::runtime_error(map.error().sentence());
   return *std::move(map);
 }
 
@@ -131,10 +131,10 @@ TEST(LatticeResidual, StatedNoiseRepeatsAndPointsBesideTheLinesKeepThePenalisedS
   auto repeated = lattice();
   repeated.points.push_back(repeated.points.front());
   EXPECT_FALSE(surface_of(fitted_lattice(repeated)).lattice);
-  auto beside = lattice();
-  beside.points[8].mark.x_mm += 5.0;
-  beside.points[8].lengths = truth_at(beside.points[8].mark);
-  EXPECT_FALSE(surface_of(fitted_lattice(beside)).lattice);
+  auto alongside = lattice();
+  alongside.points[8].mark.x_mm += 5.0;
+  alongside.points[8].lengths = truth_at(alongside.points[8].mark);
+  EXPECT_FALSE(surface_of(fitted_lattice(alongside)).lattice);
 }
 
 TEST(LatticeResidual, TheFileKeepsIt) {

@@ -21,7 +21,7 @@ using model::MarkPoint;
 
 MeasurementPlan planned(const grid::PlanRequest& request) {
   auto plan = grid::plan_measurement(model::Machine{}, request);
-  if (!plan) throw std::runtime_error(plan.error().sentence);
+  if (!plan) throw std::runtime_error(plan.error().sentence());
   return *std::move(plan);
 }
 
@@ -120,7 +120,7 @@ TEST(PlanRefusal, NamesAPlaceThatTheMachineCannotMeasure) {
   machine.motors = {{-700.0, 700.0}, {700.0, 700.0}};
   const auto plan = grid::plan_measurement(machine, {.points = 28});
   ASSERT_FALSE(plan);
-  EXPECT_THAT(plan.error().sentence, testing::HasSubstr("the machine cannot measure at ("));
+  EXPECT_THAT(plan.error().sentence(), testing::HasSubstr("the machine cannot measure at ("));
 }
 
 }  // namespace

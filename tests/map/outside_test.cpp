@@ -42,7 +42,7 @@ CompensationMap map_of(const grid::MeasuredGrid& grid, Outside way) {
   grid::FitOptions options;
   options.outside = {way, 150.0};
   auto map = grid::fit(grid, options);
-  if (!map) throw std::runtime_error(map.error().sentence);
+  if (!map) throw std::runtime_error(map.error().sentence());
   return *std::move(map);
 }
 
@@ -101,9 +101,9 @@ TEST(OutsideTheMapByName, FarOutFadeIsTheBareMachineAndRefuseAnswersNothing) {
 
   const CompensationMap refusing = map_of(measured, Outside::refuse);
   EXPECT_EQ(refusing.status(far), MapStatus::outside);
-  EXPECT_EQ(refusing.lengths(far).error(), grid::MapFailure::outside_map);
-  EXPECT_EQ(refusing.query(far).error(), grid::MapFailure::outside_map);
-  EXPECT_EQ(refusing.inverse(faded.lengths(far)->lengths).error(), grid::MapFailure::outside_map);
+  EXPECT_EQ(refusing.lengths(far).error(), grid::MapReason::outside_map);
+  EXPECT_EQ(refusing.query(far).error(), grid::MapReason::outside_map);
+  EXPECT_EQ(refusing.inverse(faded.lengths(far)->lengths).error(), grid::MapReason::outside_map);
 }
 
 TEST(OutsideTheMapByName, MapFilesKeepTheWay) {
@@ -123,7 +123,7 @@ TEST(OutsideTheMapByName, WhatADirectMapAnswersItsInverseFinds) {
   grid::FitOptions options;
   options.surface = grid::SurfaceKind::direct;
   const auto direct = grid::fit(middle_grid(false), options);
-  ASSERT_TRUE(direct.has_value()) << direct.error().sentence;
+  ASSERT_TRUE(direct.has_value()) << direct.error().sentence();
   for (const Outside way : {Outside::continued, Outside::refuse, Outside::linear, Outside::clamp}) {
     SCOPED_TRACE(static_cast<int>(way));
     const CompensationMap map = direct->with_outside({way, 150.0});
@@ -149,7 +149,7 @@ TEST(OutsideTheMapByName, ADirectMapHasNothingToFadeTo) {
   grid::FitOptions options;
   options.surface = grid::SurfaceKind::direct;
   const auto map = grid::fit(measured, options);
-  ASSERT_TRUE(map) << map.error().sentence;
+  ASSERT_TRUE(map) << map.error().sentence();
   EXPECT_THROW(static_cast<void>(map->with_outside({Outside::fade, 100.0})), std::invalid_argument);
   EXPECT_EQ(map->with_outside({Outside::clamp, 100.0}).status({0.0, 0.0}), MapStatus::inside);
 }

@@ -7,6 +7,7 @@
 
 #include "grid/files/map_file.hpp"
 #include "grid/map/fit.hpp"
+#include "grid/map/query_points.hpp"
 #include "tests/map/synthetic_grid.hpp"
 
 namespace chaintrue {
@@ -22,7 +23,7 @@ grid::synthetic::SyntheticSession session(const grid::synthetic::SyntheticSpec& 
 
 CompensationMap fitted(const grid::MeasuredGrid& grid) {
   auto map = grid::fit(grid);
-  if (!map) throw std::runtime_error(map.error().sentence);
+  if (!map) throw std::runtime_error(map.error().sentence());
   return *std::move(map);
 }
 
@@ -106,7 +107,7 @@ TEST(ResidualFit, SetsBadPointsAside) {
     std::sort(hidden.begin(), hidden.end());
     EXPECT_EQ(found, hidden);
     EXPECT_LT(true_tool_rms_mm(map, made.answer), 0.45);
-    EXPECT_THAT(map.contents().notes, testing::Contains(testing::HasSubstr("was set aside")));
+    EXPECT_THAT(map.contents().notes, testing::Contains(testing::HasSubstr("was left out")));
   }
 }
 
@@ -138,7 +139,7 @@ TEST(ResidualFit, TakesTheNoiseFromRepeatsWhereNobodyStatedIt) {
   auto made = session(spec);
   made.grid.noise.reset();
   const grid::MapNoise noise = fitted(made.grid).contents().noise;
-  EXPECT_EQ(noise.source, "repeats");
+  EXPECT_EQ(noise.source, grid::NoiseSource::repeats);
   EXPECT_NEAR(noise.length_mm * noise.factor_found,
               0.2,
               0.08);  // 40 degrees of freedom: 11 % a sigma, three and a half
@@ -188,7 +189,7 @@ TEST(ResidualFit, ReadingsOfTheMachineSharpenTheSettings) {
     return (row.transpose() * surface.covariance_factor).norm();
   };
   const double before = sigma_of_spacing(fitted(made.grid));
-  made.grid.readings = {{"motor_spacing_mm", "", truth.right.x_mm - truth.left.x_mm, 0.1}};
+  made.grid.readings = {{grid::ReadingOf::motor_spacing, "", truth.right.x_mm - truth.left.x_mm, 0.1}};
   const CompensationMap map = fitted(made.grid);
   EXPECT_LT(sigma_of_spacing(map), 0.1);  // the tape alone has that accuracy
   EXPECT_LT(sigma_of_spacing(map), before);
@@ -227,16 +228,16 @@ TEST(ResidualFit, TakesWhatIsStatedWithoutUncertaintyAsKnown) {
 
 TEST(ResidualFit, SaysThatAReadingLeavesNoMachine) {
   auto grid = session(usual_spec(1)).grid;
-  grid.readings = {{"link_pitch_mm", "left", 12.7, 0.001}};
+  grid.readings = {{grid::ReadingOf::link_pitch, "left", 12.7, 0.001}};
   const auto map = grid::fit(grid);
   ASSERT_FALSE(map);
   EXPECT_EQ(map.error().reason, grid::FitFailure::Reason::impossible_readings);
-  EXPECT_THAT(map.error().sentence, testing::HasSubstr("elongation"));
+  EXPECT_THAT(map.error().sentence(), testing::HasSubstr("elongation"));
 }
 
 TEST(ResidualFit, ReadingsOfOneThingCountOnceHoweverOftenTheyAreGiven) {
   auto made = session(usual_spec(1));
-  made.grid.readings = {{"link_pitch_mm", "left", 6.355, 0.001}};
+  made.grid.readings = {{grid::ReadingOf::link_pitch, "left", 6.355, 0.001}};
   const CompensationMap once = fitted(made.grid);
   made.grid.readings.push_back(made.grid.readings.front());
   const CompensationMap twice = fitted(made.grid);
@@ -260,7 +261,7 @@ TEST(ResidualFit, NamesAPointThatTheMachineCannotReach) {
   const auto map = grid::fit(grid);
   ASSERT_FALSE(map);
   EXPECT_EQ(map.error().reason, grid::FitFailure::Reason::point_unreachable);
-  EXPECT_THAT(map.error().sentence, testing::HasSubstr("point 4 at (0.0, 1200.0)"));
+  EXPECT_THAT(map.error().sentence(), testing::HasSubstr("point 4 at (0.0, 1200.0)"));
 }
 
 TEST(MapFile, SaysTheSameAfterReadingAndWritesTheSameBytes) {
@@ -274,6 +275,28 @@ TEST(MapFile, SaysTheSameAfterReadingAndWritesTheSameBytes) {
   const auto b = read.query({-700.0, 333.0});
   EXPECT_EQ(a->lengths.left_mm, b->lengths.left_mm);
   EXPECT_NEAR(a->sigma.left_mm, b->sigma.left_mm, 1e-6 * a->sigma.left_mm);  // kept to seven digits
+}
+
+TEST(QueryPoints, GivesWhatEachPointGivesAlone) {
+  const CompensationMap map = fitted(session(usual_spec(4)).grid);
+  const std::vector<model::MarkPoint> marks = {{0.0, 0.0}, {-700.0, 333.0}, {1e5, 0.0}, {0.0, 0.0}};
+  const auto answers = grid::query(map, marks);
+  const auto lengths = grid::lengths(map, marks);
+  ASSERT_EQ(answers.size(), marks.size());
+  ASSERT_EQ(lengths.size(), marks.size());
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const auto alone = map.query(marks[i]);
+    ASSERT_EQ(answers[i].has_value(), alone.has_value()) << i;
+    ASSERT_EQ(lengths[i].has_value(), alone.has_value()) << i;
+    if (!alone) {
+      EXPECT_EQ(answers[i].error(), alone.error());
+      continue;
+    }
+    EXPECT_EQ(answers[i]->lengths.left_mm, alone->lengths.left_mm);
+    EXPECT_EQ(answers[i]->covariance, alone->covariance);
+    EXPECT_EQ(lengths[i]->lengths.right_mm, alone->lengths.right_mm);
+  }
+  EXPECT_TRUE(grid::query(map, {}).empty());
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ Machine imported_machine() {
 MeasuredGrid grid_of(const Machine& machine, const ControllerSettings& right) {
   Machine would_be_right = machine;
   would_be_right.controller.settings = right;
-  const auto told = model::make_controller_kinematics(machine);
+  const auto answer = model::make_controller_kinematics(machine);
   const auto true_one = model::make_controller_kinematics(would_be_right);
   MeasuredGrid grid;
   grid.machine = machine;
@@ -44,7 +44,7 @@ MeasuredGrid grid_of(const Machine& machine, const ControllerSettings& right) {
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 7; ++column) {
       const model::BedPoint command{-1080.0 + 360.0 * column, -510.0 + 340.0 * row};
-      grid.points.push_back({model::identity_placement(*true_one->command(*told->lengths(command))),
+      grid.points.push_back({model::identity_placement(*true_one->command(*answer->lengths(command))),
                              std::nullopt,
                              command,
                              std::nullopt});
@@ -56,13 +56,13 @@ MeasuredGrid grid_of(const Machine& machine, const ControllerSettings& right) {
 TEST(SettingsToType, OfAMachineThatIsRightStayAsTheyAre) {
   const Machine machine = imported_machine();
   const auto map = fit(grid_of(machine, machine.controller.settings));
-  ASSERT_TRUE(map) << map.error().sentence;
+  ASSERT_TRUE(map) << map.error().sentence();
   for (const MapPoint& point : map->contents().points) {
     // Newton of the controller's formulas: 1e-9 mm, and a few roundings of metres.
     EXPECT_NEAR(point.as_stated_mm.norm(), 0.0, 1e-8);
   }
   const auto typed = settings_to_type(*map);
-  ASSERT_TRUE(typed) << typed.error().sentence;
+  ASSERT_TRUE(typed) << typed.error().sentence();
   EXPECT_FALSE(typed->worth_typing);
   EXPECT_EQ(typed->settings.motor_spacing_mm, 2978.4);
   EXPECT_EQ(typed->settings.chain_sag_correction, 25.0);
@@ -79,9 +79,9 @@ TEST(SettingsToType, BringTheToolBack) {
   *right.chain_sag_correction = 8.0;
   *right.right_chain_tolerance_percent = 0.08;
   const auto map = fit(grid_of(machine, right));
-  ASSERT_TRUE(map) << map.error().sentence;
+  ASSERT_TRUE(map) << map.error().sentence();
   const auto typed = settings_to_type(*map);
-  ASSERT_TRUE(typed) << typed.error().sentence;
+  ASSERT_TRUE(typed) << typed.error().sentence();
   EXPECT_TRUE(typed->worth_typing);
   EXPECT_EQ(typed->points, 28U);
   EXPECT_GT(typed->as_it_is.rms_mm, 2.0) << "the machine was not wrong to begin with";
@@ -92,12 +92,12 @@ TEST(SettingsToType, BringTheToolBack) {
   mended.controller.settings = typed->settings;
   Machine truth = machine;
   truth.controller.settings = right;
-  const auto told = model::make_controller_kinematics(mended);
+  const auto answer = model::make_controller_kinematics(mended);
   const auto goes = model::make_controller_kinematics(truth);
   for (const model::BedPoint command : {model::BedPoint{-900.0, -340.0},
                                         model::BedPoint{0.0, 170.0},
                                         model::BedPoint{900.0, 400.0}}) {
-    const model::BedPoint went = *goes->command(*told->lengths(command));
+    const model::BedPoint went = *goes->command(*answer->lengths(command));
     // Three sigmas of the map's expected error on each axis.
     EXPECT_NEAR(went.x_mm, command.x_mm, 0.3);
     EXPECT_NEAR(went.y_mm, command.y_mm, 0.3);
@@ -109,11 +109,11 @@ TEST(SettingsToType, AreNotMadeForOtherControllers) {
   MeasuredGrid grid = grid_of(machine, machine.controller.settings);
   grid.machine->controller = {model::ControllerKind::fluidnc_wallplotter, {}};
   const auto map = fit(grid);
-  ASSERT_TRUE(map) << map.error().sentence;
+  ASSERT_TRUE(map) << map.error().sentence();
   const auto typed = settings_to_type(*map);
   ASSERT_FALSE(typed);
   EXPECT_EQ(typed.error().reason, SettingsFailure::Reason::another_controller);
-  EXPECT_THAT(typed.error().sentence, testing::HasSubstr("compensate the G-code"));
+  EXPECT_THAT(typed.error().sentence(), testing::HasSubstr("compensate the G-code"));
 }
 
 }  // namespace

@@ -35,12 +35,12 @@ double true_tool_rms_mm(const Map& map, const grid::synthetic::SyntheticAnswer& 
   int count = 0;
   for (double x = -1200.0; x <= 1200.0; x += 100.0) {
     for (double y = -600.0; y <= 600.0; y += 100.0) {
-      const auto told = map.query({x, y});
+      const auto reply = map.query({x, y});
       const auto reading = truth.at(answer.sheet.to_bed({x, y}));
-      if (!told || !reading) continue;
-      const Eigen::Vector2d chain(told->lengths.left_mm - reading->lengths.left_mm,
-                                  told->lengths.right_mm - reading->lengths.right_mm);
-      squares += (told->mark_jacobian.inverse() * chain).squaredNorm();
+      if (!reply || !reading) continue;
+      const Eigen::Vector2d chain(reply->lengths.left_mm - reading->lengths.left_mm,
+                                  reply->lengths.right_mm - reading->lengths.right_mm);
+      squares += (reply->mark_jacobian.inverse() * chain).squaredNorm();
       ++count;
     }
   }

@@ -39,11 +39,11 @@ TEST(MapInThreads, OneMapGivesEveryThreadTheSameBits) {
   ASSERT_TRUE(map);
   const std::vector<double> alone = answers(*map);
   ASSERT_GT(alone.size(), 200U);
-  std::vector<std::vector<double>> told(kThreads);
+  std::vector<std::vector<double>> reply(kThreads);
   std::vector<std::function<void()>> asking;
-  for (auto& numbers : told) asking.emplace_back([&] { numbers = answers(*map); });
+  for (auto& numbers : reply) asking.emplace_back([&] { numbers = answers(*map); });
   testing_support::run_in_threads(asking);
-  for (const auto& numbers : told) EXPECT_EQ(numbers, alone);
+  for (const auto& numbers : reply) EXPECT_EQ(numbers, alone);
 }
 
 TEST(MapInThreads, FitsAtTheSameTimeGiveTheBytesOfFitsInTurn) {

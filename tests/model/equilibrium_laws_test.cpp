@@ -202,20 +202,20 @@ TEST(Pose, EnergyIdentity) {
     };
     const auto see = [&](double left, double right) {
       const Pose pose = kinematics->forward({left, right}).value();
-      Seen seen{m.sled_weight_n * pose.position.y_mm, {}, {}};
+      Seen found{m.sled_weight_n * pose.position.y_mm, {}, {}};
       for (const Side side : kSides) {
         const ChainState& chain = pose.chains[side];
         const CatenaryLoad load{chain.horizontal_n, chain.vertical_at_sled_n, chain.free_length_mm};
         const double end =
             pose.position.y_mm + rho * chain.vertical_at_sled_n / chain.tension_at_sled_n;
-        seen.energy += w * chain.free_length_mm * end + catenary_weight_energy(load, {w, c}) +
+        found.energy += w * chain.free_length_mm * end + catenary_weight_energy(load, {w, c}) +
                        catenary_strain_energy(load, {w, c});
-        seen.phi[side] = chain.angle_rad;
+        found.phi[side] = chain.angle_rad;
         const double tb = chain.tension_at_sprocket_n;
-        seen.work[side] =
+        found.work[side] =
             w * (m.motors[side].y_mm + sg * r * std::cos(chain.angle_rad)) - 0.5 * c * tb * tb;
       }
-      return seen;
+      return found;
     };
     Random random(kLawSeed + 4);
     for (int n = 0; n < 40; ++n) {
@@ -363,16 +363,16 @@ TEST(Pose, NoFailureInsideTheDomain) {
             const BedPoint p{edge * (ix - 30) / 30.0,
                              top - (top + 4000.0) * (iy / 60.0) * (iy / 60.0)};
             const PoseResult pose = kinematics->inverse(p);
-            if (!pose && pose.error() == PoseFailure::link_does_not_fit)
+            if (!pose && pose.error() == PoseReason::link_does_not_fit)
               continue;  // the ring would reach past
             SCOPED_TRACE(testing::Message()
                          << "mass share " << mass_share << (elastic ? " elastic" : " stiff") << " ("
                          << p.x_mm << ", " << p.y_mm << ")");
-            ASSERT_TRUE(pose) << explain(pose.error());
+            ASSERT_TRUE(pose) << pose.error().sentence();
             ++poses;
             most_iterations = std::max(most_iterations, pose->iterations);
             const PoseResult back = kinematics->forward(pose->lengths);
-            ASSERT_TRUE(back) << explain(back.error());
+            ASSERT_TRUE(back) << back.error().sentence();
             // Amplified rounding of a length: by 1e4 near the verticals for a sled that weighs less
             // than its chains.
             const double tolerance = mass_share == 1.0 ? 1e-9 : 1e-8;

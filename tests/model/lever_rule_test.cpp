@@ -22,7 +22,7 @@ TEST(LeverRule, SettlesAtTheReferencePose) {
       SCOPED_TRACE(testing::Message() << name << " at (" << p.x_mm << ", " << p.y_mm << ")");
       const auto result =
           lever_rule_pose(m, {number(r["d_elastic"][0]), number(r["d_elastic"][1])});
-      ASSERT_TRUE(result) << explain(result.error());
+      ASSERT_TRUE(result) << result.error().sentence();
       // Gaps of 1e-10 mm between the tips, and a + asinh forms that lose 1e-10 mm to cancellation.
       EXPECT_NEAR(result->pose.position.x_mm, p.x_mm, 2e-9);
       EXPECT_NEAR(result->pose.position.y_mm, p.y_mm, 2e-9);
@@ -71,9 +71,9 @@ TEST(LeverRule, GapsShrinkFromPassToPass) {
 TEST(LeverRule, NamesWhatItCannotDo) {
   Machine machine;
   EquilibriumParameters m = equilibrium_parameters(machine);
-  EXPECT_EQ(lever_rule_pose(m, {900.0, 900.0}).error(), PoseFailure::too_short);
+  EXPECT_EQ(lever_rule_pose(m, {900.0, 900.0}).error(), PoseReason::too_short);
   const ChainLengths lengths = make_kinematics(m)->inverse({500.0, -300.0})->lengths;
-  EXPECT_EQ(lever_rule_pose(m, lengths, {.most_passes = 3}).error(), PoseFailure::not_converged);
+  EXPECT_EQ(lever_rule_pose(m, lengths, {.most_passes = 3}).error(), PoseReason::not_converged);
   m.chain_weight_n_per_mm = 0.0;
   EXPECT_THROW(std::ignore = lever_rule_pose(m, lengths), std::invalid_argument);
   m = equilibrium_parameters(machine);

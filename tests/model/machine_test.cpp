@@ -192,14 +192,14 @@ TEST(Machine, KinematicsRefuseParametersByNameAndValue) {
 }
 
 TEST(Machine, FailuresHaveNamesAndSentences) {
-  for (const PoseFailure failure : {PoseFailure::outside_verticals,
-                                    PoseFailure::above_sprockets,
-                                    PoseFailure::link_does_not_fit,
-                                    PoseFailure::slack,
-                                    PoseFailure::too_short,
-                                    PoseFailure::not_converged}) {
-    EXPECT_THAT(std::string(name(failure)), testing::MatchesRegex("[a-z_]+"));
-    EXPECT_GT(explain(failure).size(), 20u);
+  for (const PoseReason reason : {PoseReason::outside_verticals,
+                                  PoseReason::above_sprockets,
+                                  PoseReason::link_does_not_fit,
+                                  PoseReason::slack,
+                                  PoseReason::too_short,
+                                  PoseReason::not_converged}) {
+    EXPECT_THAT(std::string(name(reason)), testing::MatchesRegex("[a-z_]+"));
+    EXPECT_GT(PoseFailure(reason).sentence().size(), 20u);
   }
 }
 

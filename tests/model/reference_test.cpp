@@ -48,11 +48,11 @@ void expect_round_trip(const Kinematics& kinematics,
   const BedPoint p = point_of(record);
   SCOPED_TRACE(testing::Message() << "at (" << p.x_mm << ", " << p.y_mm << ")");
   const PoseResult pose = kinematics.inverse(p);
-  ASSERT_TRUE(pose) << explain(pose.error());
+  ASSERT_TRUE(pose) << pose.error().sentence();
   EXPECT_NEAR(pose->lengths.left_mm, expected.left_mm, tolerance);
   EXPECT_NEAR(pose->lengths.right_mm, expected.right_mm, tolerance);
   const PoseResult back = kinematics.forward(expected);
-  ASSERT_TRUE(back) << explain(back.error());
+  ASSERT_TRUE(back) << back.error().sentence();
   // At the edge of the bed a millimetre of chain moves the sled by up to ten.
   const double amplification = tolerance > kBedTolerance ? 10.0 : 1.0;
   EXPECT_NEAR(back->position.x_mm, p.x_mm, amplification * tolerance);

@@ -216,9 +216,9 @@ TEST(Controllers, HoleyStepByStep) {
 TEST(Controllers, UnreachableCommandsAreNamed) {
   Machine machine = with_settings(Feed::over_top);
   const auto controller = make_controller_kinematics(machine);
-  EXPECT_EQ(controller->lengths({0.0, 1200.0}).error(), PoseFailure::above_sprockets);
-  EXPECT_EQ(controller->lengths({5000.0, 0.0}).error(), PoseFailure::outside_verticals);
-  EXPECT_EQ(controller->command({200.0, 200.0}).error(), PoseFailure::too_short);
+  EXPECT_EQ(controller->lengths({0.0, 1200.0}).error(), PoseReason::above_sprockets);
+  EXPECT_EQ(controller->lengths({5000.0, 0.0}).error(), PoseReason::outside_verticals);
+  EXPECT_EQ(controller->command({200.0, 200.0}).error(), PoseReason::too_short);
 }
 
 TEST(Controllers, BracketsHaveNoOneShotFormula) {

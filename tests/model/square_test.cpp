@@ -122,9 +122,9 @@ TEST(Square, NamesThePointThatCannotBeCut) {
   const auto square =
       predict_square(Machine{}, Machine{}, {.size_mm = 100.0, .corner = {-50.0, 1040.0}});
   ASSERT_FALSE(square);
-  EXPECT_TRUE(square.error().controllers);
-  EXPECT_EQ(square.error().reason, PoseFailure::above_sprockets);
-  EXPECT_GE(square.error().commanded.y_mm, 1072.6);
+  EXPECT_TRUE(square.error().place.of_controller);
+  EXPECT_EQ(square.error().reason, PoseReason::above_sprockets);
+  EXPECT_GE(square.error().place.commanded.y_mm, 1072.6);
 }
 
 TEST(Square, RefusesASizeThatIsNone) {

@@ -43,6 +43,21 @@ class TemporaryFolder {
   std::string path_;
 };
 
+/// Opens "page.html" of the folder without network, in a new profile.
+std::string browser_command(const TemporaryFolder& folder, std::string_view options) {
+  return fmt::format(
+      "timeout 120 '{}' --headless --no-sandbox --disable-gpu --disable-quic --no-first-run "
+      "--disable-dev-shm-usage --disable-background-networking --disable-component-update "
+      "--disable-sync --disable-default-apps --host-resolver-rules='MAP * ~NOTFOUND' "
+      "--user-data-dir='{}' --virtual-time-budget=20000 {} 'file://{}' >'{}' 2>'{}'",
+      CHAINTRUE_BROWSER,
+      folder / "profile",
+      options,
+      folder / "page.html",
+      folder / "dom",
+      folder / "log");
+}
+
 std::string read_text(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -152,22 +167,12 @@ Visit visit(const std::string& html, std::string_view probe, Window window) {
     page.replace(page.rfind("</body>"), 7, script);
   }
   std::ofstream(folder / "page.html", std::ios::binary) << page;
-  const std::string command = fmt::format(
-      "timeout 120 '{}' --headless --no-sandbox --disable-gpu --disable-quic --no-first-run "
-      "--disable-dev-shm-usage "
-      "--disable-background-networking --disable-component-update --disable-sync "
-      "--disable-default-apps "
-      "--host-resolver-rules='MAP * ~NOTFOUND' --user-data-dir='{}' --window-size={},{} "
-      "--virtual-time-budget=20000 "
-      "--enable-logging=stderr --dump-dom 'file://{}' >'{}' 2>'{}'",
-      CHAINTRUE_BROWSER,
-      folder / "profile",
-      window.width_px,
-      window.height_px,
-      folder / "page.html",
-      folder / "dom",
-      folder / "log");
-  const int status = std::system(command.c_str());
+  const int status = std::system(
+      browser_command(folder,
+                      fmt::format("--window-size={},{} --enable-logging=stderr --dump-dom",
+                                  window.width_px,
+                                  window.height_px))
+          .c_str());
   Visit result;
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   result.dom = read_text(folder / "dom");
@@ -175,6 +180,22 @@ Visit visit(const std::string& html, std::string_view probe, Window window) {
   for (const std::string_view line : between(log, ":CONSOLE", "\n"))
     result.console.emplace_back(line);
   return result;
+}
+
+int printed_sheets(const std::string& html, const Paper& paper) {
+  const TemporaryFolder folder;
+  std::string page = html;
+  page.insert(
+      page.find("</head>"),
+      fmt::format(
+          "<style>@page {{ size: {}mm {}mm; }}</style>\n", paper.width_mm, paper.height_mm));
+  std::ofstream(folder / "page.html", std::ios::binary) << page;
+  const std::string options =
+      fmt::format("--no-pdf-header-footer --print-to-pdf='{}'", folder / "page.pdf");
+  if (std::system(browser_command(folder, options).c_str()) != 0) return 0;
+  // Skia writes each page as an object of its own, uncompressed.
+  const std::string pdf = read_text(folder / "page.pdf");
+  return count(pdf, "/Type /Page\n");
 }
 
 std::vector<std::string> problems_of(const Visit& visit) {

@@ -28,12 +28,40 @@ struct Visit {
 /// are drawn.
 [[nodiscard]] Visit visit(const std::string& html, std::string_view probe = {}, Window window = {});
 
+/// A sheet of paper: ISO 216; ANSI Y14.1 size A.
+struct Paper {
+  const char* name;
+  double width_mm, height_mm;
+};
+inline constexpr Paper kPapers[] = {{"A4", 210.0, 297.0}, {"Letter", 215.9, 279.4}};
+
+/// How many sheets the page takes, as the browser prints it; 0 where it prints nothing.
+[[nodiscard]] int printed_sheets(const std::string& html, const Paper& paper);
+
 /// A probe: how many texts of charts end in an ellipsis, and which.
 inline constexpr std::string_view kCutLabels = R"(
     for (const folded of document.querySelectorAll("details")) folded.open = true;
     await new Promise((done) => setTimeout(done, 300));
     const ends = [...document.querySelectorAll("figure.chart text")].filter((label) => label.textContent.includes("\u2026"));
     document.documentElement.dataset.cutLabels = ends.length + ": " + ends.slice(0, 5).map((label) => label.textContent).join("; ");
+)";
+
+/// A probe: how many words of charts' legends lie on other words of the same chart, and which.
+inline constexpr std::string_view kOverlappingLegends = R"(
+    const lies_on = [];
+    for (const figure of document.querySelectorAll("figure.chart")) {
+      const words = [...figure.querySelectorAll("svg text")].filter((word) => word.textContent);
+      for (const word of words.filter((one) => one.closest(".role-legend, .key"))) {
+        const a = word.getBoundingClientRect();
+        for (const other of words) {
+          const b = other.getBoundingClientRect();
+          if (other === word || Math.min(a.right, b.right) - Math.max(a.left, b.left) < 1 ||
+              Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) < 1) continue;
+          lies_on.push(figure.dataset.spec + ": " + word.textContent + " on " + other.textContent);
+        }
+      }
+    }
+    document.documentElement.dataset.overlaps = lies_on.length + ": " + lies_on.slice(0, 5).join("; ");
 )";
 
 /// Problems of the visited page: console lines, charts that failed, charts with fewer marks than

@@ -73,6 +73,7 @@ TEST_F(InBrowser, NothingStandsOutOfAPhoneScreen) {
 
 TEST_F(InBrowser, NoCellAndNoLabelIsCutOffOnAPhone) {
   std::string probe(kCutLabels);
+  probe += kOverlappingLegends;
   probe += R"(
     for (const folded of document.querySelectorAll("details")) folded.open = true;
     const cut = [...document.querySelectorAll("td, caption, p, figcaption")].filter((cell) => {
@@ -85,6 +86,7 @@ TEST_F(InBrowser, NoCellAndNoLabelIsCutOffOnAPhone) {
   EXPECT_THAT(visited.console, IsEmpty());
   EXPECT_THAT(visited.dom, HasSubstr("data-cut=\"0: \""));
   EXPECT_THAT(visited.dom, HasSubstr("data-cut-labels=\"0: \""));
+  EXPECT_THAT(visited.dom, HasSubstr("data-overlaps=\"0: \""));
 }
 
 TEST_F(InBrowser, LabelsOfAChartHideNeitherEachOtherNorPoints) {

@@ -10,7 +10,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <iterator>
+#include <utility>
+#include <vector>
 
 #include "tests/report/browser.hpp"
 
@@ -76,6 +79,14 @@ TEST_F(ReportCommand, GivesTheSameBytesForTheSameMap) {
   EXPECT_EQ(text_of("first.html"), text_of("second.html"));
 }
 
+TEST_F(ReportCommand, ACertificateWithoutADateHasALineToWriteItOn) {
+  fit_demo_grid();
+  ASSERT_EQ(
+      run(fmt::format("report '{}' --certificate -o '{}'", path("map.json"), path("page.html"))),
+      0);
+  EXPECT_THAT(text_of("page.html"), HasSubstr("classic Maslow, date: ____"));
+}
+
 TEST_F(ReportCommand, ACertificateBearsTheDateThatItIsGiven) {
   fit_demo_grid();
   ASSERT_EQ(run(fmt::format("report '{}' --certificate --date 2026-11-22 -o '{}'",
@@ -86,11 +97,6 @@ TEST_F(ReportCommand, ACertificateBearsTheDateThatItIsGiven) {
   EXPECT_THAT(text_of("page.html"), HasSubstr("<h2>The machine's settings</h2>"));
 }
 
-struct Paper {
-  const char* name;
-  double width_mm, height_mm;  ///< ISO 216; ANSI Y14.1 size A
-};
-constexpr Paper kPapers[] = {{"A4", 210.0, 297.0}, {"Letter", 215.9, 279.4}};
 constexpr double kMarginMm = 14.0;  // @page of page.css
 constexpr double kPxPerMm = 96.0 / 25.4;
 
@@ -106,45 +112,95 @@ std::string as_printed(std::string html) {
   return html;
 }
 
+/// As narrow as A4 between its margins and as short as Letter, and shorter by as much as a chart is
+/// lower on the narrower sheet: what fits here fits on both.
+Window narrowest_and_shortest() {
+  const double width_mm = kPapers[0].width_mm - 2.0 * kMarginMm;
+  const double height_mm =
+      (kPapers[1].height_mm - 2.0 * kMarginMm) * width_mm / (kPapers[1].width_mm - 2.0 * kMarginMm);
+  return {static_cast<int>(width_mm * kPxPerMm), static_cast<int>(height_mm * kPxPerMm)};
+}
+
+// Blocks that must not be split fit on a page; the certificate as a whole fits on one; no table is
+// wider than its box, which would cut it.
 TEST_F(ReportCommand, OnPaperNoChartIsSplitAndNothingIsCutAtTheSide) {
   if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
   fit_demo_grid();
-  ASSERT_EQ(run(fmt::format("diagnose '{}/grids/seven_by_four.json' -o '{}'",
+  ASSERT_EQ(run(fmt::format("diagnose '{}/grids/seven_by_four.json' --report '{}' >'{}'",
                             CHAINTRUE_FIXTURES,
-                            path("diagnosis.json"))),
+                            path("diagnosis.html"),
+                            path("out"))),
             0)
       << text_of("log");
   ASSERT_EQ(run(fmt::format("report '{}' -o '{}'", path("map.json"), path("map.html"))), 0);
-  ASSERT_EQ(run(fmt::format("report '{}' -o '{}'", path("diagnosis.json"), path("diagnosis.html"))),
-            0);
   ASSERT_EQ(run(fmt::format(
                 "report '{}' --certificate -o '{}'", path("map.json"), path("certificate.html"))),
             0);
-  for (const Paper& paper : kPapers) {
-    const Window window{static_cast<int>((paper.width_mm - 2.0 * kMarginMm) * kPxPerMm),
-                        static_cast<int>((paper.height_mm - 2.0 * kMarginMm) * kPxPerMm)};
-    // Blocks that must not be split fit on a page; the certificate as a whole fits on one page.
-    const std::string probe = fmt::format(
-        R"(
-        for (const folded of document.querySelectorAll("details")) folded.open = true;
-        await new Promise((done) => setTimeout(done, 300));
-        const page = document.documentElement;
-        const tall = [...document.querySelectorAll("figure, tr, .figures > div, .one-sheet")].filter(
-            (part) => part.getBoundingClientRect().height > {});
-        page.dataset.tall = tall.length + ": " + tall.map((part) => part.tagName + " " +
-            Math.round(part.getBoundingClientRect().height)).join("; ");
-        page.dataset.cut = page.scrollWidth - page.clientWidth;
-        )",
-        window.height_px);
-    for (const char* name : {"map.html", "diagnosis.html", "certificate.html"}) {
-      SCOPED_TRACE(::testing::Message() << name << " on " << paper.name);
-      const Visit visited = visit(as_printed(text_of(name)), probe, window);
-      EXPECT_THAT(problems_of(visited), IsEmpty());
-      EXPECT_THAT(visited.dom, HasSubstr("data-tall=\"0: \""))
-          << visited.dom.substr(0, visited.dom.find('>', visited.dom.find("<html")));
-      EXPECT_THAT(visited.dom, HasSubstr("data-cut=\"0\""));
+  const Window window = narrowest_and_shortest();
+  const std::string probe = fmt::format(
+      R"(
+      for (const folded of document.querySelectorAll("details")) folded.open = true;
+      await new Promise((done) => setTimeout(done, 300));
+      const page = document.documentElement;
+      const tall = [...document.querySelectorAll("figure, tr, .figures > div, .one-sheet")].filter(
+          (part) => part.getBoundingClientRect().height > {});
+      page.dataset.tall = tall.length + ": " + tall.map((part) => part.tagName + " " +
+          Math.round(part.getBoundingClientRect().height)).join("; ");
+      const wide = [...document.querySelectorAll(".table-box, figure")].filter(
+          (box) => box.scrollWidth > box.clientWidth + 1);
+      page.dataset.cut = page.scrollWidth - page.clientWidth + wide.length;
+      )",
+      window.height_px);
+  // The browsers start together: most of a visit is waiting.
+  std::vector<std::pair<const char*, std::future<Visit>>> visits;
+  for (const char* name : {"map.html", "diagnosis.html", "certificate.html"}) {
+    visits.emplace_back(name, std::async(std::launch::async, [this, name, &probe, window] {
+                          return visit(as_printed(text_of(name)), probe, window);
+                        }));
+  }
+  for (auto& [name, visited] : visits) {
+    SCOPED_TRACE(name);
+    const Visit page = visited.get();
+    EXPECT_THAT(problems_of(page), IsEmpty());
+    const std::size_t head = page.dom.find("<html");
+    EXPECT_THAT(page.dom, HasSubstr("data-tall=\"0: \""))
+        << page.dom.substr(0, page.dom.find('>', head));
+    EXPECT_THAT(page.dom, HasSubstr("data-cut=\"0\""));
+  }
+}
+
+// What is folded on the screen stays off the paper, and the page says so.
+TEST_F(ReportCommand, ADiagnosisIsPrintedOnAFewSheets) {
+  if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
+  ASSERT_EQ(run(fmt::format("diagnose '{}/grids/seven_by_four.json' --report '{}' >'{}'",
+                            CHAINTRUE_FIXTURES,
+                            path("diagnosis.html"),
+                            path("out"))),
+            0)
+      << text_of("log");
+  const std::string html = text_of("diagnosis.html");
+  EXPECT_THAT(html, HasSubstr("What is folded on the screen is not printed"));
+  const int sheets = printed_sheets(html, kPapers[0]);
+  EXPECT_GE(sheets, 1);
+  EXPECT_LE(sheets, 4);
+}
+
+TEST_F(ReportCommand, TheSheetsOfAnEveningAreOnePageEach) {
+  if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
+  ASSERT_EQ(run(fmt::format(
+                "start '{}/good/groundcontrol_ring.ini' '{}'", CHAINTRUE_FIXTURES, path("shop"))),
+            0)
+      << text_of("log");
+  std::vector<std::pair<std::string, std::future<int>>> printed;
+  for (const char* name : {"shop/marks.html", "shop/holes.html"}) {
+    for (const Paper& paper : kPapers) {
+      printed.emplace_back(fmt::format("{} on {}", name, paper.name),
+                           std::async(std::launch::async, [this, name, paper] {
+                             return printed_sheets(text_of(name), paper);
+                           }));
     }
   }
+  for (auto& [name, sheets] : printed) EXPECT_EQ(sheets.get(), 1) << name;
 }
 
 TEST_F(ReportCommand, OfAFileThatIsNoMapWritesNothing) {

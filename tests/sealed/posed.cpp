@@ -29,7 +29,7 @@ grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid) {
   how.next_measurements = false;
   auto found = grid::diagnosis::diagnose(grid, how);
   if (!found) {
-    ADD_FAILURE() << found.error().sentence;
+    ADD_FAILURE() << found.error().sentence();
     return {};
   }
   return std::move(*found);

@@ -2,7 +2,7 @@
 /// \file
 /// An excerpt of the frozen sealed sets, each of which must have its stored outcome: a rate cannot
 /// be tested on a few dozen sets, a change of any of them can. The rates are those of
-/// build/sealed_rates (docs/diagnosis.md).
+/// build/sealed_rates (docs/diagnosis_rates.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>

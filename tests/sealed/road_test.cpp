@@ -49,8 +49,8 @@ Road road_of(std::vector<Hidden> hidden,
   grid::diagnosis::CausesFitOptions options;
   options.accept_class = accept_class;
   auto own = grid::diagnosis::fit_with_causes(measured, options);
-  EXPECT_TRUE(plain.has_value()) << plain.error().sentence;
-  EXPECT_TRUE(own.has_value()) << own.error().sentence;
+  EXPECT_TRUE(plain.has_value()) << plain.error().sentence();
+  EXPECT_TRUE(own.has_value()) << own.error().sentence();
   return {std::move(set), *std::move(plain), *std::move(own)};
 }
 
@@ -146,7 +146,7 @@ TEST(Road, WhatHappenedInOneSessionIsTakenOutOfThatOneAlone) {
   const auto first = grid::files::parse_grid(set.grid_text, "first.json").grid;
   const auto second = grid::files::parse_grid(another_session(set, 5.0, 2), "second.json").grid;
   const auto fit = grid::diagnosis::fit_with_causes({{"first", first}, {"second", second}});
-  ASSERT_TRUE(fit) << fit.error().sentence;
+  ASSERT_TRUE(fit) << fit.error().sentence();
   ASSERT_THAT(fit->built_on, SizeIs(1)) << fit->not_weighed;
   EXPECT_EQ(fit->built_on.front().cause.effect->id, "zero_shift");
   ASSERT_TRUE(fit->fit.estimate.observations[1].zeros);
@@ -162,7 +162,7 @@ grid::diagnosis::Diagnosis named_in(const generator::SealedSet& set) {
   options.improvement = options.stability = options.next_measurements = false;
   auto found = grid::diagnosis::diagnose(
       grid::files::parse_grid(set.grid_text, "sealed.json").grid, options);
-  EXPECT_TRUE(found) << found.error().sentence;
+  EXPECT_TRUE(found) << found.error().sentence();
   return *std::move(found);
 }
 
@@ -232,7 +232,7 @@ TEST(Road, WhatIsLeftOutIsStatedWhereItContradictsTheFit) {
   for (const std::uint64_t seed : {1, 2}) {
     const Road road = road_of({{Cause::tooth_skip, Where::left, 1.0, 16.0}}, 28, seed);
     const grid::MapContents& plain = road.plain.map.contents();
-    EXPECT_THAT(plain.notes, ::testing::Contains(::testing::HasSubstr("the larger is stated")));
+    EXPECT_THAT(plain.notes, ::testing::Contains(::testing::HasSubstr("the larger number is given")));
     // Noise of 0.2 mm in a chain and 0.3 mm in each coordinate is below 0.3 mm^2 at the tool.
     EXPECT_GT(plain.accuracy.expected_tool.rms_mm,
               std::sqrt(std::pow(plain.accuracy.blocked.tool.rms_mm, 2) - 0.3))
@@ -269,7 +269,7 @@ TEST(Road, BeyondWhatWasMeasuredSigmasAreMultipliedAndNowhereElse) {
   const generator::SealedSet set = generator::draw_set(recipe, 1);
   const auto plain =
       grid::joint_fit(grid::Measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid));
-  ASSERT_TRUE(plain) << plain.error().sentence;
+  ASSERT_TRUE(plain) << plain.error().sentence();
   constexpr double kFactor = 1.5;
   // Both as their files have them, which round.
   const auto filed = [](const grid::CompensationMap& map) {

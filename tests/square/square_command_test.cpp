@@ -75,7 +75,7 @@ TEST(SquareCommand, SaysWhyAPointCannotBeCutAndWritesNothing) {
   const auto drawing = temporary("unreachable.svg");
   const Outcome outcome = run(machines() + " --at 0 1050 -o " + drawing.string());
   EXPECT_EQ(outcome.code, 4);
-  EXPECT_THAT(outcome.output, HasSubstr("chains can only hold a sled below them"));
+  EXPECT_THAT(outcome.output, HasSubstr("a sled can only hang below them"));
   EXPECT_FALSE(std::filesystem::exists(drawing));
 }
 

@@ -100,7 +100,7 @@ TEST(SweepSpec, TellsOnceWhatAMachineFileDoesNotSay) {
                           {"name": "b", "machine_file": "m.json", "stated_file": "m.json"}]})";
   const files::ReadSweep read = files::read_sweep(folder / "s.json");
   ASSERT_EQ(read.warnings.size(), 1U);
-  EXPECT_THAT(read.warnings.front().message(), HasSubstr("not stated; assumed are motor positions"));
+  EXPECT_THAT(read.warnings.front().message(), HasSubstr("not given; assumed are motor positions"));
 }
 
 TEST(SweepSpec, ChecksEffectsAgainstTheCatalogue) {

@@ -334,7 +334,7 @@ TEST(Generator, NamesTheMarkThatCannotBeReached) {
   const auto session = generate(Machine{}, spec);
   ASSERT_FALSE(session);
   EXPECT_EQ(session.error().place.y_mm, 1500.0);
-  EXPECT_EQ(session.error().reason, model::PoseFailure::above_sprockets);
+  EXPECT_EQ(session.error().reason, model::PoseReason::above_sprockets);
 }
 
 TEST(Generator, AFileOfItReadsBack) {

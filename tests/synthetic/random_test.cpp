@@ -141,10 +141,10 @@ TEST(Random, ChoosesEachNumberAlike) {
   Random random(8, 0);
   SCOPED_TRACE("seed 8");
   constexpr int kCount = 70000, kKinds = 7;
-  std::vector<int> seen(kKinds, 0);
-  for (int i = 0; i < kCount; ++i) ++seen.at(random.below(kKinds));
+  std::vector<int> found(kKinds, 0);
+  for (int i = 0; i < kCount; ++i) ++found.at(random.below(kKinds));
   double chi2 = 0.0;
-  for (const int n : seen)
+  for (const int n : found)
     chi2 += (n - kCount / kKinds) * (n - kCount / kKinds) / static_cast<double>(kCount / kKinds);
   EXPECT_LT(chi2, 22.5);  // 99.9 % of chi-squared with 6 degrees of freedom
   EXPECT_THROW(static_cast<void>(random.below(0)), std::invalid_argument);

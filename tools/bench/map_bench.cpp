@@ -2,7 +2,11 @@
 // The whole fit and the map's queries. 28 points are a usual grid, 91 a large one.
 #include <benchmark/benchmark.h>
 
+#include <cstdint>
+#include <vector>
+
 #include "grid/map/fit.hpp"
+#include "grid/map/query_points.hpp"
 #include "grid/synthetic/generator.hpp"
 
 namespace {
@@ -50,5 +54,28 @@ void query_with_sigma(benchmark::State& state) {
   }
 }
 BENCHMARK(query_with_sigma)->Name("map/query");
+
+/// A thousand places at once, as a program that is compensated or drawn asks for them.
+std::vector<model::MarkPoint> thousand_places() {
+  std::vector<model::MarkPoint> places;
+  for (int i = 0; i < 1000; ++i) places.push_back({2.0 * i - 1000.0, 0.5 * i - 250.0});
+  return places;
+}
+
+void query_many(benchmark::State& state) {
+  const auto map = grid::fit(grid_of(7, 4)).value();
+  const auto places = thousand_places();
+  for (auto _ : state) benchmark::DoNotOptimize(grid::query(map, places));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(places.size()));
+}
+BENCHMARK(query_many)->Name("map/query/1000_places")->Unit(benchmark::kMillisecond);
+
+void lengths_of_many(benchmark::State& state) {
+  const auto map = grid::fit(grid_of(7, 4)).value();
+  const auto places = thousand_places();
+  for (auto _ : state) benchmark::DoNotOptimize(grid::lengths(map, places));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(places.size()));
+}
+BENCHMARK(lengths_of_many)->Name("map/lengths/1000_places")->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <optional>
 
 #include "tools/cli/anchors_sections.hpp"
 #include "tools/cli/belts_frame_chart.hpp"
@@ -37,15 +37,15 @@ BeltsFindings findings_of(const grid::BeltsFit& fit) {
   return found;
 }
 
-/// Verdict, figures, lights and advice: on the page, for the terminal has the sentences.
-void put_the_verdict(const grid::BeltsFit& fit, report::Document& page) {
-  double worst = 0.0;
-  for (const auto& c : fit.coordinates) worst = std::max(worst, c.sigma_mm);
-  page.verdict = {fmt::format("The anchors are known to {:.2g} mm at worst.", worst), Detail::page};
+/// The headline, and what the page has below it: figures, lights and advice.
+void put_the_verdict(const FittedBelts& fitted,
+                     const std::optional<grid::BeltsError>& error,
+                     report::Document& page) {
+  const grid::BeltsFit& fit = fitted.fit;
+  page.verdict = {headline_of(fit, error)};
+  if (error) page.figures = figures_of(*error);
   if (!fit.places.empty()) {
-    page.verdict.text += fmt::format(" One belt's reading is off by {:.2f} mm.", fit.residual_sigma_mm);
-    page.figures = {{fmt::format("{:.2f} mm", fit.residual_sigma_mm), "one belt is off by"},
-                    {fmt::format("{:.2f} mm", fit.rms_mm), "rms as the machine counts"}};
+    page.figures.push_back({fmt::format("{:.2f} mm", fit.residual_sigma_mm), "one belt is off by"});
     page.advice.push_back(
         {"Ask why what is left is left: chaintrue diagnose of the same belts.", Detail::page});
   }
@@ -68,18 +68,19 @@ report::Document anchors_document(const FittedBelts& fitted,
   report::Document document;
   document.title = fmt::format("Anchors: {}", name.empty() ? source : name);
   document.subtitle = fmt::format("{}, {} places", fit.machine.name, fit.places.size());
-  put_the_verdict(fit, document);
+  const auto error = grid::error_of_belts(fit, fitted.holes);
+  put_the_verdict(fitted, error, document);
+  document.remarks = agreement_section(fitted, error);
   if (!fit.places.empty()) {
     report::Chart chart =
         frame_chart(findings_of(fit), "Anchors as fitted", &BeltPlacePicture::before_mm);
     chart.caption = kFrameCaption;
-    document.remarks = agreement_section(fitted);
     document.sections.push_back(
         {"The frame, and what its belts disagree about", {std::move(chart)}});
   }
   document.sections.push_back(fitted_anchors_section(fit));
   document.sections.push_back(tests_section(fitted));
-  if (!fit.places.empty()) document.sections.push_back(places_section(fit));
+  if (!fit.places.empty()) document.sections.push_back(places_section(fitted));
   if (fitted.holes != nullptr) document.sections.push_back(taped_section(*fitted.holes));
   document.has_glossary = true;
   document.provenance = fmt::format("Made from {} by chaintrue {}.", source, CHAINTRUE_VERSION);

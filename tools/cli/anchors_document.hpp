@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "grid/belts/belts_and_holes.hpp"
+#include "grid/belts/point_indices.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
@@ -16,6 +17,7 @@ struct FittedBelts {
   const grid::HolesWithBelts* holes = nullptr;
   /// Their taped distances and the machine's own message are not in the file of the anchors.
   const grid::MeasuredBelts* belts = nullptr;
+  grid::PointIndices indices{};  ///< of the points in their file
 };
 
 /// How well the belts agree, the frame, the anchors, what was left out and predicted, the scale and

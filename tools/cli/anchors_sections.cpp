@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "grid/belts/scale_by_tape.hpp"
+#include "model/belts/effects/belt_effect.hpp"
 #include "tools/cli/belts_frame_chart.hpp"
+#include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -21,14 +23,33 @@ using report::Paragraph;
 using report::Section;
 using report::Table;
 
-void say(Section& section, std::string text) {
-  section.blocks.emplace_back(Paragraph{std::move(text)});
+void say(Section& section, std::string text, Detail detail = Detail::always) {
+  section.blocks.emplace_back(Paragraph{std::move(text), detail});
+}
+
+/// "0.23 +- 0.06 %", of a share.
+std::string share_in_words(double share, double sigma) {
+  return fmt::format("{:.2f} +- {:.2f} %", 100.0 * share, 100.0 * sigma);
+}
+
+void say_what_acts(const BeltsFit& fit, Section& section) {
+  if (fit.causes.empty()) return;
+  for (const grid::CauseBesideAnchors& cause : fit.causes) {
+    if (cause.effect != model::belts::belt_stretch.id) continue;
+    say(section,
+        fmt::format("Pulled belts are {} longer than they count, and these anchors go with that.",
+                    share_in_words(cause.parameters.at("elongation"), cause.sigma)));
+  }
+  say(section,
+      "How sure each anchor is takes in what else may be wrong at its usual size, such as a belt "
+      "that counts from elsewhere.",
+      Detail::verbose);
 }
 
 void say_what_was_left_out(const BeltsFit& fit, Section& section) {
   if (fit.one_left_out.readings == 0) return;
   std::string text = fmt::format(
-      "Lower belts as the upper two foretell them, at places left out one by one: {:.2f} mm rms, "
+      "Lower belts as the upper two predict them, at places left out one by one: {:.2f} mm rms, "
       "{:.2f} mm at worst",
       fit.one_left_out.rms_mm,
       fit.one_left_out.largest_mm);
@@ -37,10 +58,16 @@ void say_what_was_left_out(const BeltsFit& fit, Section& section) {
                         fit.half_left_out->rms_mm,
                         fit.half_left_out->largest_mm);
   }
-  say(section, text + ".");
+  say(section, text + ".", Detail::verbose);
 }
 
-void say_bad_readings(const BeltsFit& fit, Section& section) {
+/// From 1, as in the file of the belts.
+std::size_t number_of(const FittedBelts& fitted, std::size_t point) {
+  return 1 + grid::index_in_file(fitted.indices, point);
+}
+
+void say_bad_readings(const FittedBelts& fitted, Section& section) {
+  const BeltsFit& fit = fitted.fit;
   const double turn_mm = fit.machine.belt_turn_mm;
   for (const grid::BadBeltReading& bad : fit.bad) {
     const double turns = bad.residual_mm / turn_mm;
@@ -49,7 +76,7 @@ void say_bad_readings(const BeltsFit& fit, Section& section) {
     say(section,
         fmt::format("Set aside: the {} belt at point {}, {:.1f} mm {} than all others make it{}.",
                     model::words(bad.belt),
-                    bad.point + 1,
+                    number_of(fitted, bad.point),
                     std::abs(bad.residual_mm),
                     bad.residual_mm > 0.0 ? "longer" : "shorter",
                     is_whole ? fmt::format(", {:.0f} whole turn{} of the encoder",
@@ -61,35 +88,34 @@ void say_bad_readings(const BeltsFit& fit, Section& section) {
     say(section,
         fmt::format("Point {} is bad as a whole: fewer than three of its readings agree. Measure "
                     "it again or leave it out.",
-                    point + 1));
+                    number_of(fitted, point)));
   }
 }
 
 std::string what_tells_the_scale(const FittedBelts& fitted) {
-  const auto best = fitted.belts ? grid::distance_for_scale(*fitted.belts, fitted.fit)
-                                 : std::nullopt;
+  const auto best =
+      fitted.belts ? grid::distance_for_scale(*fitted.belts, fitted.fit) : std::nullopt;
   if (!best) {
     return "Tape one long distance, between two anchors or two holes that were cut, and add it to "
            "the file's \"distances\".";
   }
   return fmt::format(
-      "Tape the distance from {} to {}, about {:.0f} mm, and add it to the file's \"distances\": "
-      "read to {:g} mm it tells the scale to {:.2g} %, better than any other.",
-      words_of(best->distance.from),
-      words_of(best->distance.to),
-      best->distance.distance_mm,
-      best->distance.sigma_mm,
-      100.0 * best->sigma);
+      "Tape the distance from {} to {}, about {:.0f} mm, and add it to the file's \"distances\".",
+      words_of(best->distance.from, fitted.indices),
+      words_of(best->distance.to, fitted.indices),
+      best->distance.distance_mm);
 }
 
 void say_the_scale(const FittedBelts& fitted, Section& section) {
   const BeltsFit& fit = fitted.fit;
   if (!fit.scale) {
+    say(section, "Scale: not known, for belts cannot tell it. " + what_tells_the_scale(fitted));
     say(section,
-        fmt::format("Scale: not known. Belts alone cannot tell it: anchors and parts are as true "
-                    "as a turn of the encoder is {:g} mm of belt. {}",
-                    fit.machine.belt_turn_mm,
-                    what_tells_the_scale(fitted)));
+        fmt::format(
+            "Until then anchors and parts are as true as a turn of the encoder is {:g} mm of "
+            "belt.",
+            fit.machine.belt_turn_mm),
+        Detail::verbose);
     return;
   }
   say(section,
@@ -103,8 +129,8 @@ void say_the_scale(const FittedBelts& fitted, Section& section) {
   for (std::size_t i = 0; i < fitted.belts->distances.size(); ++i) {
     const grid::BeltDistance& distance = fitted.belts->distances[i];
     taped.items.push_back({fmt::format("{} to {}: taped {:.1f} mm, {:+.2f} mm from the fit",
-                                       words_of(distance.from),
-                                       words_of(distance.to),
+                                       words_of(distance.from, fitted.indices),
+                                       words_of(distance.to, fitted.indices),
                                        distance.distance_mm,
                                        fit.scale->residuals_mm[i])});
   }
@@ -113,11 +139,15 @@ void say_the_scale(const FittedBelts& fitted, Section& section) {
 
 void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
   say(section,
-      fmt::format("Holes: {} distances, each foretold by all others to {:.2f} mm rms; tape and "
-                  "holes err {:.2g} times what was stated.",
+      fmt::format("Holes: {} distances, which agree with each other to about {} mm.",
                   holes.distances.size(),
+                  about_mm(holes.left_out_rms_mm)));
+  say(section,
+      fmt::format("Each distance comes back from all others to {:.2f} mm rms; tape and holes err "
+                  "{:.2g} times what you said of them.",
                   holes.left_out_rms_mm,
-                  holes.noise_factor));
+                  holes.noise_factor),
+      Detail::verbose);
   for (const auto& distance : holes.distances) {
     if (!distance.rejected) continue;
     say(section,
@@ -136,52 +166,96 @@ void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
   for (Eigen::Index i = 0; i + 1 < at.size(); i += 2)
     largest = std::max(largest, std::hypot(at[i], at[i + 1]));
   say(section,
-      fmt::format("Beside its upper two belts the tool lies up to {:.1f} mm off, changing over "
-                  "some {:.0f} mm of the sheet: gcode compensate takes that out, no number to paste "
-                  "does.",
-                  largest,
-                  holes.displacement->reach_mm));
+      fmt::format(
+          "The tool lies up to {:.1f} mm off where its upper two belts put it, changing over some "
+          "{:.0f} mm of the sheet: gcode compensate takes that out, no number to paste does.",
+          largest,
+          holes.displacement->reach_mm));
 }
 
 }  // namespace
 
-Section agreement_section(const FittedBelts& fitted) {
+std::string headline_of(const BeltsFit& fit, const std::optional<grid::BeltsError>& error) {
+  if (!error) {
+    double worst = 0.0;
+    for (const auto& c : fit.coordinates) worst = std::max(worst, c.sigma_mm);
+    return fmt::format("These anchors are good to about {} mm.", about_mm(worst));
+  }
+  return misses_sentence(error->today ? std::optional(error->today->rms_mm) : std::nullopt,
+                         error->expected.rms_mm,
+                         {"these anchors", "new anchors"}) +
+         (fit.scale ? "" : " The scale, which only a tape can tell, comes on top.");
+}
+
+std::vector<report::Figure> figures_of(const grid::BeltsError& error) {
+  std::vector<report::Figure> figures;
+  if (error.today)
+    figures.push_back({fmt::format("{} mm", about_mm(error.today->rms_mm)), kToolTodayLabel});
+  figures.push_back({fmt::format("{} mm", about_mm(error.expected.rms_mm)),
+                     "expected error of the tool with these anchors, rms"});
+  return figures;
+}
+
+Section agreement_section(const FittedBelts& fitted, const std::optional<grid::BeltsError>& error) {
   const BeltsFit& fit = fitted.fit;
   const std::size_t readings = 4 * fit.places.size();
   Section section{"How well the belts agree", {}};
+  if (error) {
+    say(section,
+        least_sure_sentence(
+            error->worst_at.x_mm, error->worst_at.y_mm, error->expected.maximum_mm));
+  }
+  say_what_acts(fit, section);
+  if (fit.places.empty()) return section;
   say(section,
       fmt::format("{} places, {} readings: one belt's reading is off by {:.2f} mm (one sigma, from "
                   "{} checks that are left over).",
                   fit.places.size(),
                   readings,
                   fit.residual_sigma_mm,
-                  fit.checks));
+                  fit.checks),
+      Detail::verbose);
   say(section,
       fmt::format("In the words of the machine (Find Anchors fit: rms) that is {:.2f} mm: it "
                   "divides by all {} readings, though places and anchors have used up {} of them.",
                   fit.rms_mm,
                   readings,
-                  readings - static_cast<std::size_t>(fit.checks)));
+                  readings - static_cast<std::size_t>(fit.checks)),
+      Detail::verbose);
   if (fitted.belts != nullptr && fitted.belts->firmware_fit) {
     say(section,
         fmt::format("Its own message said rms {:.2f} mm and max {:.2f} mm.",
                     fitted.belts->firmware_fit->rms_mm,
-                    fitted.belts->firmware_fit->max_mm));
+                    fitted.belts->firmware_fit->max_mm),
+        Detail::verbose);
   }
   return section;
 }
 
+namespace {
+
+report::Column rests_on(std::string heading, std::string page_heading, int width) {
+  return {.heading = std::move(heading),
+          .is_number = true,
+          .page_heading = std::move(page_heading),
+          .width = width,
+          .detail = Detail::verbose};
+}
+
+}  // namespace
+
 Section fitted_anchors_section(const BeltsFit& fit) {
   Table table{
-      .columns = {{.heading = "Anchor", .width = 6},
-                  {.heading = "fitted", .is_number = true, .width = 12},
-                  {.heading = "sigma", .is_number = true, .width = 8},
-                  {.heading = "stated", .is_number = true, .digits = 1, .width = 10},
-                  {.heading = "differs", .is_number = true, .digits = 1, .has_sign = true, .width = 9},
-                  {.heading = "rests on tl", .is_number = true, .width = 14},
-                  {.heading = "tr", .is_number = true, .page_heading = "on tr", .width = 5},
-                  {.heading = "bl", .is_number = true, .page_heading = "on bl", .width = 5},
-                  {.heading = "br", .is_number = true, .page_heading = "on br", .width = 5}},
+      .columns =
+          {{.heading = "Anchor", .width = 6},
+           {.heading = "fitted", .is_number = true, .width = 12},
+           {.heading = "sure to", .is_number = true, .width = 9},
+           {.heading = "until now", .is_number = true, .digits = 1, .width = 11},
+           {.heading = "differs", .is_number = true, .digits = 1, .has_sign = true, .width = 9},
+           rests_on("rests on tl", "", 14),
+           rests_on("tr", "on tr", 5),
+           rests_on("bl", "on bl", 5),
+           rests_on("br", "on br", 5)},
       .caption = std::string(kAnchorsCaption) +
                  " Rests on: the share of its variance that comes of each belt's readings.",
       .is_headed = true};
@@ -199,29 +273,32 @@ Section tests_section(const FittedBelts& fitted) {
   Section section{.title = "What was left out, and the scale", .is_titled = false};
   if (!fitted.fit.places.empty()) {
     say_what_was_left_out(fitted.fit, section);
-    say_bad_readings(fitted.fit, section);
+    say_bad_readings(fitted, section);
   }
   say_the_scale(fitted, section);
   if (fitted.holes != nullptr) say_the_holes(*fitted.holes, section);
   return section;
 }
 
-Section places_section(const BeltsFit& fit) {
-  Table table{.columns = {{.heading = "Point", .is_number = true, .digits = 0, .width = 3},
-                          {.heading = "x", .is_number = true, .digits = 1, .width = 10},
-                          {.heading = "y", .is_number = true, .digits = 1, .width = 10},
-                          {.heading = "read less fitted, mm:    tl", .is_number = true, .width = 30},
-                          {.heading = "tr", .is_number = true, .width = 8},
-                          {.heading = "bl", .is_number = true, .width = 8},
-                          {.heading = "br", .is_number = true, .width = 8}},
-              .is_headed = true};
+Section places_section(const FittedBelts& fitted) {
+  const BeltsFit& fit = fitted.fit;
+  Table table{
+      .columns = {{.heading = "Point", .is_number = true, .digits = 0, .width = 3},
+                  {.heading = "x", .is_number = true, .digits = 1, .width = 10},
+                  {.heading = "y", .is_number = true, .digits = 1, .width = 10},
+                  {.heading = "read less fitted, mm:    tl", .is_number = true, .width = 30},
+                  {.heading = "tr", .is_number = true, .width = 8},
+                  {.heading = "bl", .is_number = true, .width = 8},
+                  {.heading = "br", .is_number = true, .width = 8}},
+      .is_headed = true};
   for (std::size_t k = 0; k < fit.places.size(); ++k) {
     const grid::FittedPlace& place = fit.places[k];
     report::Row& row = table.rows.emplace_back();
-    row.cells = {static_cast<double>(k + 1), place.at.x_mm, place.at.y_mm};
+    row.cells = {static_cast<double>(number_of(fitted, k)), place.at.x_mm, place.at.y_mm};
     for (const Belt belt : kBelts) {
       const auto& residual = place.belts[belt];
-      row.cells.emplace_back(fmt::format("{:+.2f}{}", residual.residual_mm, residual.counts ? ' ' : '*'));
+      row.cells.emplace_back(
+          fmt::format("{:+.2f}{}", residual.residual_mm, residual.counts ? ' ' : '*'));
     }
   }
   Section section{"Place by place", {std::move(table)}, true, Detail::verbose};
@@ -230,16 +307,15 @@ Section places_section(const BeltsFit& fit) {
 }
 
 Section taped_section(const grid::HolesWithBelts& holes) {
-  Table table{
-      .columns = {{.heading = "Distance", .width = 14},
-                  {.heading = "taped", .is_number = true, .digits = 1, .width = 8},
-                  {.heading = "off, mm", .is_number = true, .has_sign = true, .width = 10},
-                  {.heading = "left out", .is_number = true, .has_sign = true, .width = 11},
-                  {.heading = "sigma", .is_number = true, .width = 8},
-                  {.gap = 1}},
-      .caption = "Left out: taped less what all others make of it. * set aside.",
-      .is_headed = true,
-      .head_width = 15};
+  Table table{.columns = {{.heading = "Distance", .width = 14},
+                          {.heading = "taped", .is_number = true, .digits = 1, .width = 8},
+                          {.heading = "off, mm", .is_number = true, .has_sign = true, .width = 10},
+                          {.heading = "left out", .is_number = true, .has_sign = true, .width = 11},
+                          {.heading = "sigma", .is_number = true, .width = 8},
+                          {.gap = 1}},
+              .caption = "Left out: taped less what all others make of it. * set aside.",
+              .is_headed = true,
+              .head_width = 15};
   for (const grid::BeltTapedDistance& distance : holes.distances) {
     report::Row& row = table.rows.emplace_back();
     row.cells = {distance.words,

@@ -121,6 +121,24 @@ std::string Verb::value_of(const std::string& name) const {
   return text;
 }
 
+std::vector<GivenOption> Verb::given_options() const {
+  std::vector<GivenOption> given;
+  for (const CLI::Option* option : app_->get_options()) {
+    const bool has_long_name = !option->get_lnames().empty();
+    if (option->count() == 0 || (!has_long_name && option->get_snames().empty())) continue;
+    const bool is_flag = option->get_items_expected_max() == 0;
+    given.push_back({(has_long_name ? "--" : "-") + option->get_single_name(),
+                     is_flag ? std::vector<std::string>{} : option->results()});
+  }
+  // A group of options has no name and belongs to its verb.
+  for (CLI::App* group : app_->get_subcommands([](const CLI::App*) { return true; })) {
+    if (!group->get_name().empty()) continue;
+    const std::vector<GivenOption> own = Verb(*group).given_options();
+    given.insert(given.end(), own.begin(), own.end());
+  }
+  return given;
+}
+
 std::string Verb::path() const {
   std::string words;
   for (const CLI::App* app = with_name().app_; app->get_parent() != nullptr;

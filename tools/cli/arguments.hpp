@@ -50,6 +50,13 @@ class Option {
   CLI::Option* option_ = nullptr;
 };
 
+/// An option of the command line, by its longest name, with the words that were given for it: none
+/// for a flag.
+struct GivenOption {
+  std::string name;
+  std::vector<std::string> words;
+};
+
 class Verb {
  public:
   Verb() = default;
@@ -83,6 +90,8 @@ class Verb {
   [[nodiscard]] bool is_given(const std::string& name) const;
   /// What was given for it, its words with blanks between; of a flag "given".
   [[nodiscard]] std::string value_of(const std::string& name) const;
+  /// In the order in which the verb declares them; what is given without an option is left out.
+  [[nodiscard]] std::vector<GivenOption> given_options() const;
   /// As it is typed: "gcode check".
   [[nodiscard]] std::string path() const;
   /// On the command line that was parsed.

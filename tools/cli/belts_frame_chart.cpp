@@ -20,7 +20,8 @@ using report::DataTable;
 namespace {
 
 /// Of Okabe and Ito's palette, distinguishable with every colour vision.
-constexpr model::PerBelt<const char*> kColors = {"#d55e00", "#0072b2", "#cc79a7", "#009e73"};
+constexpr model::PerBelt<const char*> kColors = {
+    report::kBeforeColor, report::kAfterColor, report::kFourthColor, report::kThirdColor};
 
 /// The longest stroke of a good reading, as a share of the frame's width.
 constexpr double kLongestStroke = 0.06;
@@ -60,9 +61,10 @@ double ellipse_magnification(const BeltsFindings& found) {
 }
 
 DataTable anchors_table(const BeltsFindings& found) {
-  DataTable table{"anchors",
-                  {"words", "x_mm", "y_mm", "sigma_x_mm", "sigma_y_mm", "color", "is_left", "is_upper"},
-                  {}};
+  DataTable table{
+      "anchors",
+      {"words", "x_mm", "y_mm", "sigma_x_mm", "sigma_y_mm", "color", "is_left", "is_upper"},
+      {}};
   for (const Belt belt : kBelts) {
     const model::Anchor& anchor = found.machine.anchors[belt];
     table.rows.push_back({std::string(model::words(belt)),
@@ -79,8 +81,9 @@ DataTable anchors_table(const BeltsFindings& found) {
 
 DataTable strokes_table(const BeltsFindings& found,
                         model::PerBelt<double> BeltPlacePicture::*which) {
-  DataTable table{
-      "strokes", {"name", "x_mm", "y_mm", "way_x", "way_y", "off_mm", "words", "color", "is_bad"}, {}};
+  DataTable table{"strokes",
+                  {"name", "x_mm", "y_mm", "way_x", "way_y", "off_mm", "words", "color", "is_bad"},
+                  {}};
   for (std::size_t k = 0; k < found.places.size(); ++k) {
     const BeltPlacePicture& place = found.places[k];
     for (const Belt belt : kBelts) {
@@ -126,15 +129,16 @@ Chart frame_chart(const BeltsFindings& found,
   const double ellipses = ellipse_magnification(found);
   const double key_mm = report::round_down_125(kLongestStroke * width_mm(found) / drawn);
   chart.data = {std::move(frame), anchors_table(found), strokes_table(found, which)};
-  chart.signals = {{"x_min_mm", x_min - margin},
-                   {"x_max_mm", x_max + margin},
-                   {"y_min_mm", y_min - margin},
-                   {"y_max_mm", y_max + margin},
-                   {"magnification", drawn},
-                   {"key_mm", key_mm},
-                   {"key_text", fmt::format("{:g} mm, drawn {:g} times as long", key_mm, drawn)},
-                   {"ellipses", ellipses},
-                   {"ellipses_text", fmt::format("anchors: one sigma, {:g} times as large", ellipses)}};
+  chart.signals = {
+      {"x_min_mm", x_min - margin},
+      {"x_max_mm", x_max + margin},
+      {"y_min_mm", y_min - margin},
+      {"y_max_mm", y_max + margin},
+      {"magnification", drawn},
+      {"key_mm", key_mm},
+      {"key_text", fmt::format("{:g} mm, drawn {:g} times as long", key_mm, drawn)},
+      {"ellipses", ellipses},
+      {"ellipses_text", fmt::format("anchors: one sigma, {:g} times as large", ellipses)}};
   return chart;
 }
 

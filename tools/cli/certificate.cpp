@@ -32,35 +32,42 @@ report::Section measured_section(const grid::CompensationMap& map) {
   if (contents.distances) {
     const grid::DistancesUsed& used = *contents.distances;
     row("holes and a tape",
-        fmt::format("{} holes, {} distances, {} of them set aside",
+        fmt::format("{} holes, {} distances, {} of them left out",
                     contents.points.size(),
                     used.used + used.rejected,
                     used.rejected));
-    row("distances that the fit had not seen",
+    row("distances left out are predicted",
         fmt::format("within {:.2f} mm rms, {:.2f} mm at most",
                     used.left_out_good.rms_mm,
                     used.left_out_good.maximum_mm));
-    row("noise gone by",
+    row("readings taken as good to",
         fmt::format("{:g} mm of tape, {:g} mm of hole; found {:.1f} times as much",
                     used.tape_sigma_mm,
                     contents.noise.position_mm,
                     contents.noise.factor_found));
   } else {
-    row("points", fmt::format("{}, {} of them set aside", contents.points.size(), bad));
-    row("points that the fit had not seen",
+    row("points", fmt::format("{}, {} of them left out", contents.points.size(), bad));
+    row("points left out are predicted",
         fmt::format("within {:.2f} mm rms, {:.2f} mm at most",
                     contents.accuracy.leave_one_out.tool.rms_mm,
                     contents.accuracy.leave_one_out.tool.maximum_mm));
-    row("noise gone by",
-        fmt::format(
-            "{:g} mm in a length, {:g} mm in a position ({})",
-            contents.noise.length_mm,
-            contents.noise.position_mm,
-            contents.noise.source == "stated" ? "as stated" : "from " + contents.noise.source));
+    row("readings taken as good to",
+        fmt::format("{:.2f} mm in a length, {:.2f} mm in a position ({})",
+                    contents.noise.length_mm,
+                    contents.noise.position_mm,
+                    contents.noise.source == grid::NoiseSource::stated
+                        ? std::string("as you said")
+                        : fmt::format("from {}", name(contents.noise.source))));
   }
   report::Section section{"What was measured", {}};
   section.blocks.push_back(std::move(table));
   return section;
+}
+
+/// A chain is read as so much longer where its links are shorter.
+std::string links_in_words(double scale) {
+  const double percent = -100.0 * scale / (1.0 + scale);
+  return fmt::format("{:.3f} % {}", std::abs(percent), percent < 0.0 ? "shorter" : "longer");
 }
 
 report::Section named_section(const grid::CompensationMap& map) {
@@ -69,15 +76,15 @@ report::Section named_section(const grid::CompensationMap& map) {
   report::Section section{"The machine's settings", {}};
   if (rows.empty()) {
     section.blocks.push_back(
-        report::Paragraph{"Nothing: the map joins the readings themselves and knows no machine."});
+        report::Paragraph{"None: the map joins the readings themselves, without a machine."});
   } else {
     section.blocks.push_back(settings_table(rows));
   }
   if (const auto* surface = std::get_if<grid::ModelSurface>(&map.contents().surface)) {
     section.blocks.push_back(report::Paragraph{
-        fmt::format("Chain scales beside nominal: left {:+.3f} %, right {:+.3f} %.",
-                    100.0 * surface->residual.scale.left,
-                    100.0 * surface->residual.scale.right)});
+        fmt::format("The chains' links: {} than new on the left, {} on the right.",
+                    links_in_words(surface->residual.scale.left),
+                    links_in_words(surface->residual.scale.right))});
   }
   return section;
 }
@@ -113,17 +120,17 @@ report::Document certificate(const grid::CompensationMap& map, std::string_view 
   page.tone = tone_of(contents);
   page.is_one_sheet = true;
   page.figures = {
-      {fmt::format("{:.2f} mm", expected.rms_mm), "expected over the bed, rms, one sigma"},
+      {fmt::format("{:.2f} mm", expected.rms_mm), "expected over the measured part, rms"},
       {fmt::format("0 to {:.2f} mm", k95PerCent * expected.rms_mm), "95 % interval"},
       {fmt::format("{:.2f} mm", expected.maximum_mm),
        fmt::format("at the weakest place, ({:.0f}, {:.0f})",
                    contents.accuracy.expected_worst_at.x_mm,
                    contents.accuracy.expected_worst_at.y_mm)}};
   page.not_proved = {
-      "These figures hold for the machine as it was when it was measured, and end when a motor, a "
-      "chain or the sheet is moved."};
+      "These figures hold for the machine as it was measured, until a motor, a chain or the sheet "
+      "is moved."};
   report::Chart chart = report::error_map_chart(map_pictures(map));
-  chart.caption = "One sigma at the tool.";
+  chart.caption.clear();  // the legend says it
   report::Section error_section{"Where to expect which error", {}};
   error_section.blocks.push_back(std::move(chart));
   page.sections.push_back(std::move(error_section));

@@ -14,10 +14,7 @@
 #include "grid/files/check_file.hpp"
 #include "grid/files/controller_settings.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/map/check_settings.hpp"
 #include "grid/map/map_check.hpp"
-#include "grid/map/map_for_settings.hpp"
-#include "grid/map/settings_to_type.hpp"
 #include "tools/cli/check_document.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"
@@ -27,6 +24,7 @@
 #include "tools/cli/progress.hpp"
 #include "tools/cli/settings_file.hpp"
 #include "tools/cli/talk.hpp"
+#include "tools/cli/typed_settings.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -66,30 +64,6 @@ void say_next_of_map(const grid::Check& check, const CheckCommand& command) {
   say_next({"plan", "--check", command.map, "-o", "check.csv"});
 }
 
-/// The settings of export groundcontrol, where they explain points that the map's own do not.
-std::optional<grid::Check> with_typed_settings(const grid::CompensationMap& map,
-                                               const grid::Measured& measured,
-                                               const grid::Check& found) {
-  if (found.is_valid_as_it_is()) return std::nullopt;
-  const auto typed = grid::settings_to_type(map);
-  if (!typed || !typed->worth_typing) return std::nullopt;
-  model::Machine after = *map.machine();
-  after.controller.settings = typed->settings;
-  auto changed = grid::changed_settings(map, measured, after.controller, found);
-  if (!changed) return std::nullopt;
-  namespace files = grid::files;
-  changed->check.sentence = fmt::format(
-      "The settings have changed since this map was measured: with the numbers of export "
-      "groundcontrol ({}) the points come out within {:.2f} mm rms in a chain, with the map's own "
-      "within {:.2f} mm. Go on with the map of export groundcontrol --map-after. {}",
-      files::in_words(files::changed_settings(files::settings_in_force(*map.machine()),
-                                              files::settings_in_force(after))),
-      changed->with_these_mm,
-      changed->as_it_is_mm,
-      changed->check.sentence);
-  return std::move(changed->check);
-}
-
 /// Where a file names a machine whose controller holds other settings than the map is for: its
 /// commands went by these, whether they were in force or not.
 void say_other_settings(const grid::CompensationMap& map, const grid::Measured& measured) {
@@ -104,36 +78,11 @@ void say_other_settings(const grid::CompensationMap& map, const grid::Measured& 
                                                  files::settings_in_force(*file.machine()));
     if (changes.empty()) continue;
     fmt::print(stderr,
-               "The machine of {} holds other settings than the map is for ({}): its commands are "
-               "taken to have gone by these. --settings says what the controller held.\n",
+               "In {} the machine has other settings than the map ({}): these are used. Say with "
+               "--settings what the controller held.\n",
                file.name.empty() ? "the new points" : file.name,
                files::in_words(changes));
   }
-}
-
-/// The map for the settings of --settings, and the points as commanded with these.
-grid::CompensationMap take_settings(const CheckCommand& command,
-                                    const grid::CompensationMap& map,
-                                    grid::Measured& measured) {
-  if (command.settings.empty()) return map;
-  const auto stated = grid::stated_machine(map);
-  if (!stated) {
-    throw grid::files::InputError({{command.map,
-                                    "",
-                                    "a map that knows no machine",
-                                    "--settings to be left out: its points are chain lengths"}});
-  }
-  const SettingsFile file = read_settings_file(command.settings);
-  const model::Controller now = with_settings(*stated, file, nullptr).controller;
-  if (now.kind == model::ControllerKind::fluidnc_wallplotter) {
-    throw grid::files::InputError({{file.name,
-                                    "",
-                                    "anchors of a wall plotter",
-                                    "the new points with the machine that they were commanded on: "
-                                    "--machine takes it"}});
-  }
-  measured = grid::commanded_with(measured, now);
-  return grid::map_for_settings(map, now, "");
 }
 
 using CheckResult = tl::expected<grid::Check, grid::CheckFailure>;
@@ -147,7 +96,10 @@ CheckResult check_of_map(const CheckCommand& command,
       measured.add(load_measured(
           file, command.input, command.tape, MeasuredUse::check, as_measured.machine()));
     if (command.settings.empty()) say_other_settings(as_measured, measured);
-    const grid::CompensationMap in_force = take_settings(command, as_measured, measured);
+    const grid::CompensationMap in_force =
+        command.settings.empty()
+            ? as_measured
+            : with_settings_of(command.settings, command.map, as_measured, measured);
     CheckResult check = grid::check_map(in_force, measured, shown_progress());
     if (!check) return check;
     if (auto changed = with_typed_settings(in_force, measured, *check)) check = *std::move(changed);
@@ -167,14 +119,14 @@ CheckResult check_of_anchors(const InputFile& belts, const InputFile& anchors) {
 
 void write_check(const grid::Check& check, const CheckCommand& command, bool of_belts) {
   if (command.json) {
-    write_output(command.output,
-                 of_belts ? grid::files::write_anchors_check(check)
-                          : grid::files::write_map_check(check));
+    write_output(
+        command.output,
+        of_belts ? grid::files::write_anchors_check(check) : grid::files::write_map_check(check));
     return;
   }
-  write_output(command.output,
-               report::render_text(of_belts ? anchors_check_document(check)
-                                            : map_check_document(check)));
+  write_output(
+      command.output,
+      report::render_text(of_belts ? anchors_check_document(check) : map_check_document(check)));
 }
 
 /// Anchors that hold have a report; those that do not are diagnosed.
@@ -188,7 +140,7 @@ int run_check(Verb verb, const CheckCommand& command) {
   require_kind(map, {FileKind::map, FileKind::anchors});
   const bool of_belts = map.kind == FileKind::anchors;
   const std::vector<InputFile> files = open_inputs(command.input.grid, command.with);
-  Facts facts = of_belts ? facts::anchors : facts::map;
+  Facts facts = (of_belts ? facts::anchors : facts::map) | facts_of_tables(files);
   for (const InputFile& file : files) {
     if (file.kind == FileKind::grid && !of_belts) facts |= facts::grid;
     if (file.kind == FileKind::holes && !of_belts) facts |= facts::holes;
@@ -197,7 +149,7 @@ int run_check(Verb verb, const CheckCommand& command) {
   const CheckResult check =
       of_belts ? check_of_anchors(files.front(), map) : check_of_map(command, files, map);
   if (!check) {
-    fmt::print(stderr, "{}: {}\n", files.front().name, check.error().sentence);
+    fmt::print(stderr, "{}: {}\n", files.front().name, check.error().sentence());
     return kBadInput;
   }
   write_check(*check, command, of_belts);
@@ -221,7 +173,7 @@ void add_check(Verb app, Run& run) {
   add_input(verb,
             "--with",
             command->with,
-            "More new points, or holes and distances: all are held against the map");
+            "More new points, or holes and distances, to compare with the map");
   add_input(verb,
             "--settings",
             command->settings,
@@ -232,16 +184,15 @@ void add_check(Verb app, Run& run) {
       verb, "-o,--output", command->output, {Origin::table, Origin::check}, "- is standard output")
       .shows_default();
   verb.footer(
-      "Three to five points far from each other will do, or holes and distances between them;\n"
-      "chaintrue plan --check sets those points that tell best.\n"
-      "\"Still valid (74 %)\" is how probable it is, by the new points and what usually changes, that\n"
-      "nothing has; from 80 % on the points decide. The exit code is 0 where they decide that the map\n"
-      "is valid as it is, and 1 otherwise: where it is valid after re-zeroing, is to be measured again,\n"
-      "was of other settings than the controller has, or where more points are needed to tell.\n"
-      "Anchors of four belts are checked by new places in a chaintrue_belts file.\n\n"
-      "Example:\n"
-      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
-      "  build/chaintrue check map.json fixtures/grids/five_new_points.json");
+      "Three to five points far from each other will do, or holes and distances between "
+      "them;\nchaintrue plan --check picks the points that show most.\n\"Still valid (74 %)\": how "
+      "probable it is, by the new points and what usually changes, that\nnothing has changed. From "
+      "80 % on it is the verdict. The exit code is 0 if the map is valid as\nit is; otherwise 1: "
+      "valid after re-zeroing, to be measured again, made for settings other than\nthe "
+      "controller's, or more points are needed.\nAnchors of four belts are checked by new places "
+      "in a chaintrue_belts file.\n\nExample:\n  build/chaintrue fit "
+      "fixtures/grids/seven_by_four.json -o map.json\n  build/chaintrue check map.json "
+      "fixtures/grids/five_new_points.json");
   verb.when_chosen(
       [command, verb, &run] { run = [command, verb] { return run_check(verb, *command); }; });
 }

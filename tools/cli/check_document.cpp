@@ -21,7 +21,7 @@ report::Document document_of(const grid::Check& check, Table table) {
   report::Document document;
   document.title = "Check";
   document.verdict = {check.sentence};
-  document.remarks = {"What is not told apart", {Paragraph{check.not_separable}}};
+  document.remarks = {"What the readings cannot tell", {Paragraph{check.not_separable}}};
   document.sections = {
       {"How sure",
        {Paragraph{fmt::format("Still valid {:.1f} %, valid after re-zeroing {:.1f} %, to be "
@@ -41,7 +41,7 @@ report::Document document_of(const grid::Check& check, Table table) {
 report::Document map_check_document(const grid::Check& check) {
   Table table = table_of("Measured less map", true);
   for (const grid::CheckResidual& one : check.residuals)
-    table.rows.push_back({{one.what, one.residual_mm, one.sigma_mm}});
+    table.rows.push_back({{one.name, one.residual_mm, one.sigma_mm}});
   report::Document document = document_of(check, std::move(table));
   for (const std::string& note : check.notes) document.remarks.blocks.emplace_back(Paragraph{note});
   return document;

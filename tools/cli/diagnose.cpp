@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "grid/diagnosis/diagnose.hpp"
+#include "grid/diagnosis/order_search.hpp"
 #include "grid/diagnosis/trend.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
@@ -27,6 +28,7 @@
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/input_file.hpp"
+#include "tools/cli/made_by.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
@@ -52,6 +54,7 @@ struct DiagnoseCommand {
   std::string before;
   std::string assume_order;
   bool accept_class = false;
+  std::string without;  ///< points of belts, from 1
   std::uint64_t seed = 1;
   bool json = false;
 };
@@ -67,7 +70,7 @@ void assume_order(const DiagnoseCommand& command, grid::MeasuredGrid& measured) 
                  "to be left out, since these points say in which order they were visited");
     problems.throw_if_any();
   }
-  const auto numbers = assumed_order(measured.points, *order_from_word(command.assume_order));
+  const auto numbers = grid::visit_numbers(measured.points, *order_from_word(command.assume_order));
   if (!numbers) {
     problems.add("--assume-order", command.assume_order, numbers.error());
     problems.throw_if_any();
@@ -89,7 +92,8 @@ std::string corrected_grid_text(const Diagnosis& found,
                                    found.data_corrections.begin(),
                                    found.data_corrections.end());
   auto corrected = grid::corrected_data(measured);
-  if (!corrected) throw files::InputError({{"corrected grid", "", "", corrected.error().sentence}});
+  if (!corrected)
+    throw files::InputError({{"corrected grid", "", "", corrected.error().sentence()}});
   for (auto& point : corrected->grid.points) {
     if (order_assumed) point.order.reset();
   }
@@ -115,7 +119,7 @@ std::string extended_machine_text(const Diagnosis& found, const std::string& sou
 using Outcome = tl::expected<Diagnosis, std::string>;
 
 std::string sentence_of(const std::string& path, const grid::diagnosis::DiagnosisFailure& failure) {
-  return fmt::format("{}: {}", files::name_in_messages(path), failure.sentence);
+  return fmt::format("{}: {}", files::name_in_messages(path), failure.sentence());
 }
 
 /// "28 points and 20 distances"
@@ -151,11 +155,11 @@ void note_fine_readings(const grid::Measured& measured, Diagnosis& found) {
   constexpr double kFinestMm = 0.01;
   for (const auto* own : measured.grids()) {
     if (!own->noise || own->noise->length_mm >= kFinestMm) continue;
-    found.notes.push_back(fmt::format(
-        "The readings are stated to {} mm, which is finer than the simulation is computed over a "
-        "bed; they were taken to be good to {} mm.",
-        own->noise->length_mm,
-        kFinestMm));
+    found.notes.push_back(
+        fmt::format("You said that the readings are good to {} mm, finer than the simulation can "
+                    "compute over a bed; {} mm was used instead.",
+                    own->noise->length_mm,
+                    kFinestMm));
   }
 }
 
@@ -220,8 +224,9 @@ void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
       found.next_measurements.begin(), found.next_measurements.end(), [&](const auto& next) {
         return !found.belts || next.kind != grid::diagnosis::MeasurementKind::distance;
       });
-  if (found.belts && (command.output.empty() || !parts_causes)) {
+  if (found.belts && (command.output.empty() || !parts_causes || !command.without.empty())) {
     words = {"fit", command.input.grid, "-o", "anchors.json"};
+    if (!command.without.empty()) words.insert(words.end(), {"--without", command.without});
   } else if (!command.output.empty() && !found.next_measurements.empty()) {
     words = {"plan", command.input.grid, "--after", command.output};
   } else {
@@ -230,12 +235,18 @@ void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
       words.insert(words.end(), {"--machine", command.input.machine});
   }
   for (const std::string& other : command.with) words.insert(words.end(), {"--with", other});
+  // A plain fit looks for no cause.
+  if (words.front() == "plan" || command.input.effects.empty()) return say_next(words);
+  words.emplace_back("--causes");
+  for (const std::string& own : command.input.effects)
+    words.insert(words.end(), {"--effects", own});
   say_next(words);
 }
 
 /// Belts are diagnosed by themselves, on the machine in their own file.
 Outcome diagnosed_belts(const DiagnoseCommand& command, const InputFile& file) {
-  const files::ReadBelts read = load_belts(file, "a diagnosis");
+  const std::vector<std::size_t> without = points_left_out(command.without);
+  const files::ReadBelts read = load_belts(file, "a diagnosis", without);
   // Twice as many take four times as long (docs/maslow4.md).
   constexpr std::size_t kMostPlaces = 2000;
   if (read.belts.points.size() > kMostPlaces) {
@@ -250,7 +261,8 @@ Outcome diagnosed_belts(const DiagnoseCommand& command, const InputFile& file) {
   grid::diagnosis::DiagnosisOptions options;
   options.seed = command.seed;
   options.progress = shown_progress();
-  auto found = grid::diagnosis::diagnose(read.belts, options);
+  auto found = grid::diagnosis::diagnose(
+      read.belts, files::indices_beside(read.belts.points.size(), without), options);
   if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
   if (found->grid_name.empty()) found->grid_name = file_name(command.input.grid);
   return *std::move(found);
@@ -265,7 +277,7 @@ Facts facts_of(const std::vector<InputFile>& files) {
     if (file.kind == FileKind::holes) facts |= facts::holes;
   }
   if (files.size() == 1) facts |= facts & facts::grid ? facts::one_grid : 0U;
-  return facts;
+  return facts | facts_of_tables(files);
 }
 
 int run_diagnose(Verb verb, const DiagnoseCommand& command) {
@@ -288,18 +300,23 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   }
   if (before) found->trend = grid::diagnosis::trend(*before, *found, file_name(command.before));
   const std::string source = file_name(command.input.grid);
-  const std::string written = files::write_diagnosis(*found);
+  const grid::Provenance origin = made_by(verb);
+  const std::string written = files::write_diagnosis(*found, origin);
   std::vector<files::OutputFile> outputs;
   const auto add = [&outputs](const std::string& path, auto&& text) {
     if (!path.empty()) outputs.push_back({path, text()});
   };
   add(command.output, [&] { return written; });
-  const report::Document document = diagnosis_document(
+  report::Document document = diagnosis_document(
       *found, source, command.report.empty() ? report::Detail::verbose : report::Detail::page);
+  add_made_by(origin, document.sections);
   add(command.report, [&] { return report::render_html(document); });
   add(command.extended_machine, [&] { return extended_machine_text(*found, source); });
   add(command.corrected_grid, [&] {
-    return corrected_grid_text(*found, *input.first_grid(), !command.assume_order.empty());
+    const auto ordered =
+        found->visiting_order ? grid::diagnosis::visited_in(input, found->visiting_order->order) : std::nullopt;
+    grid::MeasuredGrid corrected = ordered ? *ordered->grids().front() : *input.first_grid();
+    return corrected_grid_text(*found, std::move(corrected), ordered || !command.assume_order.empty());
   });
   const bool is_stdout_taken = std::any_of(
       outputs.begin(), outputs.end(), [](const auto& output) { return output.path == "-"; });
@@ -335,8 +352,8 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
              "--corrected-grid",
              command.corrected_grid,
              {Origin::measured},
-             "The points on that machine, marks and readings corrected where the cause lies "
-             "with them: what to fit");
+             "The points on that machine, with marks and readings corrected where they are the "
+             "cause: fit these");
   verb.add_flag("--json", command.json, "The diagnosis file on standard output, for programs");
 }
 
@@ -345,27 +362,29 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
 void add_diagnose(Verb app, Run& run) {
   auto command = std::make_shared<DiagnoseCommand>();
   Verb verb = app.add_verb("diagnose",
-                           "What the simulation gets wrong, why, and what naming the cause gains");
+                           "What the machine does wrong, why, and what knowing the cause gains");
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);
+  add_effects_option(verb, command->input);
   add_input(verb,
             "--with",
             command->with,
-            "More grids and holes of the same machine: all are weighed in one estimate");
+            "More grids and holes of the same machine: all are used together");
   add_diagnose_outputs(verb, *command);
   add_input(verb,
             "--held-out",
             command->held_out,
-            "Another grid of the same machine: how well what was found foretells it");
+            "Another grid of the same machine: how well the result predicts it");
   add_input(verb,
             "--before",
             command->before,
             "An earlier diagnosis of the same machine (JSON): says what changed since");
   verb.add_option("--assume-order",
                   command->assume_order,
-                  "Visiting order of points that bear none, lines from the top left; opens drift, "
-                  "skips and hysteresis, and the verdict says that it was assumed")
+                  "Order of the visits if the points have none, lines from the top left; for "
+                  "drift, skips and hysteresis; the verdict says that it was assumed")
       .one_of({"rows", "columns", "serpentine_rows", "serpentine_columns"});
+  add_without_option(verb, command->without);
   verb.add_flag("--accept-class",
                 command->accept_class,
                 "Where points cannot tell a long chain from a long tape: take it to be the chain, "
@@ -374,24 +393,19 @@ void add_diagnose(Verb app, Run& run) {
              "--seed",
              command->seed,
              {"", 0.0, 9e15},
-             "Of the simulated chances; the same seed, the same answer")
+             "For the simulated chances: same seed, same answer")
       .shows_default();
   verb.footer(
-      "Any answer is an answer: the exit code is 0 also where nothing was found.\n\n"
-      "Example:\n"
-      "  build/chaintrue simulate --machine fixtures/machines/classic.json --grid 7x5 --repeats 6 "
-      "\\\n"
-      "    --length-noise-mm 0.2 --position-noise-mm 0.3 --effect "
-      "chain_pitch_error:left:elongation=0.0012 -o worn.json\n"
-      "  build/chaintrue diagnose worn.json -o diagnosis.json --report diagnosis.html "
-      "--extended-machine worn_machine.json\n"
-      "  build/chaintrue fit worn.json --machine worn_machine.json -o map.json\n"
-      "  build/chaintrue diagnose fixtures/holes/nine_holes.json --report holes.html\n"
-      "  build/chaintrue diagnose fixtures/belts/thirty_one_places.json -o belts_diagnosis.json\n"
-      "  build/chaintrue diagnose worn.json --before diagnosis.json");
-  verb.when_chosen([command, verb, &run] {
-    run = [command, verb] { return run_diagnose(verb, *command); };
-  });
+      "The exit code is 0 also where nothing was found.\n\nExample:\n  build/chaintrue simulate "
+      "--machine fixtures/machines/classic.json --grid 7x5 --repeats 6 \\\n    --length-noise-mm "
+      "0.2 --position-noise-mm 0.3 --effect chain_pitch_error:left:elongation=0.0012 -o "
+      "worn.json\n  build/chaintrue diagnose worn.json -o diagnosis.json --report diagnosis.html "
+      "--extended-machine worn_machine.json\n  build/chaintrue fit worn.json --machine "
+      "worn_machine.json -o map.json\n  build/chaintrue diagnose fixtures/holes/nine_holes.json "
+      "--report holes.html\n  build/chaintrue diagnose fixtures/belts/thirty_one_places.json -o "
+      "belts_diagnosis.json\n  build/chaintrue diagnose worn.json --before diagnosis.json");
+  verb.when_chosen(
+      [command, verb, &run] { run = [command, verb] { return run_diagnose(verb, *command); }; });
 }
 
 }  // namespace chaintrue::cli

@@ -53,8 +53,8 @@ std::string noise_in_words(const Diagnosis& found) {
         found.stated_tape->hole_sigma_mm,
         found.stated_tape->dof));
   }
-  if (stated.empty()) return "The noise was not stated; ";
-  return fmt::format("Noise as stated: {}", fmt::join(stated, ""));
+  if (stated.empty()) return "You did not say how good the readings are; ";
+  return fmt::format("You said: readings good to {}", fmt::join(stated, ""));
 }
 
 std::string outlier_in_words(const Diagnosis& found, const grid::diagnosis::Outlier& bad) {
@@ -66,7 +66,7 @@ std::string outlier_in_words(const Diagnosis& found, const grid::diagnosis::Outl
                        bad.distance);
   }
   return fmt::format(
-      "{}: the tool would have to have been {} mm right and {} mm up of its mark ({:.1f} sigmas)",
+      "{}: fits only with the tool {} mm right and {} mm up of its mark ({:.1f} sigmas)",
       point_name(bad.index),
       fixed(bad.shift_mm.x(), 2),
       fixed(bad.shift_mm.y(), 2),
@@ -84,7 +84,7 @@ Section next_section(const Diagnosis& found) {
                               files_in_words(found)),
                   {std::move(list)}};
   section.blocks.emplace_back(
-      Paragraph{fmt::format("In this order; the probability is that of all up to this one done. "
+      Paragraph{fmt::format("Measure in this order; the probability counts all up to that line. "
                             "{}; the command prints the lines.",
                             where_it_goes(found)),
                 Detail::page});
@@ -101,31 +101,30 @@ Section next_section(const Diagnosis& found) {
 Section settings_section(const Diagnosis& found) {
   std::vector<SettingRow> rows;
   for (const auto& one : found.settings)
-    rows.push_back(
-        {one.setting, one.stated, one.stated_sigma, one.calibrated, one.sigma, one.off});
+    rows.push_back({one.setting, one.stated, one.stated_sigma, one.calibrated, one.sigma, one.off});
   return {"The machine's settings", {settings_table(rows)}};
 }
 
 Section outliers_section(const Diagnosis& found) {
   List list;
   for (const auto& bad : found.outliers) list.items.push_back({outlier_in_words(found, bad)});
-  return {fmt::format("Bad {}, to be measured again",
+  return {fmt::format("Bad {}: measure them again",
                       found.belts ? "readings" : name(found.observations)),
-          {std::move(list), Paragraph{"They were set aside.", Detail::page}}};
+          {std::move(list), Paragraph{"They were left out.", Detail::page}}};
 }
 
 Section bounds_section(const Diagnosis& found) {
   Table table{{{.width = 34}, {}}, {}, "95 % bounds."};
   for (const auto& bound : found.bounds)
     table.rows.push_back({{cause_title(bound.cause), bound_in_words(bound)}});
-  return {"Looked for and absent: larger than this it would have shown", {std::move(table)}};
+  return {"Looked for, not found: anything larger would have shown", {std::move(table)}};
 }
 
 Section not_testable_section(const Diagnosis& found) {
-  Table table{{{.width = 34}, {}}, {}, "Nothing is said about these."};
+  Table table{{{.width = 34}, {}}, {}, "They may be there or not."};
   for (const auto& missing : found.not_testable)
     table.rows.push_back({{cause_title(missing.cause), missing.reason}});
-  return {"Not testable with these data", {std::move(table)}};
+  return {"What these data cannot test", {std::move(table)}};
 }
 
 Section remarks_section(const Diagnosis& found) {
@@ -139,7 +138,7 @@ Section remarks_section(const Diagnosis& found) {
                 Detail::page});
   for (const auto& correction : found.data_corrections) {
     section.blocks.emplace_back(
-        Paragraph{fmt::format("The data are corrected by {}; it does not go into the machine.",
+        Paragraph{fmt::format("Taken out of the data, not put into the machine: {}.",
                               cause_title(correction)),
                   Detail::page});
   }

@@ -56,12 +56,12 @@ Chart probability_chart(const Diagnosis& found) {
 }
 
 Chart improvement_chart(const Diagnosis& found) {
-  Chart chart{
-      .specification = "gain_bars",
-      .title = is_improvement_of_distances(*found.improvement) ? "Error of distances held out, rms"
-                                                 : "Error of the tool at points held out, rms",
-      .caption =
-          "The thin line on a bar is its 90 % interval. Held out: " + found.improvement->scheme + "."};
+  Chart chart{.specification = "gain_bars",
+              .title = is_improvement_of_distances(*found.improvement)
+                           ? "Error of distances left out, rms"
+                           : "Error of the tool at points left out, rms",
+              .caption = "The thin line on a bar is its 90 % interval. Left out: " +
+                         found.improvement->scheme + "."};
   DataTable table{"rows", {"what", "rms_mm", "low_mm", "high_mm", "most_mm", "color"}, {}};
   const auto color_of = [&](const grid::diagnosis::HeldOut* row) {
     if (row == &found.improvement->extended || row == &found.improvement->extended_and_surface)
@@ -84,10 +84,10 @@ Chart improvement_chart(const Diagnosis& found) {
 Chart separation_chart(const Diagnosis& found) {
   Chart chart{
       .specification = "separation_matrix",
-      .title = fmt::format("How alike two causes look to these {}", name(found.observations)),
-      .caption =
-          fmt::format("0: nothing in common; 1: no such {} tell them apart, whatever their number.",
-                      name(found.observations))};
+      .title =
+          fmt::format("How much two causes look the same to these {}", name(found.observations)),
+      .caption = fmt::format("0: nothing in common; 1: no number of such {} tells them apart.",
+                             name(found.observations))};
   std::vector<std::string> names;
   const auto number_of = [&names](const std::string& what) {
     const auto at = std::find(names.begin(), names.end(), what);

@@ -62,7 +62,7 @@ Section belts_improvement_section(const Diagnosis& found) {
   row("one belt's reading is off by", belts.spread_before_mm, belts.residual_sigma_mm);
   row("rms over all readings", belts.rms_before_mm, belts.rms_mm);
   if (belts.prediction && belts.prediction_before) {
-    row("lower belts foretold at places left out",
+    row("lower belts predicted at places left out",
         belts.prediction_before->rms_mm,
         belts.prediction->rms_mm);
   }

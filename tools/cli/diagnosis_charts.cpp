@@ -21,7 +21,7 @@ using report::Outline;
 
 constexpr const char* kChains[] = {"left", "right"};
 
-Outline sheet_of(const Diagnosis& found) {
+Outline measured_sheet(const Diagnosis& found) {
   const model::Bed& bed = found.extended_machine.bed;
   return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
 }
@@ -114,13 +114,13 @@ Chart strip_chart(const Diagnosis& found,
                   const std::vector<Panel>& panels,
                   int chain,
                   double full_mm) {
-  Chart chart{.specification = "residual_strip",
-              .title = fmt::format("The {} chain", kChains[chain]),
-              .caption = fmt::format(
-                  "Vermilion: more chain was read than predicted; blue: less. One scale for all "
-                  "panels: the largest circle that was measured is {:.2f} mm.{}",
-                  full_mm,
-                  clipped_in_words(found, full_mm))};
+  Chart chart{
+      .specification = "residual_strip",
+      .title = fmt::format("The {} chain", kChains[chain]),
+      .caption = fmt::format("Vermilion: more chain was read than expected; blue: less. All panels "
+                             "have one scale: the largest measured circle is {:.2f} mm.{}",
+                             full_mm,
+                             clipped_in_words(found, full_mm))};
   DataTable heads{"heads", {"panel", "title", "note"}, {}};
   DataTable points{"points", {"panel", "name", "x_mm", "y_mm", "value_mm", "is_bad"}, {}};
   for (std::size_t k = 0; k < panels.size(); ++k) {
@@ -128,7 +128,7 @@ Chart strip_chart(const Diagnosis& found,
     std::string note = fmt::format("rms {:.2f} mm", rms(found, panel.residual, chain));
     if (panel.residual == &PointPicture::best_mm || panel.residual == &PointPicture::rival_mm) {
       note += fmt::format(
-          ", alike to {}",
+          ", the same to {}",
           fixed(correlation(found, &PointPicture::chain_before_mm, panel.residual, chain), 2));
     }
     heads.rows.push_back({static_cast<double>(k), panel.title, note});
@@ -142,7 +142,7 @@ Chart strip_chart(const Diagnosis& found,
     }
   }
   chart.data = {std::move(heads), std::move(points)};
-  chart.signals = report::bed_signals(sheet_of(found), arrows_of(found, &PointPicture::before_mm));
+  chart.signals = report::bed_signals(measured_sheet(found), arrows_of(found, &PointPicture::before_mm));
   chart.signals.push_back({"largest_mm", std::max(full_mm, 1e-6)});
   chart.signals.push_back({"panels", static_cast<double>(panels.size())});
   return chart;
@@ -152,15 +152,15 @@ Chart strip_chart(const Diagnosis& found,
 
 std::vector<report::ChartRow> arrow_charts(const Diagnosis& found) {
   return report::arrow_rows(
-      sheet_of(found),
+      measured_sheet(found),
       arrows_of(found, &PointPicture::before_mm),
       found.causes.empty() ? std::vector<Arrow>{} : arrows_of(found, &PointPicture::after_mm),
       {"Before: the machine calibrated",
        "From where the tool should be to where it was. Grey: one sigma of the noise at that mark. "
        "Ringed: bad points.",
        "After: with what was named, same scale",
-       "Arrows of the size of their grey ellipse, in all directions, are noise; neighbours that "
-       "point the same way are something not explained."});
+       "Arrows no longer than their grey ellipse, in all directions, are noise; neighbours that "
+       "point the same way are an error not explained."});
 }
 
 std::vector<Chart> strip_charts(const Diagnosis& found) {
@@ -192,7 +192,7 @@ Chart next_points_chart(const Diagnosis& found) {
                          percent(place.raises_probability_to)});
   }
   chart.data = {std::move(measured), std::move(next)};
-  chart.signals = report::bed_signals(sheet_of(found), marks);
+  chart.signals = report::bed_signals(measured_sheet(found), marks);
   return chart;
 }
 

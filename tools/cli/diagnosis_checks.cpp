@@ -59,11 +59,11 @@ std::string verdict_without(const Removal& removal) {
 
 Chart support_chart(const Diagnosis& found) {
   Chart chart{.specification = "name_support",
-              .title = "How much of the name rests on each point",
+              .title = "How much each point counts for the name",
               .caption =
-                  "Blue: the name would be less sure without the point; vermilion: surer. "
-                  "The area is by how many powers of e its odds change. A dark rim: without "
-                  "this point the verdict would not name the same."};
+                  "Blue: without the point the name would be less sure; vermilion: surer. Area: "
+                  "natural logarithm of the change in its odds. A dark rim: without this point the "
+                  "name would change."};
   constexpr std::size_t kLabels = 3;
   std::vector<const Removal*> points;
   for (const Removal& removal : found.stability->removals) {
@@ -117,12 +117,12 @@ Table removals_table(const Diagnosis& found) {
   order.resize(std::min(order.size(), kShown + static_cast<std::size_t>(changes)));
   Table table{{{"left out"},
                {std::string(name(found.observations)), true},
-               {"what is named then has", true},
+               {"probability then", true},
                {"its odds fall by a factor of", true},
-               {"the verdict then names"}},
+               {"named then"}},
               {},
-              fmt::format("With all {} it has {}. Shown are those that change the verdict, and "
-                          "of the others the {} on which most rests.",
+              fmt::format("With all {} it has {}. Shown: those that change the verdict, and the {} "
+                          "others that count most.",
                           name(found.observations),
                           percent(found.stability->probability),
                           kShown)};
@@ -207,8 +207,8 @@ Chart waves_chart(const Diagnosis& found, const Waves& waves, Side chain) {
   Chart chart{.specification = "periodogram",
               .title = fmt::format("Waves along the {} chain", chain_name(chain)),
               .caption = chain == Side::left
-                             ? "Noise alone passes the broken line, anywhere, in one of a "
-                               "hundred sessions. Long waves are any smooth error."
+                             ? "Noise alone crosses the broken line, anywhere, in 1 of 100 "
+                               "sessions. Any smooth error shows as long waves."
                              : ""};
   DataTable table{"waves", {"period_mm", "before", "after"}, {}};
   double top = waves.level;
@@ -242,7 +242,7 @@ std::string at_known_periods(const Diagnosis& found, const Series& series, Side 
   const auto [turn, turn_chance] = part(turn_mm(found));
   const auto [link, link_chance] = part(found.extended_machine.sprocket.pitch_mm);
   return fmt::format(
-      "Of what is left of the {} chain, a wave of one sprocket turn ({:g} mm) takes {} (as much by "
+      "What is left of the {} chain: a wave of one sprocket turn ({:g} mm) is {} of it (as much by "
       "chance: {}), one of a link ({:g} mm) {} ({}).",
       chain_name(chain),
       turn_mm(found),
@@ -309,7 +309,7 @@ Section waves_section(const Diagnosis& found) {
       row.charts.push_back(waves_chart(found, waves, chain));
     } else {
       section.blocks.emplace_back(Paragraph{fmt::format(
-          "No wave along the {} chain, of any period, stands out of noise.", chain_name(chain))});
+          "No wave of any length on the {} chain stands out from noise.", chain_name(chain))});
     }
     section.blocks.emplace_back(Paragraph{at_known_periods(found, series, chain)});
   }
@@ -320,23 +320,22 @@ Section waves_section(const Diagnosis& found) {
 Section normal_section(const Diagnosis& found) {
   const NormalPlot& plot = *found.normal_plot;
   const bool is_normal = plot.p_value >= kSurprising;
-  Section section{.title = "Is what is left as noise would be?", .is_folded = is_normal};
+  Section section{.title = "Is what is left only noise?", .is_folded = is_normal};
   section.blocks.emplace_back(Paragraph{fmt::format(
-      "{} Its size is {:.2f} times the stated noise.",
-      is_normal ? fmt::format("The shape of what is left is that of normal noise (a shape as odd "
-                              "by chance: {}).",
+      "{} Its size is {:.2f} times what you said the readings are good to.",
+      is_normal ? fmt::format("What is left is spread as normal noise is (as odd by chance: {}).",
                               share_percent(plot.p_value))
-                : fmt::format("What is left does not have the shape of normal noise (by chance: "
-                              "{}): too many large ones are slips or a few bad points, and bounds "
-                              "and chances on this page are then too small.",
+                : fmt::format("What is left is not spread as normal noise is (by chance: {}): too "
+                              "many large errors are slips or a few bad points; bounds and chances "
+                              "on this page are then too small.",
                               share_percent(plot.p_value)),
       found.noise_factor)});
-  Chart chart{.specification = "normal_plot",
-              .title = "What is left, against normal noise",
-              .caption = fmt::format(
-                  "{}, in units of their own rms. The band holds all dots in 95 of 100 sessions of "
-                  "noise.",
-                  what_is_plotted(found))};
+  Chart chart{
+      .specification = "normal_plot",
+      .title = "What is left, against normal noise",
+      .caption = fmt::format(
+          "{}, divided by their rms. In 95 of 100 sessions of noise all dots lie in the band.",
+          what_is_plotted(found))};
   DataTable table{"quantiles", {"value", "expected", "low", "high"}, {}};
   double reach = 2.5;
   double expected = 2.0;

@@ -45,7 +45,7 @@ constexpr VerdictLights kVerdicts[] = {
     {Verdict::noise_larger_than_stated,
      Tone::caution,
      Tone::caution,
-     "noise, larger than stated",
+     "readings, worse than you said",
      Tone::caution,
      "no cause"},
     {Verdict::outliers, Tone::caution, Tone::caution, "bad points", Tone::caution, "no cause"},
@@ -105,16 +105,28 @@ void put_the_verdict(const Diagnosis& found, report::Document& document) {
     document.not_proved = {"What this does not prove: " + found.not_proved};
 }
 
-/// Those without anything to show are left out, and those of the page where none is asked for.
+/// Those without anything to show are left out, and those of the page where none is asked for. Folded:
+/// what the answer rests on.
 class Sections {
  public:
   Sections(std::vector<Section>& sections, Detail detail) : sections_(sections), detail_(detail) {}
-  void add(bool has_any, Section (*section)(const Diagnosis&), const Diagnosis& found) {
+  void add_open(bool has_any, Section (*section)(const Diagnosis&), const Diagnosis& found) {
     if (has_any) sections_.push_back(section(found));
   }
+  void add(bool has_any, Section (*section)(const Diagnosis&), const Diagnosis& found) {
+    add_open(has_any, section, found);
+    if (has_any) sections_.back().is_folded = true;
+  }
   void add_to_page(bool has_any, Section (*section)(const Diagnosis&), const Diagnosis& found) {
+    add_open_to_page(has_any, section, found);
+    if (has_any && detail_ == Detail::page) sections_.back().is_folded = true;
+  }
+  /// Folded or not as the section itself says.
+  void add_open_to_page(bool has_any,
+                        Section (*section)(const Diagnosis&),
+                        const Diagnosis& found) {
     if (!has_any || detail_ != Detail::page) return;
-    add(true, section, found);
+    add_open(true, section, found);
     sections_.back().detail = Detail::page;
   }
 
@@ -128,19 +140,24 @@ void add_sections(const Diagnosis& found, Detail detail, std::vector<Section>& a
   const bool named = !found.causes.empty();
   Sections sections(all, detail);
   sections.add(found.budget && !found.budget->lines.empty(), budget_section, found);
-  sections.add(found.trend.has_value(), trend_section, found);
-  sections.add(named, causes_section, found);
-  sections.add_to_page(found.belts.has_value(), frame_section, found);
+  sections.add_open(found.trend.has_value(), trend_section, found);
+  sections.add_open(named, causes_section, found);
+  sections.add_open_to_page(found.belts.has_value(), frame_section, found);
   sections.add(found.belts.has_value(), anchors_section, found);
   sections.add(found.belts.has_value(), belts_improvement_section, found);
-  sections.add_to_page(has_readings, arrows_section, found);
+  // Where there is no cause to draw, the errors themselves are the picture.
+  if (named) {
+    sections.add_to_page(has_readings, arrows_section, found);
+  } else {
+    sections.add_open_to_page(has_readings, arrows_section, found);
+  }
   sections.add_to_page(has_readings && named, signature_section, found);
   sections.add(found.improvement.has_value(), improvement_section, found);
   sections.add(found.transferred.has_value(), transfer_section, found);
-  sections.add(!found.next_measurements.empty(), next_section, found);
+  sections.add_open(!found.next_measurements.empty(), next_section, found);
   sections.add_to_page(has_readings, residuals_section, found);
   sections.add(!found.hypotheses.empty(), probabilities_section, found);
-  sections.add_to_page(found.stability.has_value(), stability_section, found);
+  sections.add_open_to_page(found.stability.has_value(), stability_section, found);
   sections.add_to_page(waves_can_be_sought(found), waves_section, found);
   sections.add_to_page(found.normal_plot.has_value(), normal_section, found);
   sections.add_to_page(!found.terms.empty(), terms_section, found);
@@ -165,6 +182,7 @@ report::Document diagnosis_document(const Diagnosis& found,
   put_the_verdict(found, document);
   add_sections(found, detail, document.sections);
   document.remarks = remarks_section(found);
+  document.remarks.is_folded = true;
   document.has_glossary = true;
   document.provenance =
       fmt::format("Made from {} by chaintrue {}; seed {}.", source, CHAINTRUE_VERSION, found.seed);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tools/cli/diagnosis_charts.hpp"
+#include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -20,18 +21,19 @@ using report::Table;
 using report::Tone;
 
 std::string border_sentence(const grid::diagnosis::HeldOutImprovement& improvement) {
-  const char* outermost = is_improvement_of_distances(improvement) ? "the distances that end at an outermost hole"
-                                                     : "the outermost points";
+  const char* outermost = is_improvement_of_distances(improvement)
+                              ? "the distances that end at an outermost hole"
+                              : "the outermost points";
   return improvement.border.calibrated_mm > 0.0
-             ? fmt::format("At the border {} were held out.", outermost)
+             ? fmt::format("At the border {} were left out.", outermost)
              : fmt::format("No error at the border is given: without {} too few would be left.",
                            outermost);
 }
 
 std::vector<ImprovementRow> transfer_rows(const grid::diagnosis::Diagnosis& diagnosis) {
   const grid::diagnosis::Transfer& transfer = *diagnosis.transferred;
-  std::vector<ImprovementRow> rows = {{"as delivered", &transfer.uncalibrated, {}},
-                               {"calibrated", &transfer.calibrated, {}}};
+  std::vector<ImprovementRow> rows = {{"uncorrected, at these points", &transfer.uncalibrated, {}},
+                                      {"calibrated", &transfer.calibrated, {}}};
   if (!diagnosis.causes.empty()) {
     rows.push_back({"with the cause", &transfer.extended, {}});
     rows.push_back({"with the cause and a surface", &transfer.extended_and_surface, {}});
@@ -41,21 +43,22 @@ std::vector<ImprovementRow> transfer_rows(const grid::diagnosis::Diagnosis& diag
   return rows;
 }
 
-Table error_table(const std::vector<ImprovementRow>& rows, double floor_mm, std::string_view readings) {
-  Table table{.columns = {{.page_heading = "model", .width = 32},
-                          {.heading = "rms", .is_number = true, .page_heading = "rms, mm", .width = 7},
-                          {.heading = "90 % interval", .is_number = true, .width = 15},
-                          {.heading = "95 % of",
-                           .is_number = true,
-                           .page_heading = fmt::format("95 % of {} below", readings),
-                           .width = 9}}};
-  const bool has_border =
-      std::any_of(rows.begin(), rows.end(), [](const ImprovementRow& row) { return row.border_mm; });
+Table error_table(const std::vector<ImprovementRow>& rows,
+                  double floor_mm,
+                  std::string_view readings) {
+  Table table{
+      .columns = {{.page_heading = "model", .width = 32},
+                  {.heading = "rms", .is_number = true, .page_heading = "rms, mm", .width = 7},
+                  {.heading = "90 % interval", .is_number = true, .width = 15},
+                  {.heading = "95 % of",
+                   .is_number = true,
+                   .page_heading = fmt::format("95 % of {} below", readings),
+                   .width = 9}}};
+  const bool has_border = std::any_of(
+      rows.begin(), rows.end(), [](const ImprovementRow& row) { return row.border_mm; });
   if (has_border) {
-    table.columns.push_back({.heading = "border",
-                             .is_number = true,
-                             .page_heading = "at the border, rms",
-                             .width = 9});
+    table.columns.push_back(
+        {.heading = "border", .is_number = true, .page_heading = "at the border, rms", .width = 9});
   }
   for (const ImprovementRow& row : rows) {
     const grid::diagnosis::HeldOut& error = *row.held_out;
@@ -77,27 +80,33 @@ bool is_improvement_of_distances(const grid::diagnosis::HeldOutImprovement& impr
 
 std::vector<ImprovementRow> improvement_rows(const grid::diagnosis::Diagnosis& diagnosis) {
   const grid::diagnosis::HeldOutImprovement& improvement = *diagnosis.improvement;
-  std::vector<ImprovementRow> rows = {{"as delivered", &improvement.uncalibrated, {}}};
-  if (improvement.placed) rows.push_back({"as delivered, sheet placed", &*improvement.placed, {}});
+  std::vector<ImprovementRow> rows = {
+      {is_improvement_of_distances(improvement) ? "uncorrected" : "uncorrected, at these points",
+       &improvement.uncalibrated,
+       {}}};
+  if (improvement.placed) rows.push_back({"uncorrected, sheet placed", &*improvement.placed, {}});
   // Nothing was held out there where too few would have been left.
   const auto border = [&](double mm) {
     return improvement.border.calibrated_mm > 0.0 ? std::optional(mm) : std::nullopt;
   };
   rows.push_back({"calibrated", &improvement.calibrated, border(improvement.border.calibrated_mm)});
   if (!diagnosis.causes.empty()) {
-    rows.push_back({"with the cause", &improvement.extended, border(improvement.border.extended_mm)});
+    rows.push_back(
+        {"with the cause", &improvement.extended, border(improvement.border.extended_mm)});
     rows.push_back({"with the cause and a surface",
                     &improvement.extended_and_surface,
                     border(improvement.border.extended_and_surface_mm)});
   }
-  rows.push_back({"a surface only", &improvement.surface_only, border(improvement.border.surface_only_mm)});
+  rows.push_back(
+      {"a surface only", &improvement.surface_only, border(improvement.border.surface_only_mm)});
   return rows;
 }
 
 Light corrected_light(const Diagnosis& found) {
   constexpr double kNearTheNoise = 1.25, kFarFromIt = 2.0;
   if (!found.improvement) return {Tone::caution, "Corrected?", "not measured"};
-  const double before_mm = found.improvement->calibrated.rms_mm, after_mm = found.improvement->extended.rms_mm;
+  const double before_mm = found.improvement->calibrated.rms_mm,
+               after_mm = found.improvement->extended.rms_mm;
   const double floor_mm = found.improvement->noise_floor_mm;
   const Tone tone = after_mm <= kNearTheNoise * floor_mm ? Tone::good
                     : after_mm <= kFarFromIt * floor_mm  ? Tone::caution
@@ -112,18 +121,25 @@ Light corrected_light(const Diagnosis& found) {
 std::vector<report::Figure> figures_of_improvement(const Diagnosis& found) {
   if (!found.improvement) return {};
   const auto& improvement = *found.improvement;
-  std::vector<report::Figure> figures = {
-      {fmt::format("{:.2f} mm", improvement.uncalibrated.rms_mm), "rms as the machine was stated"}};
-  if (improvement.placed)
-    figures.push_back({fmt::format("{:.2f} mm", improvement.placed->rms_mm), "once the sheet is placed"});
-  figures.push_back({fmt::format("{:.2f} mm", improvement.calibrated.rms_mm), "with settings calibrated"});
+  std::vector<report::Figure> figures;
+  if (found.tool_today) {
+    figures.push_back({fmt::format("{} mm", about_mm(found.tool_today->rms_mm)), kToolTodayLabel});
+  } else {
+    figures.push_back({fmt::format("{:.2f} mm", improvement.uncalibrated.rms_mm),
+                       "uncorrected, rms at these points"});
+  }
+  const char* left_out = is_improvement_of_distances(improvement) ? "rms of distances left out"
+                                                                  : "rms at points left out";
+  figures.push_back({fmt::format("{:.2f} mm", improvement.calibrated.rms_mm),
+                     fmt::format("with settings calibrated, {}", left_out)});
   if (!found.causes.empty()) {
     figures.push_back({fmt::format("{:.2f} mm", improvement.extended.rms_mm),
                        fmt::format("with the cause (90 %: {:.2f} to {:.2f})",
                                    improvement.extended.low_mm,
                                    improvement.extended.high_mm)});
   }
-  figures.push_back({fmt::format("{:.2f} mm", improvement.noise_floor_mm), "noise of the readings"});
+  figures.push_back(
+      {fmt::format("{:.2f} mm", improvement.noise_floor_mm), "noise of the readings"});
   return figures;
 }
 
@@ -131,26 +147,25 @@ Section improvement_section(const Diagnosis& found) {
   const auto& improvement = *found.improvement;
   const bool of_distances = is_improvement_of_distances(improvement);
   const bool has_border = improvement.border.calibrated_mm > 0.0;
-  return {of_distances ? "Error of distances held out, mm"
-                       : "Error of the tool at points held out, mm",
-          {improvement_chart(found),
-           error_table(
-               improvement_rows(found), improvement.noise_floor_mm, of_distances ? "distances" : "points"),
-           Paragraph{fmt::format("{}; the same cause was named in {} of {} folds.",
-                                 improvement.scheme,
-                                 improvement.folds_agree,
-                                 improvement.folds)},
-           Paragraph{border_sentence(improvement), has_border ? Detail::page : Detail::always}}};
+  return {
+      of_distances ? "Error of distances left out, mm" : "Error of the tool at points left out, mm",
+      {improvement_chart(found),
+       error_table(improvement_rows(found),
+                   improvement.noise_floor_mm,
+                   of_distances ? "distances" : "points"),
+       Paragraph{fmt::format("{}; the same cause was named {} of {} times.",
+                             improvement.scheme,
+                             improvement.folds_agree,
+                             improvement.folds)},
+       Paragraph{border_sentence(improvement), has_border ? Detail::page : Detail::always}}};
 }
 
 Section transfer_section(const Diagnosis& found) {
   const auto& other = *found.transferred;
   Table table = error_table(transfer_rows(found), other.noise_floor_mm, "points");
-  table.caption =
-      "Nothing was fitted to these points but, where the sheet was placed by hand, its place.";
-  return {fmt::format("Error of the tool on \"{}\", {} points that had no part in this, mm",
-                      other.to,
-                      other.points),
+  table.caption = "Not fitted to these points, except for the place of a sheet laid by hand.";
+  return {fmt::format(
+              "Error of the tool on \"{}\", {} points not used here, mm", other.to, other.points),
           {std::move(table)}};
 }
 

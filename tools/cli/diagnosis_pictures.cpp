@@ -21,8 +21,8 @@ Section arrows_section(const Diagnosis& found) {
 Section signature_section(const Diagnosis& found) {
   Section section{"Why this cause", {}};
   section.blocks.emplace_back(Paragraph{
-      "What was measured beside what the cause makes of it, once the settings have taken what they "
-      "can. A cause is right where its picture is the measured one and only noise is left."});
+      "What was measured, next to what the cause would do, once the settings have taken up what "
+      "they can. The cause is right if both pictures agree and only noise is left."});
   for (report::Chart& chart : strip_charts(found)) section.blocks.emplace_back(std::move(chart));
   if (!found.distances.empty()) section.blocks.emplace_back(distance_strip_chart(found));
   return section;
@@ -32,9 +32,9 @@ Section residuals_section(const Diagnosis& found) {
   Section section{"What the error follows", {}};
   if (is_of_distances(found)) {
     section.blocks.emplace_back(distance_scatter_charts(found));
-    section.blocks.emplace_back(Paragraph{
-        "Distances know neither the chain's length at a hole nor in which order the holes were "
-        "cut, so drift, skipped links and friction cannot be looked for."});
+    section.blocks.emplace_back(
+        Paragraph{"Distances do not show the chain's length at a hole or the order of the holes, "
+                  "so drift, skipped links and friction cannot be looked for."});
     return section;
   }
   for (report::ChartRow& row : length_charts(found)) section.blocks.emplace_back(std::move(row));

@@ -23,8 +23,8 @@ using model::Side;
 using report::Chart;
 using report::DataTable;
 
-constexpr const char* kPaidOutColor = "#009e73";
-constexpr const char* kTakenInColor = "#cc79a7";
+constexpr const char* kPaidOutColor = report::kThirdColor;
+constexpr const char* kTakenInColor = report::kFourthColor;
 
 /// A number of a point, for one of the chains.
 using OfChain = std::function<double(const PointPicture&, Side chain)>;
@@ -143,7 +143,7 @@ std::vector<report::ChartRow> length_charts(const Diagnosis& found) {
                   .x_title = "chain length, mm",
                   .x = length_mm,
                   .chain = chain};
-    Scatter folded{.title = fmt::format("Folded at one sprocket turn ({:g} mm)", turn_mm),
+    Scatter folded{.title = fmt::format("Over one sprocket turn ({:g} mm)", turn_mm),
                    .caption = "",
                    .x_title = "mm past a full turn",
                    .x =
@@ -154,8 +154,8 @@ std::vector<report::ChartRow> length_charts(const Diagnosis& found) {
                    .chain = chain};
     if (chain == Side::right) {
       plain.caption =
-          "A slope is a chain too long or short; a step is a skipped link. The line runs through "
-          "the means of the dots before.";
+          "A slope is a chain too long or short; a step is a skipped link. The line joins the "
+          "means of the calibrated dots.";
       folded.caption = "A wave is a sprocket that runs out of true.";
     }
     rows.push_back({{scatter_chart(found, plain), scatter_chart(found, folded)}});

@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "grid/diagnosis/trend.hpp"
+#include "tools/cli/cause_pictures.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -39,7 +41,7 @@ std::string what_words(const BudgetLine& line) {
     case BudgetLine::What::inseparable:
       break;
   }
-  return "in common, cannot be split";
+  return "";
 }
 
 std::string changes_words(const BudgetLine& line) {
@@ -58,16 +60,18 @@ std::string changes_words(const BudgetLine& line) {
 
 std::string budget_words(const Diagnosis& found) {
   const bool of_distances = is_of_distances(found);
+  const std::string today =
+      found.tool_today ? fmt::format("Your machine misses by about {} mm over the measured part. ",
+                                     about_mm(found.tool_today->rms_mm))
+                       : "";
   return fmt::format(
-      "As delivered the {} {:.2f} mm rms at these {}. The shares are of its square and add up; what "
-      "two parts have in common at these {} belongs to neither.{}",
+      "{}The parts are counted at these {} alone: there the {} {:.2f} mm rms, uncorrected. The "
+      "second number is what would be left with this part alone taken away.{}",
+      today,
+      name(found.observations),
       of_distances ? "distances erred by" : "tool erred by",
       found.budget->uncalibrated_mm,
-      name(found.observations),
-      name(found.observations),
-      of_distances ? ""
-                   : " The last column is how much a part of 100 mm comes out wrong in the worst "
-                     "corner.");
+      of_distances ? "" : " The part of 100 mm: how far it comes out wrong in the worst corner.");
 }
 
 /// What became of a term, in one word.
@@ -87,20 +91,23 @@ std::string fate_of(const Diagnosis& found, const grid::diagnosis::Term& term) {
 Section budget_section(const Diagnosis& found) {
   Table table{.columns = {{.page_heading = "part", .width = 38},
                           {.heading = "rms, mm", .is_number = true, .width = 8},
-                          {.heading = "share", .is_number = true, .width = 7},
+                          {.heading = "without it",
+                           .is_number = true,
+                           .page_heading = "left without it, mm",
+                           .width = 12},
                           {.heading = "part of 100 mm",
                            .is_number = true,
                            .page_heading = "a part of 100 mm, mm",
                            .width = 16},
                           {.heading = "changes with", .gap = 3}}};
   for (const BudgetLine& line : found.budget->lines) {
-    const bool is_a_part = line.what != BudgetLine::What::inseparable;
-    table.rows.push_back(
-        {{what_words(line),
-          is_a_part ? std::optional(std::sqrt(line.mean_square_mm2)) : std::nullopt,
-          fmt::format("{:.0f} %", 100.0 * line.share + 0.0),
-          line.part_mm,
-          changes_words(line)}});
+    // What two parts have in common is none, and may be negative.
+    if (line.what == BudgetLine::What::inseparable) continue;
+    table.rows.push_back({{what_words(line),
+                           std::sqrt(line.mean_square_mm2),
+                           line.without_mm,
+                           line.part_mm,
+                           changes_words(line)}});
   }
   return {"What the error is made of", {std::move(table), Paragraph{budget_words(found)}}};
 }
@@ -115,9 +122,9 @@ Section trend_section(const Diagnosis& found) {
   }
   if (found.trend->changes.empty()) say("Neither diagnosis names a cause that both could test.");
   if (found.trend->uncalibrated_before_mm && found.trend->uncalibrated_mm) {
-    say(fmt::format("The error as delivered is {:.2f} mm rms, before {:.2f} mm.",
-                    *found.trend->uncalibrated_mm,
-                    *found.trend->uncalibrated_before_mm));
+    say(fmt::format("Uncorrected, the machine misses by about {} mm, before by about {} mm.",
+                    about_mm(*found.trend->uncalibrated_mm),
+                    about_mm(*found.trend->uncalibrated_before_mm)));
   }
   return section;
 }
@@ -130,7 +137,7 @@ Section causes_section(const Diagnosis& found) {
                          cause_title(cause.cause),
                          sizes_in_words(cause.cause, cause.parameters),
                          percent(cause.probability),
-                         cause.order_assumed ? ", the visiting order being assumed" : "")});
+                         cause.order_assumed ? ", order of visits assumed" : "")});
     item.items = {{std::string(cause.cause.effect->cause)},
                   {fmt::format("remedy: {}", cause.cause.effect->remedy)}};
     for (const auto& same : cause.same_as) {
@@ -141,10 +148,13 @@ Section causes_section(const Diagnosis& found) {
                             {{fmt::format("remedy: {}", same.cause.effect->remedy)}}});
     }
   }
-  return {found.verdict == Verdict::named_set ? "One of these causes"
-          : found.causes.size() > 1           ? "Causes"
-                                              : "Cause",
-          {std::move(list)}};
+  Section section{found.verdict == Verdict::named_set ? "One of these causes"
+                  : found.causes.size() > 1           ? "Causes"
+                                                      : "Cause",
+                  {std::move(list)}};
+  if (auto charts = cause_charts(found); !charts.empty())
+    section.blocks.emplace_back(report::ChartRow{std::move(charts)});
+  return section;
 }
 
 Section probabilities_section(const Diagnosis& found) {
@@ -161,33 +171,35 @@ Section probabilities_section(const Diagnosis& found) {
 }
 
 Section terms_section(const Diagnosis& found) {
-  Table table{{{"cause"},
-               {"size, were it alone"},
-               {"strength", true, 1},
-               {"share left", true},
-               {"chance of noise", true},
-               {"probability", true},
-               {"verdict"}},
-              {},
-              "Strength in units of noise. Share left: what the calibration of the settings leaves "
-              "of the cause. Chance of noise: that noise alone lets any cause look as strong."};
+  Table table{
+      {{"cause"},
+       {"size if alone"},
+       {"strength", true, 1},
+       {"share left", true},
+       {"chance of noise", true},
+       {"probability", true},
+       {"verdict"}},
+      {},
+      "Strength in units of noise. Share left: how much of the cause no setting can take up. "
+      "Chance of noise (causes not named): that noise alone lets any cause look as strong."};
   for (const auto& term : found.terms) {
     const std::string fate = fate_of(found, term);
+    const bool is_named = fate == "named" || fate == "in the set";
     table.rows.push_back({{cause_title(term.cause),
                            size_in_words(term.cause, term.parameter, term.value, term.sigma),
                            term.signal_to_noise,
                            share_percent(term.share_left),
-                           share_percent(term.p_value),
+                           is_named ? std::string() : share_percent(term.p_value),
                            percent(term.probability),
                            fate},
-                          fate == "named" || fate == "in the set"});
+                          is_named});
   }
   return {"Every cause that was tested", {std::move(table)}};
 }
 
 Section separation_section(const Diagnosis& found) {
   Table table{
-      {{"cause"}, {"and"}, {"alike to", true, 3}, {"told apart from a strength of", true, 1}},
+      {{"cause"}, {"and"}, {"the same to", true, 3}, {"strength to tell apart", true, 1}},
       {},
       "Strength in units of noise; at that strength 95 of 100 such machines are named right. The "
       "strengths found here are in the table of every cause."};

@@ -24,22 +24,22 @@ struct Words {
 
 constexpr Words kHypotheses[] = {{"nothing", "nothing hidden"},
                                  {"unknown", "an unknown pattern"},
-                                 {"noise", "noise larger than stated"},
+                                 {"noise", "readings worse than you said"},
                                  {"bad_points", "bad points alone"}};
 
 /// A reading is of so many of what the file asks for, in this unit.
 struct ReadingUnit {
-  std::string_view what;
+  grid::ReadingOf what;
   double count;
   std::string_view unit;
 };
-constexpr ReadingUnit kReadings[] = {{"motor_spacing_mm", 1.0, "mm"},
-                                     {"beam_rise_mm", 1.0, "mm"},
-                                     {"ring_radius_mm", 1.0, "mm"},
-                                     {"sled_mass_kg", 1.0, "kg"},
-                                     {"link_pitch_mm", 100.0, "mm"},
-                                     {"chain_mass_kg_per_m", 1.0, "kg"},
-                                     {"tape_error_mm_per_m", 1.0, "mm a metre"}};
+constexpr ReadingUnit kReadings[] = {{grid::ReadingOf::motor_spacing, 1.0, "mm"},
+                                     {grid::ReadingOf::beam_rise, 1.0, "mm"},
+                                     {grid::ReadingOf::ring_radius, 1.0, "mm"},
+                                     {grid::ReadingOf::sled_mass, 1.0, "kg"},
+                                     {grid::ReadingOf::link_pitch, 100.0, "mm"},
+                                     {grid::ReadingOf::chain_mass, 1.0, "kg"},
+                                     {grid::ReadingOf::tape_error, 1.0, "mm a metre"}};
 
 std::string spaced(std::string_view id) {
   std::string text(id);
@@ -61,21 +61,21 @@ bool same_place(const NextMeasurement& a, const NextMeasurement& b) {
 
 std::string reading_in_words(const NextMeasurement& next) {
   std::string text =
-      fmt::format("Measure {}", grid::diagnosis::reading_words(next.what, next.side));
+      fmt::format("Measure {}", grid::diagnosis::reading_words(*next.reading, next.side));
   const auto* known = std::find_if(std::begin(kReadings),
                                    std::end(kReadings),
-                                   [&](const auto& one) { return one.what == next.what; });
+                                   [&](const auto& one) { return one.what == *next.reading; });
   if (known == std::end(kReadings)) return text + ".";
   if (next.sigma > 0.0) text += fmt::format(", to {:g} {}", known->count * next.sigma, known->unit);
-  if (known->count > 1.0) text += fmt::format("; a {:g}th of it goes into the file", known->count);
+  if (known->count > 1.0) text += fmt::format("; divide it by {:g} for the file", known->count);
   return text + ".";
 }
 
 /// `again`: an earlier one is at the same place.
 std::string follow_up_in_words(const NextMeasurement& next, bool again, bool by_belts) {
   if (next.kind == MeasurementKind::reading) return reading_in_words(next);
-  if (next.kind == MeasurementKind::distance) return capitalised(next.what) + ".";
-  std::string text = again && !by_belts ? "the same place, the sled set down anew" : next.what;
+  if (next.kind == MeasurementKind::distance) return capitalised(next.words) + ".";
+  std::string text = again && !by_belts ? "the same place, the sled lifted first" : next.words;
   if (text.empty() || text.back() != '.') text += '.';
   if (!next.mark) return text;
   const std::string place =
@@ -148,7 +148,8 @@ std::string distance_name(const grid::diagnosis::Diagnosis& found, std::size_t i
 }
 
 std::string off_in_words(double residual_mm) {
-  return fmt::format("{:.1f} mm too {}", std::abs(residual_mm), residual_mm > 0.0 ? "long" : "short");
+  return fmt::format(
+      "{:.1f} mm too {}", std::abs(residual_mm), residual_mm > 0.0 ? "long" : "short");
 }
 
 std::string size_in_words(const grid::diagnosis::CauseId& cause,
@@ -186,8 +187,8 @@ std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
         share_percent(left_over.p_value));
   }
   std::string text = fmt::format(
-      "Something is left over that noise does not explain: its strength is {:.1f} in units of "
-      "noise, and noise alone leaves as much in {} of cases.",
+      "More is left over than noise explains: {:.1f} times the noise, and noise alone leaves as "
+      "much in {} of cases.",
       left_over.signal_to_noise,
       share_percent(left_over.p_value));
   if (!left_over.follows.empty()) {
@@ -201,10 +202,9 @@ std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
 std::string chance_then(const grid::diagnosis::Diagnosis& diagnosis, std::size_t position) {
   const NextMeasurement& next = diagnosis.next_measurements.at(position);
   if (diagnosis.belts && next.kind == MeasurementKind::distance) return "";
-  return fmt::format(
-      " {} then has probability {}.",
-      diagnosis.causes.empty() ? "One explanation alone" : "A single right name",
-      percent(next.raises_probability_to));
+  return fmt::format(" {} then has probability {}.",
+                     diagnosis.causes.empty() ? "One explanation alone" : "A single right name",
+                     percent(next.raises_probability_to));
 }
 
 std::vector<std::string> follow_ups_in_words(const grid::diagnosis::Diagnosis& diagnosis) {
@@ -233,7 +233,7 @@ std::vector<FollowUpPlace> follow_up_places(const grid::diagnosis::Diagnosis& di
       known->raises_probability_to = list[i].raises_probability_to;
     } else {
       places.push_back(
-          {fmt::format("{}", i + 1), *list[i].mark, list[i].what, list[i].raises_probability_to});
+          {fmt::format("{}", i + 1), *list[i].mark, list[i].words, list[i].raises_probability_to});
     }
   }
   return places;

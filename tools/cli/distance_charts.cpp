@@ -158,11 +158,11 @@ Chart residual_panels(const Diagnosis& found,
   }
   return drawn.finish(
       {.title = std::move(title),
-       .caption = fmt::format("Vermilion: more was read than predicted; blue: less. The widest "
-                              "lines are off by {:.2f} mm; one sigma of the noise is up to {:.2f} "
-                              "mm. Dashed: set aside.",
-                              full_mm,
-                              noise_mm)});
+       .caption = fmt::format(
+           "Vermilion: more was read than predicted; blue: less. The widest lines are off by "
+           "{:.2f} mm; one sigma of the noise is up to {:.2f} mm. Dashed: left out.",
+           full_mm,
+           noise_mm)});
 }
 
 /// Dots of one kind against something of the distance.
@@ -231,7 +231,7 @@ Chart distance_chart(const Diagnosis& found) {
       {"Before: the machine calibrated", &DistancePicture::before_mm}};
   if (!found.causes.empty())
     panels.push_back({"After: with what was named", &DistancePicture::after_mm});
-  return residual_panels(found, panels, "The distances, as read less as predicted");
+  return residual_panels(found, panels, "The distances, read minus expected");
 }
 
 Chart distance_strip_chart(const Diagnosis& found) {
@@ -256,7 +256,7 @@ report::ChartRow distance_scatter_charts(const Diagnosis& found) {
                           "distance, mm",
                           [](const DistancePicture& d, const Ends&) { return d.read_mm; }}),
            scatter_chart(found,
-                         {"Against the way it was measured",
+                         {"Against the tape's direction",
                           "",
                           "degrees from the horizontal",
                           [](const DistancePicture&, const Ends& ends) {
@@ -283,7 +283,7 @@ Chart next_distances_chart(const Diagnosis& found) {
     if (next.mark) drawn.hole(number, from);
     for (const std::string& to : next.to)
       drawn.line({from, place_of(found, to, from)},
-                 fmt::format("{} {}", number, next.what),
+                 fmt::format("{} {}", number, next.words),
                  "to be measured",
                  report::kAfterColor,
                  3.0,

@@ -32,7 +32,7 @@ class OptionProblems {
 [[nodiscard]] std::vector<model::AppliedEffect> parse_effect_words(
     const std::vector<std::string>& arguments, OptionProblems& problems);
 
-/// The effects that `--effect` named, checked against the catalogue as effects of `machine` beside
+/// The effects that `--effect` named, checked against the catalogue as effects of `machine` in addition to
 /// its own.
 [[nodiscard]] std::vector<model::AppliedEffect> parse_effects(
     const std::vector<std::string>& arguments,

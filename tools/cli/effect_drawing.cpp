@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/report/bed_chart.hpp"
+
 namespace chaintrue::cli {
 namespace {
 
@@ -18,19 +20,10 @@ constexpr double kWidth = 960.0;
 constexpr double kMargin = 30.0;
 constexpr double kCaption = 26.0;
 
-// The largest of 1, 2, 5 times a power of ten that is not above `value`.
-double round_down(double value) {
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double step : {5.0, 2.0}) {
-    if (step * power <= value) return step * power;
-  }
-  return power;
-}
-
 // Exaggeration that turns the largest shift into about `wanted` units.
 double exaggeration(double largest, double wanted) {
   constexpr double kNothing = 1e-9;
-  return largest > kNothing ? round_down(wanted / largest) : 1.0;
+  return largest > kNothing ? report::round_down_125(wanted / largest) : 1.0;
 }
 
 std::string text_at(double x, double y, const std::string& words) {
@@ -98,7 +91,7 @@ std::string draw_bed(const model::Machine& machine,
   return svg;
 }
 
-std::string draw_square(const ShiftedSquare& square, double left, double top, double size) {
+std::string draw_shifted_square(const ShiftedSquare& square, double left, double top, double size) {
   double largest = 0.0;
   for (const Eigen::Vector2d& shift : square.corner_shift_mm)
     largest = std::max(largest, shift.norm());
@@ -143,7 +136,7 @@ std::string draw_effect(const model::Machine& machine, const EffectPicture& pict
   const double squares_top = bottom + 2.0 * kCaption;
   for (std::size_t i = 0; i < picture.squares.size(); ++i) {
     const double left = 90.0 + static_cast<double>(i) * (kSquareSize + 180.0);
-    body += draw_square(picture.squares[i], left, squares_top, kSquareSize);
+    body += draw_shifted_square(picture.squares[i], left, squares_top, kSquareSize);
   }
   const double height = squares_top + kCaption + kSquareSize + 3.0 * kCaption;
   std::string title = picture.applied.effect;
@@ -156,17 +149,18 @@ std::string draw_effect(const model::Machine& machine, const EffectPicture& pict
              "<title>{}</title>\n"
              "<style>text{{font:14px "
              "sans-serif}}.bed{{fill:none;stroke:#999}}path{{fill:none;stroke-width:1.6}}"
-             ".stated{{stroke:#d55e00;fill:none}}.calibrated{{stroke:#0072b2;fill:none}}</style>\n"
+             ".stated{{stroke:{};fill:none}}.calibrated{{stroke:{};fill:none}}</style>\n"
              "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
              kWidth,
              height,
-             title) +
+             title,
+             report::kBeforeColor,
+             report::kAfterColor) +
          text_at(kMargin, 22.0, title) +
          text_at(kMargin,
                  42.0,
-                 "Where the tool goes, seen from where it was sent: on the machine as stated "
-                 "(orange), once motors and "
-                 "zeros are calibrated (blue)") +
+                 "Where the tool goes, seen from where it was sent: with the machine file as it is "
+                 "(orange), once motors and zeros are calibrated (blue)") +
          body + "</svg>\n";
 }
 

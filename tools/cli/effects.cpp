@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "grid/files/catalogue_file.hpp"
+#include "grid/files/effect_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/synthetic/effect_picture.hpp"
@@ -46,7 +47,17 @@ struct EffectsOptions {
   std::string drawing;
   bool json = false;
   bool markdown = false;
+  /// Files of declared effects.
+  std::vector<std::string> declared;
 };
+
+/// The machine to show an effect on, or any, with what is declared.
+model::Machine machine_of(const EffectsOptions& options) {
+  model::Machine machine =
+      options.machine.empty() ? model::Machine{} : read_machine_input(options.machine);
+  files::declare_effects(options.declared, machine);
+  return machine;
+}
 
 std::string sides_of(const Effect& effect) {
   std::string list;
@@ -57,10 +68,13 @@ std::string sides_of(const Effect& effect) {
   return list;
 }
 
-void list_catalogue() {
+void list_catalogue(const model::Machine& machine) {
   std::string station;
-  for (const Effect* effect : model::effects::catalogue()) {
-    if (name(effect->station) != station) {
+  bool declared = false;
+  for (const Effect* effect : model::effects::effects_of(machine)) {
+    if (effect->law != nullptr && !declared) fmt::print("\ndeclared\n");
+    declared = declared || effect->law != nullptr;
+    if (!declared && name(effect->station) != station) {
       station = name(effect->station);
       fmt::print("{}{}\n", effect == model::effects::catalogue().front() ? "" : "\n", station);
     }
@@ -155,9 +169,9 @@ void print_strengths(const Effect& effect, const synthetic::EffectPicture& pictu
   for (const synthetic::StrengthAt& at : picture.strengths) {
     const synthetic::EffectStrength& s = at.strength;
     std::string nearest =
-        s.nearest
-            ? fmt::format("{} (alike to {:.4f})", rival_words(*s.nearest), s.nearest->collinearity)
-            : "none";
+        s.nearest ? fmt::format(
+                        "{} (the same to {:.4f})", rival_words(*s.nearest), s.nearest->collinearity)
+                  : "none";
     for (const synthetic::Rival& same : s.inseparable) {
       nearest += fmt::format("; never apart from {}", rival_words(same));
     }
@@ -223,9 +237,15 @@ EffectSide chosen_side(const Effect& effect, const std::string& word, OptionProb
 void check_options(const EffectsOptions& options, OptionProblems& problems) {
   if (options.markdown || options.id.empty()) return;
   (void)parse_values(options, problems);
+  // Standard input is read once, and files of effects with it.
+  const bool known_later = !options.declared.empty() || options.machine == "-";
+  const auto is_declared = [&] {
+    return !options.machine.empty() &&
+           model::effects::find_effect(machine_of(options), options.id) != nullptr;
+  };
   if (const Effect* effect = model::effects::find_effect(options.id)) {
     (void)chosen_side(*effect, options.side, problems);
-  } else {
+  } else if (!known_later && !is_declared()) {
     problems.add("effect", options.id, "an effect that `chaintrue effects` lists");
   }
 }
@@ -244,10 +264,11 @@ std::optional<std::string> unreachable(const model::Machine& machine,
         if (reading && reading->position_jacobian.allFinite()) continue;
         return fmt::format(
             "the sled cannot be held at ({:.0f}, {:.0f}) mm of this bed: {}. Look at the left "
-            "motor, stated at ({:.0f}, {:.0f}) mm, and the right one at ({:.0f}, {:.0f}) mm",
+            "motor, which the file puts at ({:.0f}, {:.0f}) mm, and the right one at ({:.0f}, "
+            "{:.0f}) mm",
             visit.position.x_mm,
             visit.position.y_mm,
-            reading ? "the chains do not tell its place" : model::explain(reading.error()),
+            reading ? "the chains do not tell its place" : reading.error().sentence(),
             machine.motors.left.x_mm,
             machine.motors.left.y_mm,
             machine.motors.right.x_mm,
@@ -258,10 +279,12 @@ std::optional<std::string> unreachable(const model::Machine& machine,
   return std::nullopt;
 }
 
-int show_picture(const Effect& effect, const EffectsOptions& options) {
-  const model::Machine machine = read_machine_input(options.machine);
-  OptionProblems sound;  // check_options has seen to it
+int show_picture(const Effect& effect,
+                 const EffectsOptions& options,
+                 const model::Machine& machine) {
+  OptionProblems sound;  // of the catalogue's effects check_options has made sure of it
   const EffectSide side = chosen_side(effect, options.side, sound);
+  sound.throw_if_any();
   const std::vector<double> values = chosen_values(effect, side, options, machine);
   grid::StatedNoise noise;
   noise.length_mm = options.length_noise_mm;
@@ -284,11 +307,11 @@ int show_picture(const Effect& effect, const EffectsOptions& options) {
       "\nOn \"{}\" with {}{}", machine.name, effect.id, side_name.empty() ? "" : " " + side_name);
   for (const auto& [key, value] : picture.applied.parameters)
     fmt::print(", {} = {}", key, short_number(value));
-  fmt::print("\nthe tool goes beside where it is sent by so many mm (marks visited row by row):\n");
+  fmt::print("\nthe tool misses by so many mm (marks visited row by row):\n");
   print_bed(picture, &synthetic::ShiftedMark::as_stated_mm);
   fmt::print("and, once motors and zeros are calibrated on these marks, still by\n");
   print_bed(picture, &synthetic::ShiftedMark::calibrated_mm);
-  fmt::print("\nA square of 100 mm, machine as stated, mm\n");
+  fmt::print("\nA square of 100 mm, with the machine file as it is, mm\n");
   for (const synthetic::ShiftedSquare& square : picture.squares) print_square(square);
   print_strengths(effect, picture);
   return kDone;
@@ -301,15 +324,23 @@ int run_effects(const EffectsOptions& options) {
   }
   if (options.id.empty()) {
     if (!options.json) {
-      list_catalogue();
+      list_catalogue(machine_of(options));
       say_next({"effects", std::string(model::effects::catalogue().front()->id)});
       return kDone;
     }
-    fmt::print("{}", files::write_catalogue());
+    fmt::print("{}", files::write_catalogue(machine_of(options)));
     return kDone;
   }
-  const Effect* effect = model::effects::find_effect(options.id);
-  if (!options.machine.empty()) return show_picture(*effect, options);
+  const model::Machine machine = machine_of(options);
+  const Effect* effect = model::effects::find_effect(machine, options.id);
+  if (effect == nullptr) {
+    OptionProblems problems;
+    problems.add("effect",
+                 options.id,
+                 "an effect that `chaintrue effects` lists, or that --effects declares");
+    problems.throw_if_any();
+  }
+  if (!options.machine.empty()) return show_picture(*effect, options, machine);
   describe(*effect);
   // Shown on a machine, it needs one.
   say_next({"start"});
@@ -335,7 +366,13 @@ void add_effects(Verb app, Run& run) {
   add_output(verb, "--draw", options->drawing, {Origin::drawing}, "Also draw it into this SVG file")
       .needs(machine);
   verb.add_flag("--json", options->json, "For programs");
-  verb.add_flag("--markdown", options->markdown, "The catalogue as docs/effects.md");
+  auto markdown =
+      verb.add_flag("--markdown", options->markdown, "The catalogue as docs/effects.md");
+  add_input(verb,
+            "--effects",
+            options->declared,
+            "chaintrue_effect files: your own effects, besides the catalogue's")
+      .excludes(markdown);
   verb.footer(
       "Examples:\n"
       "  build/chaintrue effects\n"

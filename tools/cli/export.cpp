@@ -20,9 +20,12 @@
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "grid/map/controller_error.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/settings_to_type.hpp"
+#include "tools/cli/export_plotter.hpp"
 #include "tools/cli/input_file.hpp"
+#include "tools/cli/made_by.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
@@ -78,10 +81,10 @@ Exported of_not_converged(const grid::CompensationMap& map, const ExportCommand&
   if (command.map_after.empty() ||
       machine.controller.kind == model::ControllerKind::fluidnc_wallplotter)
     return result;
-  result.map_after = grid::map_for_settings(
-      map,
-      controller_of(result.settings, machine.controller.kind, path),
-      "For a controller that holds the numbers of export groundcontrol.");
+  result.map_after =
+      grid::map_for_settings(map,
+                             controller_of(result.settings, machine.controller.kind, path),
+                             "For a controller that holds the numbers of export groundcontrol.");
   return result;
 }
 
@@ -89,29 +92,42 @@ Exported of_not_converged(const grid::CompensationMap& map, const ExportCommand&
 std::vector<std::string> next_of(const ExportCommand& command, bool is_worth_typing) {
   const std::string& map = command.input;
   if (!is_worth_typing) return settings_page(map);
-  if (!command.map_after.empty())
-    return {"plan", "--check", command.map_after, "-o", "check.csv"};
+  if (!command.map_after.empty()) return {"plan", "--check", command.map_after, "-o", "check.csv"};
   return {"export", "groundcontrol", map, "-o", "settings.ini", "--map-after", after_name(map)};
 }
 
-std::string words_of(const grid::SettingsToType& typed, const ExportCommand& command) {
+/// The tool's error today as every verb says it; where the sheet was laid by hand, its part is no
+/// matter of the numbers.
+std::string today_in_words(const grid::CompensationMap& map, const grid::SettingsToType& typed) {
+  const grid::ErrorSummary today = grid::error_in_use(map).value_or(typed.as_it_is);
+  return fmt::format(
+      "With today's settings the tool is {:.2f} mm rms off over the measured part, {:.2f} mm at "
+      "worst{}",
+      today.rms_mm,
+      today.maximum_mm,
+      has_placed_sheet(map.contents())
+          ? fmt::format(" ({:.2f} and {:.2f} mm, had the sheet lain where it should)",
+                        typed.as_it_is.rms_mm,
+                        typed.as_it_is.maximum_mm)
+          : "");
+}
+
+std::string words_of(const grid::CompensationMap& map,
+                     const grid::SettingsToType& typed,
+                     const ExportCommand& command) {
   if (!typed.worth_typing) {
-    return fmt::format(
-        "With the settings in force the tool is {:.2f} mm rms off over the measured part; "
-        "other numbers would not bring that down by a tenth, so none changes.\n",
-        typed.as_it_is.rms_mm);
+    return fmt::format("{}; other numbers would gain less than a tenth, so keep yours.\n",
+                       today_in_words(map, typed));
   }
   return fmt::format(
-      "With the settings in force the tool is {:.2f} mm rms off over the measured part, "
-      "{:.2f} mm at worst; with these numbers {:.2f} and {:.2f} mm. What no number can "
-      "mend, gcode compensate does with the map.\n{}",
-      typed.as_it_is.rms_mm,
-      typed.as_it_is.maximum_mm,
+      "{}; with these numbers {:.2f} and {:.2f} mm. The rest is corrected by gcode compensate "
+      "with the map.\n{}",
+      today_in_words(map, typed),
       typed.typed.rms_mm,
       typed.typed.maximum_mm,
       command.map_after.empty()
-          ? "Once they are typed in this map is of the settings before; --map-after writes the one "
-            "that is right then.\n"
+          ? "Once they are typed in, this map is out of date; --map-after writes the one to use "
+            "then.\n"
           : fmt::format("Type them in, measure five marks and check them with {0}. Cut as the "
                         "programs are, or truer, compensated with {0}: not with {1} any more.\n",
                         command.map_after,
@@ -126,11 +142,11 @@ Exported of_map(const grid::CompensationMap& map,
   if (machine != nullptr && !machine->controller.settings.motor_spacing_mm)
     return of_not_converged(map, command);
   const auto typed = grid::settings_to_type(map);
-  if (!typed) throw files::InputError({{file, "", "this map", typed.error().sentence}});
+  if (!typed) throw files::InputError({{file, "", "this map", typed.error().sentence()}});
   Exported result{
       files::write_groundcontrol_settings(
           *machine, typed->settings, fmt::format("the {} points of {}", typed->points, file)),
-      words_of(*typed, command),
+      words_of(map, *typed, command),
       next_of(command, typed->worth_typing),
       map};
   if (typed->worth_typing) {
@@ -171,13 +187,13 @@ std::vector<std::string> weak_causes(const grid::diagnosis::Diagnosis& found) {
 bool refuses_weak_causes(const grid::diagnosis::Diagnosis& found, const std::string& name) {
   const std::vector<std::string> weak = weak_causes(found);
   if (weak.empty()) return false;
-  fmt::print(stderr,
-             "{}: the machine of this diagnosis rests on {}, and a cause enters the numbers to type "
-             "in from {} on. Measure what the diagnosis says next and diagnose again; --force takes "
-             "it all the same.\n",
-             name,
-             grid::diagnosis::joined(weak, "and"),
-             grid::diagnosis::percent(grid::diagnosis::kSureOfCause));
+  fmt::print(
+      stderr,
+      "{}: this machine rests on {}; to type numbers in, a cause must be at least {} sure. Measure "
+      "what the diagnosis asks for next and diagnose again; --force goes on all the same.\n",
+      name,
+      grid::diagnosis::joined(weak, "and"),
+      grid::diagnosis::percent(grid::diagnosis::kSureOfCause));
   return true;
 }
 
@@ -189,10 +205,10 @@ bool is_untyped_json(const InputFile& file) {
 
 Exported export_of(const InputFile& file, const ExportCommand& command, bool forced) {
   if (is_untyped_json(file)) return of_machine(load_machine(file), {});
-  require_kind(file,
-               {FileKind::machine, FileKind::map, FileKind::diagnosis},
-               file.kind == FileKind::anchors ? "anchors of four belts are taken by export maslow4"
-                                              : "");
+  require_kind(
+      file,
+      {FileKind::machine, FileKind::map, FileKind::diagnosis},
+      file.kind == FileKind::anchors ? "anchors of four belts are taken by export maslow4" : "");
   if (file.kind == FileKind::map) {
     return with_map(file, [&](const grid::CompensationMap& map) {
       if (!forced && refuses_to_cut_with(map)) return Exported{{}, "", {}, std::nullopt, true};
@@ -221,9 +237,9 @@ Facts facts_of(const InputFile& file) {
 }
 
 /// \throws files::InputError where no such map follows.
-std::string written_map_after(const Exported& exported, const ExportCommand& command) {
+std::string written_map_after(Verb verb, const Exported& exported, const ExportCommand& command) {
   if (command.map_after.empty()) return "";
-  if (exported.map_after) return files::write_map(*exported.map_after);
+  if (exported.map_after) return files::write_map(*exported.map_after, made_by(verb));
   throw files::InputError(
       {{command.input,
         "",
@@ -237,7 +253,7 @@ int export_groundcontrol(Verb verb, const ExportCommand& command) {
   const Exported exported = export_of(file, command, verb.is_given("--force"));
   refuse_what_does_nothing(verb, facts_of(file));
   if (exported.is_refused) return kCheckFailed;
-  write_outputs({{command.map_after, written_map_after(exported, command)},
+  write_outputs({{command.map_after, written_map_after(verb, exported, command)},
                  {command.output, exported.settings.text}});
   for (const std::string& remark : exported.settings.remarks) fmt::print(stderr, "{}\n", remark);
   if (exported.settings.remarks.empty() && exported.words.empty())
@@ -250,8 +266,7 @@ int export_groundcontrol(Verb verb, const ExportCommand& command) {
 /// Of a fit of belts, or of a diagnosis of them.
 files::Maslow4Settings maslow4_settings_of(const InputFile& file) {
   require_kind(file, {FileKind::anchors, FileKind::diagnosis});
-  if (file.kind == FileKind::anchors)
-    return files::write_maslow4_settings(load_anchors(file).fit);
+  if (file.kind == FileKind::anchors) return files::write_maslow4_settings(load_anchors(file).fit);
   const grid::diagnosis::Diagnosis found = load_diagnosis(file);
   if (!found.belts) {
     throw files::InputError(
@@ -322,22 +337,21 @@ void add_export(Verb app, Run& run) {
              {Origin::map},
              "Of a map: write the map that is right once these numbers are typed in");
   groundcontrol.footer(fmt::format(
-      "Of a machine, or of the one that a diagnosis has found, the numbers that it says "
-      "otherwise than its controller. Of a map the numbers with which the controller "
-      "as it is comes nearest to it, and how near. All others come back as they "
-      "came. No number rests on a cause that is less than 90 % sure: the exit code is 1 then, and "
-      "nothing is written.\n\nOnce the numbers are typed in, a map is of the settings before: programs that are "
-      "compensated with it come out wrong by what the numbers have mended. The map of --map-after "
-      "is of the same machine with these numbers; what follows from it is what is left.\n\n{}\n"
-      "  build/chaintrue fit fixtures/start/marks.csv --machine fixtures/machines/groundcontrol.json "
-      "-o map.json\n"
-      "  build/chaintrue export groundcontrol map.json -o settings.ini --map-after map.after.json",
+      "From a machine, or the one that a diagnosis found: the numbers in which it differs from its "
+      "controller. From a map: the numbers that bring the controller nearest to it, and how near. "
+      "All others stay as they were. No number rests on a cause that is less than 90 % sure: the "
+      "exit code is 1 then, and nothing is written.\n\nOnce the numbers are typed in, stop using "
+      "the old map: it corrects again what the numbers have mended, and parts come out wrong. Use "
+      "the map of --map-after: it is for the same machine with these numbers, and corrects what is "
+      "left.\n\n{}\n  build/chaintrue fit fixtures/start/marks.csv --machine "
+      "fixtures/machines/groundcontrol.json -o map.json\n  build/chaintrue export groundcontrol "
+      "map.json -o settings.ini --map-after map.after.json",
       kExample));
-  groundcontrol.when_chosen(
-      [command, groundcontrol, &run] {
-        run = [command, groundcontrol] { return export_groundcontrol(groundcontrol, *command); };
-      });
+  groundcontrol.when_chosen([command, groundcontrol, &run] {
+    run = [command, groundcontrol] { return export_groundcontrol(groundcontrol, *command); };
+  });
   add_maslow4(verb, run);
+  add_export_plotter(verb, run);
 }
 
 }  // namespace chaintrue::cli

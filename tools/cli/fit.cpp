@@ -18,11 +18,14 @@
 #include "grid/files/whole_file.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "tools/cli/fit_the_belts.hpp"
+#include "tools/cli/fit_the_drawing.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/holes_words.hpp"
 #include "tools/cli/input_file.hpp"
+#include "tools/cli/made_by.hpp"
 #include "tools/cli/map_document.hpp"
 #include "tools/cli/map_words.hpp"
+#include "tools/cli/numbers.hpp"
 #include "tools/cli/option_rules.hpp"
 #include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
@@ -47,6 +50,9 @@ struct FitCommand {
   /// On the machine as stated, said in so many words.
   bool plain = false;
   bool accept_class = false;
+  /// The error of the tool that the owner wishes for.
+  std::optional<double> wish_mm;
+  std::string without;  ///< points of belts, from 1
   bool verbose = false;
   bool json = false;
 };
@@ -64,6 +70,8 @@ const std::map<std::string, interp::EndCondition>& end_conditions() {
 constexpr std::size_t kMostPoints = 10000;
 constexpr std::size_t kMostDistances = 5000;
 constexpr std::size_t kMostHoles = 150;
+
+constexpr grid::files::Range kWishMm{"mm", 0.001, 50.0};
 
 /// A diagnosis of these takes half a minute (docs/reliability.md).
 constexpr std::size_t kMostWithCauses = 1200;
@@ -107,30 +115,31 @@ std::string refused_by_its_reader(const std::string& text) {
 }
 
 /// The map goes to its file, the words to standard error; a fit that failed is reported.
-int finish(const FitCommand& command,
+int finish(Verb verb,
+           const FitCommand& command,
            const tl::expected<grid::CompensationMap, grid::FitFailure>& map,
            std::vector<report::Section> more) {
   if (!map) {
     fmt::print(stderr,
                "{}: {}\n",
                grid::files::name_in_messages(command.input.grid),
-               map.error().sentence);
+               map.error().sentence());
     return kBadInput;
   }
-  std::string text = grid::files::write_map(*map);
+  std::string text = grid::files::write_map(*map, made_by(verb));
   if (const std::string problem = refused_by_its_reader(text); !problem.empty()) {
     fmt::print(stderr,
-               "{}: these points make a map that no machine has, and none is written: {}\n",
+               "{}: no machine can be as these points say, so no map is written: {}\n",
                grid::files::name_in_messages(command.input.grid),
                problem);
     return kBadInput;
   }
   std::vector<grid::files::OutputFile> outputs = {{command.output, std::move(text)}};
-  if (command.json) outputs.push_back({"-", grid::files::write_fit(*map, fit_sentence(*map))});
+  if (command.json)
+    outputs.push_back({"-", grid::files::write_fit(*map, fit_sentence(*map), command.wish_mm)});
   write_outputs(outputs);
-  const report::Detail detail =
-      command.verbose ? report::Detail::verbose : report::Detail::always;
-  report::Document document = map_document(*map, command.output, detail);
+  const report::Detail detail = command.verbose ? report::Detail::verbose : report::Detail::always;
+  report::Document document = map_document(*map, command.output, detail, command.wish_mm);
   std::move(more.begin(), more.end(), std::back_inserter(document.sections));
   fmt::print(stderr, "{}", report::render_text(document, detail));
   if (const std::string why = not_to_cut_with(*map); !why.empty()) {
@@ -178,23 +187,23 @@ tl::expected<grid::JointFit, grid::FitFailure> fit_of(const FitCommand& command,
 }
 
 /// The file and those of --with in one estimate.
-int fit_jointly(const FitCommand& command, const grid::Measured& measured) {
+int fit_jointly(Verb verb, const FitCommand& command, const grid::Measured& measured) {
   auto fit = fit_of(command, measured);
-  if (fit) return finish(command, fit->map, distances_of(measured, *fit));
-  if (measured.files().size() == 1) return finish(command, tl::unexpected(fit.error()), {});
-  fmt::print(stderr, "chaintrue fit: {}\n", fit.error().sentence);
+  if (fit) return finish(verb, command, fit->map, distances_of(measured, *fit));
+  if (measured.files().size() == 1) return finish(verb, command, tl::unexpected(fit.error()), {});
+  fmt::print(stderr, "chaintrue fit: {}\n", fit.error().sentence());
   return kBadInput;
 }
 
 /// Splines through the lengths of one grid; option_rules.def refuses anything else.
-int fit_directly(const FitCommand& command, const grid::MeasuredFile& file) {
+int fit_directly(Verb verb, const FitCommand& command, const grid::MeasuredFile& file) {
   grid::FitOptions options;
   options.surface = grid::SurfaceKind::direct;
   const interp::EndCondition end = end_conditions().at(command.ends);
   options.ends = {{end, end}, {end, end}};
   options.outside = rule_of(command.outside, {});
   options.progress = shown_progress();
-  return finish(command, grid::fit(*file.grid(), options), {});
+  return finish(verb, command, grid::fit(*file.grid(), options), {});
 }
 
 Facts facts_of(const FitCommand& command, const std::vector<InputFile>& files) {
@@ -210,18 +219,28 @@ Facts facts_of(const FitCommand& command, const std::vector<InputFile>& files) {
     if (file.kind == FileKind::grid && !of_belts) facts |= facts::grid;
   }
   if (files.size() == 1 && files.front().kind == FileKind::grid) facts |= facts::one_grid;
-  return facts;
+  return facts | facts_of_tables(files);
 }
 
 int run_fit(Verb verb, const FitCommand& command) {
   std::vector<InputFile> opened = open_inputs(command.input.grid, command.with);
+  if (opened.front().kind == FileKind::drawing) {
+    refuse_what_does_nothing(verb, facts::drawing);
+    return fit_the_drawing(
+        {std::move(opened.front()), command.output, command.verbose, command.json});
+  }
   for (const InputFile& file : opened)
     require_kind(file, {FileKind::grid, FileKind::holes, FileKind::belt_holes, FileKind::belts});
   const Facts facts = facts_of(command, opened);
   refuse_what_does_nothing(verb, facts);
   if ((facts & (facts::belts | facts::belt_holes)) != 0) {
-    return fit_the_belts(
-        {std::move(opened), command.tape, command.output, command.verbose, command.json});
+    return fit_the_belts({verb,
+                          std::move(opened),
+                          command.tape,
+                          command.output,
+                          command.verbose,
+                          command.json,
+                          points_left_out(command.without)});
   }
   grid::Measured all;
   for (const InputFile& file : opened)
@@ -231,8 +250,8 @@ int run_fit(Verb verb, const FitCommand& command) {
     fmt::print(stderr, "{}: {}\n", files.front().name, sentence);
     return kBadInput;
   }
-  return command.surface == "direct" ? fit_directly(command, files.front())
-                                     : fit_jointly(command, all);
+  return command.surface == "direct" ? fit_directly(verb, command, files.front())
+                                     : fit_jointly(verb, command, all);
 }
 
 }  // namespace
@@ -240,19 +259,21 @@ int run_fit(Verb verb, const FitCommand& command) {
 void add_fit(Verb app, Run& run) {
   auto command = std::make_shared<FitCommand>();
   Verb verb =
-      app.add_verb("fit", "Measured points become a compensation map, belt lengths anchors");
+      app.add_verb("fit", "Measured points become a compensation map, belt lengths anchors, a test drawing settings");
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);
+  add_effects_option(verb, command->input);
   add_input(verb,
             "--with",
             command->with,
-            "More files of the same machine, grids or chaintrue_holes, beside belts holes: all are "
-            "fitted at once, in the frame of the first");
+            "More files of the same machine, grids or chaintrue_holes, with belts chaintrue_holes: "
+            "all are fitted at once, in the frame of the first");
   add_output(verb,
              "-o,--output",
              command->output,
-             {Origin::map, Origin::anchors},
-             "The map file, of belts the anchors file; - is standard output")
+             {Origin::map, Origin::anchors, Origin::machine},
+             "The map file, of belts the anchors file, of a drawing the plotter file; - is standard "
+             "output")
       .required();
   verb.add_option("--surface",
                   command->surface,
@@ -264,30 +285,38 @@ void add_fit(Verb app, Run& run) {
   verb.add_option("--ends", command->ends, "How direct splines end at the edges")
       .one_of({"not_a_knot", "natural", "parabolic", "clamped"})
       .shows_default();
-  add_outside_options(verb, command->outside, "continued where not said");
-  verb.add_flag("--causes",
-                command->causes,
-                "Look for causes as diagnose does, and build the map on those that make it better on "
-                "points left out");
+  add_outside_options(verb, command->outside, "continued by default");
+  verb.add_flag(
+      "--causes",
+      command->causes,
+      "Look for causes as diagnose does, and build the map on those that make it better on "
+      "points left out");
   verb.add_flag("--plain",
                 command->plain,
-                "The map on the machine as stated, without a look for causes: as without --causes");
+                "The map on the machine file as it is, without looking for causes; the default");
   verb.add_flag("--accept-class",
                 command->accept_class,
-                "With --causes: where links and tape cannot be told apart, it is the links");
+                "With --causes: where points cannot tell links from tape, take the links");
+  add_number(
+      verb,
+      "--wish-mm",
+      command->wish_mm,
+      kWishMm,
+      "The error of the tool that you wish for: fit says whether it is reached, and what would "
+      "reach it");
   verb.add_flag("-v,--verbose",
                 command->verbose,
-                "Tell the tables as well: settings, errors of points left out, each distance, the "
-                "mirror claim");
-  verb.add_flag("--json", command->json, "Print what the fit tells as JSON");
+                "Print the tables too: settings, errors of points left out, each distance, left "
+                "against right");
+  add_without_option(verb, command->without);
+  verb.add_flag("--json", command->json, "Print the results as JSON");
   verb.footer(
-      "The fit is told on standard error.\n\nExample:\n"
-      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
-      "  build/chaintrue fit fixtures/holes/nine_holes.json -o map.json\n"
-      "  build/chaintrue fit fixtures/grids/seven_by_four.json --with "
-      "fixtures/holes/nine_holes.json "
-      "-o map.json\n"
-      "  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json");
+      "What is found is printed on standard error.\n\nExample:\n  build/chaintrue fit "
+      "fixtures/grids/seven_by_four.json -o map.json\n  build/chaintrue fit "
+      "fixtures/holes/nine_holes.json -o map.json\n  build/chaintrue fit "
+      "fixtures/grids/seven_by_four.json --with fixtures/holes/nine_holes.json -o map.json\n  "
+      "build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json\n  "
+      "build/chaintrue fit fixtures/plotter/mural_drawing.json -o found.json");
   verb.when_chosen([command, verb, &run] {
     if (command->json && command->output == "-") {
       usage_error("fit", "--json and the map cannot both go to standard output");

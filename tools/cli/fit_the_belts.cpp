@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "grid/belts/belts_and_holes.hpp"
+#include "grid/diagnosis/anchors_with_causes.hpp"
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/anchors_document.hpp"
+#include "tools/cli/made_by.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
@@ -26,11 +28,14 @@ namespace {
 
 /// What was measured of one machine on four belts.
 struct BeltFiles {
+  grid::PointIndices indices;  ///< of the points of `belts` in their file
   std::optional<grid::MeasuredBelts> belts;
   std::vector<grid::BeltHoles> holes;
 };
 
-void read_belts_file(const InputFile& file, BeltFiles& all) {
+void read_belts_file(const InputFile& file,
+                     const std::vector<std::size_t>& without,
+                     BeltFiles& all) {
   if (all.belts) {
     throw files::InputError({{file.name,
                               "",
@@ -38,7 +43,8 @@ void read_belts_file(const InputFile& file, BeltFiles& all) {
                               "one file of belts and any number of chaintrue_holes: anchors of two "
                               "sessions are two fits"}});
   }
-  all.belts = load_belts(file, "a fit").belts;
+  all.belts = load_belts(file, "a fit", without).belts;
+  all.indices = files::indices_beside(all.belts->points.size(), without);
 }
 
 void read_holes_file(const InputFile& file, const TapeInput& tape, BeltFiles& all) {
@@ -63,7 +69,7 @@ void read_holes_file(const InputFile& file, const TapeInput& tape, BeltFiles& al
 BeltFiles read_all(const BeltsFitCommand& command) {
   BeltFiles all;
   for (const auto& file : command.files) {
-    if (file.kind == FileKind::belts) read_belts_file(file, all);
+    if (file.kind == FileKind::belts) read_belts_file(file, command.without, all);
   }
   for (const auto& file : command.files) {
     if (file.kind != FileKind::belts) read_holes_file(file, command.tape, all);
@@ -73,7 +79,7 @@ BeltFiles read_all(const BeltsFitCommand& command) {
 
 tl::expected<files::FittedAnchors, grid::BeltsFitFailure> fitted(const BeltFiles& all) {
   if (all.holes.empty()) {
-    return grid::fit_belts(*all.belts).map([&](grid::BeltsFit fit) {
+    return grid::diagnosis::fit_with_causes(*all.belts).map([&](grid::BeltsFit fit) {
       return files::FittedAnchors{all.belts->name, std::move(fit)};
     });
   }
@@ -81,9 +87,17 @@ tl::expected<files::FittedAnchors, grid::BeltsFitFailure> fitted(const BeltFiles
   belts.machine = all.holes.front().machine;
   belts.name = all.holes.front().set.name;
   if (all.belts) belts = *all.belts;
-  return grid::fit_belts_and_holes(belts, all.holes).map([&](grid::BeltsAndHolesFit fit) {
+  return grid::diagnosis::fit_with_causes_and_holes(belts, all.holes).map([&](grid::BeltsAndHolesFit fit) {
     return files::FittedAnchors{belts.name, std::move(fit.belts), std::move(fit.holes)};
   });
+}
+
+/// Bad points with their numbers in the file of the belts, where others were left out.
+files::FittedAnchors numbered_as_in_the_file(files::FittedAnchors found, const BeltFiles& all) {
+  for (grid::BadBeltReading& bad : found.fit.bad)
+    bad.point = grid::index_in_file(all.indices, bad.point);
+  for (std::size_t& point : found.fit.bad_points) point = grid::index_in_file(all.indices, point);
+  return found;
 }
 
 }  // namespace
@@ -96,17 +110,23 @@ int fit_the_belts(const BeltsFitCommand& command) {
   const BeltFiles all = read_all(command);
   const auto found = fitted(all);
   if (!found) {
-    fmt::print(stderr, "{}: {}\n", command.files.front().name, found.error().sentence);
+    fmt::print(stderr, "{}: {}\n", command.files.front().name, found.error().sentence());
     return kBadInput;
   }
-  const std::string text = files::write_anchors(*found);
+  const std::string text =
+      files::write_anchors(numbered_as_in_the_file(*found, all), made_by(command.verb));
   std::vector<files::OutputFile> outputs = {{command.output, text}};
   if (command.json) outputs.push_back({"-", text});
   write_outputs(outputs);
   const grid::MeasuredBelts belts = all.belts.value_or(grid::MeasuredBelts{});
-  const report::Document document = anchors_document(
-      {found->fit, found->holes ? &*found->holes : nullptr, &belts}, found->name, command.output);
-  fmt::print(stderr, "{}", report::render_text(document, command.verbose ? report::Detail::verbose : report::Detail::always));
+  const report::Document document =
+      anchors_document({found->fit, found->holes ? &*found->holes : nullptr, &belts, all.indices},
+                       found->name,
+                       command.output);
+  fmt::print(stderr,
+             "{}",
+             report::render_text(
+                 document, command.verbose ? report::Detail::verbose : report::Detail::always));
   say_next({"export", "maslow4", command.output});
   return kDone;
 }

@@ -11,12 +11,14 @@
 namespace chaintrue::cli {
 
 struct BeltsFitCommand {
+  Verb verb;
   /// The chaintrue_belts file, and the holes that join it; or holes alone.
   std::vector<InputFile> files;
   TapeInput tape;
   std::string output;
   bool verbose = false;
   bool json = false;
+  std::vector<std::size_t> without{};  ///< points left out by hand, from 1
 };
 /// True for files of such a machine.
 [[nodiscard]] bool is_of_four_belts(const InputFile& file);

@@ -39,7 +39,7 @@ bool is_point(const NextMeasurement& next) {
 
 std::string follow_up_list(const Diagnosis& found) {
   if (found.next_measurements.empty()) {
-    return "No measurement is proposed: none would change the verdict, or none was worked out.\n";
+    return "Nothing more needs measuring: no further reading is expected to change the answer.\n";
   }
   std::string text = "Measure, in this order:\n";
   const std::vector<std::string> sentences = follow_ups_in_words(found);
@@ -100,7 +100,7 @@ std::string readings_json(const Diagnosis& found) {
     if (next.kind != MeasurementKind::reading) continue;
     fmt::format_to(std::back_inserter(readings),
                    "  {{\"what\": \"{}\"{}, \"value\": null, \"sigma\": {}}},\n",
-                   next.what,
+                   name(next.reading.value()),
                    next.side.empty() ? "" : fmt::format(", \"side\": \"{}\"", next.side),
                    next.sigma > 0.0 ? fmt::format("{:g}", next.sigma) : "null");
   }

@@ -18,6 +18,7 @@ using Action = int (*)(const GcodeOptions&);
 constexpr grid::files::Range kToleranceMm{"mm", 1e-4, 100.0};
 
 void open_map(Verb verb, GcodeOptions& options) {
+  options.verb = verb;
   Facts facts = facts::no_map;
   if (!options.map.empty()) {
     options.map_file = open_input(options.map);
@@ -61,8 +62,8 @@ Verb add(Verb parent,
 }
 
 void add_map_options(Verb verb, GcodeOptions& options, bool map_required) {
-  const Option map = add_input(
-      verb, "--map", options.map, "The compensation map, or the anchors of four belts");
+  const Option map =
+      add_input(verb, "--map", options.map, "The compensation map, or the anchors of four belts");
   if (map_required) map.required();
   verb.add_option("--frame", options.frame, "The program's zero: the marks' or the bed's")
       .one_of({"marks", "bed"})
@@ -75,7 +76,7 @@ void add_machine_options(Verb verb, GcodeOptions& options, bool map_required) {
       verb,
       "--machine",
       options.machine,
-      "A machine file: what the controller believes, if not the map's machine as it was stated");
+      "A machine file: what the controller believes, if not what the map's own machine file said");
   add_input(verb,
             "--settings",
             options.settings,
@@ -96,7 +97,7 @@ void add_limits(Verb verb, GcodeOptions& options) {
              {"mm per mm", 1e-6, 10.0},
              "Refuse changes above this, in mm per mm");
   verb.add_flag(
-      "--keep-rapids-whole", options.keep_rapids_whole, "Only the ends of rapids are made true");
+      "--keep-rapids-whole", options.keep_rapids_whole, "Correct rapids only at their ends");
   add_option_check(verb, [&options](OptionProblems& problems) {
     if (!options.map.empty()) check_limits(options, problems);
   });

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "grid/files/input_error.hpp"
+#include "tools/cli/gcode_expected.hpp"
 #include "tools/cli/gcode_verbs.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
@@ -94,7 +95,7 @@ double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
                     rows * 1e-7)}});
 }
 
-/// The program beside which the compensated one is to lie, or its first line in words.
+/// The program next to which the compensated one is to lie, or its first line in words.
 void say_next_of_program(const GcodeOptions& options) {
   if (options.map.empty()) {
     if (options.program != "-") say_next({"gcode", "explain", options.program + ":1"});
@@ -133,8 +134,13 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
     return code;
   }
   // With a map: everything that compensating would object to; what it would write is thrown away.
-  gcode::Compensator compensator(
-      machine->corrector(), compensate_options(options, *machine), [](std::string_view) {});
+  gcode::CompensateOptions settings = compensate_options(options, *machine);
+  gcode::CutPlaces cuts;
+  settings.on_command =
+      [&cuts](const gcode::Move& move, const gcode::PathSample& from, const gcode::PathSample& to) {
+        if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
+      };
+  gcode::Compensator compensator(machine->corrector(), settings, [](std::string_view) {});
   auto again = text.open({"its compensation", steps, steps});
   const auto outcome = compensator.run(again, options.dialect());
   print_survey(*survey, options.json);
@@ -148,6 +154,9 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
     fmt::print("the largest correction is {:.2f} mm, on line {}\n",
                outcome->largest_correction_mm,
                outcome->largest_correction_line);
+    // A map of two chains says its error where it is fitted; anchors say none but along cuts.
+    if (machine->map() == nullptr)
+      fmt::print("{}", in_words(promised_along(cuts, *machine, options.tolerance_mm)));
   }
   if (code == kDone) say_next_of_program(options);
   return code;

@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <string>
 
+#include "grid/files/sources.hpp"
 #include "tools/cli/gcode_expected.hpp"
 #include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/made_by.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
@@ -49,8 +51,8 @@ bool is_usual(const GcodeOptions& options) {
 std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, const Proof& proof) {
   const char* controller = machine.corrector().firmware().name;
   if (options.no_verify) {
-    return "Whether the file is safe to run is not known: it was written without having been run "
-           "on the simulated machine (--no-verify). Run gcode verify before cutting.";
+    return "It is not known whether the file is safe to run: it was not tried on the simulated "
+           "machine (--no-verify). Run gcode verify before cutting.";
   }
   if (!proof.fault.empty()) {
     return fmt::format("Not safe to run, and not written: on a simulated {} controller, {}.",
@@ -87,15 +89,15 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   const GcodeText text(options.program);
   auto source = text.open({"the program", 1, options.no_verify ? 1 : 2});
   gcode::CompensateOptions settings = compensate_options(options, machine);
-  settings.input_hash = text.hash();
+  grid::files::note_source(text.source());
+  settings.made_by = made_by(options.verb);
   report::PathReport picture;
   gcode::CutPlaces cuts;
-  settings.on_command = [&](const gcode::Move& move,
-                            const gcode::PathSample& from,
-                            const gcode::PathSample& to) {
-    if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
-    if (!options.report.empty() && move.names_xy) picture.add(drawn(move, from, to));
-  };
+  settings.on_command =
+      [&](const gcode::Move& move, const gcode::PathSample& from, const gcode::PathSample& to) {
+        if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
+        if (!options.report.empty() && move.names_xy) picture.add(drawn(move, from, to));
+      };
   grid::files::PendingFile output(options.output);
   gcode::Compensator compensator(
       machine.corrector(), settings, [&](std::string_view bytes) { output.write(bytes); });
@@ -109,8 +111,8 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   Proof proof;
   if (!options.no_verify) proof = prove(options, machine, text, output);
   const bool holds = proof.fault.empty();
-  const PromisedError promised{cuts.expected(machine.target()),
-                               options.no_verify ? options.tolerance_mm : proof.largest_mm};
+  const PromisedError promised = promised_along(
+      cuts, machine, options.no_verify ? options.tolerance_mm : proof.largest_mm);
   const std::string words = fmt::format(
       "{} blocks, {} moves, {:.1f} m of path: {} commands for {}; largest correction {:.2f} mm on "
       "line {}",
@@ -145,11 +147,15 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
           {fmt::format("{:.3f} mm", proof.largest_mm), "largest distance from the path"});
     }
     if (const auto expected = promised.measured_mm(); expected && holds) {
-      picture.figures.insert(
-          picture.figures.begin(),
-          {fmt::format("{:.2f} mm", *expected), "expected error of the tool, one sigma"});
+      picture.figures.insert(picture.figures.begin(),
+                             {fmt::format("{:.2f} mm", *expected),
+                              promised.is_without_scale
+                                        ? "expected error of the tool but for the scale, one sigma"
+                                        : "expected error of the tool, one sigma"});
     }
-    page = report::render_html(report::page_of(picture));
+    report::Document document = report::page_of(picture);
+    add_made_by(settings.made_by, document.sections);
+    page = report::render_html(document);
   }
   if (holds) {
     take_place(output, options.output, {{options.report, page}});

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "tools/cli/map_words.hpp"
+
 namespace chaintrue::cli {
 namespace {
 
@@ -29,27 +31,36 @@ std::optional<double> PromisedError::outside_mm() const {
   return with_path(map, &gcode::ExpectedError::outside, path_mm);
 }
 
+PromisedError promised_along(const gcode::CutPlaces& cuts,
+                             const GcodeMachine& machine,
+                             double path_mm) {
+  const grid::LengthMap* but_scale = machine.in_belts_mm();
+  return {cuts.expected(but_scale ? *but_scale : machine.target()), path_mm, but_scale != nullptr};
+}
+
 std::string in_words(const PromisedError& error) {
   std::string words;
   if (const auto measured = error.measured_mm()) {
     const ErrorAlong& along = error.map->measured;
-    words += fmt::format(
-        "Expected error of the tool along the cuts (one sigma): {:.2f} mm, of which {:.2f} the "
-        "path; {:.2f} mm at worst, on line {}.\n",
-        *measured,
-        error.path_mm,
-        along.largest_mm + error.path_mm,
-        along.largest_line);
+    words += fmt::format("Expect cuts within about {} mm ({} at worst, line {}).\n",
+                         about_mm(*measured),
+                         about_mm(along.largest_mm + error.path_mm),
+                         along.largest_line);
   }
   if (const auto outside = error.outside_mm()) {
     const ErrorAlong& along = error.map->outside;
     words += fmt::format(
-        "{:.1f} m of cuts lie outside what was measured: there {:.2f} mm are expected, {:.2f} mm "
-        "at worst, on line {}.\n",
+        "{:.1f} m of cuts lie outside what was measured: expect those within about {} mm ({} at "
+        "worst, line {}).\n",
         along.length_mm / 1000.0,
-        *outside,
-        along.largest_mm + error.path_mm,
+        about_mm(*outside),
+        about_mm(along.largest_mm + error.path_mm),
         along.largest_line);
+  }
+  if (error.is_without_scale && !words.empty()) {
+    words +=
+        "That is in the belts' own millimetres. What these are too long or too short by comes on top, "
+        "in proportion to the part: 1 mm in a metre for each tenth of a per cent.\n";
   }
   return words;
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "tools/cli/gcode_job.hpp"
 #include "tools/gcode/expected_error.hpp"
 
 namespace chaintrue::cli {
@@ -16,6 +17,8 @@ namespace chaintrue::cli {
 struct PromisedError {
   std::optional<gcode::ExpectedError> map;
   double path_mm = 0.0;
+  /// But for the scale of four belts, which no tape has shown.
+  bool is_without_scale = false;
 
   /// Of cuts on the measured part; empty where there are none.
   [[nodiscard]] std::optional<double> measured_mm() const;
@@ -23,6 +26,10 @@ struct PromisedError {
   [[nodiscard]] std::optional<double> outside_mm() const;
 };
 
+/// What the machine's map or anchors know of cuts at these places.
+[[nodiscard]] PromisedError promised_along(const gcode::CutPlaces& cuts,
+                                           const GcodeMachine& machine,
+                                           double path_mm);
 /// Whole sentences, a line each; empty where nothing is cut or known.
 [[nodiscard]] std::string in_words(const PromisedError& error);
 /// For --json, as members of an object: `"expected_mm": 0.28, ...`; null where it is not known.

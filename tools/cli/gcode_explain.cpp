@@ -49,8 +49,7 @@ void explain_move(const gcode::Move& move, model::BedPoint home, const GcodeMach
   const auto answer = machine->target().query(target);
   const auto command = machine->corrector().command(target);
   if (!answer || !command) {
-    fmt::print("    {}\n",
-               answer ? gcode::explain(command.error()) : gcode::explain(answer.error()));
+    fmt::print("    {}\n", answer ? command.error().sentence() : answer.error().sentence());
     return;
   }
   fmt::print("    chains: left {:.4f} mm (sigma {:.3f}), right {:.4f} mm (sigma {:.3f})\n",

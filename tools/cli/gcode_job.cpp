@@ -19,13 +19,14 @@
 #include "grid/files/file_identity.hpp"
 #include "grid/files/input_error.hpp"
 #include "grid/files/parse_double.hpp"
+#include "grid/files/sha256.hpp"
+#include "grid/files/sources.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/map_in_frame.hpp"
 #include "model/belts/belt_controller.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/settings_file.hpp"
-#include "tools/gcode/file_hash.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -124,15 +125,13 @@ std::vector<grid::files::NamedSetting> settings_of(const model::BeltMachine& mac
 
 GcodeController controller_of_belts(const GcodeOptions& options, const GcodeTarget& target) {
   if (!options.controller.empty() && options.controller != kFourBeltsName) {
-    throw InputError(
-        {{"--controller",
-          "",
-          options.controller,
-          "\"maslow4\", or to be left out: anchors of four belts are of a Maslow 4"}});
+    throw InputError({{"--controller",
+                       "",
+                       options.controller,
+                       "\"maslow4\", or to be left out: anchors of four belts are of a Maslow 4"}});
   }
-  const model::BeltMachine believed = options.machine.empty()
-                                          ? *target.belts_in_force()
-                                          : read_belt_machine_input(options.machine);
+  const model::BeltMachine believed =
+      options.machine.empty() ? *target.belts_in_force() : read_belt_machine_input(options.machine);
   return {std::make_unique<const model::BeltController>(believed),
           &gcode::firmware_of_four_belts(),
           std::nullopt,
@@ -184,17 +183,14 @@ GcodeController controller_of(const GcodeOptions& options, const GcodeTarget& ta
 }  // namespace
 
 GcodeTarget::GcodeTarget(const GcodeOptions& options)
-    : GcodeTarget(options.map_file->kind == FileKind::anchors ? of_belts(options) : of_map(options),
-                  *options.map_file) {}
+    : GcodeTarget(options.map_file->kind == FileKind::anchors ? of_belts(options)
+                                                              : of_map(options)) {}
 
-GcodeTarget::GcodeTarget(Parts parts, const InputFile& file)
+GcodeTarget::GcodeTarget(Parts parts)
     : source_(std::move(parts.source)),
       target_(std::move(parts.target)),
-      on_trust_(std::move(parts.on_trust)) {
-  gcode::FileHash hash;
-  hash.add(file.text);
-  map_hash_ = hash.text();
-}
+      on_trust_(std::move(parts.on_trust)),
+      in_belts_mm_(std::move(parts.in_belts_mm)) {}
 
 const grid::CompensationMap* GcodeTarget::map() const {
   const auto* map = std::get_if<std::unique_ptr<const grid::CompensationMap>>(&source_);
@@ -217,14 +213,18 @@ GcodeTarget::Parts GcodeTarget::of_belts(const GcodeOptions& options) {
     problems.throw_if_any();
   }
   auto map = std::make_unique<const grid::BeltMap>(found.fit, holes);
+  std::unique_ptr<const grid::LengthMap> in_belts_mm;
   if (!found.fit.scale) {
+    grid::BeltsFit taken_as_true = found.fit;
+    taken_as_true.scale = grid::BeltScale{};
+    in_belts_mm = std::make_unique<const grid::BeltMap>(taken_as_true, holes);
     fmt::print(stderr,
                "The scale is not known: parts come out as true as a turn of the encoder is {:g} mm "
                "of belt. One long taped distance, or holes, tells it.\n",
                found.fit.machine.belt_turn_mm);
   }
   const model::BeltMachine in_force = map->in_force();
-  return {in_force, std::move(map), ""};
+  return {in_force, std::move(map), "", std::move(in_belts_mm)};
 }
 
 GcodeTarget::Parts GcodeTarget::of_map(const GcodeOptions& options) {
@@ -258,12 +258,12 @@ interp::Rectangle sheet_of(const GcodeOptions& options) {
 void check_limits(const GcodeOptions& options, OptionProblems& problems) {
   const double least_mm = gcode::least_tolerance_mm(options.decimals);
   if (options.tolerance_mm > least_mm) return;
-  problems.add("--tolerance-mm",
-               fmt::format("{}", options.tolerance_mm),
-               fmt::format("more than {:.2g} mm, which rounding to {} decimals takes; more "
-                           "--decimals round less",
-                           least_mm,
-                           options.decimals));
+  problems.add(
+      "--tolerance-mm",
+      fmt::format("{}", options.tolerance_mm),
+      fmt::format("more than {:.2g} mm, which rounding to {} decimals uses up; or more --decimals",
+                  least_mm,
+                  options.decimals));
 }
 
 gcode::CompensateOptions compensate_options(const GcodeOptions& options,
@@ -278,7 +278,6 @@ gcode::CompensateOptions compensate_options(const GcodeOptions& options,
   result.home_is_zero = options.home_is_zero;
   result.clamp_box = machine.controller().clamp_box;
   result.half_play_mm = machine.controller().half_play_mm;
-  result.map_hash = machine.map_hash();
   for (const grid::files::NamedSetting& setting : machine.controller().settings)
     result.settings.push_back(setting.name + " " + setting.text);
   return result;
@@ -310,18 +309,19 @@ gcode::LineSource GcodeText::open(const grid::WorkStep& step) const {
   return source;
 }
 
-std::string GcodeText::hash() const {
-  gcode::FileHash hash;
+grid::SourceFile GcodeText::source() const {
+  grid::files::Sha256 hash;
+  std::string name = grid::files::name_without_folders(path_);
   if (text_) {
     hash.add(*text_);
-    return hash.text();
+    return {std::move(name), hash.text()};
   }
   std::ifstream file(path_, std::ios::binary);
   std::array<char, 65536> bytes{};
   while (file.read(bytes.data(), bytes.size()) || file.gcount() > 0) {
     hash.add({bytes.data(), static_cast<std::size_t>(file.gcount())});
   }
-  return hash.text();
+  return {std::move(name), hash.text()};
 }
 
 std::vector<std::string> with_map_words(const GcodeOptions& options,

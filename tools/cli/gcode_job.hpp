@@ -15,6 +15,7 @@
 #include "grid/files/pending_file.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "grid/progress.hpp"
+#include "grid/provenance.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/verb.hpp"
@@ -24,6 +25,7 @@
 namespace chaintrue::cli {
 
 struct GcodeOptions {
+  Verb verb;
   std::string program;
   std::string other;  ///< verify: the file that is run
   std::string map;
@@ -67,11 +69,12 @@ class GcodeTarget {
   /// Of --map. \throws InputError for a bad file.
   explicit GcodeTarget(const GcodeOptions& options);
   [[nodiscard]] const grid::LengthMap& target() const { return *target_; }
+  /// That with an error but for the scale, of four belts whose scale nobody taped; else null.
+  [[nodiscard]] const grid::LengthMap* in_belts_mm() const { return in_belts_mm_.get(); }
   /// Null of four belts.
   [[nodiscard]] const grid::CompensationMap* map() const;
   /// The machine that was in force when they were measured; null of chains.
   [[nodiscard]] const model::BeltMachine* belts_in_force() const;
-  [[nodiscard]] const std::string& map_hash() const { return map_hash_; }
   /// As LoadedMap::on_trust.
   [[nodiscard]] const std::string& on_trust() const { return on_trust_; }
 
@@ -81,15 +84,16 @@ class GcodeTarget {
     Source source;
     std::unique_ptr<const grid::LengthMap> target;
     std::string on_trust;
+    std::unique_ptr<const grid::LengthMap> in_belts_mm = nullptr;
   };
-  explicit GcodeTarget(Parts parts, const InputFile& file);
+  explicit GcodeTarget(Parts parts);
   static Parts of_map(const GcodeOptions& options);
   static Parts of_belts(const GcodeOptions& options);
 
   Source source_;
   std::unique_ptr<const grid::LengthMap> target_;
-  std::string map_hash_;
   std::string on_trust_;
+  std::unique_ptr<const grid::LengthMap> in_belts_mm_;
 };
 
 /// What the machine's controller does with a program.
@@ -113,11 +117,12 @@ class GcodeMachine {
   /// believes.
   explicit GcodeMachine(const GcodeOptions& options);
   [[nodiscard]] const grid::LengthMap& target() const { return target_.target(); }
+  /// As GcodeTarget::in_belts_mm().
+  [[nodiscard]] const grid::LengthMap* in_belts_mm() const { return target_.in_belts_mm(); }
   /// Null of four belts.
   [[nodiscard]] const grid::CompensationMap* map() const { return target_.map(); }
   [[nodiscard]] const gcode::Corrector& corrector() const { return corrector_; }
   [[nodiscard]] const GcodeController& controller() const { return controller_; }
-  [[nodiscard]] const std::string& map_hash() const { return target_.map_hash(); }
   [[nodiscard]] const std::string& on_trust() const { return target_.on_trust(); }
 
  private:
@@ -131,7 +136,7 @@ class GcodeMachine {
 
 /// That the tolerance leaves room for rounding.
 void check_limits(const GcodeOptions& options, OptionProblems& problems);
-/// What compensating needs to know, the program's own hash left out.
+/// What compensating needs to know, but where the program comes from.
 [[nodiscard]] gcode::CompensateOptions compensate_options(const GcodeOptions& options,
                                                           const GcodeMachine& machine);
 
@@ -147,7 +152,8 @@ class GcodeText {
   [[nodiscard]] gcode::LineSource open() const;
   /// The same, which shows this step of the work and how much of the program was read.
   [[nodiscard]] gcode::LineSource open(const grid::WorkStep& step) const;
-  [[nodiscard]] std::string hash() const;
+  /// Its name without folders, and its hash.
+  [[nodiscard]] grid::SourceFile source() const;
 
  private:
   std::string path_;

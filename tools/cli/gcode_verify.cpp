@@ -3,15 +3,19 @@
 /// chaintrue gcode verify.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "grid/files/sources.hpp"
 #include "tools/cli/gcode_expected.hpp"
 #include "tools/cli/gcode_verbs.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/gcode/firmware.hpp"
+#include "tools/gcode/provenance_comments.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -85,8 +89,7 @@ void print_words(const gcode::VerifySummary& summary,
   if (control) fmt::print("without compensation: {}\n", in_words(*control));
   if (summary.tick_overshoot_mm > 0.0) {
     fmt::print(
-        "the controller's last tick overshoots a command's end by up to {:.3f} mm and comes "
-        "back, as in every file\n",
+        "Moves overshoot by up to {:.2f} mm and come back, as they always do on this controller.\n",
         summary.tick_overshoot_mm);
   }
   if (!summary.words_differ.empty())
@@ -130,9 +133,37 @@ std::optional<gcode::Note> assumed_unit(const GcodeText& program, const GcodeOpt
   return unit.note();
 }
 
+/// The map and the program as they are now. Taken before the file that is run, which may come through
+/// a pipe as well.
+std::vector<grid::SourceFile> made_from(const GcodeOptions& options, const GcodeText& original) {
+  std::vector<grid::SourceFile> sources = grid::files::sources_read();
+  const std::string map = grid::files::name_without_folders(options.map);
+  std::erase_if(sources, [&](const grid::SourceFile& file) { return file.name != map; });
+  sources.push_back(original.source());
+  return sources;
+}
+
+/// Where the file that is run says what it was made from, and one of these is not among it.
+void say_other_sources(const std::vector<grid::SourceFile>& sources,
+                       const GcodeText& run,
+                       const std::string& name) {
+  const std::vector<std::string> hashes = gcode::hashes_in_head(run.open());
+  if (hashes.empty()) return;
+  for (const grid::SourceFile& file : sources) {
+    const std::string beginning = file.sha256.substr(0, gcode::kHashDigits);
+    if (std::find(hashes.begin(), hashes.end(), beginning) != hashes.end()) continue;
+    fmt::print(stderr,
+               "{} was not made from {} as it is now: compensate again.\n",
+               grid::files::name_without_folders(name),
+               file.name);
+  }
+}
+
 int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
   const GcodeText original(options.program);
+  const std::vector<grid::SourceFile> sources = made_from(options, original);
   const GcodeText other(options.other);
+  say_other_sources(sources, other, options.other);
   const auto assumed = assumed_unit(original, options);
   gcode::VerifyOptions settings = verify_options(options, machine);
   gcode::CutPlaces cuts;
@@ -153,9 +184,9 @@ int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
     findings.add(*assumed);
     report(options.program, findings);
   }
+  PromisedError promised{std::nullopt, summary->largest_mm()};
   // Where the original cannot be followed to its end, what is cut is unknown as well.
-  const PromisedError promised{control ? cuts.expected(machine.target()) : std::nullopt,
-                               summary->largest_mm()};
+  if (control) promised = promised_along(cuts, machine, summary->largest_mm());
   if (options.json) {
     print_json(*summary, control, promised, options.tolerance_mm);
   } else {
@@ -168,11 +199,11 @@ int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
   } else if (summary->holds()) {
     say_next({"plan", "--check", options.map, "-o", "check.csv"});
   } else if (options.program != "-") {
-    say_next(with_map_words(
-        options,
-        {"gcode",
-         "explain",
-         fmt::format("{}:{}", options.program, worst(*summary).original_line)}));
+    say_next(
+        with_map_words(options,
+                       {"gcode",
+                        "explain",
+                        fmt::format("{}:{}", options.program, worst(*summary).original_line)}));
   }
   return summary->holds() ? kDone : kCheckFailed;
 }

@@ -3,8 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
+#include "grid/files/belts_file.hpp"
+#include "grid/files/effect_file.hpp"
+#include "grid/files/file_type.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/ranges.hpp"
@@ -38,18 +42,42 @@ void add_grid_options(Verb verb, GridInput& input) {
              "--noise-dof",
              input.noise_dof,
              grid::files::kNoiseDof,
-             "How well the noise is known, in degrees of freedom (15 where unsaid)");
+             "How well the noise is known, in degrees of freedom (15 by default)");
+  verb.add_flag("--inches",
+                input.inches,
+                "Of tables (CSV): places, lengths and distances that were measured are in inches, "
+                "43.8125 or 43 13/16; commands stay in mm");
+}
+
+void add_effects_option(Verb verb, GridInput& input) {
+  add_input(verb,
+            "--effects",
+            input.effects,
+            "chaintrue_effect files: your own causes, tested along with the catalogue's");
 }
 
 namespace {
 
 namespace files = grid::files;
 
+void declare(const GridInput& input,
+             const std::string& file,
+             std::optional<model::Machine>& machine) {
+  if (input.effects.empty()) return;
+  if (machine) return files::declare_effects(input.effects, *machine);
+  OptionProblems problems;
+  problems.add("--effects",
+               input.effects.front(),
+               fmt::format("to be left out, or --machine: {} names no machine to act on", file));
+  problems.throw_if_any();
+}
+
 grid::MeasuredGrid grid_of(const InputFile& file,
                            const GridInput& input,
                            const files::GridOptions& options) {
   files::ReadGrid read = files::parse_grid(file.text, file.name, options);
   print_warnings(read.warnings);
+  declare(input, file.name, read.grid.machine);
   if (input.length_noise_mm || input.position_noise_mm || input.noise_dof) {
     const grid::StatedNoise own = read.grid.noise.value_or(grid::StatedNoise{});
     read.grid.noise = grid::StatedNoise{input.length_noise_mm.value_or(own.length_mm),
@@ -64,7 +92,8 @@ void check_tape(const TapeInput& tape) {
   if (tape.sigma_mm) problems.require("--tape-sigma-mm", *tape.sigma_mm, 0.001, 100.0);
   if (tape.tape_zero_offset_mm)
     problems.require("--hook-offset-mm", *tape.tape_zero_offset_mm, -1000.0, 1000.0);
-  if (tape.tape_zero_offset_sigma_mm) problems.require("--hook-sigma-mm", *tape.tape_zero_offset_sigma_mm, 0.0, 100.0);
+  if (tape.tape_zero_offset_sigma_mm)
+    problems.require("--hook-sigma-mm", *tape.tape_zero_offset_sigma_mm, 0.0, 100.0);
   if (tape.hole_sigma_mm) problems.require("--hole-sigma-mm", *tape.hole_sigma_mm, 0.0, 100.0);
   problems.throw_if_any();
 }
@@ -79,6 +108,12 @@ files::HolesOptions holes_options(const TapeInput& tape) {
   options.tape_zero_offset_sigma_mm = tape.tape_zero_offset_sigma_mm;
   options.hole_sigma_mm = tape.hole_sigma_mm;
   return options;
+}
+
+Facts facts_of_tables(const std::vector<InputFile>& files) {
+  const bool any = std::any_of(
+      files.begin(), files.end(), [](const InputFile& file) { return !files::is_json(file.text); });
+  return any ? facts::table : facts::nothing;
 }
 
 namespace {
@@ -105,12 +140,12 @@ void add_tape_options(Verb verb, TapeInput& input) {
              "--hook-sigma-mm",
              input.tape_zero_offset_sigma_mm,
              grid::files::kHoleSigmaMm,
-             "Of holes: how well that is known, one sigma; to 3 mm where unsaid, exactly with 0");
+             "Of holes: how well that is known, one sigma; 3 mm by default, exactly with 0");
   add_number(verb,
              "--hole-sigma-mm",
              input.hole_sigma_mm,
              grid::files::kHoleSigmaMm,
-             "Of holes: one sigma of a hole beside where its chains put it, on each axis");
+             "Of holes: one sigma of how far a hole is from where its chains put it, on each axis");
 }
 
 grid::MeasuredGrid read_grid_input(const GridInput& input) {
@@ -118,6 +153,7 @@ grid::MeasuredGrid read_grid_input(const GridInput& input) {
   require_kind(file, {FileKind::grid});
   files::GridOptions options;
   options.machine = machine_of(input);
+  options.inches = input.inches;
   return grid_of(file, input, options);
 }
 
@@ -132,16 +168,19 @@ grid::MeasuredFile load_measured(const InputFile& file,
   if (file.kind == FileKind::grid) {
     files::GridOptions options;
     options.machine = machine_of(input);
+    options.inches = input.inches;
     if (otherwise != nullptr) options.otherwise = *otherwise;
     if (use == MeasuredUse::check) options.fewest_points = 1;
     return {file.name, grid_of(file, input, options)};
   }
   files::HolesOptions options = holes_options(tape);
   options.machine = machine_of(input);
+  options.inches = input.inches;
   if (otherwise != nullptr) options.otherwise = *otherwise;
   if (use == MeasuredUse::check) options.fewest_distances = 1;
   files::ReadHoles read = files::parse_holes(file.text, file.name, options);
   print_warnings(read.warnings);
+  declare(input, file.name, read.holes.machine);
   return {file.name, std::move(read.holes)};
 }
 
@@ -165,15 +204,16 @@ grid::Measured load_measured(const std::vector<InputFile>& files,
     if (machine && measured.machine()) {
       const std::string difference = grid::difference_of_settings(*measured.machine(), *machine);
       if (!difference.empty()) {
-        problems.add(
-            "--with", files[k].path, fmt::format("a file of the same machine as the first: {}", difference));
+        problems.add("--with",
+                     files[k].path,
+                     fmt::format("a file of the same machine as the first: {}", difference));
       }
     }
     for (std::size_t before = 0; before < k; ++before) {
       if (grid::same_readings(measured.files()[before], other)) {
         problems.add("--with",
                      files[k].path,
-                     fmt::format("a session of its own: it holds the same readings as {}, to the last digit",
+                     fmt::format("another session: it has exactly the same readings as {}",
                                  files[before].path));
       }
     }
@@ -181,6 +221,18 @@ grid::Measured load_measured(const std::vector<InputFile>& files,
   }
   problems.throw_if_any();
   return measured;
+}
+
+void add_without_option(Verb verb, std::string& without) {
+  verb.add_option("--without",
+                  without,
+                  "Points of a chaintrue_belts file to leave out, counted from 1 as messages have "
+                  "them, as in 7,12");
+}
+
+std::vector<std::size_t> points_left_out(const std::string& without) {
+  return without.empty() ? std::vector<std::size_t>{}
+                         : grid::files::point_numbers_of(without, "--without");
 }
 
 }  // namespace chaintrue::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The grid, or the holes, that a verb works on: the file, and what the command line puts beside
+/// The grid, or the holes, that a verb works on: the file, and what the command line adds to
 /// it.
 #pragma once
 
@@ -12,6 +12,7 @@
 #include "grid/observation/measured.hpp"
 #include "tools/cli/arguments.hpp"
 #include "tools/cli/input_file.hpp"
+#include "tools/cli/option_rules.hpp"
 
 namespace chaintrue::cli {
 
@@ -21,6 +22,10 @@ struct GridInput {
   std::optional<double> length_noise_mm;
   std::optional<double> position_noise_mm;
   std::optional<double> noise_dof;
+  /// What was measured is in inches, in tables whose header says mm.
+  bool inches = false;
+  /// Files of declared effects.
+  std::vector<std::string> effects;
 };
 
 /// What a tape's file may leave unsaid.
@@ -34,6 +39,12 @@ struct TapeInput {
 /// Adds GRID, --machine and the --noise options to a verb.
 void add_grid_options(Verb verb, GridInput& input);
 
+/// Whether any of them is a table, which --inches acts on.
+[[nodiscard]] Facts facts_of_tables(const std::vector<InputFile>& files);
+
+/// Adds --effects: what it declares may act on the machine of every file that is read.
+void add_effects_option(Verb verb, GridInput& input);
+
 /// Reads it all; warnings go to standard error. \throws files::InputError.
 [[nodiscard]] grid::MeasuredGrid read_grid_input(const GridInput& input);
 
@@ -42,6 +53,11 @@ void add_tape_options(Verb verb, TapeInput& input);
 
 /// What reading holes goes by of that. \throws files::InputError.
 [[nodiscard]] grid::files::HolesOptions holes_options(const TapeInput& tape);
+
+/// Adds --without to a verb that takes belts.
+void add_without_option(Verb verb, std::string& without);
+/// Its points, from 1. \throws files::InputError.
+[[nodiscard]] std::vector<std::size_t> points_left_out(const std::string& without);
 
 /// Where a verb that takes holes of two chains is given those of four belts.
 inline constexpr const char* kBeltHolesAreFitted =

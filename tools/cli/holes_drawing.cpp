@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "tools/cli/holes_words.hpp"
+#include "tools/report/bed_chart.hpp"
+#include "tools/report/hole_labels.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -18,9 +20,9 @@ using model::BedPoint;
 // The picture, in its own units.
 constexpr double kSheetWide = 900.0, kSheetLeft = 30.0, kSheetTop = 60.0, kSheetBelow = 50.0;
 
-class Sheet {
+class HolesSheet {
  public:
-  explicit Sheet(const model::Bed& bed) : bed_(bed), scale_(kSheetWide / bed.width_mm) {}
+  explicit HolesSheet(const model::Bed& bed) : bed_(bed), scale_(kSheetWide / bed.width_mm) {}
   [[nodiscard]] double x(BedPoint at) const {
     return kSheetLeft + scale_ * (at.x_mm + 0.5 * bed_.width_mm);
   }
@@ -32,52 +34,6 @@ class Sheet {
  private:
   const model::Bed& bed_;
   double scale_;
-};
-
-/// Where labels go so that none lies on another, nor on a hole.
-class Labels {
- public:
-  struct Box {
-    double left, right, top, bottom;
-  };
-  Labels(double left, double right) : left_(left), right_(right) {}
-
-  void keep_free(double x, double y) {
-    constexpr double kHole = 8.0;
-    taken_.push_back({x - kHole, x + kHole, y - kHole, y + kHole});
-  }
-  /// The first of eight places about (x, y) that is free; the one that lies on least where none is.
-  Box place(double x, double y, double wide) {
-    constexpr double kHigh = 20.0, kGap = 10.0;
-    Box best{};
-    double least = -1.0;
-    for (const double up : {-kGap, kGap + kHigh, 0.5 * kHigh}) {
-      for (const double right : {kGap, -kGap - wide, -0.5 * wide}) {
-        if (up == 0.5 * kHigh && right == -0.5 * wide) continue;
-        const Box box{x + right, x + right + wide, y + up - kHigh, y + up};
-        const double lies_on = overlap(box);
-        if (least >= 0.0 && lies_on >= least) continue;
-        least = lies_on;
-        best = box;
-      }
-    }
-    taken_.push_back(best);
-    return best;
-  }
-
- private:
-  [[nodiscard]] double overlap(const Box& box) const {
-    // Off the bed it would be cut at the picture's edge.
-    double area = 20.0 * (std::max(0.0, left_ - box.left) + std::max(0.0, box.right - right_));
-    for (const Box& other : taken_) {
-      area += std::max(0.0, std::min(box.right, other.right) - std::max(box.left, other.left)) *
-              std::max(0.0, std::min(box.bottom, other.bottom) - std::max(box.top, other.top));
-    }
-    return area;
-  }
-
-  double left_, right_;
-  std::vector<Box> taken_;
 };
 
 /// The foot of the perpendicular on an edge of the bed.
@@ -95,11 +51,47 @@ BedPoint on_edge(BedPoint from, grid::SheetEdge edge, const model::Bed& bed) {
   return {from.x_mm, -0.5 * bed.height_mm};
 }
 
+/// Each with its label, and a line from one to the other.
+void draw_holes(const std::vector<grid::Hole>& holes, const HolesSheet& sheet, std::string& svg) {
+  std::vector<report::DrawnHole> drawn;
+  for (const grid::Hole& hole : holes) {
+    drawn.push_back(
+        {sheet.x(hole.commanded),
+         sheet.y(hole.commanded),
+         hole.name,
+         fmt::format("({:.0f}, {:.0f})", hole.commanded.x_mm + 0.0, hole.commanded.y_mm + 0.0)});
+  }
+  const std::vector<report::HoleLabel> labels =
+      report::place_labels(drawn, kSheetLeft, kSheetLeft + kSheetWide);
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const report::DrawnHole& hole = drawn[i];
+    const report::HoleLabel& label = labels[i];
+    fmt::format_to(std::back_inserter(svg),
+                   "<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{3:.1f}\" "
+                   "stroke=\"#333333\"/>\n"
+                   "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"6\" fill=\"#ffffff\" "
+                   "stroke=\"{4}\" stroke-width=\"3\"/>\n"
+                   "<text x=\"{5:.1f}\" y=\"{6:.1f}\" stroke=\"#fff7ec\" "
+                   "stroke-width=\"4\" paint-order=\"stroke\"><tspan font-weight=\"bold\" "
+                   "font-size=\"18\">{7}</tspan>{8}{9}</text>\n",
+                   hole.x,
+                   hole.y,
+                   std::clamp(hole.x, label.left, label.right),
+                   std::clamp(hole.y, label.top, label.bottom),
+                   report::kBeforeColor,
+                   label.left,
+                   label.bottom - 3.0,
+                   hole.name,
+                   label.has_place ? " " : "",
+                   label.has_place ? hole.place : "");
+  }
+}
+
 }  // namespace
 
 std::string draw_holes_plan(const grid::HolesPlan& plan) {
   const model::Bed& bed = plan.set.machine->bed;
-  const Sheet sheet(bed);
+  const HolesSheet sheet(bed);
   const bool has_edges =
       std::any_of(plan.set.distances.begin(), plan.set.distances.end(), [](const auto& distance) {
         return distance.edge.has_value();
@@ -137,32 +129,12 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
                    sheet.y(from),
                    sheet.x(to),
                    sheet.y(to),
-                   distance.edge ? "#009e73\" stroke-width=\"4" : "#0072b2",
+                   distance.edge ? fmt::format("{}\" stroke-width=\"4", report::kThirdColor)
+                                 : std::string(report::kAfterColor),
                    words_of(plan.set, distance),
                    distance.distance_mm);
   }
-  Labels labels(kSheetLeft, kSheetLeft + kSheetWide);
-  for (const grid::Hole& hole : plan.set.holes)
-    labels.keep_free(sheet.x(hole.commanded), sheet.y(hole.commanded));
-  for (const grid::Hole& hole : plan.set.holes) {
-    const double x = sheet.x(hole.commanded);
-    const double y = sheet.y(hole.commanded);
-    const std::string place =
-        fmt::format("({:.0f}, {:.0f})", hole.commanded.x_mm + 0.0, hole.commanded.y_mm + 0.0);
-    const Labels::Box box = labels.place(x, y, 18.0 + 7.5 * static_cast<double>(place.size()));
-    fmt::format_to(std::back_inserter(svg),
-                   "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"6\" fill=\"#ffffff\" "
-                   "stroke=\"#d55e00\" stroke-width=\"3\"/>\n"
-                   "<text x=\"{:.1f}\" y=\"{:.1f}\" stroke=\"#fff7ec\" "
-                   "stroke-width=\"4\" paint-order=\"stroke\"><tspan font-weight=\"bold\" "
-                   "font-size=\"18\">{}</tspan> {}</text>\n",
-                   x,
-                   y,
-                   box.left,
-                   box.bottom - 3.0,
-                   hole.name,
-                   place);
-  }
+  draw_holes(plan.set.holes, sheet, svg);
   fmt::format_to(
       std::back_inserter(svg),
       "<text x=\"{:.0f}\" y=\"{:.1f}\">Seen from the front; the origin is the middle of "

@@ -31,12 +31,13 @@ report::Section distances_section(const grid::MeasuredHoles& set,
                                   const grid::FittedDistances& fit,
                                   std::string_view file) {
   report::Table table{
-      .columns = {{.heading = "Distance", .width = 22},
-                  {.heading = "measured", .is_number = true, .digits = 1, .width = 10},
-                  {.heading = "commanded", .is_number = true, .digits = 1, .width = 11},
-                  {.heading = "left out", .is_number = true, .has_sign = true, .width = 11},
-                  {.heading = "sigmas", .is_number = true, .digits = 1, .has_sign = true, .width = 10},
-                  {.gap = 2}},
+      .columns =
+          {{.heading = "Distance", .width = 22},
+           {.heading = "measured", .is_number = true, .digits = 1, .width = 10},
+           {.heading = "commanded", .is_number = true, .digits = 1, .width = 11},
+           {.heading = "left out", .is_number = true, .has_sign = true, .width = 11},
+           {.heading = "sigmas", .is_number = true, .digits = 1, .has_sign = true, .width = 10},
+           {.gap = 2}},
       .is_headed = true};
   for (std::size_t k = 0; k < fit.distances.size(); ++k) {
     const grid::FittedDistance& distance = fit.distances[k];
@@ -47,7 +48,7 @@ report::Section distances_section(const grid::MeasuredHoles& set,
                  distance.left_out_mm,
                  distance.sigmas()};
     row.is_flagged = distance.rejected;
-    if (distance.rejected) row.cells.emplace_back("set aside");
+    if (distance.rejected) row.cells.emplace_back("left out");
   }
   report::Section section{
       "Distance by distance", {}, true, report::Detail::verbose, /*is_titled=*/false};
@@ -64,8 +65,8 @@ void add_legend(const grid::estimation::MachineKnowledge& knowledge, report::Sec
                   100.0 * std::sqrt(knowledge.covariance(6, 6)),
                   100.0 * knowledge.mean[7],
                   100.0 * std::sqrt(knowledge.covariance(7, 7)))});
-  distances.blocks.emplace_back(report::Paragraph{
-      "Left out: measured less what a fit without this reading makes of it, mm."});
+  distances.blocks.emplace_back(
+      report::Paragraph{"Left out: measured minus what the other readings predict, mm."});
 }
 
 std::string distances_in_number(const grid::MeasuredHoles& set) {
@@ -87,9 +88,8 @@ std::string workshop_list(const grid::HolesPlan& plan) {
                    hole.commanded.y_mm + 0.0);
   }
   text +=
-      "# Write what the tape says into distance_mm, nothing where it was not held; about how much "
-      "to "
-      "expect stands beside it.\n";
+      "# Write what the tape says into distance_mm, nothing if you did not measure; about what to "
+      "expect is next to it.\n";
   text += "from,to,distance_mm,as_commanded_mm\n";
   for (const grid::HoleDistance& distance : plan.set.distances) {
     fmt::format_to(std::back_inserter(text),
@@ -103,15 +103,15 @@ std::string workshop_list(const grid::HolesPlan& plan) {
 
 std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequest& request) {
   std::string text = fmt::format(
-      "{} holes, {}. With {:g} mm of tape and {:g} mm of hole (one sigma) the tool is expected "
-      "{:.2f} mm beside, rms over the bed, {}; with nothing measured it is {:.2f} mm{}.\n\n"
-      "What the set tells                 as stated     after\n",
+      "{} holes, {}. With {:g} mm of tape and {:g} mm of hole (one sigma) the tool is expected to "
+      "miss by {:.2f} mm, rms over the bed, {}; with nothing measured by {:.2f} mm{}.\n\nWhat the "
+      "set shows                    before     after\n",
       plan.set.holes.size(),
       distances_in_number(plan.set),
       request.tape_sigma_mm,
       request.hole_sigma_mm,
       plan.expected_rms_mm,
-      request.edges ? "where the sheet lies counted in" : "the sheet laid as well as it can be",
+      request.edges ? "the sheet's place counted in" : "the sheet laid as well as it can be",
       plan.expected_before_mm,
       request.edges ? " with the sheet laid as well as it can be" : "");
   std::vector<std::string> unreported;
@@ -119,21 +119,20 @@ std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequ
   for (const grid::PlannedKnowledge& known : plan.knowledge) {
     fmt::format_to(std::back_inserter(text),
                    "  {:<30}{:>12.3f}{:>10.3f} {}\n",
-                   known.what,
+                   known.name,
                    known.before,
                    known.after,
                    known.unit);
-    if (known.after > kHardlyBetter * known.before) unreported.push_back(known.what);
+    if (known.after > kHardlyBetter * known.before) unreported.push_back(known.name);
   }
-  fmt::format_to(
-      std::back_inserter(text),
-      "It tells little of: {}.{}\n",
-      listed(unreported),
-      request.edges ? "" : " Where the sheet lies takes distances to its edges: --edges.");
+  fmt::format_to(std::back_inserter(text),
+                 "It tells little of: {}.{}\n",
+                 listed(unreported),
+                 request.edges ? "" : " For the sheet's place measure to its edges: --edges.");
   std::vector<std::string> clear;
   std::vector<std::string> doubtful;
   std::vector<std::string> unseen;
-  std::vector<std::string> alike;
+  std::vector<std::string> equal;
   for (std::size_t i = 0; i < plan.effects.size(); ++i) {
     const grid::SeenEffect& effect = plan.effects[i];
     (effect.sigmas >= kFaintSigmas      ? clear
@@ -142,17 +141,17 @@ std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequ
         .push_back(effect_words(effect));
     for (const std::size_t other : effect.same_as) {
       if (other <= i || effect.sigmas < kDoubtfulSigmas) continue;
-      alike.push_back(
+      equal.push_back(
           fmt::format("{} and {}", effect_words(effect), effect_words(plan.effects[other])));
     }
   }
   fmt::format_to(std::back_inserter(text),
-                 "Causes of usual size that it sees beyond what settings can imitate: {}.\n"
-                 "Doubtful: {}.\nNot seen: {}.\nThe same to it: {}.\n",
+                 "Causes of usual size that it shows and no setting can imitate: {}.\nDoubtful: "
+                 "{}.\nNot seen: {}.\nLook the same: {}.\n",
                  listed(clear),
                  listed(doubtful),
                  listed(unseen),
-                 listed(alike));
+                 listed(equal));
   return text;
 }
 

@@ -14,6 +14,7 @@
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/import_maslow4.hpp"
+#include "tools/cli/import_plotter.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
@@ -87,11 +88,9 @@ void add_optical(Verb import, Run& run) {
              "The grid file; - is standard output")
       .shows_default();
   verb.footer(
-      "A scan made with a compensation switched on shows what that one left and cannot be imported "
-      "this way.\n\n"
-      "Example:\n"
-      "  build/chaintrue import optical fixtures/good/optical_scan.csv \\\n"
-      "    --machine fixtures/machines/groundcontrol.json -o grid.json");
+      "A scan made with compensation switched on shows only what was left, and cannot be imported "
+      "this way.\n\nExample:\n  build/chaintrue import optical fixtures/good/optical_scan.csv \\\n "
+      "   --machine fixtures/machines/groundcontrol.json -o grid.json");
   verb.when_chosen([command, &run] { run = [command] { return import_optical(*command); }; });
 }
 
@@ -140,7 +139,7 @@ void add_groundcontrol(Verb import, Run& run) {
 
 void add_import(Verb app, Run& run) {
   Verb verb =
-      app.add_verb("import", "Turn files of other programs into machine, grid and belts files");
+      app.add_verb("import", "Turn files of other programs into machine, plotter, grid and belts files");
   verb.require_verb();
   verb.footer(
       "Example:\n"
@@ -149,6 +148,7 @@ void add_import(Verb app, Run& run) {
   add_optical(verb, run);
   add_groundcontrol(verb, run);
   add_import_maslow4(verb, run);
+  add_import_plotter(verb, run);
 }
 
 }  // namespace chaintrue::cli

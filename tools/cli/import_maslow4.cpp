@@ -6,9 +6,11 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "grid/files/belts_file.hpp"
 #include "grid/files/maslow4_log.hpp"
+#include "grid/files/maslow4_session.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
@@ -21,30 +23,46 @@ namespace {
 namespace files = grid::files;
 
 struct Maslow4Command {
-  std::string input;
-  std::string settings;
+  std::vector<std::string> inputs;
+  LogReading reading;
   std::string points;
   std::optional<int> run;
-  std::string lengths;
-  std::string orientation;
+  std::string runs;
+  std::string pulls;
   std::string output = "-";
 };
 
-files::Maslow4Options options_of(const Maslow4Command& command) {
-  files::Maslow4Options options;
-  if (!command.settings.empty()) {
-    options.settings = files::read_whole_file(command.settings);
-    options.settings_file = files::name_in_messages(command.settings);
-  }
-  options.run = command.run;
+[[noreturn]] void refuse_option(const char* option, const std::string& value, std::string expected) {
+  throw files::InputError({{"the command line", option, value, std::move(expected)}});
+}
+
+/// One log's run, or several of one log, or the last run of each of several.
+std::vector<files::Maslow4Import> runs_of(const Maslow4Command& command) {
+  files::Maslow4Options options = options_of(command.reading);
   if (!command.points.empty()) options.points = files::point_range_of(command.points, "--points");
-  for (const model::BeltLengths lengths :
-       {model::BeltLengths::belt, model::BeltLengths::belt_and_arm, model::BeltLengths::span}) {
-    if (command.lengths == name(lengths)) options.lengths = lengths;
+  options.run = command.run;
+  if (!command.runs.empty() && (command.run || options.points))
+    refuse_option("--runs", command.runs, "to stand without --run and --points, which take one run");
+  const bool are_several = command.inputs.size() > 1;
+  if (are_several && (options.run || options.points || !command.runs.empty())) {
+    refuse_option("--run, --runs, --points",
+                  fmt::format("beside {} logs", command.inputs.size()),
+                  "one log: of several the last run of each is taken");
   }
-  if (command.orientation == "upright") options.orientation = model::Orientation::upright;
-  if (command.orientation == "flat") options.orientation = model::Orientation::flat;
-  return options;
+  std::vector<files::Maslow4Import> runs;
+  for (const std::string& input : command.inputs) {
+    const std::string text = files::read_whole_file(input);
+    const std::string name = files::name_in_messages(input);
+    if (command.runs.empty()) {
+      runs.push_back(files::parse_maslow4(text, name, options));
+      continue;
+    }
+    for (const std::size_t number : files::point_numbers_of(command.runs, "--runs", "the log's runs")) {
+      options.run = static_cast<int>(number);
+      runs.push_back(files::parse_maslow4(text, name, options));
+    }
+  }
+  return runs;
 }
 
 /// Which runs there are, and how to take another.
@@ -68,15 +86,29 @@ void tell_runs(const files::Maslow4Import& read, bool was_chosen) {
   }
 }
 
+/// How hard belts were pulled, where more than one pull is known.
+void tell_pulls(const grid::MeasuredBelts& belts) {
+  const std::vector<double> different = grid::different_pulls(belts);
+  if (different.size() < 2) return;
+  fmt::print(stderr,
+             "One session of {} pulls, the least {}, the others {:.3g} times as hard.\n",
+             different.size(),
+             grid::words_of(*grid::reference_pull(belts)),
+             fmt::join(different.begin() + 1, different.end(), ", "));
+}
+
 int import_maslow4(const Maslow4Command& command) {
-  const files::Maslow4Options options = options_of(command);
-  const files::Maslow4Import read = files::parse_maslow4(
-      files::read_whole_file(command.input), files::name_in_messages(command.input), options);
+  std::vector<grid::BeltPull> pulls;
+  if (!command.pulls.empty()) pulls = files::pulls_of(command.pulls, "--pulls");
+  std::vector<files::Maslow4Import> runs = runs_of(command);
+  const bool is_one = runs.size() == 1;
+  const files::Maslow4Import read = files::one_session(std::move(runs), pulls);
   std::vector<std::string> comments;
   for (const std::string& sentence : read.assumed) comments.push_back("assumed: " + sentence);
   write_output(command.output, files::write_belts(read.belts, comments));
   print_warnings(read.warnings);
-  tell_runs(read, options.run || options.points);
+  if (is_one) tell_runs(read, command.run || !command.points.empty());
+  tell_pulls(read.belts);
   fmt::print(stderr, "{} points read.\n", read.belts.points.size());
   for (const std::string& sentence : read.assumed) fmt::print(stderr, "Assumed: {}.\n", sentence);
   if (!read.belts.machine.anchors_known) {
@@ -85,12 +117,39 @@ int import_maslow4(const Maslow4Command& command) {
         "Where the anchors are taken to be is not known; --settings maslow.yaml says it, and "
         "the arm and the heights.\n");
   }
-  // A warning is that of places which are not enough for a fit.
-  if (read.warnings.empty()) say_next({"fit", command.output, "-o", "anchors.json"});
+  if (read.stopped) fmt::print(stderr, "{}\n", *read.stopped);
+  if (read.is_enough) say_next({"fit", command.output, "-o", "anchors.json"});
   return kDone;
 }
 
 }  // namespace
+
+void add_log_reading(Verb verb, LogReading& reading) {
+  add_input(verb, "--settings", reading.settings, "The machine's maslow.yaml");
+  verb.add_option("--lengths",
+                  reading.lengths,
+                  "What a length counts: the belt alone, slanting; the belt with its extension and "
+                  "arm, as printed before October 2024; or the level span from anchor to tool, as "
+                  "since")
+      .one_of({"belt", "belt_and_arm", "span"});
+  verb.add_option("--orientation", reading.orientation, "How the frame stands")
+      .one_of({"upright", "flat"});
+}
+
+files::Maslow4Options options_of(const LogReading& reading) {
+  files::Maslow4Options options;
+  if (!reading.settings.empty()) {
+    options.settings = files::read_whole_file(reading.settings);
+    options.settings_file = files::name_in_messages(reading.settings);
+  }
+  for (const model::BeltLengths lengths :
+       {model::BeltLengths::belt, model::BeltLengths::belt_and_arm, model::BeltLengths::span}) {
+    if (reading.lengths == name(lengths)) options.lengths = lengths;
+  }
+  if (reading.orientation == "upright") options.orientation = model::Orientation::upright;
+  if (reading.orientation == "flat") options.orientation = model::Orientation::flat;
+  return options;
+}
 
 void add_import_maslow4(Verb import, Run& run) {
   auto command = std::make_shared<Maslow4Command>();
@@ -98,23 +157,24 @@ void add_import_maslow4(Verb import, Run& run) {
       "maslow4", "What a Maslow 4 prints while it finds its anchors becomes a belts file");
   add_input(verb,
             "file",
-            command->input,
-            "The log, or a list of readings {bl:.., br:.., tr:.., tl:..}; - is standard input")
+            command->inputs,
+            "The log, or a list of readings {bl:.., br:.., tr:.., tl:..}; - is standard input. Several "
+            "logs are runs of one session on one frame, each with a pull of its own")
       .required();
-  add_input(verb, "--settings", command->settings, "The machine's maslow.yaml");
+  add_log_reading(verb, command->reading);
   verb.add_option("--points",
                   command->points,
                   "First and last point to take, counted from 0 over all runs, as in 0:98");
   add_number(
       verb, "--run", command->run, {"", 1.0, 10000.0}, "Which run to take; the last if unsaid");
-  verb.add_option("--lengths",
-                  command->lengths,
-                  "What a length counts: the belt alone, slanting; the belt with its extension and "
-                  "arm, as printed before October 2024; or the level span from anchor to tool, as "
-                  "since")
-      .one_of({"belt", "belt_and_arm", "span"});
-  verb.add_option("--orientation", command->orientation, "How the frame stands")
-      .one_of({"upright", "flat"});
+  verb.add_option("--runs",
+                  command->runs,
+                  "Runs of the one log that are one session, as in 1,2");
+  verb.add_option("--pulls",
+                  command->pulls,
+                  "How hard belts were pulled in each run: 1,1.6 against each other, 1300mA,1900mA of "
+                  "the motors' current (Maslow_Calibration_Current_Threshold) or 150N,240N; unsaid: "
+                  "what the log prints of that setting");
   add_output(verb,
              "-o,--output",
              command->output,
@@ -123,9 +183,11 @@ void add_import_maslow4(Verb import, Run& run) {
       .shows_default();
   verb.footer(
       "What the log does not say is assumed, and said so here and in the file.\n\n"
-      "Example:\n"
+      "Examples:\n"
       "  build/chaintrue import maslow4 fixtures/good/maslow4_log.txt \\\n"
-      "    --settings fixtures/machines/maslow.yaml -o belts.json");
+      "    --settings fixtures/machines/maslow.yaml -o belts.json\n"
+      "  build/chaintrue import maslow4 fixtures/good/maslow4_log.txt fixtures/good/maslow4_log.txt \\\n"
+      "    --pulls 1,1.6 -o two_pulls.json");
   verb.when_chosen([command, &run] { run = [command] { return import_maslow4(*command); }; });
 }
 

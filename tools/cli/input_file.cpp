@@ -66,7 +66,13 @@ model::Machine load_machine(const InputFile& file) {
 }
 
 files::ReadBelts load_belts(const InputFile& file, const std::string& work) {
-  files::ReadBelts read = files::parse_belts(file.text, file.name);
+  return load_belts(file, work, {});
+}
+
+files::ReadBelts load_belts(const InputFile& file,
+                            const std::string& work,
+                            const std::vector<std::size_t>& without) {
+  files::ReadBelts read = files::parse_belts(file.text, file.name, without);
   print_warnings(read.warnings);
   if (read.belts.points.size() > grid::kMostBeltPoints) {
     throw files::InputError({{file.name,

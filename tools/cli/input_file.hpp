@@ -51,6 +51,10 @@ void require_kind(const InputFile& file,
 [[nodiscard]] model::Machine load_machine(const InputFile& file);
 /// At most kMostBeltPoints places; `work` is what they are read for: "a fit".
 [[nodiscard]] grid::files::ReadBelts load_belts(const InputFile& file, const std::string& work);
+/// The same without points, counted from 1.
+[[nodiscard]] grid::files::ReadBelts load_belts(const InputFile& file,
+                                                const std::string& work,
+                                                const std::vector<std::size_t>& without);
 
 /// A map, and whose fault it is where its numbers break a precondition later.
 struct LoadedMap {

@@ -99,6 +99,7 @@ int main_with_exit_code(int argc, char** argv) {
 #ifdef __EMSCRIPTEN__
   ::umask(022);  // emscripten begins with 0777: nobody could read what is written
 #endif
+  if (argc > 0) set_called_as(argv[0]);
   take_up_closed_streams();
   keep_lines_whole();
   grid::files::remove_pending_files_on_signals();

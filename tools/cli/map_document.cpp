@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "grid/map/controller_error.hpp"
 #include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
@@ -28,16 +29,16 @@ void put_advice(const MapContents& contents,
   for (std::size_t i = 0; i < contents.points.size(); ++i) {
     const MapPoint& point = contents.points[i];
     if (!point.bad) continue;
-    say(fmt::format("Measure point {} at ({:.0f}, {:.0f}) again: it lies {:.1f} mm beside what its "
-                    "neighbours say.",
-                    i + 1,
-                    point.mark.x_mm,
-                    point.mark.y_mm,
-                    point.left_out_mm.norm()));
+    say(fmt::format(
+        "Measure point {} at ({:.0f}, {:.0f}) again: it is {:.1f} mm off what its neighbours say.",
+        i + 1,
+        point.mark.x_mm,
+        point.mark.y_mm,
+        point.left_out_mm.norm()));
   }
   for (const grid::SettingResult& result : contents.settings) {
     if (!result.off) continue;
-    say(fmt::format("Check \"{}\" with a tape: {:.1f} {} was stated, the points say {:.1f}.",
+    say(fmt::format("Check \"{}\" with a tape: your file says {:.1f} {}, the points say {:.1f}.",
                     setting_in_words(result.setting),
                     in_unit(result.setting, result.stated),
                     unit_of(result.setting),
@@ -56,37 +57,35 @@ void put_advice(const MapContents& contents,
 }
 
 void put_figures(const grid::CompensationMap& map, report::Document& document) {
-  const MapContents& contents = map.contents();
-  const grid::MapAccuracy& accuracy = contents.accuracy;
+  const grid::MapAccuracy& accuracy = map.contents().accuracy;
   const auto add = [&document](double value_mm, std::string label) {
-    document.figures.push_back({fmt::format("{:.2f} mm", value_mm), std::move(label)});
+    document.figures.push_back({fmt::format("{} mm", about_mm(value_mm)), std::move(label)});
   };
-  add(accuracy.leave_one_out.tool.rms_mm,
-      contents.distances ? "rms of distances that the fit has not seen"
-                         : "rms at points that the map has not seen");
-  add(accuracy.leave_one_out.tool.maximum_mm, "the worst of them");
-  if (map.machine() != nullptr) {
-    add(summary_of(contents, residual_before(contents)).rms_mm,
-        fmt::format("rms before: {}", machine_before(contents)));
+  if (const auto before = grid::error_in_use(map)) {
+    add(before->rms_mm, kToolTodayLabel);
+    add(before->maximum_mm, "today, at the worst place");
   }
-  add(accuracy.expected_tool.rms_mm, "expected error of the map itself, one sigma");
+  add(accuracy.expected_tool.rms_mm, "error of the tool with this map, rms");
   add(accuracy.expected_tool.maximum_mm,
-      fmt::format("at its weakest place, ({:.0f}, {:.0f})",
+      fmt::format("with this map, at its weakest place, ({:.0f}, {:.0f})",
                   accuracy.expected_worst_at.x_mm,
                   accuracy.expected_worst_at.y_mm));
 }
 
-Section remarks_section(const MapContents& contents) {
+Section remarks_section(const grid::CompensationMap& map, std::optional<double> wish_mm) {
+  const MapContents& contents = map.contents();
   const grid::MapAccuracy& accuracy = contents.accuracy;
   Section section{"What else was found", {}};
-  section.blocks.emplace_back(Paragraph{
-      fmt::format("Expected error of the tool over the measured part (one sigma): {:.2f} mm rms, "
-                  "{:.2f} mm at worst, at ({:.0f}, {:.0f}).",
-                  accuracy.expected_tool.rms_mm,
-                  accuracy.expected_tool.maximum_mm,
-                  accuracy.expected_worst_at.x_mm,
-                  accuracy.expected_worst_at.y_mm)});
-  for (const std::string& note : contents.notes) section.blocks.emplace_back(Paragraph{note});
+  const auto say = [&section](std::string text) {
+    section.blocks.emplace_back(Paragraph{std::move(text)});
+  };
+  if (wish_mm) say(wish_sentence(map, *wish_mm));
+  if (not_to_cut_with(map).empty()) {
+    say(least_sure_sentence(accuracy.expected_worst_at.x_mm,
+                            accuracy.expected_worst_at.y_mm,
+                            accuracy.expected_tool.maximum_mm));
+  }
+  for (const std::string& note : contents.notes) say(note);
   return section;
 }
 
@@ -118,7 +117,7 @@ Table left_out_points(const grid::CompensationMap& map) {
                            error.tool.maximum_mm}});
   };
   if (accuracy.leave_one_out.tool.maximum_mm == 0.0) {
-    table.rows.push_back({{"not tested: no inner row or column could be left out"}});
+    table.rows.push_back({{"not tested: too few rows and columns for it"}});
     return table;
   }
   row(direct ? "a column or row at a time" : "one at a time", accuracy.leave_one_out);
@@ -132,10 +131,10 @@ void add_tables(const grid::CompensationMap& map, std::vector<Section>& sections
   const auto add = [&sections](std::string title, report::Block block) {
     sections.push_back({std::move(title), {std::move(block)}, false, Detail::verbose, false});
   };
-  if (!contents.settings.empty())
-    add("The machine's settings", settings_table(settings_rows(map)));
+  if (!contents.settings.empty()) add("The machine's settings", settings_table(settings_rows(map)));
   add("What was left out",
       contents.distances ? left_out_distances(*contents.distances) : left_out_points(map));
+  if (map.machine() != nullptr) add("The points", Paragraph{points_sentence(map)});
   if (contents.mirror) add("One side against the other", Paragraph{contents.mirror->sentence});
 }
 
@@ -157,7 +156,8 @@ std::string provenance_of(std::string_view source) {
 
 report::Document map_document(const grid::CompensationMap& map,
                               std::string_view source,
-                              Detail detail) {
+                              Detail detail,
+                              std::optional<double> wish_mm) {
   const MapContents& contents = map.contents();
   report::Document document;
   document.title = contents.name.empty() ? "Compensation map"
@@ -169,11 +169,11 @@ report::Document map_document(const grid::CompensationMap& map,
   document.tone = tone_of(contents);
   put_advice(contents, map.machine(), source, document);
   document.not_proved = {
-      "These figures hold for the machine as it was when the points were measured. They do not say "
-      "why it erred, and they end when a motor, a chain or the sheet is moved.",
+      "These figures hold for the machine as it was measured, until a motor, a chain or the sheet "
+      "is moved. They do not say why it missed.",
       Detail::page};
   put_figures(map, document);
-  document.remarks = remarks_section(contents);
+  document.remarks = remarks_section(map, wish_mm);
   if (detail == Detail::page) document.sections = report::picture_sections(map_pictures(map));
   add_tables(map, document.sections);
   document.has_glossary = true;

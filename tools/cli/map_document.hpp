@@ -3,6 +3,7 @@
 /// A compensation map as a document for the terminal and for a browser.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,10 +13,11 @@
 namespace chaintrue::cli {
 
 /// `source` is the name of the map's file, as the page's last line gives it. Pictures are made where
-/// `detail` is page.
+/// `detail` is page. The map is held against `wish_mm`, an error of the tool, where that is given.
 [[nodiscard]] report::Document map_document(const grid::CompensationMap& map,
                                             std::string_view source,
-                                            report::Detail detail = report::Detail::page);
+                                            report::Detail detail = report::Detail::page,
+                                            std::optional<double> wish_mm = std::nullopt);
 
 /// What the pictures show.
 [[nodiscard]] report::MapPictures map_pictures(const grid::CompensationMap& map);

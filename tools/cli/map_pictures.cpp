@@ -23,7 +23,7 @@ using report::ErrorStep;
 constexpr int kColumns = 41;
 constexpr int kRows = 21;
 
-/// The tool beyond where the model thinks: the same arrow, seen from the drawing.
+/// The tool beyond where the model thinks: the same arrow, drawn from the drawing.
 report::ToolVector tool_vector(const Eigen::Vector2d& residual_mm) {
   return {residual_mm.x(), residual_mm.y()};
 }
@@ -39,7 +39,7 @@ double noise_at_tool_mm(const grid::CompensationMap& map) {
     if (point.bad || !lengths) continue;
     const Eigen::Matrix2d to_tool = lengths->mark_jacobian.inverse();
     // What was stated stands as it is; what was not is known only by the factor that was found.
-    const double factor = noise.source == "stated" ? 1.0 : noise.factor_found;
+    const double factor = noise.source == grid::NoiseSource::stated ? 1.0 : noise.factor_found;
     variance_mm2 += factor * factor *
                     (to_tool.squaredNorm() * noise.length_mm * noise.length_mm +
                      2.0 * noise.position_mm * noise.position_mm);
@@ -49,7 +49,7 @@ double noise_at_tool_mm(const grid::CompensationMap& map) {
 }
 
 /// The machine's bed; where there is no machine, the part that was measured.
-report::Outline sheet_of(const grid::CompensationMap& map) {
+report::Outline mapped_sheet(const grid::CompensationMap& map) {
   if (const model::Machine* machine = map.machine()) {
     const double half_width_mm = machine->bed.width_mm / 2,
                  half_height_mm = machine->bed.height_mm / 2;
@@ -117,7 +117,7 @@ std::vector<ErrorStep> steps_of(const grid::CompensationMap& map, double noise_m
   const bool has_machine = map.machine() != nullptr;
   if (has_machine) {
     add(ErrorStep::Kind::before,
-        "machine as stated",
+        "machine file as it was",
         summary_of(contents, &MapPoint::as_stated_mm),
         "at the measured points");
   }
@@ -131,34 +131,34 @@ std::vector<ErrorStep> steps_of(const grid::CompensationMap& map, double noise_m
     add(ErrorStep::Kind::after,
         "map, its own points",
         summary_of(contents, &MapPoint::mapped_mm),
-        "what the fit leaves; too good to be promised");
+        "what the fit leaves; do not count on it");
   }
   if (contents.distances) {
     add(ErrorStep::Kind::after,
-        "distances unseen",
+        "distances left out",
         contents.distances->left_out_good,
         "each distance predicted by a fit without it, along the tape; contains the tape's noise");
   } else {
     add(ErrorStep::Kind::after,
-        "map, unseen points",
+        "map, points left out",
         contents.accuracy.leave_one_out.tool,
         "each point predicted by a map made without it; contains that reading's noise");
     add(ErrorStep::Kind::after,
-        "map, unseen regions",
+        "map, regions left out",
         contents.accuracy.blocked.tool,
         "a block of the bed predicted by a map made without it");
   }
   if (noise_mm > 0.0) {
-    steps.push_back(
-        {ErrorStep::Kind::reference,
-         "noise of a reading",
-         noise_mm,
-         {},
-         fmt::format("{:.2g} mm a chain and {:.2g} mm a mark, {}",
-                     contents.noise.length_mm,
-                     contents.noise.position_mm,
-                     contents.noise.source == "stated" ? "as stated"
-                                                       : "found from " + contents.noise.source)});
+    steps.push_back({ErrorStep::Kind::reference,
+                     "noise of a reading",
+                     noise_mm,
+                     {},
+                     fmt::format("{:.2g} mm a chain and {:.2g} mm a mark, {}",
+                                 contents.noise.length_mm,
+                                 contents.noise.position_mm,
+                                 contents.noise.source == grid::NoiseSource::stated
+                                     ? std::string("as given")
+                                     : fmt::format("found from {}", name(contents.noise.source)))});
   }
   add(ErrorStep::Kind::reference,
       "map, expected",
@@ -172,7 +172,7 @@ std::vector<ErrorStep> steps_of(const grid::CompensationMap& map, double noise_m
 report::MapPictures map_pictures(const grid::CompensationMap& map) {
   const double noise_mm = noise_at_tool_mm(map);
   report::MapPictures pictures;
-  pictures.sheet = sheet_of(map);
+  pictures.sheet = mapped_sheet(map);
   pictures.before_what = machine_before(map.contents());
   pictures.steps = steps_of(map, noise_mm);
   pictures.points = points_of(map);

@@ -4,9 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
+#include "grid/map/controller_error.hpp"
+#include "grid/planning/measurement_plan.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::cli {
@@ -36,15 +40,14 @@ Residual residual_before(const grid::MapContents& contents) {
 }
 
 std::string_view machine_before(const grid::MapContents& contents) {
-  return has_placed_sheet(contents) ? "the machine as stated, the sheet found"
-                                    : "the machine as stated";
+  return has_placed_sheet(contents) ? "the machine file as it was, the sheet found"
+                                    : "the machine file as it was";
 }
 
 std::vector<SettingRow> settings_rows(const grid::CompensationMap& map) {
   std::vector<SettingRow> rows;
   for (const grid::SettingResult& result : map.contents().settings) {
-    SettingRow row{
-        result.setting, result.stated, {}, result.calibrated, result.sigma, result.off};
+    SettingRow row{result.setting, result.stated, {}, result.calibrated, result.sigma, result.off};
     const auto& of_machine = model::kMachineSettings;
     if (std::find(of_machine.begin(), of_machine.end(), result.setting) != of_machine.end())
       row.stated_sigma = stated_sigma(*map.machine(), result.setting);
@@ -58,11 +61,12 @@ std::string not_to_cut_with(const grid::CompensationMap& map) {
   constexpr double kMostMm = 3.0;
   const double left_out_mm = map.contents().accuracy.leave_one_out.tool.rms_mm;
   if (!(left_out_mm > kMostMm)) return {};
-  return fmt::format("This map is not to be cut with: what it has not seen comes out {:.1f} mm rms "
-                     "off, where {:g} mm are too much. Look at the points with the largest errors, "
-                     "at the machine's measures and at its settings in force, and measure again.",
-                     left_out_mm,
-                     kMostMm);
+  return fmt::format(
+      "Do not cut with this map: at a mark that it did not use it is off by {} mm, and "
+      "{:g} mm are too much. Look at the marks with the largest errors, at the "
+      "machine's measures and at the settings that it runs with, and measure again.",
+      about_mm(left_out_mm),
+      kMostMm);
 }
 
 bool refuses_to_cut_with(const grid::CompensationMap& map) {
@@ -72,47 +76,137 @@ bool refuses_to_cut_with(const grid::CompensationMap& map) {
   return true;
 }
 
+std::string about_mm(double mm) {
+  if (mm < 0.095) return fmt::format("{:.2f}", mm);
+  if (mm < 0.95) return fmt::format("{:.1f}", mm);
+  return fmt::format("{:.{}f}", mm, mm < 9.95 ? 1 : 0);
+}
+
+std::string misses_sentence(std::optional<double> today_mm,
+                            double expected_mm,
+                            const Remedy& remedy) {
+  if (today_mm && *today_mm <= expected_mm) {
+    return fmt::format(
+        "Your machine needs no {}: it misses by no more than these readings can show, about {} mm.",
+        remedy.needed,
+        about_mm(expected_mm));
+  }
+  if (!today_mm) {
+    return fmt::format(
+        "With {} your machine misses by about {} mm.", remedy.with, about_mm(expected_mm));
+  }
+  return fmt::format("Your machine misses by about {} mm. With {} it misses by about {} mm.",
+                     about_mm(*today_mm),
+                     remedy.with,
+                     about_mm(expected_mm));
+}
+
+std::string least_sure_sentence(double x_mm, double y_mm, double error_mm) {
+  return fmt::format(
+      "It is least sure near ({:.0f}, {:.0f}): about {} mm there.", x_mm, y_mm, about_mm(error_mm));
+}
+
 std::string fit_sentence(const grid::CompensationMap& map) {
+  if (map.machine() == nullptr) return points_sentence(map);
+  if (!not_to_cut_with(map).empty())
+    return "These readings disagree with each other: they make no map to cut with.";
+  const auto before = grid::error_in_use(map);
+  return misses_sentence(before ? std::optional(before->rms_mm) : std::nullopt,
+                         map.contents().accuracy.expected_tool.rms_mm,
+                         {"this map", "map"});
+}
+
+std::string points_sentence(const grid::CompensationMap& map) {
   const grid::MapContents& contents = map.contents();
   const auto bad = std::count_if(
       contents.points.begin(), contents.points.end(), [](const auto& p) { return p.bad; });
   const std::size_t points = contents.points.size();
-  if (map.machine() == nullptr && contents.accuracy.leave_one_out.tool.maximum_mm == 0.0) {
+  const grid::HeldOutError& left_out = contents.accuracy.leave_one_out;
+  if (map.machine() == nullptr && left_out.tool.maximum_mm == 0.0) {
     return fmt::format(
-        "Splines through the lengths of {} points; too few rows and columns to leave one out, so "
-        "their error was not tested.",
+        "Splines through the lengths of {} points. There are too few rows and columns to leave one "
+        "out, so their error was not tested.",
         points);
   }
   if (map.machine() == nullptr) {
     return fmt::format(
-        "Splines through the lengths of {} points: left out a line at a time, points come back "
-        "{:.2f} mm rms "
-        "({:.2f} mm at worst) beside where they were measured.",
+        "Splines through the lengths of {} points: each row and column, left out in turn, comes "
+        "back "
+        "within {:.2f} mm rms ({:.2f} mm at worst).",
         points,
-        contents.accuracy.leave_one_out.tool.rms_mm,
-        contents.accuracy.leave_one_out.tool.maximum_mm);
+        left_out.tool.rms_mm,
+        left_out.tool.maximum_mm);
   }
   if (contents.distances) {
     const grid::DistancesUsed& used = *contents.distances;
     return fmt::format(
-        "{} distances between {} holes fit the calibrated machine: those that it has not seen come "
-        "out within {:.2f} mm rms{}.",
+        "{} distances between {} holes: each one, left out in turn, comes back within "
+        "{:.2f} mm rms{}.",
         used.used,
         points,
         used.left_out_good.rms_mm,
-        used.rejected == 0 ? "" : fmt::format(" ({} more set aside)", used.rejected));
+        used.rejected == 0 ? "" : fmt::format("; {} more were left out as wrong", used.rejected));
   }
-  const bool sheet = has_placed_sheet(contents);
   return fmt::format(
-      "With the settings as stated{} the tool was {:.2f} mm rms beside its {} points; the map "
-      "leaves {:.2f} mm, and "
-      "points that it has not seen come out within {:.2f} mm rms{}.",
-      sheet ? " and the sheet laid as well as it can be" : "",
-      summary_of(contents, &grid::MapPoint::sheet_placed_mm).rms_mm,
+      "At the {} points{} the machine is {:.2f} mm rms off, the map {:.2f} mm; each point, left "
+      "out in "
+      "turn, comes back within {:.2f} mm rms{}.",
       points,
+      has_placed_sheet(contents) ? ", the sheet laid as well as it can be," : "",
+      summary_of(contents, &grid::MapPoint::sheet_placed_mm).rms_mm,
       summary_of(contents, &grid::MapPoint::mapped_mm).rms_mm,
-      contents.accuracy.leave_one_out.tool.rms_mm,
-      bad == 0 ? "" : fmt::format(" ({} set aside as bad)", bad));
+      left_out.tool.rms_mm,
+      bad == 0 ? "" : fmt::format("; {} were left out as wrong", bad));
+}
+
+namespace {
+
+/// The rms error that so many marks as good as the map's would leave; nothing where none can be planned.
+std::optional<double> expected_with(const grid::CompensationMap& map, int points) {
+  const grid::MapNoise& noise = map.contents().noise;
+  grid::PlanRequest request;
+  request.points = points;
+  request.noise = {noise.length_mm * noise.factor_found, noise.position_mm * noise.factor_found};
+  const auto plan = grid::plan_measurement(*map.machine(), request);
+  if (!plan) return std::nullopt;
+  return plan->map.contents().accuracy.expected_tool.rms_mm;
+}
+
+/// The least number of marks that is expected to reach `wish_mm`: the planned error is scaled to the
+/// one that the map has at its own number of points.
+std::optional<int> marks_for(const grid::CompensationMap& map, double wish_mm) {
+  constexpr std::array<int, 6> kNumbers = {28, 45, 70, 100, 140, grid::kMostPlanned};
+  const auto now = static_cast<int>(map.contents().points.size());
+  const auto here = expected_with(map, std::clamp(now, grid::kFewestPlanned, grid::kMostPlanned));
+  if (!here || !(*here > 0.0)) return std::nullopt;
+  const double ratio = map.contents().accuracy.expected_tool.rms_mm / *here;
+  for (const int number : kNumbers) {
+    if (number <= now) continue;
+    const auto then = expected_with(map, number);
+    if (then && ratio * *then <= wish_mm) return number;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string wish_sentence(const grid::CompensationMap& map, double wish_mm) {
+  const double expected_mm = map.contents().accuracy.expected_tool.rms_mm;
+  const std::string held = fmt::format("You wish for {:g} mm: ", wish_mm);
+  if (map.machine() == nullptr || !not_to_cut_with(map).empty())
+    return held + "these readings cannot say whether that is reached.";
+  if (expected_mm <= wish_mm) return held + "reached.";
+  if (map.contents().distances)
+    return held + "not reached. More distances, or a better tape, would bring it down.";
+  const auto marks = marks_for(map, wish_mm);
+  if (marks)
+    return held +
+           fmt::format("not reached. About {} marks measured as well as these would reach it.",
+                       *marks);
+  return held + fmt::format(
+                    "not reached, and not by up to {} marks measured as well as these: "
+                    "measure each mark more precisely.",
+                    grid::kMostPlanned);
 }
 
 }  // namespace chaintrue::cli

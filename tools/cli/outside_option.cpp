@@ -33,7 +33,7 @@ void add_outside_options(Verb verb, OutsideOption& option, const std::string& us
              "--fade-mm",
              option.fade_width_mm,
              grid::files::kFadeWidthMm,
-             "Over how far --outside fade fades");
+             "With --outside fade: over how far");
 }
 
 grid::OutsideRule rule_of(const OutsideOption& option, const grid::OutsideRule& usual) {

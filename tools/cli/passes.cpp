@@ -17,6 +17,7 @@
 #include "grid/planning/calibration_rounds.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/input_file.hpp"
+#include "tools/cli/made_by.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
@@ -39,7 +40,7 @@ struct PassesCommand {
 };
 
 std::string heading(bool is_simulated) {
-  return fmt::format("Pass   as cut   left out   set aside   expected   with one more{}\n",
+  return fmt::format("Pass   as cut   left out   rejected    expected   with one more{}\n",
                      is_simulated ? "   true error" : "");
 }
 
@@ -83,8 +84,8 @@ std::string as_json(const std::vector<grid::HolesPass>& passes, std::optional<do
 
 std::string ending(const grid::HolesPass& last, double worthwhile_mm, std::size_t unused) {
   std::string text =
-      "mm: distances as cut beside wanted; distances left out; tool expected over the bed, one "
-      "sigma, the sheet laid as well as it can be.\n";
+      "mm: distances as cut minus as wanted; distances left out; expected error over the bed, one "
+      "sigma, with the sheet laid at its best.\n";
   const double gain = last.expected_mm - last.expected_next_mm;
   text += last.next_pays
               ? fmt::format("One more pass would take {:.2f} mm off the expected error: it pays.\n",
@@ -98,13 +99,13 @@ std::string ending(const grid::HolesPass& last, double worthwhile_mm, std::size_
   return text;
 }
 
-int simulate(const PassesCommand& command) {
+int simulate(Verb verb, const PassesCommand& command) {
   const model::Machine machine = read_machine_input(command.machine);
   grid::SimulatedRoundsRequest request = command.request;
   request.progress = shown_progress();
   const auto result = grid::simulate_rounds(machine, request);
   if (!result) {
-    fmt::print(stderr, "chaintrue passes: {}\n", result.error().sentence);
+    fmt::print(stderr, "chaintrue passes: {}\n", result.error().sentence());
     return kNotSupportedOrOutside;
   }
   std::string text =
@@ -113,7 +114,7 @@ int simulate(const PassesCommand& command) {
   for (const grid::HolesPass& pass : result->passes) text += line_of(pass);
   text += ending(result->passes.back(), command.request.worthwhile_mm, 0);
   if (!command.map.empty()) {
-    write_output(command.map, files::write_map(result->fit.map));
+    write_output(command.map, files::write_map(result->fit.map, made_by(verb)));
   }
   end_progress();
   fmt::print("{}", command.json ? as_json(result->passes, result->before_mm) : text);
@@ -131,7 +132,7 @@ int simulate(const PassesCommand& command) {
   return kDone;
 }
 
-int follow(const PassesCommand& command) {
+int follow(Verb verb, const PassesCommand& command) {
   files::HolesOptions options;
   if (!command.machine.empty()) options.machine = read_machine_input(command.machine);
   std::vector<grid::MeasuredHoles> sets;
@@ -157,7 +158,7 @@ int follow(const PassesCommand& command) {
         {"a set of holes, fitted", static_cast<int>(used) + 1, static_cast<int>(sets.size())});
     const auto pass = passes.add(sets[used]);
     if (!pass) {
-      fmt::print(stderr, "{}: {}\n", command.sets[used], pass.error().sentence);
+      fmt::print(stderr, "{}: {}\n", command.sets[used], pass.error().sentence());
       return kBadInput;
     }
     done.push_back(*pass);
@@ -168,7 +169,7 @@ int follow(const PassesCommand& command) {
   }
   text += ending(done.back(), command.request.worthwhile_mm, sets.size() - used);
   if (!command.map.empty()) {
-    write_output(command.map, files::write_map(passes.fit()->map));
+    write_output(command.map, files::write_map(passes.fit()->map, made_by(verb)));
   }
   end_progress();
   fmt::print("{}", command.json ? as_json(done, std::nullopt) : text);
@@ -191,7 +192,7 @@ int run_passes(Verb verb, const PassesCommand& command) {
   problems.require("--tape-sigma-mm", request.plan.tape_sigma_mm, 0.001, 100.0);
   problems.require("--hole-sigma-mm", request.plan.hole_sigma_mm, 0.0, 100.0);
   problems.throw_if_any();
-  return command.sets.empty() ? simulate(command) : follow(command);
+  return command.sets.empty() ? simulate(verb, command) : follow(verb, command);
 }
 
 }  // namespace
@@ -200,7 +201,7 @@ void add_passes(Verb app, Run& run) {
   auto command = std::make_shared<PassesCommand>();
   grid::SimulatedRoundsRequest& request = command->request;
   Verb verb =
-      app.add_verb("passes", "Cut, measure, correct, and again, until the next pass would not pay");
+      app.add_verb("passes", "Cut, measure, correct and repeat until a pass no longer pays");
   add_input(verb,
             "sets",
             command->sets,
@@ -229,17 +230,16 @@ void add_passes(Verb app, Run& run) {
              "--worthwhile-mm",
              request.worthwhile_mm,
              {"mm", 0.0, 100.0},
-             "A pass that takes less off the expected error is not asked for");
+             "Stop when a pass would lower the expected error by less");
   add_number(verb, "--seed", request.seed, {"", 0.0, 9e15}, "Simulated: same seed, same bytes");
   verb.add_flag("--json", command->json, "All digits, for scripts");
   add_output(
       verb, "-o,--output", command->map, {Origin::map}, "Write the last pass's map to this file");
   verb.footer(
-      "What one pass learnt of the machine is where the next one begins. Between passes the "
-      "controller's\nsettings may change, the machine as first stated may not.\n\n"
-      "Examples:\n"
-      "  build/chaintrue passes --machine fixtures/machines/classic.json --passes 4 --seed 1\n"
-      "  build/chaintrue passes fixtures/holes/nine_holes.json -o map.json");
+      "Each pass starts from what the one before has learnt. Between passes the "
+      "controller's\nsettings may change, the machine file may not.\n\nExamples:\n  "
+      "build/chaintrue passes --machine fixtures/machines/classic.json --passes 4 --seed 1\n  "
+      "build/chaintrue passes fixtures/holes/nine_holes.json -o map.json");
   verb.when_chosen([command, verb, &run] {
     if (command->sets.empty() && command->machine.empty()) missing_option("--machine");
     run = [command, verb] { return run_passes(verb, *command); };

@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 /// An option that names files; what it names is known once the command line is parsed.
 struct Place {
   Verb verb;
+  std::string names;  ///< "-o,--output"
   const std::string* one = nullptr;
   const std::vector<std::string>* many = nullptr;
   std::vector<Origin> kinds;  ///< of an output; none for an input
@@ -183,7 +184,7 @@ void add_force(Verb verb) {
 }  // namespace
 
 Option add_input(Verb verb, const std::string& names, std::string& path, const std::string& help) {
-  places().push_back({verb.with_name(), &path, nullptr, {}});
+  places().push_back({verb.with_name(), names, &path, nullptr, {}});
   return verb.add_option(names, path, help);
 }
 
@@ -191,7 +192,7 @@ Option add_input(Verb verb,
                  const std::string& names,
                  std::vector<std::string>& paths,
                  const std::string& help) {
-  places().push_back({verb.with_name(), nullptr, &paths, {}});
+  places().push_back({verb.with_name(), names, nullptr, &paths, {}});
   return verb.add_option(names, paths, help);
 }
 
@@ -200,7 +201,7 @@ Option add_output(Verb verb,
                   std::string& path,
                   std::vector<Origin> kinds,
                   const std::string& help) {
-  places().push_back({verb.with_name(), &path, nullptr, std::move(kinds)});
+  places().push_back({verb.with_name(), names, &path, nullptr, std::move(kinds)});
   Option option = verb.add_option(names, path, help);
   option.refuses([](const std::string& text) -> std::string {
     if (text.empty()) return "an empty name, expected the name of a file";
@@ -211,6 +212,16 @@ Option add_output(Verb verb,
   });
   add_force(verb);
   return option;
+}
+
+PlaceUse use_of(Verb verb, const std::string& option) {
+  const std::string path = verb.path();
+  for (const Place& place : places()) {
+    const std::string names = "," + place.names + ",";
+    if (place.verb.path() != path || names.find("," + option + ",") == std::string::npos) continue;
+    return place.kinds.empty() ? PlaceUse::input : PlaceUse::output;
+  }
+  return PlaceUse::nothing;
 }
 
 Option add_output_folder(Verb verb,
@@ -227,7 +238,8 @@ void check_folder(Verb verb, const std::string& folder, const std::vector<Folder
   if (!fs::exists(folder, error)) return;
   PlaceCheck check(chosen_places());
   for (const FolderFile& file : contents)
-    check.look_at((fs::path(folder) / file.name).string(), {verb, nullptr, nullptr, {file.kind}});
+    check.look_at((fs::path(folder) / file.name).string(),
+                  {verb, "", nullptr, nullptr, {file.kind}});
   check.throw_if_any();
 }
 

@@ -43,6 +43,10 @@ Option add_output(Verb verb,
                   std::vector<Origin> kinds,
                   const std::string& help);
 
+/// What an option of the verb names.
+enum class PlaceUse { nothing, input, output };
+[[nodiscard]] PlaceUse use_of(Verb verb, const std::string& option);
+
 /// A folder that is made where it is not there yet; adds --force to the verb.
 Option add_output_folder(Verb verb,
                          const std::string& names,

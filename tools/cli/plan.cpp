@@ -157,21 +157,19 @@ int run_plan(Verb verb, PlanOptions options) {
   check_options(options, machine.bed);
   const auto plan = grid::plan_measurement(machine, options.request);
   if (!plan) {
-    fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence);
+    fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence());
     return kNotSupportedOrOutside;
   }
   // A small bed has room for fewer marks than were asked for.
   OptionProblems problems;
-  problems.require("--second-visits",
-                   options.second_visits,
-                   0,
-                   static_cast<int>(plan->marks.size()) / 3);
+  problems.require(
+      "--second-visits", options.second_visits, 0, static_cast<int>(plan->marks.size()) / 3);
   problems.throw_if_any();
   const ExpectedErrors errors = expected_errors(plan->map, machine.bed);
-  const Sheet sheet{
-      plan->marks,
-      sheet_of(options.measure, &machine),
-      grid::with_second_visits(plan->marks.size(), static_cast<std::size_t>(options.second_visits))};
+  const Sheet sheet{plan->marks,
+                    sheet_of(options.measure, &machine),
+                    grid::with_second_visits(plan->marks.size(),
+                                             static_cast<std::size_t>(options.second_visits))};
   const grid::observation::PointNoise& noise = options.request.noise;
   std::vector<files::OutputFile> outputs =
       sheet_outputs(sheet,
@@ -197,10 +195,11 @@ void add_plan(Verb app, Run& run) {
             options->machine,
             "chaintrue_machine file; - is standard input. With --after only where the grid "
             "names none, with --check not at all");
-  const Option grid = add_input(verb,
-                                "grid",
-                                options->follow_up.file,
-                                "With --after: the points, the holes or the belts, measured so far");
+  const Option grid =
+      add_input(verb,
+                "grid",
+                options->follow_up.file,
+                "With --after: the points, the holes or the belts, measured so far");
   const Option after =
       add_input(verb,
                 "--after",
@@ -215,41 +214,39 @@ void add_plan(Verb app, Run& run) {
       .needs(after);
   const grid::PlanRequest usual;
   const grid::CheckPlanRequest usual_check;
-  const Option points =
-      add_number(verb,
-                 "--points",
-                 options->points,
-                 {"", 1.0, 1000.0},
-                 fmt::format("How many, {} to {}; {} where unsaid. With --check {} "
-                             "to {}; {} where unsaid",
-                             grid::kFewestPlanned,
-                             grid::kMostPlanned,
-                             usual.points,
-                             grid::kFewestCheckPoints,
-                             grid::kMostCheckPoints,
-                             usual_check.points));
+  const Option points = add_number(
+      verb,
+      "--points",
+      options->points,
+      {"", 1.0, 1000.0},
+      fmt::format("How many, {} to {}; {} by default. With --check {} to {}; {} by default",
+                  grid::kFewestPlanned,
+                  grid::kMostPlanned,
+                  usual.points,
+                  grid::kFewestCheckPoints,
+                  grid::kMostCheckPoints,
+                  usual_check.points));
   add_number(verb,
              "--second-visits",
              options->second_visits,
              {"", 0.0, 66.0},
-             "So many marks come a second time, the first one last: they show what changes during "
+             "So many marks are measured twice, the first one last: they show what changes during "
              "the session");
   add_input(verb,
             "--check",
             options->check.map,
-            "Plan the few points that tell best, later, whether this chaintrue_map still "
-            "holds")
+            "Plan the few points that later show best whether this chaintrue_map still holds")
       .excludes(after);
   add_number(verb,
              "--margin-mm",
              options->margin_mm,
              {"mm", 0.0, 10000.0},
-             fmt::format("From the bed's edge to the outermost marks; {:g} where unsaid, on a small "
+             fmt::format("From the bed's edge to the outermost marks; {:g} by default, on a small "
                          "bed a fifth of its shorter side: nearer, a sled hangs over the edge",
                          kReachableMm));
   add_plan_holes_options(verb, options->holes, points);
   const auto noise_words = [](const char* what, double usually_mm, double in_check_mm) {
-    return fmt::format("Noise of {}, one sigma; {:g} where unsaid, with --check {:g}",
+    return fmt::format("Noise of {}, one sigma; {:g} by default, with --check {:g}",
                        what,
                        usually_mm,
                        in_check_mm);
@@ -286,21 +283,19 @@ void add_plan(Verb app, Run& run) {
              "Draw the points over the expected error of the map, or the holes and their "
              "distances, into this SVG file");
   verb.footer(
-      "The list goes row by row from the bottom left, turning round at the end of each row;\n"
-      "chaintrue simulate --marks takes it. The expected error is told on standard error.\n"
-      "Fill in the list (in an editor or a spreadsheet) and hand it to chaintrue fit, diagnose or\n"
-      "check as it is, a CSV with --machine. What is left empty is left out, and said.\n\n"
-      "Examples:\n"
-      "  build/chaintrue plan --machine fixtures/machines/classic.json --points 28 -o plan.csv "
-      "--svg plan.svg\n"
-      "  build/chaintrue plan --machine fixtures/machines/groundcontrol.json -o marks.csv --gcode "
-      "marks.nc --page marks.html\n"
-      "  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n"
-      "  build/chaintrue plan fixtures/grids/seven_by_four.json --after diagnosis.json\n"
-      "  build/chaintrue plan --machine fixtures/machines/classic.json --holes 9 "
-      "--tape-sigma-mm 0.5 -o holes.csv --gcode holes.nc --svg holes.svg\n"
-      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
-      "  build/chaintrue plan --check map.json -o five.csv --svg five.svg");
+      "The list goes row by row from the bottom left, turning round at the end of each "
+      "row;\nchaintrue simulate --marks takes it. The expected error is printed on standard "
+      "error.\nFill in the list (in an editor or a spreadsheet) and hand it to chaintrue fit, "
+      "diagnose or\ncheck as it is, a CSV with --machine. Empty cells are left out, with a "
+      "note.\n\nExamples:\n  build/chaintrue plan --machine fixtures/machines/classic.json "
+      "--points 28 -o plan.csv --svg plan.svg\n  build/chaintrue plan --machine "
+      "fixtures/machines/groundcontrol.json -o marks.csv --gcode marks.nc --page marks.html\n  "
+      "build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n  "
+      "build/chaintrue plan fixtures/grids/seven_by_four.json --after diagnosis.json\n  "
+      "build/chaintrue plan --machine fixtures/machines/classic.json --holes 9 --tape-sigma-mm 0.5 "
+      "-o holes.csv --gcode holes.nc --svg holes.svg\n  build/chaintrue fit "
+      "fixtures/grids/seven_by_four.json -o map.json\n  build/chaintrue plan --check map.json -o "
+      "five.csv --svg five.svg");
   verb.when_chosen([options, verb, &run] {
     if (options->follow_up.after.empty() && !options->follow_up.file.empty())
       missing_option("--after");

@@ -15,6 +15,7 @@
 #include "tools/cli/follow_up.hpp"
 #include "tools/cli/follow_up_holes.hpp"
 #include "tools/cli/grid_input.hpp"
+#include "tools/cli/made_by.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_after_belts.hpp"
 #include "tools/cli/plan_drawing.hpp"
@@ -161,6 +162,22 @@ std::string drawing_of(const Diagnosis& found, const Sources& sources) {
 
 }  // namespace
 
+std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found,
+                                             const std::vector<grid::MeasuredGrid>& grids,
+                                             const std::vector<grid::MeasuredHoles>& sets) {
+  if (!is_of(found, grids) || !is_of_these(found, sets)) return std::nullopt;
+  Sources sources{{}, grids, sets};
+  for (std::size_t k = 0; k < grids.size(); ++k)
+    sources.all.push_back({grids[k].name, false, false, k});
+  for (std::size_t k = 0; k < sets.size(); ++k)
+    sources.all.push_back({sets[k].name, false, true, k});
+  FollowUpTexts texts{follow_up_list(found), lines_of(found, sources), "", ""};
+  for (Source& source : sources.all) source.json = true;
+  texts.json = lines_of(found, sources);
+  texts.drawing = drawing_of(found, sources);
+  return texts;
+}
+
 Facts facts_after(const InputFile& file) {
   require_kind(file,
                {FileKind::grid, FileKind::holes, FileKind::belts},
@@ -173,12 +190,14 @@ Facts facts_after(const InputFile& file) {
 int plan_after(const PlanAfterOptions& options, const InputFile& file) {
   if (file.kind == FileKind::belts) return plan_after_belts(options, file);
   const Sources sources = read_sources(options, file);
-  const Diagnosis found = load_diagnosis(open_input(options.after));
+  const InputFile after = open_input(options.after);
+  const Diagnosis found = load_diagnosis(after);
   const std::string others = made_from_others(options, found, sources);
   if (!others.empty()) {
     fmt::print(stderr, "{}", others);
     return kBadInput;
   }
+  say_what_changed(after);
   std::vector<files::OutputFile> outputs;
   if (!options.drawing.empty()) outputs.push_back({options.drawing, drawing_of(found, sources)});
   outputs.push_back({options.output, lines_of(found, sources)});

@@ -4,9 +4,12 @@
 /// files that were diagnosed, and as a drawing.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/observation/measured_holes.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/option_rules.hpp"
 
@@ -27,5 +30,21 @@ struct PlanAfterOptions {
 /// \param file that of the options, opened
 /// \throws files::InputError. Returns an exit code.
 [[nodiscard]] int plan_after(const PlanAfterOptions& options, const InputFile& file);
+
+/// What is to be measured next, without a file: the list for the workshop, the lines that are to be
+/// filled in, and the drawing (SVG).
+struct FollowUpTexts {
+  std::string list;
+  std::string csv;  ///< empty of belts, which have no CSV
+  std::string json;
+  std::string drawing;
+};
+/// Empty where the diagnosis is of other readings.
+[[nodiscard]] std::optional<FollowUpTexts> follow_up_texts(
+    const grid::diagnosis::Diagnosis& found,
+    const std::vector<grid::MeasuredGrid>& grids,
+    const std::vector<grid::MeasuredHoles>& sets);
+[[nodiscard]] std::optional<FollowUpTexts> follow_up_texts(const grid::diagnosis::Diagnosis& found,
+                                                           const grid::MeasuredBelts& belts);
 
 }  // namespace chaintrue::cli

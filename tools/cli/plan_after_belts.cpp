@@ -14,6 +14,7 @@
 #include "model/belts/belt_kinematics.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/follow_up.hpp"
+#include "tools/cli/made_by.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/talk.hpp"
@@ -113,9 +114,16 @@ std::string drawing_of(const Diagnosis& found) {
 
 }  // namespace
 
+std::optional<FollowUpTexts> follow_up_texts(const Diagnosis& found, const MeasuredBelts& belts) {
+  if (!is_of(found, belts)) return std::nullopt;
+  return FollowUpTexts{
+      follow_up_list(found), "", points_of(found, belts) + distances_of(found), drawing_of(found)};
+}
+
 int plan_after_belts(const PlanAfterOptions& options, const InputFile& file) {
   const files::ReadBelts read = load_belts(file, "a diagnosis");
-  const Diagnosis found = load_diagnosis(open_input(options.after));
+  const InputFile after = open_input(options.after);
+  const Diagnosis found = load_diagnosis(after);
   if (!is_of(found, read.belts)) {
     fmt::print(stderr,
                "{} was made from other readings than those of {}: diagnose these first.\n",
@@ -123,11 +131,13 @@ int plan_after_belts(const PlanAfterOptions& options, const InputFile& file) {
                file.name);
     return kBadInput;
   }
+  say_what_changed(after);
   std::vector<files::OutputFile> outputs;
   if (!options.drawing.empty()) outputs.push_back({options.drawing, drawing_of(found)});
   outputs.push_back({options.output, points_of(found, read.belts) + distances_of(found)});
   write_outputs(outputs);
   fmt::print(stderr, "{}", follow_up_list(found));
+  if (found.belts->second_pass) fmt::print(stderr, "{}\n", in_words(*found.belts->second_pass));
   say_next({"diagnose", options.file, "-o", options.after});
   return kDone;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string_view>
 #include <vector>
 
 #include "grid/files/whole_file.hpp"
@@ -40,6 +41,15 @@ std::string draw(const grid::CheckPlan& plan, const grid::CompensationMap& map) 
   return draw_follow_up(drawing, map.machine()->bed);
 }
 
+/// Whether a worn chain would show beyond what a shifted zero can do. Three sigmas are one chance in
+/// 400, two one in 20.
+std::string_view what_shows(const model::PerSide<double>& sigmas) {
+  const double least = std::min(sigmas.left, sigmas.right);
+  if (least >= 3.0) return "show it beyond doubt";
+  if (least >= 2.0) return "probably show it";
+  return "may miss it, so that more points or better readings are needed";
+}
+
 }  // namespace
 
 int plan_the_check(const grid::CompensationMap& map,
@@ -48,7 +58,7 @@ int plan_the_check(const grid::CompensationMap& map,
   check_options(options.request, map);
   const auto plan = grid::plan_check(map, options.request);
   if (!plan) {
-    fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence);
+    fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence());
     return kNotSupportedOrOutside;
   }
   const Sheet sheet{plan->marks, sheet_of(options.measure, map.machine())};
@@ -61,11 +71,11 @@ int plan_the_check(const grid::CompensationMap& map,
   write_outputs(outputs);
   fmt::print(
       stderr,
-      "{} points for chaintrue check. Links of one chain that grew by {:g} % would stand out "
-      "there, beyond what a shifted zero can imitate, by {:.1f} sigmas (left chain) and "
-      "{:.1f} (right).\n",
+      "{} points for chaintrue check. If one chain's links grow by {:g} %, they {}: that is {:.1f} "
+      "times the scatter of the readings (left chain), {:.1f} times (right).\n",
       plan->marks.size(),
       100.0 * model::kPitchGrowthSigma,
+      what_shows(plan->expected_sigmas),
       plan->expected_sigmas.left,
       plan->expected_sigmas.right);
   say_next({"check", options.map, wanted.list});

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "tools/report/bed_chart.hpp"
+
 namespace chaintrue::cli {
 namespace {
 
@@ -119,9 +121,10 @@ void draw_errors(std::string& svg,
 }
 
 void draw_walk(std::string& svg, const Picture& picture, const std::vector<MarkPoint>& marks) {
-  svg +=
-      "<polyline fill=\"none\" stroke=\"#0072b2\" stroke-width=\"1\" stroke-opacity=\"0.6\" "
-      "points=\"";
+  fmt::format_to(std::back_inserter(svg),
+                 "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1\" "
+                 "stroke-opacity=\"0.6\" points=\"",
+                 report::kAfterColor);
   for (std::size_t i = 0; i < marks.size(); ++i) {
     fmt::format_to(std::back_inserter(svg),
                    "{}{:.2f},{:.2f}",
@@ -134,9 +137,10 @@ void draw_walk(std::string& svg, const Picture& picture, const std::vector<MarkP
     const double x = picture.x(marks[i].x_mm);
     const double y = picture.y(marks[i].y_mm);
     fmt::format_to(std::back_inserter(svg),
-                   "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" fill=\"#0072b2\"/>\n",
+                   "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" fill=\"{}\"/>\n",
                    x,
-                   y);
+                   y,
+                   report::kAfterColor);
     // Numbers stand towards the middle of the bed, so that none is cut off at its edge.
     const bool right_half = marks[i].x_mm > 0.0;
     const bool upper_half = marks[i].y_mm > 0.0;
@@ -210,9 +214,10 @@ std::string draw_follow_up(const FollowUpDrawing& drawing, const model::Bed& bed
                  picture.bed_high());
   for (const MarkPoint& mark : drawing.measured) {
     fmt::format_to(std::back_inserter(svg),
-                   "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3\" fill=\"#8a94a3\"/>\n",
+                   "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3\" fill=\"{}\"/>\n",
                    picture.x(mark.x_mm),
-                   picture.y(mark.y_mm));
+                   picture.y(mark.y_mm),
+                   report::kNeutralColor);
   }
   for (const auto& [numbers, mark] : drawing.next) {
     const double x = picture.x(mark.x_mm);
@@ -220,7 +225,7 @@ std::string draw_follow_up(const FollowUpDrawing& drawing, const model::Bed& bed
     constexpr double kArm = 7.0;
     fmt::format_to(std::back_inserter(svg),
                    "<path d=\"M{:.2f},{:.2f}L{:.2f},{:.2f}M{:.2f},{:.2f}L{:.2f},{:.2f}\" "
-                   "stroke=\"#0072b2\" stroke-width=\"2.5\"/>\n",
+                   "stroke=\"{}\" stroke-width=\"2.5\"/>\n",
                    x - kArm,
                    y - kArm,
                    x + kArm,
@@ -228,7 +233,8 @@ std::string draw_follow_up(const FollowUpDrawing& drawing, const model::Bed& bed
                    x - kArm,
                    y + kArm,
                    x + kArm,
-                   y - kArm);
+                   y - kArm,
+                   report::kAfterColor);
     const bool right_half = mark.x_mm > 0.0;
     text(svg,
          x + (right_half ? -10.0 : 10.0),

@@ -30,7 +30,8 @@ void check(const HolesPlanOptions& options, const model::Bed& bed) {
   require_sound(problems, request);
   problems.require("--tape-length-mm", request.longest_mm, 500.0, 100000.0);
   const double half = 0.5 * std::min(bed.width_mm, bed.height_mm);
-  problems.require("--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 0.5 * grid::kLeastPlannedSideMm));
+  problems.require(
+      "--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 0.5 * grid::kLeastPlannedSideMm));
   problems.throw_if_any();
 }
 
@@ -63,8 +64,8 @@ void add_plan_holes_options(Verb verb, HolesPlanOptions& options, Option points)
              "--distances",
              request.distances,
              {"", 1.0, 10000.0},
-             "Of --holes: how many to measure; where unsaid twice the holes and two more, "
-             "with --edges six more")
+             "Of --holes: how many to measure; by default twice the holes and two more, with "
+             "--edges six more")
       .shows_default("");
   verb.add_flag("--edges",
                 request.edges,
@@ -75,11 +76,12 @@ void add_plan_holes_options(Verb verb, HolesPlanOptions& options, Option points)
              request.tape_sigma_mm,
              grid::files::kTapeSigmaMm,
              "Of --holes: one sigma of a tape reading");
-  add_number(verb,
-             "--hole-sigma-mm",
-             request.hole_sigma_mm,
-             grid::files::kHoleSigmaMm,
-             "Of --holes: one sigma of a hole beside where its chains put it, on each axis");
+  add_number(
+      verb,
+      "--hole-sigma-mm",
+      request.hole_sigma_mm,
+      grid::files::kHoleSigmaMm,
+      "Of --holes: one sigma of how far a hole is from where its chains put it, on each axis");
   add_number(verb,
              "--tape-length-mm",
              request.longest_mm,
@@ -95,7 +97,7 @@ int plan_the_holes(const HolesPlanOptions& options,
   request.progress = shown_progress();
   const auto plan = grid::plan_holes(machine, request);
   if (!plan) {
-    fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence);
+    fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence());
     return kNotSupportedOrOutside;
   }
   std::vector<files::OutputFile> outputs;

@@ -27,7 +27,7 @@ double seconds_since(Clock::time_point start) {
 }
 
 /// What was received last. The share is separate: it may change millions of times.
-struct Told {
+struct LastStep {
   std::mutex mutex;
   grid::WorkStep step;
   Clock::time_point began = Clock::now();
@@ -35,19 +35,19 @@ struct Told {
   std::atomic<double> share{-1.0};
 };
 
-Told& told() {
-  static Told last;
+LastStep& last_step() {
+  static LastStep last;
   return last;
 }
 
 void note(const grid::WorkStep& step) {
-  const std::scoped_lock lock(told().mutex);
-  const grid::WorkStep& last = told().step;
+  const std::scoped_lock lock(last_step().mutex);
+  const grid::WorkStep& last = last_step().step;
   if (step.number != last.number || step.what != last.what || step.pass != last.pass) {
-    told().began = Clock::now();
+    last_step().began = Clock::now();
   }
-  told().step = step;
-  told().share = step.share;
+  last_step().step = step;
+  last_step().share = step.share;
 }
 
 std::string left_in_words(double elapsed_s, double done) {
@@ -58,21 +58,21 @@ std::string left_in_words(double elapsed_s, double done) {
 
 /// Time left is that of the step, or of its pass: how long the others will take nobody knows.
 std::string in_words(const std::string& verb, double elapsed_s) {
-  const std::scoped_lock lock(told().mutex);
-  const grid::WorkStep& step = told().step;
-  const double share = std::min(told().share.load(), 1.0);
+  const std::scoped_lock lock(last_step().mutex);
+  const grid::WorkStep& step = last_step().step;
+  const double share = std::min(last_step().share.load(), 1.0);
   std::string words = fmt::format("{}: {:.0f} s", verb, elapsed_s);
   if (step.what.empty()) return words + left_in_words(elapsed_s, share);
   if (step.of > 1) words += fmt::format(", step {} of {}", step.number, step.of);
   words += fmt::format(", {}", step.what);
   if (step.pass > 0)
     words += fmt::format(", pass {}{}", step.pass, share < 0.0 ? " until it settles" : "");
-  return words + left_in_words(seconds_since(told().began), share);
+  return words + left_in_words(seconds_since(last_step().began), share);
 }
 
 #ifdef __EMSCRIPTEN__
 
-/// A page has neither a terminal nor a second thread: its script, Module.onProgress, is told the
+/// A page has neither a terminal nor a second thread: its script, Module.onProgress, is given the
 /// words when a step or a share is, not more often than it can show them.
 class Line {
  public:
@@ -171,7 +171,7 @@ grid::Progress shown_progress() {
 }
 
 void progress_is(double finished, double total) {
-  told().share = total > 0.0 ? finished / total : -1.0;
+  last_step().share = total > 0.0 ? finished / total : -1.0;
   show_in_page();
 }
 

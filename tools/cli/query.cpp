@@ -59,15 +59,14 @@ std::vector<model::BedPoint> points_asked(const QueryCommand& command) {
 int answer_inverse(const AskedMap& asked, const QueryCommand& command) {
   const auto tool = asked.map.tool({command.inverse[0], command.inverse[1]});
   if (!tool) {
-    const bool has_own_words = !asked.no_answer.empty() && tool.error().cause;
+    const bool has_own_words = !asked.no_answer.empty() && !tool.error().cause.empty();
     fmt::print(stderr,
                "{} {} mm, {} {} mm: {}\n",
                asked.first,
                command.inverse[0],
                asked.second,
                command.inverse[1],
-               has_own_words ? std::string(tool.error().cause->sentence)
-                             : grid::explain(tool.error()));
+               has_own_words ? std::string(tool.error().cause) : tool.error().sentence());
     return kNotSupportedOrOutside;
   }
   const auto status = grid::name(asked.map.status(*tool));
@@ -95,7 +94,7 @@ int answer_points(const AskedMap& asked, const QueryCommand& command) {
         "({}, {}): {}\n",
         point.x_mm,
         point.y_mm,
-        asked.no_answer.empty() ? grid::explain(lines.back().answer.error()) : asked.no_answer);
+        asked.no_answer.empty() ? lines.back().answer.error().sentence() : asked.no_answer);
   }
   if (!outside.empty()) {
     end_progress();
@@ -119,9 +118,8 @@ int answer(const AskedMap& asked, const QueryCommand& command) {
 
 int query_map(const QueryCommand& command, const grid::CompensationMap& stored) {
   if (command.outside.way == "fade" && stored.machine() == nullptr) {
-    fmt::print(stderr,
-               "{}: without a machine nothing is left where the map's surface fades out\n",
-               command.map);
+    fmt::print(
+        stderr, "{}: fade needs a map with a machine; choose another --outside\n", command.map);
     return kNotSupportedOrOutside;
   }
   const grid::CompensationMap map =
@@ -163,8 +161,8 @@ int run_query(Verb verb, const QueryCommand& command) {
                            (file.kind == FileKind::map ? facts::map : facts::anchors) |
                                (command.outside.way == "fade" ? facts::fade : 0U));
   if (file.kind == FileKind::anchors) return query_anchors(command, file);
-  return with_map(
-      file, [&](const grid::CompensationMap& stored) { return query_map(command, stored); });
+  return with_map(file,
+                  [&](const grid::CompensationMap& stored) { return query_map(command, stored); });
 }
 
 /// What CLI11 cannot say of the options together.
@@ -174,7 +172,7 @@ void check_usage(const QueryCommand& command) {
   if (ways != 1) usage_error("query", "give points as X Y ..., or --points FILE, or --inverse L R");
   if (command.coordinates.size() % 2 != 0) {
     usage_error("query",
-                fmt::format("{} numbers are no pairs of X and Y", command.coordinates.size()));
+                fmt::format("{} numbers: give X and Y in pairs", command.coordinates.size()));
   }
 }
 
@@ -210,7 +208,7 @@ void add_query(Verb app, Run& run) {
       .shows_default();
   add_output(verb, "-o,--output", command->output, {Origin::table}, "- is standard output")
       .shows_default();
-  add_outside_options(verb, command->outside, "as the map says where not said");
+  add_outside_options(verb, command->outside, "by default as the map says");
   verb.add_flag("--json", command->json, "JSON in place of CSV");
   verb.footer(
       "status: inside the measured points, at their edge, extrapolated beyond them, or outside the "

@@ -9,11 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "grid/files/sources.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/anchors_document.hpp"
 #include "tools/cli/certificate.hpp"
 #include "tools/cli/diagnosis_document.hpp"
 #include "tools/cli/input_file.hpp"
+#include "tools/cli/made_by.hpp"
 #include "tools/cli/map_document.hpp"
 #include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
@@ -50,19 +52,17 @@ Reported of_map(const InputFile& file, bool as_certificate, std::string_view sou
 
 Reported of_diagnosis(const InputFile& file, std::string_view source) {
   const grid::diagnosis::Diagnosis found = load_diagnosis(file);
-  return {diagnosis_document(found, source),
-          found.causes.empty()
-              ? std::vector<std::string>{"export",
-                                         found.belts ? "maslow4" : "groundcontrol",
-                                         file.path}
-              : std::vector<std::string>{"effects",
-                                         std::string(found.causes.front().cause.effect->id)}};
+  return {
+      diagnosis_document(found, source),
+      found.causes.empty()
+          ? std::vector<std::string>{"export", found.belts ? "maslow4" : "groundcontrol", file.path}
+          : std::vector<std::string>{"effects",
+                                     std::string(found.causes.front().cause.effect->id)}};
 }
 
 Reported of_anchors(const InputFile& file, std::string_view source) {
   const files::FittedAnchors found = load_anchors(file);
-  return {anchors_document(
-              {found.fit, found.holes ? &*found.holes : nullptr}, found.name, source),
+  return {anchors_document({found.fit, found.holes ? &*found.holes : nullptr}, found.name, source),
           {"export", "maslow4", file.path}};
 }
 
@@ -86,10 +86,12 @@ int run_report(Verb verb, const ReportCommand& command) {
   Reported made = file.kind == FileKind::map         ? of_map(file, command.certificate, source)
                   : file.kind == FileKind::diagnosis ? of_diagnosis(file, source)
                                                      : of_anchors(file, source);
-  // The clock is not asked: the same map gives the same page.
-  if (!command.date.empty()) {
+  if (!command.certificate) add_made_by(files::made_by_of(file.text, file.name), made.page.sections);
+  // The clock is not asked: the same map gives the same page. A certificate has a line to write on.
+  const std::string date = command.date.empty() && command.certificate ? "date: ______________" : command.date;
+  if (!date.empty()) {
     std::string& subtitle = made.page.subtitle;
-    subtitle += fmt::format("{}{}", subtitle.empty() ? "" : ", ", command.date);
+    subtitle += fmt::format("{}{}", subtitle.empty() ? "" : ", ", date);
   }
   write_output(command.output, report::render_html(made.page));
   if (command.output == "-") return kDone;
@@ -102,8 +104,9 @@ int run_report(Verb verb, const ReportCommand& command) {
 
 void add_report(Verb app, Run& run) {
   auto command = std::make_shared<ReportCommand>();
-  Verb verb = app.add_verb(
-      "report", "A map, a diagnosis or the anchors of four belts as a page for a browser, to be read without a network");
+  Verb verb = app.add_verb("report",
+                           "A map, a diagnosis or the anchors of four belts as a page for a "
+                           "browser, to be read without a network");
   add_input(verb,
             "file",
             command->input,

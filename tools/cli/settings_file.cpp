@@ -63,8 +63,7 @@ ControllerKind kind_with(const model::Machine& stated,
                           name_of(of_map))}});
 }
 
-void refuse_other_chain(const std::vector<files::SettingChange>& changes,
-                        const std::string& file) {
+void refuse_other_chain(const std::vector<files::SettingChange>& changes, const std::string& file) {
   const auto of_chain = files::of_the_chain(changes);
   if (of_chain.empty()) return;
   throw files::InputError(
@@ -84,7 +83,10 @@ std::string after_name(const std::string& map) {
 }
 
 SettingsFile read_settings_file(const std::string& path) {
-  const std::string text = files::read_whole_file(path);
+  return parse_settings_file(path, files::read_whole_file(path));
+}
+
+SettingsFile parse_settings_file(const std::string& path, const std::string& text) {
   const std::string file = files::name_in_messages(path);
   // A list is no settings file, and the first section of an .ini looks like one.
   const bool json = files::is_json(text) && text.find('{') < text.find('[');
@@ -114,8 +116,7 @@ model::Machine with_settings(const model::Machine& stated,
   }
   if (names_none) {
     fmt::print(stderr,
-               "The map names no controller; its lengths are paid out by a {} with the settings of "
-               "{}.\n",
+               "The map names no controller; a {} with the settings of {} is used.\n",
                name_of(machine.controller.kind),
                now.name);
     return machine;
@@ -128,11 +129,11 @@ model::Machine with_settings(const model::Machine& stated,
   if (changes.empty()) {
     fmt::print(stderr, "{} holds the settings that the map is for.\n", now.name);
   } else {
-    fmt::print(stderr,
-               "{} holds other settings than the map was measured with ({}): what follows is for "
-               "these.\n",
-               now.name,
-               files::in_words(changes));
+    fmt::print(
+        stderr,
+        "{} holds other settings than the map was measured with ({}): the new ones are used.\n",
+        now.name,
+        files::in_words(changes));
   }
   return machine;
 }

@@ -21,6 +21,8 @@ struct SettingsFile {
 
 /// \throws files::InputError with every problem of the file.
 [[nodiscard]] SettingsFile read_settings_file(const std::string& path);
+/// The same of a text that was read from there.
+[[nodiscard]] SettingsFile parse_settings_file(const std::string& path, const std::string& text);
 
 /// `stated`, the machine of a map as it was stated, with the controller that holds `now`. A map that
 /// names no controller takes the file's. Says on standard error, in one line, what differs from the

@@ -53,14 +53,14 @@ report::Table settings_table(const std::vector<SettingRow>& settings) {
       .head_width = 27};
   for (const SettingRow& row : settings) {
     const auto value = [&](double of) { return in_unit(row.setting, of); };
-    std::vector<report::Cell> cells = {setting_in_words(row.setting),
-                                       value(row.stated),
-                                       row.stated_sigma ? report::Cell(value(*row.stated_sigma))
-                                                        : report::Cell(),
-                                       value(row.calibrated),
-                                       value(row.sigma),
-                                       unit_of(row.setting)};
-    if (row.is_off) cells.emplace_back("off: further than its stated uncertainty allows");
+    std::vector<report::Cell> cells = {
+        setting_in_words(row.setting),
+        value(row.stated),
+        row.stated_sigma ? report::Cell(value(*row.stated_sigma)) : report::Cell(),
+        value(row.calibrated),
+        value(row.sigma),
+        unit_of(row.setting)};
+    if (row.is_off) cells.emplace_back("off: by more than your file allows");
     table.rows.push_back({std::move(cells), row.is_off});
   }
   return table;

@@ -49,12 +49,12 @@ SheetOf sheet_of(const std::string& word, const model::Machine* machine) {
 }
 
 void add_measure_option(Verb verb, std::string& word) {
-  verb.add_option("--measure",
-                  word,
-                  "What the list has empty cells for. places: the controller is sent to each mark, "
-                  "and you measure where the tool stood. lengths: the tool is brought to each "
-                  "mark, and you read both chains. Where unsaid, places if the machine names its "
-                  "controller, else lengths")
+  verb.add_option(
+          "--measure",
+          word,
+          "What the list has empty cells for. places: the controller is sent to each mark, and you "
+          "measure where the tool stood. lengths: the tool is brought to each mark, and you read "
+          "both chains. By default places if the machine names its controller, else lengths")
       .one_of({"places", "lengths"});
 }
 

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 #include "tools/cli/holes_drawing.hpp"
+#include "tools/cli/measuring_drawings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -16,19 +18,24 @@ namespace {
 using model::MarkPoint;
 
 constexpr std::string_view kStyle = R"(
-@page { margin: 14mm; }
-body { font: 11pt/1.4 sans-serif; color: #111; background: #fff; max-width: 190mm;
-  margin: 0 auto; padding: 4mm; }
-h1 { font-size: 16pt; margin: 0 0 2mm; }
-svg { width: 100%; height: auto; break-inside: avoid; }
-ol { margin: 3mm 0; padding-left: 7mm; }
-table { border-collapse: collapse; width: 100%; margin-top: 4mm; }
-th, td { border: 0.3mm solid #555; padding: 1.2mm 2mm; text-align: right; }
-th { background: #eee; }
-td.blank { width: 24%; }
-td:first-child, th:first-child { text-align: left; width: 12%; }
+@page { margin: 12mm; }
+body { font: 10pt/1.35 sans-serif; color: #111; background: #fff; max-width: 186mm;
+  margin: 0 auto; padding: 2mm; }
+h1 { font-size: 14pt; margin: 0 0 2mm; }
+.drawings { display: flex; gap: 4mm; align-items: center; break-inside: avoid; }
+.drawings > div:first-child { flex: 5; }
+.drawings > div { flex: 3; }
+svg { display: block; width: 100%; height: auto; }
+ol { margin: 2mm 0; padding-left: 6mm; }
+.tables { display: flex; gap: 4mm; align-items: flex-start; margin-top: 2mm; }
+table { border-collapse: collapse; width: 100%; }
+th, td { border: 0.3mm solid #555; padding: 0.5mm 1.5mm; text-align: right; line-height: 1.25; }
+td { height: 5.6mm; font-size: 9.5pt; }
+th { background: #eee; font-size: 8.5pt; }
+td.blank { width: 23%; }
+td:first-child, th:first-child { text-align: left; white-space: nowrap; }
 tr { break-inside: avoid; }
-thead { display: table-header-group; }
+@media screen and (max-width: 600px) { .drawings, .tables { flex-direction: column; align-items: stretch; } }
 )";
 
 std::string escaped(std::string_view text) {
@@ -46,22 +53,55 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
+/// Two tables next to each other, so that an evening's readings are on one sheet of paper; the next
+/// two below, on the next sheet.
+std::string tables_of(const std::string& head, const std::vector<std::string>& rows) {
+  // What is left of A4 and of Letter below the drawings, and a whole sheet.
+  constexpr std::size_t kFirstSheet = 2 * 18, kNextSheets = 2 * 36;
+  std::string text;
+  std::size_t from = 0;
+  while (from < rows.size()) {
+    const std::size_t count = std::min(rows.size() - from, from == 0 ? kFirstSheet : kNextSheets);
+    const std::size_t middle = from + (count + 1) / 2;
+    text += "<div class=\"tables\">\n";
+    for (const auto& [begin, end] : {std::pair(from, middle), std::pair(middle, from + count)}) {
+      if (begin == end) continue;
+      text += fmt::format("<table><thead><tr>{}</tr></thead><tbody>\n", head);
+      for (std::size_t i = begin; i < end; ++i) text += rows[i];
+      text += "</tbody></table>\n";
+    }
+    text += "</div>\n";
+    from += count;
+  }
+  return text;
+}
+
 std::string page_of(const std::string& title,
-                    const std::string& drawing,
+                    const std::string& bed,
+                    const std::string& how,
                     const std::vector<std::string>& steps,
-                    const std::string& table) {
-  std::string list;
+                    const std::string& head,
+                    const std::vector<std::string>& rows) {
+  std::string list = "<ol>\n";
   for (const std::string& step : steps) list += fmt::format("<li>{}</li>\n", escaped(step));
+  list += "</ol>";
+  // So many lines leave room for the bed over the sheet's whole width.
+  constexpr std::size_t kFewLines = 24;
+  const std::string top =
+      rows.size() <= kFewLines
+          ? fmt::format(
+                "{}\n<div class=\"drawings\"><div>{}</div><div>{}</div></div>", bed, list, how)
+          : fmt::format(
+                "<div class=\"drawings\"><div>{}</div><div>{}</div></div>\n{}", bed, how, list);
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{0}</title>\n<style>{1}</style></head><body>\n<h1>{0}</h1>\n{2}\n<ol>\n{3}</ol>\n"
-      "{4}\n</body></html>\n",
+      "<title>{0}</title>\n<style>{1}</style></head><body>\n<h1>{0}</h1>\n"
+      "{2}\n{3}</body></html>\n",
       escaped(title),
       kStyle,
-      drawing,
-      list,
-      table);
+      top,
+      tables_of(head, rows));
 }
 
 /// The bed as it hangs, numbered marks along the way from one to the next.
@@ -128,22 +168,20 @@ std::string typed_into(const std::string& list) {
 
 std::string sheet_page(const Sheet& sheet, const model::Machine& machine, const std::string& list) {
   const bool places = sheet.of == SheetOf::places;
-  std::string table = fmt::format(
-      "<table><thead><tr><th>mark</th><th>{0}x, mm</th><th>{0}y, mm</th><th>{1}</th><th>{2}</th>"
-      "</tr></thead><tbody>\n",
-      places ? "sent to " : "",
-      places ? "measured x, mm" : "left chain, mm",
-      places ? "measured y, mm" : "right chain, mm");
+  const std::string head =
+      fmt::format("<th>mark</th><th>{0}x, mm</th><th>{0}y, mm</th><th>{1}</th><th>{2}</th>",
+                  places ? "sent to " : "",
+                  places ? "measured x, mm" : "left chain, mm",
+                  places ? "measured y, mm" : "right chain, mm");
   const std::vector<SheetVisit> visits = visits_of(sheet);
+  std::vector<std::string> rows;
   for (const SheetVisit& visit : visits) {
-    fmt::format_to(std::back_inserter(table),
-                   "<tr><td>{}</td><td>{:.0f}</td><td>{:.0f}</td>{}</tr>\n",
-                   visit.name(),
-                   visit.mark.x_mm + 0.0,
-                   visit.mark.y_mm + 0.0,
-                   blank_cells(2));
+    rows.push_back(fmt::format("<tr><td>{}</td><td>{:.0f}</td><td>{:.0f}</td>{}</tr>\n",
+                               visit.name(),
+                               visit.mark.x_mm + 0.0,
+                               visit.mark.y_mm + 0.0,
+                               blank_cells(2)));
   }
-  table += "</tbody></table>";
   std::vector<std::string> steps =
       places ? std::vector<std::string>{
                    "Fasten a sheet to the bed and do not move it until all is measured. Zero is "
@@ -155,9 +193,7 @@ std::string sheet_page(const Sheet& sheet, const model::Machine& machine, const 
              : std::vector<std::string>{
                    "Draw the marks on a sheet. Zero is the middle of the bed, x to the right, y "
                    "up.",
-                   "Bring the bit over each mark in the order of their numbers; measure where it "
-                   "stands if it is beside, and write down the lengths of both chains from the "
-                   "pin at 12 o'clock to their ends at the ring."};
+                   "Bring the bit over each mark in the order of their numbers; measure where it stands if it is not on it, and write down the lengths of both chains from the pin at 12 o'clock to their ends at the ring."};
   const std::size_t second = visits.size() - sheet.marks.size();
   if (second > 0) {
     steps.push_back(fmt::format(
@@ -166,40 +202,41 @@ std::string sheet_page(const Sheet& sheet, const model::Machine& machine, const 
         second));
   }
   steps.push_back(typed_into(list));
-  return page_of(second == 0 ? fmt::format("{} marks for {}", sheet.marks.size(), machine.name)
-                             : fmt::format("{} marks, {} of them twice, for {}",
-                                           sheet.marks.size(),
-                                           second,
-                                           machine.name),
-                 drawing_of(sheet, machine.bed),
-                 steps,
-                 table);
+  return page_of(
+      second == 0
+          ? fmt::format("{} marks for {}", sheet.marks.size(), machine.name)
+          : fmt::format(
+                "{} marks, {} of them twice, for {}", sheet.marks.size(), second, machine.name),
+      drawing_of(sheet, machine.bed),
+      places ? draw_middle_lines() : draw_chain_length(),
+      steps,
+      head,
+      rows);
 }
 
 std::string holes_page(const grid::HolesPlan& plan, const std::string& list) {
-  std::string table =
-      "<table><thead><tr><th>from</th><th>to</th><th>about, mm</th><th>the tape says, mm</th></tr>"
-      "</thead><tbody>\n";
+  std::vector<std::string> rows;
   for (const grid::HoleDistance& distance : plan.set.distances) {
-    fmt::format_to(std::back_inserter(table),
-                   "<tr><td>{}</td><td>{}</td><td>{:.0f}</td>{}</tr>\n",
-                   escaped(plan.set.holes[distance.from].name),
-                   distance.edge ? fmt::format("{} edge", name(*distance.edge))
-                                 : escaped(plan.set.holes[distance.to].name),
-                   distance.distance_mm,
-                   blank_cells(1));
+    rows.push_back(fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td>{}</tr>\n",
+                               escaped(plan.set.holes[distance.from].name),
+                               distance.edge ? fmt::format("{} edge", name(*distance.edge))
+                                             : escaped(plan.set.holes[distance.to].name),
+                               distance.distance_mm,
+                               blank_cells(1)));
   }
-  table += "</tbody></table>";
   return page_of(
       fmt::format("{} holes for {}", plan.set.holes.size(), plan.set.machine->name),
       draw_holes_plan(plan),
+      draw_tape_and_hook(),
       {"Fasten a sheet to the bed. Cut the holes with the program, or send the tool to each; zero "
        "is the middle of the bed.",
        "Measure from centre to centre. The hook at the tape's end has play: hold the 100 mm mark "
-       "to the first hole instead, write down what the tape says, and give --hook-offset-mm 100.",
+       "to the first hole instead, write down what the tape says, and say so "
+       "when you fit: --hook-offset-mm 100.",
        "Look at every number twice: one misread tape costs more than a hole left out.",
        typed_into(list)},
-      table);
+      "<th>from</th><th>to</th><th>about, mm</th><th>the tape says, mm</th>",
+      rows);
 }
 
 }  // namespace chaintrue::cli

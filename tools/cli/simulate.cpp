@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "grid/files/answer_file.hpp"
+#include "grid/files/effect_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/points_file.hpp"
 #include "grid/files/ranges.hpp"
@@ -48,7 +49,7 @@ int simulate_session(const SimulateOptions& options, const model::Machine& machi
                "chaintrue simulate: the mark at ({:.1f}, {:.1f}) mm cannot be reached: {}\n",
                session.error().place.x_mm,
                session.error().place.y_mm,
-               model::explain(session.error().reason));
+               session.error().sentence());
     return kNotSupportedOrOutside;
   }
   session->grid.name =
@@ -81,7 +82,7 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
         index,
         visits[index].position.x_mm,
         visits[index].position.y_mm,
-        model::explain(reason));
+        model::sentence_of(reason));
   }
   write_output(options.output, files::write_grid(read.grid));
   if (!read.unreachable.empty()) return kNotSupportedOrOutside;
@@ -105,7 +106,8 @@ Facts facts_of(const SimulateOptions& options) {
 int run_simulate(Verb verb, const SimulateOptions& options) {
   refuse_what_does_nothing(verb, facts_of(options));
   if (!options.belts.empty()) return simulate_the_belts(options);
-  const model::Machine machine = read_machine_input(options.machine);
+  model::Machine machine = read_machine_input(options.machine);
+  files::declare_effects(options.declared, machine);
   if (options.holes.plan.holes != 0) {
     const int code = simulate_the_holes(options, machine);
     if (code == kDone) say_next_of(options);
@@ -152,7 +154,7 @@ void add_design_options(Verb verb, SimulateOptions& o) {
              "--jitter-mm",
              o.jitter_mm,
              {"mm", 0.0, 1000.0},
-             "The sled is put down up to this far beside a mark");
+             "The sled is put down up to this far from a mark");
 }
 
 void add_noise_options(Verb verb, SimulateOptions& o) {
@@ -210,11 +212,12 @@ void add_holes_options(Verb verb, HolesOptions& o) {
              o.plan.tape_sigma_mm,
              grid::files::kTapeSigmaMm,
              "Of --holes: one sigma of a reading");
-  add_number(verb,
-             "--hole-sigma-mm",
-             o.plan.hole_sigma_mm,
-             grid::files::kHoleSigmaMm,
-             "Of --holes: one sigma of a hole beside where its chains put it, on each axis");
+  add_number(
+      verb,
+      "--hole-sigma-mm",
+      o.plan.hole_sigma_mm,
+      grid::files::kHoleSigmaMm,
+      "Of --holes: one sigma of how far a hole is from where its chains put it, on each axis");
   add_number(verb,
              "--hook-offset-mm",
              o.tape_zero_offset_mm,
@@ -233,8 +236,15 @@ void add_truth_options(Verb verb, SimulateOptions& o) {
       o.effects,
       "Hidden effect id:side:key=value,... (- for no side; `chaintrue effects`; of --belts "
       "docs/maslow4.md)");
-  verb.add_option(
-      "--offset", o.offsets, "Hidden offset of a setting, truth less stated: motor_left_x_mm=1.5");
+  add_input(
+      verb,
+      "--effects",
+      o.declared,
+      "chaintrue_effect files: effects of your own that --effect may name; the grid's machine "
+      "keeps them");
+  verb.add_option("--offset",
+                  o.offsets,
+                  "Hidden offset of a setting, truth less what the file says: motor_left_x_mm=1.5");
   verb.add_flag(
       "--draw-settings", o.draw_settings, "Draw motors and zeros from the machine's uncertainty");
   add_number(verb,
@@ -268,6 +278,10 @@ void add_simulate(Verb app, Run& run) {
             options->belts,
             "A router on four belts instead, which finds its anchors: a "
             "chaintrue_belts or chaintrue_anchors file with its settings");
+  verb.add_option("--pulls",
+                  options->pulls,
+                  "Of --belts: all places once with each pull, against each other, as in 1,1.6; sizes of "
+                  "effects are those at the least");
   add_design_options(verb, *options);
   add_noise_options(verb, *options);
   add_holes_options(verb, options->holes);

@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <utility>
+#include <vector>
 
 #include "grid/files/belts_file.hpp"
+#include "grid/files/maslow4_session.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/belt_readings.hpp"
@@ -20,21 +24,43 @@ namespace {
 namespace files = grid::files;
 namespace synthetic = grid::synthetic;
 
-model::BeltMachine machine_of(const std::string& path) {
+/// A machine as its file has it.
+struct StatedBelts {
+  model::BeltMachine machine;
+  std::vector<model::AppliedEffect> causes;  ///< that anchors were fitted with
+};
+
+StatedBelts belts_of(const std::string& path) {
   const InputFile file = open_input(path);
   require_kind(file, {FileKind::belts, FileKind::anchors});
   const bool is_fitted = file.kind == FileKind::anchors;
-  const model::BeltMachine machine = is_fitted
-                                         ? load_anchors(file).fit.machine
-                                         : load_belts(file, "a simulation").belts.machine;
-  if (!machine.anchors_known) {
+  StatedBelts stated;
+  if (is_fitted) {
+    grid::BeltsFit fit = load_anchors(file).fit;
+    stated.machine = std::move(fit.machine);
+    for (grid::CauseBesideAnchors& own : fit.causes)
+      stated.causes.push_back({std::move(own.effect), std::move(own.side), std::move(own.parameters)});
+  } else {
+    stated.machine = load_belts(file, "a simulation").belts.machine;
+  }
+  if (!stated.machine.anchors_known) {
     throw files::InputError({{file.name,
                               is_fitted ? "/fit/machine/anchors" : "/machine/anchors",
                               "",
                               "x_mm and y_mm of all four anchors: what is simulated goes by them; "
                               "chaintrue fit finds them"}});
   }
-  return machine;
+  return stated;
+}
+
+/// Adds the causes of the file; one that --effect gives stands in its place.
+void add_causes(std::vector<model::AppliedEffect> causes, synthetic::BeltsSpec& spec) {
+  for (model::AppliedEffect& own : causes) {
+    const bool is_given = std::any_of(spec.hidden.begin(), spec.hidden.end(), [&](const auto& hidden) {
+      return hidden.effect == own.effect && hidden.side == own.side;
+    });
+    if (!is_given) spec.hidden.push_back(std::move(own));
+  }
 }
 
 /// "9x7".
@@ -66,18 +92,29 @@ void take_offset(const std::string& text, model::BeltMachine& truth, OptionProbl
   const bool is_free =
       belt && *belt != model::Belt::bl && (is_x || (is_y && model::is_upper(*belt)));
   if (!is_free || equals == std::string::npos || !parse_number(text.substr(equals + 1), value)) {
-    problems.add(
-        "--offset",
-        text,
-        "tl_x_mm, tl_y_mm, tr_x_mm, tr_y_mm or br_x_mm, truth less stated, as in tl_x_mm=5");
+    problems.add("--offset",
+                 text,
+                 "tl_x_mm, tl_y_mm, tr_x_mm, tr_y_mm or br_x_mm, truth less what the file says, as "
+                 "in tl_x_mm=5");
     return;
   }
   (is_x ? truth.anchors[*belt].x_mm : truth.anchors[*belt].y_mm) += value;
 }
 
+/// "1,1.6".
+void take_pulls(const std::string& text, synthetic::BeltsSpec& spec, OptionProblems& problems) {
+  if (text.empty()) return;
+  for (const grid::BeltPull& pull : files::pulls_of(text, "--pulls")) {
+    if (pull.unit != grid::BeltPull::Unit::relative)
+      return problems.add("--pulls", text, "numbers against each other, as in 1,1.6");
+    spec.pulls.push_back(pull.value);
+  }
+}
+
 synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& problems) {
   synthetic::BeltsSpec spec;
   take_grid(options.grid, spec, problems);
+  take_pulls(options.pulls, spec, problems);
   spec.noise_mm = options.noise.length_mm;
   spec.heavy_tails = options.noise.heavy_tails;
   spec.rounding_mm = options.noise.length_rounding_mm;
@@ -104,19 +141,20 @@ synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& pro
 }  // namespace
 
 int simulate_the_belts(const SimulateOptions& options) {
-  const model::BeltMachine stated = machine_of(options.belts);
+  StatedBelts stated = belts_of(options.belts);
   OptionProblems problems;
-  const synthetic::BeltsSpec spec = spec_of(options, problems);
-  model::BeltMachine truth = stated;
+  synthetic::BeltsSpec spec = spec_of(options, problems);
+  model::BeltMachine truth = stated.machine;
   for (const std::string& offset : options.offsets) take_offset(offset, truth, problems);
   problems.throw_if_any();
-  auto made = synthetic::simulate_belts(stated, truth, spec);
+  add_causes(std::move(stated.causes), spec);
+  auto made = synthetic::simulate_belts(stated.machine, truth, spec);
   if (!made) {
     fmt::print(stderr,
                "chaintrue simulate: the command ({:.1f}, {:.1f}) mm cannot be reached: {}\n",
-               made.error().commanded.x_mm,
-               made.error().commanded.y_mm,
-               model::explain(made.error().reason));
+               made.error().place.x_mm,
+               made.error().place.y_mm,
+               made.error().sentence());
     return kNotSupportedOrOutside;
   }
   made->name = options.name.empty() ? fmt::format("simulated, seed {}", spec.seed) : options.name;

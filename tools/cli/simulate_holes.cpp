@@ -81,7 +81,7 @@ int simulate_the_holes(const SimulateOptions& options, const model::Machine& sta
   request.margin_mm = options.margin_mm.value_or(request.margin_mm);
   auto plan = grid::plan_holes(stated, request);
   if (!plan) {
-    fmt::print(stderr, "chaintrue simulate: {}\n", plan.error().sentence);
+    fmt::print(stderr, "chaintrue simulate: {}\n", plan.error().sentence());
     return kNotSupportedOrOutside;
   }
   grid::MeasuredHoles design = std::move(plan->set);
@@ -95,7 +95,7 @@ int simulate_the_holes(const SimulateOptions& options, const model::Machine& sta
   design.tape.tape_zero_offset_mm = options.holes.tape_zero_offset_mm;
   const auto made = synthetic::simulate_holes(design, spec, truth);
   if (!made) {
-    fmt::print(stderr, "chaintrue simulate: {}\n", made.error().sentence);
+    fmt::print(stderr, "chaintrue simulate: {}\n", made.error().sentence());
     return kNotSupportedOrOutside;
   }
   write_outputs({{options.answer, grid::files::write_answer(*made, spec)},

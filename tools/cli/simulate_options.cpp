@@ -177,7 +177,8 @@ void check_words(const SimulateOptions& options, OptionProblems& problems) {
   (void)parse_model(options.model, problems);
   (void)parse_offsets(options.offsets, problems);
   // What an effect may be does not hang on the machine but for the effects that this has already.
-  (void)parse_effects(options.effects, model::Machine{}, problems);
+  // What --effects declares is known once its files are read.
+  if (options.declared.empty()) (void)parse_effects(options.effects, model::Machine{}, problems);
 }
 
 synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const model::Machine& machine) {

@@ -18,6 +18,8 @@ struct SimulateOptions {
   std::string machine;
   /// In place of a machine: a chaintrue_belts or chaintrue_anchors file.
   std::string belts;
+  /// Of belts: how hard they are pulled in each pass, as in 1,1.6.
+  std::string pulls;
   std::string grid;
   std::string spacing = "regular";
   int random_points = 0;
@@ -37,6 +39,8 @@ struct SimulateOptions {
   std::optional<double> stated_dof;
   grid::synthetic::BadPoints bad;
   std::vector<std::string> effects;
+  /// Files of declared effects.
+  std::vector<std::string> declared;
   std::vector<std::string> offsets;
   bool draw_settings = false;
   std::optional<double> sheet_shift_mm;

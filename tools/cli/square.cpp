@@ -70,9 +70,10 @@ tl::expected<model::CutSquare, SquareRefusal> by_machines(const SquareOptions& o
   auto square = model::predict_square(machine, believed, task);
   if (square) return *std::move(square);
   const model::SquareFailure& failure = square.error();
-  return tl::unexpected(SquareRefusal{failure.controllers ? "the controller" : "the machine",
-                                      failure.commanded,
-                                      std::string(model::explain(failure.reason))});
+  return tl::unexpected(
+      SquareRefusal{failure.place.of_controller ? "the controller" : "the machine",
+                    failure.place.commanded,
+                    failure.sentence()});
 }
 
 /// The controller pays out what its settings say for each command; the map tells where the tool is
@@ -95,11 +96,9 @@ tl::expected<model::CutSquare, SquareRefusal> by_map(const SquareOptions& option
   for (const model::BedPoint commanded : model::outline_of(task)) {
     const auto lengths = controller->lengths(commanded);
     if (!lengths)
-      return tl::unexpected(
-          SquareRefusal{"the controller", commanded, std::string(model::explain(lengths.error()))});
+      return tl::unexpected(SquareRefusal{"the controller", commanded, lengths.error().sentence()});
     const auto tool = map.inverse(*lengths);
-    if (!tool)
-      return tl::unexpected(SquareRefusal{"the map", commanded, grid::explain(tool.error())});
+    if (!tool) return tl::unexpected(SquareRefusal{"the map", commanded, tool.error().sentence()});
     cut.push_back(map.to_bed(*tool));
   }
   return model::measured_square(task, std::move(cut));
@@ -185,9 +184,8 @@ void say_what_to_do(const SquareOptions& options, const model::SquareTask& task)
 tl::expected<model::CutSquare, SquareRefusal> predicted(const SquareOptions& options,
                                                         const model::SquareTask& task) {
   if (options.map.empty()) return by_machines(options, task);
-  return with_map(open_input(options.map), [&](const grid::CompensationMap& map) {
-    return by_map(options, task, map);
-  });
+  return with_map(open_input(options.map),
+                  [&](const grid::CompensationMap& map) { return by_map(options, task, map); });
 }
 
 int run_square(Verb verb, const SquareOptions& options) {
@@ -235,8 +233,8 @@ void add_square(Verb app, Run& run) {
   add_input(verb,
             "--controller-machine",
             options->controller_machine,
-            "chaintrue_machine file: what the controller believes; of a map its own machine as it "
-            "was stated");
+            "chaintrue_machine file: what the controller believes; of a map what its own machine "
+            "file said");
   add_number(verb, "--size-mm", options->size_mm, {"mm", 1.0, 5000.0}, "Length of a side");
   add_numbers(verb,
               "--at",

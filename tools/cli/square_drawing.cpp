@@ -7,11 +7,13 @@
 #include <cmath>
 #include <iterator>
 
+#include "tools/report/bed_chart.hpp"
+
 namespace chaintrue::cli {
 namespace {
 
 // The picture, in its own units.
-constexpr double kWide = 640.0, kHigh = 700.0, kSide = 400.0, kLeft = 120.0, kTop = 110.0;
+constexpr double kWide = 640.0, kHigh = 700.0, kSide = 400.0, kSquareLeft = 120.0, kSquareTop = 110.0;
 constexpr double kLargestError = 0.11;  // share of the side that the largest error is drawn as
 
 /// From the bed to the picture; the cut outline is drawn about its own middle, so that shape alone
@@ -32,10 +34,8 @@ class SquarePicture {
     constexpr double kRoundingMm = 1e-6;
     magnification_ = 1.0;
     if (largest > kRoundingMm) {
-      const double wanted = kLargestError * task.size_mm / largest;
-      const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
-      const double lead = wanted / decade;
-      magnification_ = std::max(1.0, decade * (lead >= 5.0 ? 5.0 : lead >= 2.0 ? 2.0 : 1.0));
+      magnification_ =
+          std::max(1.0, report::round_down_125(kLargestError * task.size_mm / largest));
     }
   }
   [[nodiscard]] double magnification() const { return magnification_; }
@@ -52,7 +52,7 @@ class SquarePicture {
   }
   [[nodiscard]] std::string at(model::BedPoint p) const {
     return fmt::format(
-        "{:.2f},{:.2f}", kLeft + scale_ * (p.x_mm - left_), kTop + scale_ * (top_ - p.y_mm));
+        "{:.2f},{:.2f}", kSquareLeft + scale_ * (p.x_mm - left_), kSquareTop + scale_ * (top_ - p.y_mm));
   }
 
   const model::CutSquare& square_;
@@ -96,7 +96,7 @@ std::string draw_square(const model::CutSquare& square, const model::SquareTask&
       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
       "<polygon points=\"{6}\" fill=\"none\" stroke=\"#888888\" stroke-width=\"1.5\" "
       "stroke-dasharray=\"7 5\"/>\n"
-      "<polygon points=\"{7}\" fill=\"#0072b2\" fill-opacity=\"0.08\" stroke=\"#0072b2\" "
+      "<polygon points=\"{7}\" fill=\"{8}\" fill-opacity=\"0.08\" stroke=\"{8}\" "
       "stroke-width=\"2.5\" "
       "stroke-linejoin=\"round\"/>\n",
       kWide,
@@ -106,7 +106,8 @@ std::string draw_square(const model::CutSquare& square, const model::SquareTask&
       task.corner.y_mm,
       picture.magnification(),
       commanded,
-      cut);
+      cut,
+      report::kAfterColor);
   write_text(
       svg,
       kWide / 2,
@@ -124,14 +125,14 @@ std::string draw_square(const model::CutSquare& square, const model::SquareTask&
     const model::CutSide& s = square.side(which);
     return fmt::format("{:.2f} mm, bow {:+.2f}", s.length_mm, s.bow_mm);
   };
-  const double middle_x = kLeft + kSide / 2, middle_y = kTop + kSide / 2;
-  write_text(svg, middle_x, kTop + 70.0, "middle", side(SquareSide::top));
-  write_text(svg, middle_x, kTop + kSide - 60.0, "middle", side(SquareSide::bottom));
-  write_text(svg, kLeft + 70.0, middle_y, "middle", side(SquareSide::left), -90.0);
-  write_text(svg, kLeft + kSide - 60.0, middle_y, "middle", side(SquareSide::right), -90.0);
+  const double middle_x = kSquareLeft + kSide / 2, middle_y = kSquareTop + kSide / 2;
+  write_text(svg, middle_x, kSquareTop + 70.0, "middle", side(SquareSide::top));
+  write_text(svg, middle_x, kSquareTop + kSide - 60.0, "middle", side(SquareSide::bottom));
+  write_text(svg, kSquareLeft + 70.0, middle_y, "middle", side(SquareSide::left), -90.0);
+  write_text(svg, kSquareLeft + kSide - 60.0, middle_y, "middle", side(SquareSide::right), -90.0);
   write_text(svg,
              kWide / 2,
-             kTop + kSide + 90.0,
+             kSquareTop + kSide + 90.0,
              "middle",
              fmt::format("diagonals: rising {:.2f} mm, falling {:.2f} mm (commanded {:.2f})",
                          square.rising_diagonal_mm,
@@ -139,7 +140,7 @@ std::string draw_square(const model::CutSquare& square, const model::SquareTask&
                          task.size_mm * std::sqrt(2.0)));
   write_text(svg,
              kWide / 2,
-             kTop + kSide + 116.0,
+             kSquareTop + kSide + 116.0,
              "middle",
              fmt::format("as a whole moved by ({:+.2f}, {:+.2f}) mm and turned by {:+.3f} mrad",
                          square.offset.x_mm,
@@ -147,7 +148,7 @@ std::string draw_square(const model::CutSquare& square, const model::SquareTask&
                          1e3 * square.rotation_rad));
   write_text(svg,
              kWide / 2,
-             kTop + kSide + 142.0,
+             kSquareTop + kSide + 142.0,
              "middle",
              "bow: the farthest that a side leaves the line between its corners, + outwards");
   return svg + "</svg>\n";

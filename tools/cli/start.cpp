@@ -21,6 +21,7 @@
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/settings_file.hpp"
 #include "tools/cli/sheet_page.hpp"
+#include "tools/cli/start_plotter.hpp"
 #include "tools/cli/start_readme.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
@@ -103,16 +104,29 @@ bool names_a_folder(const std::string& word) {
          (!fs::exists(word, error) && fs::path(word).extension().empty());
 }
 
+/// An .ini that begins with its first section looks like a list: it is not asked for its kind.
+InputFile open_settings(const std::string& path) {
+  InputFile file{path, files::name_in_messages(path), files::read_whole_file(path)};
+  if (files::is_json(file.text) && file.text.find('{') < file.text.find('['))
+    file.kind = files::kind_of(file.text, file.name);
+  return file;
+}
+
 int run_start(Verb verb, const StartCommand& command) {
   if (command.file.empty()) return start_template(verb, command.folder);
   if (command.file != "-" && names_a_folder(command.file))
     return start_template(verb, command.file);
-  const SettingsFile started = read_settings_file(command.file);
+  const InputFile file = open_settings(command.file);
+  if (is_of_a_plotter(file)) {
+    const bool stays_beside = file.kind == FileKind::plotter && !verb.is_given("folder");
+    return start_plotter(verb, file, stays_beside ? "" : command.folder);
+  }
+  const SettingsFile started = parse_settings_file(command.file, file.text);
   const model::Machine& machine = started.read.machine;
   print_warnings(started.read.warnings);
   const auto plans = plans_for(machine);
   if (!plans) {
-    fmt::print(stderr, "chaintrue start: {}\n", plans.error().sentence);
+    fmt::print(stderr, "chaintrue start: {}\n", plans.error().sentence());
     return kNotSupportedOrOutside;
   }
   // Sheets of a machine file of ours are written to its folder.
@@ -138,7 +152,7 @@ int run_start(Verb verb, const StartCommand& command) {
              "tape).\n",
              folder);
   say_next(
-      {"fit", marks, "--machine", machine_path, "-o", (fs::path(folder) / "map.json").string()});
+      {"fit", marks, "--machine", machine_path, "--causes", "-o", (fs::path(folder) / "map.json").string()});
   return kDone;
 }
 
@@ -151,12 +165,14 @@ void add_start(Verb app, Run& run) {
   add_input(verb,
             "file",
             command->file,
-            "groundcontrol.ini, webcontrol.json, FluidNC's yaml, or a chaintrue_machine; without "
-            "one a machine file to fill in is written");
+            "groundcontrol.ini, webcontrol.json, FluidNC's yaml, or a chaintrue_machine; of a "
+            "V-plotter Marlin's, Polargraph's or a mural's settings, or a chaintrue_plotter; "
+            "without one a machine file to fill in is written");
   add_output_folder(verb, "folder", command->folder, "Where it all goes").shows_default();
   verb.footer(
       "Example:\n"
       "  build/chaintrue start fixtures/good/groundcontrol_ring.ini my-machine\n"
+      "  build/chaintrue start fixtures/plotter/mural.txt my-mural\n"
       "  build/chaintrue start");
   verb.when_chosen(
       [command, verb, &run] { run = [command, verb] { return run_start(verb, *command); }; });

@@ -73,7 +73,7 @@ std::string start_readme(const model::Machine& machine, const StartWays& ways) {
 
 3. Make the map:
 
-       chaintrue fit marks.csv --machine machine.json -o map.json
+       chaintrue fit marks.csv --machine machine.json --causes -o map.json
 
 4. Cut with it: rewrite each program,
 

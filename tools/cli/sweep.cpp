@@ -121,7 +121,7 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
   std::optional<files::ReadSweep> read;
   sweep::SweepRun run;
   try {
-    OptionProblems sound;  // check_options has seen to it
+    OptionProblems sound;  // check_options has made sure of it
     run.share = parse_shard(options.shard, sound);
     run.share.rank = processes.rank();
     run.share.ranks = processes.count();

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, sweep::kFactors> kTitles = {
     "The machine that the map is used on",
     "The surface",
     "The spacing of the marks",
-    "How far beside the marks the sled stood, mm",
+    "How far from the marks the sled stood, mm",
     "Noise of length / position, mm",
     "The grid"};
 
@@ -138,7 +138,7 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
 }  // namespace
 
 report::Document sweep_page(const sweep::SweepSpec& spec,
-                        const std::vector<files::LevelError>& errors) {
+                            const std::vector<files::LevelError>& errors) {
   report::Document page;
   page.title = spec.name;
   page.subtitle = spec.question;

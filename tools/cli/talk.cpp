@@ -38,7 +38,17 @@ std::string quoted(const std::string& word) {
   return result + "'";
 }
 
+/// As a shell takes it.
+std::string called_as = "chaintrue";
+
 }  // namespace
+
+void set_called_as(std::string_view name) {
+  const std::size_t slash = name.rfind('/');
+  const bool is_path = slash != std::string_view::npos;
+  // The page runs the same program under a name of its engine's.
+  if (is_path && name.substr(slash + 1) == "chaintrue") called_as = quoted(std::string(name));
+}
 
 bool shows_colours() {
   static const bool shows = ::isatty(STDERR_FILENO) == 1 && environment("NO_COLOR").empty() &&
@@ -51,7 +61,7 @@ std::string in_red(std::string_view text) { return between("\x1b[31m", text); }
 
 void say_next(const std::vector<std::string>& words) {
   if (std::find(words.begin(), words.end(), "-") != words.end()) return;
-  std::string line = "chaintrue";
+  std::string line = called_as;
   for (const std::string& word : words) line += " " + quoted(word);
   std::fflush(stdout);
   fmt::print(stderr, "{}\n", in_bold("Next: " + line));

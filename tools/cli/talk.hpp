@@ -16,6 +16,10 @@ namespace chaintrue::cli {
 [[nodiscard]] std::string in_bold(std::string_view text);
 [[nodiscard]] std::string in_red(std::string_view text);
 
+/// The name under which the command was called, for the lines to paste: `build/chaintrue` as it was
+/// typed, `chaintrue` where it was found on the path.
+void set_called_as(std::string_view name);
+
 /// `Next: chaintrue fit 'my marks.csv' -o map.json` on standard error, the words quoted where a
 /// shell needs it. Nothing is said where one of the words is "-": a pipe goes on by itself.
 void say_next(const std::vector<std::string>& words);

@@ -9,14 +9,12 @@ foreach(library ${libraries})
   set_target_properties(${library} PROPERTIES EXPORT_NAME ${exported})
 endforeach()
 
-install(TARGETS chaintrue RUNTIME COMPONENT command)
+if(TARGET chaintrue)
+  install(TARGETS chaintrue RUNTIME COMPONENT command)
+endif()
 install(TARGETS ${libraries} EXPORT chaintrueTargets ARCHIVE COMPONENT library LIBRARY COMPONENT library)
-# Headers keep their folders, so that #include "model/machine.hpp" works in both trees.
-install(DIRECTORY interp model grid
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/chaintrue COMPONENT library
-  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN "json_*.hpp" EXCLUDE PATTERN "*_record.hpp" EXCLUDE PATTERN "record_values.hpp" EXCLUDE
-  PATTERN "*_keys.hpp" EXCLUDE PATTERN "content_hash.hpp" EXCLUDE PATTERN "formats.hpp" EXCLUDE PATTERN "meanings.hpp" EXCLUDE PATTERN "schemas.hpp" EXCLUDE PATTERN "read_log.hpp" EXCLUDE
-  PATTERN "printing*" EXCLUDE)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/include/chaintrue
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT library)
 install(EXPORT chaintrueTargets NAMESPACE chaintrue:: DESTINATION ${package_dir} COMPONENT library)
 
 configure_package_config_file(tools/cmake/chaintrueConfig.cmake.in

@@ -27,7 +27,6 @@ double distance(PlanePoint a, PlanePoint b) {
   return std::hypot(a.first_mm - b.first_mm, a.second_mm - b.second_mm);
 }
 
-char upper(char letter) { return static_cast<char>(letter - 'a' + 'A'); }
 
 /// I belongs to X, J to Y, K to Z.
 char centre_word(char axis) { return static_cast<char>(axis - 'x' + 'i'); }

@@ -16,10 +16,6 @@ constexpr std::string_view kAxes = "xyzabc@^";
 /// rejected with a reason.
 constexpr std::string_view kPlainLetters = "abcdefhijklpqrstxyz@^uvw";
 
-char upper(char letter) {
-  return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
-}
-
 Result<void> read_g(ValueReader& reader, Block& block, bool tools_have_no_diameter) {
   const Place place = reader.place();
   const auto value = reader.real();
@@ -126,6 +122,10 @@ Result<void> read_word(char letter, Place place, ValueReader& reader, Block& blo
 }
 
 }  // namespace
+
+char upper(char letter) {
+  return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+}
 
 bool Block::has_axes() const {
   for (const char axis : kAxes) {

@@ -7,12 +7,19 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/gcode/codes.hpp"
 #include "tools/gcode/value_reader.hpp"
 
 namespace chaintrue::gcode {
+
+/// The letters of the six axes.
+inline constexpr std::string_view kAxisLetters = "xyzabc";
+
+/// A word's letter as messages show it; any other character as it is.
+[[nodiscard]] char upper(char letter);
 
 /// `#5 = 1` or `#<name> = 1`; takes effect after the line is read.
 struct Assignment {

@@ -20,9 +20,8 @@ namespace {
 /// at the tool.
 constexpr double kStretch = 1.05;
 /// Short straight moves are not checked if their bow is less than this share of the tolerance, by
-/// the sampled curvature and a safety factor of two.
+/// the sampled curvature and kCurvatureSafety.
 constexpr double kUncheckedShare = 0.25;
-constexpr double kCurvatureSafety = 2.0;
 
 /// Share of the tolerance for verify's own errors, and for the chords' deviation between the points
 /// where they are checked.
@@ -42,7 +41,7 @@ double chord_tolerance(const CompensateOptions& options, bool single_precision) 
       rounding_mm(options.decimals) + (single_precision ? kSinglePrecisionMm : 0.0);
   const double left = ((1.0 - kSpare) * options.tolerance_mm - rounding) / kStretch;
   if (!(left > 0.0)) {
-    throw grid::precondition("a tolerance of {} mm leaves nothing beside rounding to {} decimals",
+    throw grid::precondition("a tolerance of {} mm is used up by rounding to {} decimals",
                              options.tolerance_mm,
                              options.decimals);
   }
@@ -77,8 +76,7 @@ Compensator::Compensator(const Corrector& corrector, CompensateOptions options, 
 }
 
 Result<CompensateSummary> Compensator::run(LineSource& source, const Dialect& dialect) {
-  emitter_.header({options_.map_hash,
-                   options_.input_hash,
+  emitter_.header({options_.made_by,
                    corrector_.firmware().name,
                    options_.tolerance_mm,
                    options_.home.x_mm,
@@ -276,7 +274,7 @@ Result<void> Compensator::word(const PassedWord& word) {
   if (word.text.starts_with("G43") && !corrector_.firmware().tool_lengths) {
     return refuse(ProblemName::not_emittable,
                   {word.line, 0},
-                  fmt::format("{}: {} keeps no tool lengths, so every height behind it could be "
+                  fmt::format("{}: {} keeps no tool lengths, so every height after it could be "
                               "wrong; take G43 out and set Z to zero with each tool",
                               word.text,
                               corrector_.firmware().name));

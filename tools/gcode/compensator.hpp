@@ -51,8 +51,8 @@ struct CompensateOptions {
   std::optional<ClampBox> clamp_box;
   /// Half the width of a named direction_hysteresis for each chain.
   model::ChainLengths half_play_mm;
-  std::string map_hash;
-  std::string input_hash;
+  /// For the header.
+  std::optional<grid::Provenance> made_by;
   /// "motorspacingx 2978.4": what the controller is presumed to hold, for the header.
   std::vector<std::string> settings;
   /// Called for every command in X and Y with its start and end, and for every plunge with its place
@@ -112,7 +112,7 @@ class Compensator final : private Sink {
       const Move& move, double feed, double from, double to, ChainDirections directions);
   Result<void> emit(const Move& move, double feed, const PathSample& sample);
   void examine(const Move& move, const PathSample& sample);
-  void object(const Move& move, CorrectionFailure failure, double x_mm, double y_mm);
+  void object(const Move& move, const CorrectionFailure& failure, double x_mm, double y_mm);
   [[nodiscard]] Move placed(const Move& move) const;
   [[nodiscard]] ChainDirections directions_at(const Move& move,
                                               double t,

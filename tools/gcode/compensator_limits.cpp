@@ -29,14 +29,17 @@ void Findings::add(Note note) {
   if (notes.size() < kMostKept) notes.push_back(std::move(note));
 }
 
-void Compensator::object(const Move& move, CorrectionFailure failure, double x_mm, double y_mm) {
+void Compensator::object(const Move& move,
+                         const CorrectionFailure& failure,
+                         double x_mm,
+                         double y_mm) {
   if (objected_line_ == move.line) return;
   objected_line_ = move.line;
-  findings_.add(Problem{failure.reason == CorrectionFailure::controller
+  findings_.add(Problem{failure.reason == CorrectionReason::controller
                             ? ProblemName::outside_controller
                             : ProblemName::outside_map,
                         {move.line, 0},
-                        fmt::format("X{:.3f} Y{:.3f} {}", x_mm, y_mm, explain(failure))});
+                        fmt::format("X{:.3f} Y{:.3f} {}", x_mm, y_mm, failure.sentence())});
 }
 
 /// Checks a sample against the limits.
@@ -69,15 +72,15 @@ void Compensator::examine(const Move& move, const PathSample& sample) {
     if (beyond > 0.0) {
       once_a_line(
           ProblemName::outside_controller,
-          fmt::format("X{:.3f} Y{:.3f} needs the command X{:.3f} Y{:.3f}, {:.2f} mm beyond the bed "
-                      "that the controller "
-                      "clamps to without a word; enlarge the bed in its settings by {:.0f} mm",
-                      sample.target.x_mm,
-                      sample.target.y_mm,
-                      sample.command.x_mm,
-                      sample.command.y_mm,
-                      beyond,
-                      std::ceil(2.0 * beyond)));
+          fmt::format(
+              "X{:.3f} Y{:.3f} needs the command X{:.3f} Y{:.3f}, {:.2f} mm beyond the bed, where "
+              "the controller silently cuts it off; enlarge the bed in its settings by {:.0f} mm",
+              sample.target.x_mm,
+              sample.target.y_mm,
+              sample.command.x_mm,
+              sample.command.y_mm,
+              beyond,
+              std::ceil(2.0 * beyond)));
     }
   }
   if (here_) {

@@ -63,23 +63,23 @@ Result<void> ControllerCheck::move(const Move& move) {
 }
 
 Result<void> ControllerCheck::end(std::size_t /*line*/, std::string_view /*word*/) {
-  const auto add = [&](const Seen& seen, std::string_view name, std::string sentence) {
-    if (seen.count == 0) return;
-    if (seen.count > 1) sentence += fmt::format(" ({} lines)", seen.count);
-    findings_.add(Note{seen.line, name, std::move(sentence)});
+  const auto add = [&](const Seen& observed, std::string_view name, std::string sentence) {
+    if (observed.count == 0) return;
+    if (observed.count > 1) sentence += fmt::format(" ({} lines)", observed.count);
+    findings_.add(Note{observed.line, name, std::move(sentence)});
   };
-  for (const auto& [code, seen] : unknown_) {
-    add(seen, "code_not_known", fmt::format("{} {} {}", firmware_.name, firmware_.unknown, code));
+  for (const auto& [code, observed] : unknown_) {
+    add(observed, "code_not_known", fmt::format("{} {} {}", firmware_.name, firmware_.unknown, code));
   }
-  for (const auto& [codes, seen] : misread_) {
-    add(seen,
+  for (const auto& [codes, observed] : misread_) {
+    add(observed,
         "code_misread",
         fmt::format("{} reads {}; the compensated file has no such code", firmware_.name, codes));
   }
   add(straight_arcs_,
       "arc_cut_straight",
-      fmt::format("{} cuts so short or so wide an arc as a straight line, here up to {:.3f} mm "
-                  "beside it; the compensated file holds no arcs",
+      fmt::format("{} cuts so short or so wide an arc as a straight line, here up to {:.3f} mm off "
+                  "it; the compensated file holds no arcs",
                   firmware_.name,
                   straight_arcs_.worst));
   add(upright_arcs_,
@@ -94,13 +94,13 @@ Result<void> ControllerCheck::end(std::size_t /*line*/, std::string_view /*word*
                   firmware_.unknown));
   add(no_length_,
       "move_of_no_length",
-      fmt::format("{} takes a move to where the tool is already for one to somewhere else; the "
+      fmt::format("{} misreads a move to where the tool is already as one elsewhere; the "
                   "compensated file holds no such move",
                   firmware_.name));
   add(short_ticks_,
       "shorter_than_a_tick",
-      fmt::format("{} takes at least {:g} ms for a move: these are shorter than the way of that "
-                  "time at their feed, so the tool is slower there",
+      fmt::format("{} takes at least {:g} ms for a move: at their feed these would take less, so "
+                  "the tool is slower there",
                   firmware_.name,
                   1000.0 * firmware_.tick_s));
   add(short_plans_,

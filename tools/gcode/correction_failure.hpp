@@ -3,31 +3,23 @@
 /// Why there is no command for where the tool shall be, or no tool for a command.
 #pragma once
 
-#include <optional>
-#include <string>
+#include <string_view>
 
 #include "grid/map/length_map.hpp"
 
 namespace chaintrue::gcode {
 
-struct CorrectionFailure {
-  enum class Reason {
-    outside_map,
-    unreachable,  ///< the machine cannot hold the tool there
-    not_converged,
-    controller,  ///< out of reach of the controller's own kinematics
-  };
-  using enum Reason;
-  CorrectionFailure(Reason why) : reason(why) {}  // NOLINT: most reasons are the whole answer
-  CorrectionFailure(Reason why, model::PoseFailure from);
-  CorrectionFailure(const grid::MapFailure& failure);  // NOLINT: of the same
-
-  Reason reason;
-  /// Of `unreachable` and `controller`, where it is known.
-  std::optional<model::MechanismFailure> cause;
-  friend bool operator==(const CorrectionFailure&, const CorrectionFailure&) = default;
+enum class CorrectionReason {
+  outside_map,
+  unreachable,  ///< the machine cannot hold the tool there
+  not_converged,
+  controller,  ///< out of reach of the controller's own kinematics
 };
-/// A clause: "lies outside the map", ...; with its own cause behind it.
-[[nodiscard]] std::string explain(const CorrectionFailure& failure);
+/// A clause: "lies outside the map", ...
+[[nodiscard]] std::string_view sentence_of(CorrectionReason reason);
+/// Of `unreachable` and `controller` with the cause, where it is known.
+using CorrectionFailure = Failure<CorrectionReason>;
+[[nodiscard]] CorrectionFailure correction_failure(const grid::MapFailure& failure);
+[[nodiscard]] CorrectionFailure out_of_controllers_reach(const model::PoseFailure& why);
 
 }  // namespace chaintrue::gcode

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/effects/catalogue.hpp"
+
 namespace chaintrue::gcode {
 namespace {
 
@@ -20,12 +22,13 @@ bool finite(model::BedPoint point) {
 
 model::ChainLengths half_play_mm(const model::Machine& machine) {
   model::ChainLengths half;
-  for (const model::AppliedEffect& effect : machine.effects) {
-    if (effect.effect != "direction_hysteresis") continue;
-    const auto width = effect.parameters.find("half_width_mm");
-    if (width == effect.parameters.end()) continue;
-    if (effect.side != "right") half.left_mm += width->second;
-    if (effect.side != "left") half.right_mm += width->second;
+  for (const model::effects::ActingEffect& one : model::effects::acting_effects(machine)) {
+    if (one.effect->add_by_direction == nullptr) continue;
+    const double width = 0.5 * (one.effect->add_by_direction(1.0, one.values) -
+                                one.effect->add_by_direction(-1.0, one.values));
+    for (const model::Side side : model::kSides) {
+      if (model::effects::acts_on(one.side, side)) half[side] += width;
+    }
   }
   return half;
 }
@@ -37,14 +40,14 @@ tl::expected<model::BedPoint, CorrectionFailure> Corrector::command(model::BedPo
 tl::expected<model::BedPoint, CorrectionFailure> Corrector::command(
     model::BedPoint target, model::ChainLengths half_play_mm, ChainDirections directions) const {
   auto lengths = map_.lengths(target);
-  if (!lengths) return tl::unexpected(CorrectionFailure(lengths.error()));
+  if (!lengths) return tl::unexpected(correction_failure(lengths.error()));
   lengths->left_mm += directions.left * half_play_mm.left_mm;
   lengths->right_mm += directions.right * half_play_mm.right_mm;
   const auto result = kinematics_.command(*lengths);
   if (!result) {
-    return tl::unexpected(CorrectionFailure(CorrectionFailure::controller, result.error()));
+    return tl::unexpected(out_of_controllers_reach(result.error()));
   }
-  if (!finite(*result)) return tl::unexpected(CorrectionFailure::controller);
+  if (!finite(*result)) return tl::unexpected(CorrectionReason::controller);
   return *result;
 }
 
@@ -52,7 +55,7 @@ tl::expected<model::ChainLengths, CorrectionFailure> Corrector::paid_out(
     model::BedPoint command) const {
   const auto lengths = kinematics_.lengths(command);
   if (!lengths) {
-    return tl::unexpected(CorrectionFailure(CorrectionFailure::controller, lengths.error()));
+    return tl::unexpected(out_of_controllers_reach(lengths.error()));
   }
   return *lengths;
 }
@@ -61,8 +64,8 @@ tl::expected<model::BedPoint, CorrectionFailure> Corrector::tool(model::BedPoint
   const auto lengths = paid_out(command);
   if (!lengths) return tl::unexpected(lengths.error());
   const auto point = map_.tool(*lengths);
-  if (!point) return tl::unexpected(CorrectionFailure(point.error()));
-  if (!finite(*point)) return tl::unexpected(CorrectionFailure::not_converged);
+  if (!point) return tl::unexpected(correction_failure(point.error()));
+  if (!finite(*point)) return tl::unexpected(CorrectionReason::not_converged);
   return *point;
 }
 

@@ -17,6 +17,9 @@
 
 namespace chaintrue::gcode {
 
+/// By which a curvature that was sampled may be too small.
+inline constexpr double kCurvatureSafety = 2.0;
+
 /// Signs of the chains' directions of motion: +1 paying out, -1 reeling in.
 struct ChainDirections {
   int left = 1;

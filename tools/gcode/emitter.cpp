@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "grid/precondition.hpp"
+#include "tools/gcode/provenance_comments.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -106,8 +107,9 @@ void Emitter::flush_word() {
 
 void Emitter::header(const Header& header) {
   put_line(fmt::format("({}; run with home at 0, 0)", kMarker));
-  put_line(fmt::format("(map {})", header.map_hash));
-  put_line(fmt::format("(input {})", header.input_hash));
+  if (header.made_by) {
+    for (const std::string& line : comments_of(*header.made_by, kMaxOutputLine)) put_line(line);
+  }
   put_line(fmt::format("(controller {}, tolerance {} mm)", header.controller, header.tolerance_mm));
   put_line(fmt::format("(home was X{} Y{})", header.home_x_mm, header.home_y_mm));
   for (const std::string& line : settings_lines(header.settings)) put_line(line);

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grid/provenance.hpp"
 #include "model/coordinates.hpp"
 #include "tools/gcode/events.hpp"
 
@@ -30,8 +31,7 @@ inline constexpr std::string_view kMarker = "compensated by chaintrue";
 
 /// Content of the header; prevents compensating twice or with the wrong map.
 struct Header {
-  std::string map_hash;
-  std::string input_hash;
+  std::optional<grid::Provenance> made_by;
   std::string controller;
   double tolerance_mm = 0.0;
   double home_x_mm = 0.0;

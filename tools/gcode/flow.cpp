@@ -91,8 +91,8 @@ Result<Flow::ControlLine> Flow::parse(const CleanLine& line, std::size_t at) con
   }
   return refuse(ProblemName::bad_flow,
                 reader.place(),
-                "behind an O-word stands nothing, or one of sub, call, return, if, while, do, "
-                "repeat and their ends");
+                "after an O-word comes nothing, or one of sub, call, return, if, while, do, repeat "
+                "and their ends");
 }
 
 Result<void> Flow::control(const CleanLine& line, std::size_t at) {

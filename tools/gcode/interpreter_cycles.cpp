@@ -16,7 +16,6 @@
 namespace chaintrue::gcode {
 namespace {
 
-constexpr std::string_view kLetters = "xyzabc";
 /// How far above the last peck's bottom the rapid stops (LinuxCNC: G83_RAPID_DELTA, 0.010 inch).
 constexpr double kPeckClearanceMm = 0.254;
 
@@ -61,7 +60,7 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   if (modes_.plane == 180) cycle = Cycle{motion, 2, 0, 1};
   if (modes_.plane == 190) cycle = Cycle{motion, 1, 2, 0};
   cycle.program = to_program(machine_);
-  const char depth_letter = kLetters[cycle.normal];
+  const char depth_letter = kAxisLetters[cycle.normal];
   if (!block.has_axes())
     return refuse(ProblemName::bad_cycle, block.start(), "a canned cycle needs axis words");
   if (block.has('a') || block.has('b') || block.has('c') || block.has('@') || block.has('^')) {
@@ -102,10 +101,10 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
         ProblemName::bad_cycle, block.start(), "the cycle's depth of a peck, Q, is missing");
   }
   if (pecks && !(sticky_.q > 0.0)) {
-    return refuse(ProblemName::bad_cycle, block.start(), "a peck's depth Q is above zero");
+    return refuse(ProblemName::bad_cycle, block.start(), "the depth Q must be above zero");
   }
   if (sticky_.p < 0.0)
-    return refuse(ProblemName::bad_cycle, block.start(), "a dwell time is not below zero");
+    return refuse(ProblemName::bad_cycle, block.start(), "the dwell time is below zero");
   const double repeats = block.find('l').value_or(1.0);
   if (!(repeats >= 1.0) || std::round(repeats) != repeats) {
     return refuse(ProblemName::bad_cycle,
@@ -119,7 +118,7 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   const double here_first = first;
   const double here_second = second;
   const auto word = [&](std::size_t axis, double otherwise) {
-    return block.has(kLetters[axis]) ? length(block, kLetters[axis]) : otherwise;
+    return block.has(kAxisLetters[axis]) ? length(block, kAxisLetters[axis]) : otherwise;
   };
   double step_first = 0.0;
   double step_second = 0.0;

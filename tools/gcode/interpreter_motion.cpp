@@ -12,8 +12,6 @@
 namespace chaintrue::gcode {
 namespace {
 
-constexpr std::string_view kLetters = "xyzabc";
-constexpr double kDegree = std::numbers::pi / 180.0;
 /// More turns than this are a typing error.
 constexpr double kMostTurns = 1000.0;
 
@@ -87,8 +85,8 @@ Result<Axes> Interpreter::target(const Block& block) const {
     CHAINTRUE_GCODE_TRY(polar(block, program));
   }
   for (std::size_t i = 0; i < program.size(); ++i) {
-    if (!block.has(kLetters[i])) continue;
-    const double value = i < 3 ? length(block, kLetters[i]) : block.value(kLetters[i]);
+    if (!block.has(kAxisLetters[i])) continue;
+    const double value = i < 3 ? length(block, kAxisLetters[i]) : block.value(kAxisLetters[i]);
     program[i] = modes_.incremental ? program[i] + value : value;
   }
   return to_machine(program);
@@ -100,8 +98,8 @@ Result<Axes> Interpreter::machine_target(const Block& block) const {
   }
   Axes machine = machine_;
   for (std::size_t i = 0; i < machine.size(); ++i) {
-    if (block.has(kLetters[i]))
-      machine[i] = i < 3 ? length(block, kLetters[i]) : block.value(kLetters[i]);
+    if (block.has(kAxisLetters[i]))
+      machine[i] = i < 3 ? length(block, kAxisLetters[i]) : block.value(kAxisLetters[i]);
   }
   return machine;
 }
@@ -119,7 +117,7 @@ Result<void> Interpreter::polar(const Block& block, Axes& program) const {
                   "a point has X and Y or polar coordinates (@, ^), not both");
   }
   double radius = std::hypot(program[0], program[1]);
-  double angle_deg = std::atan2(program[1], program[0]) / kDegree;
+  double angle_deg = std::atan2(program[1], program[0]) / kRadiansPerDegree;
   if ((modes_.incremental || !block.has('^')) && radius == 0.0) {
     return refuse(ProblemName::bad_word_value,
                   block.start(),
@@ -127,8 +125,8 @@ Result<void> Interpreter::polar(const Block& block, Axes& program) const {
   }
   if (block.has('@')) radius = (modes_.incremental ? radius : 0.0) + length(block, '@');
   if (block.has('^')) angle_deg = (modes_.incremental ? angle_deg : 0.0) + block.value('^');
-  program[0] = radius * std::cos(angle_deg * kDegree);
-  program[1] = radius * std::sin(angle_deg * kDegree);
+  program[0] = radius * std::cos(angle_deg * kRadiansPerDegree);
+  program[1] = radius * std::sin(angle_deg * kRadiansPerDegree);
   return {};
 }
 
@@ -197,9 +195,9 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
   ArcRequest request;
   request.start = {start[plane.first], start[plane.second]};
   request.end = {end[plane.first], end[plane.second]};
-  request.first_axis = kLetters[plane.first];
-  request.second_axis = kLetters[plane.second];
-  request.normal_axis = kLetters[plane.normal];
+  request.first_axis = kAxisLetters[plane.first];
+  request.second_axis = kAxisLetters[plane.second];
+  request.normal_axis = kAxisLetters[plane.normal];
   request.clockwise = clockwise;
   request.absolute_centre = modes_.absolute_centres;
   request.mm_per_unit = mm_per_unit();

@@ -13,7 +13,6 @@
 namespace chaintrue::gcode {
 namespace {
 
-constexpr std::string_view kLetters = "xyzabc";
 constexpr int kLinear = 3;  // the first three axes are lengths
 
 /// Of coordinate system 1 .. 9.
@@ -157,8 +156,8 @@ Result<void> Interpreter::set_system(const Block& block) {
   Axes shift{};
   const bool offset_on = parameters_.stored(parameter::kOffsetOn) != 0.0;
   for (std::size_t i = 0; i < origin.size(); ++i) {
-    if (!block.has(kLetters[i])) continue;
-    const double value = i < kLinear ? length(block, kLetters[i]) : block.value(kLetters[i]);
+    if (!block.has(kAxisLetters[i])) continue;
+    const double value = i < kLinear ? length(block, kAxisLetters[i]) : block.value(kAxisLetters[i]);
     if (from_here) {
       shift[i] = here[i] - (offset_on ? frame_.offset[i] : 0.0) - value;
     } else {
@@ -187,8 +186,8 @@ Result<void> Interpreter::set_offset(const Block& block) {
   if (from_here) CHAINTRUE_GCODE_TRY(needs_known_z(block));
   const Axes program = to_program(machine_);
   for (std::size_t i = 0; i < frame_.offset.size(); ++i) {
-    if (!block.has(kLetters[i])) continue;
-    const double value = i < kLinear ? length(block, kLetters[i]) : block.value(kLetters[i]);
+    if (!block.has(kAxisLetters[i])) continue;
+    const double value = i < kLinear ? length(block, kAxisLetters[i]) : block.value(kAxisLetters[i]);
     frame_.offset[i] = from_here ? program[i] + frame_.offset[i] - value : value;
   }
   parameters_.set(parameter::kOffsetOn, 1.0);
@@ -237,7 +236,7 @@ Result<void> Interpreter::go_home(const Block& block, int first) {
   const Axes home_program = to_program(home);
   Axes program = to_program(machine_);
   for (std::size_t i = 0; i < program.size(); ++i) {
-    if (block.has(kLetters[i])) program[i] = home_program[i];
+    if (block.has(kAxisLetters[i])) program[i] = home_program[i];
   }
   return straight(block, MoveKind::rapid, to_machine(program));
 }

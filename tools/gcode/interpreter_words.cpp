@@ -16,8 +16,6 @@ namespace {
 /// LinuxCNC accepts a value as a whole number if it is this near to one.
 constexpr double kWhole = 0.0001;
 
-char upper(char letter) { return static_cast<char>(letter - 'a' + 'A'); }
-
 bool one_of(int value, std::initializer_list<int> list) {
   return std::find(list.begin(), list.end(), value) != list.end();
 }

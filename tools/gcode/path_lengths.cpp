@@ -46,10 +46,12 @@ class Sampler final : public Sink {
       }
       if (objected_line_ == move.line) return {};
       objected_line_ = move.line;
-      findings_.add(Problem{
-          ProblemName::outside_map,
-          {move.line, 0},
-          fmt::format("X{:.3f} Y{:.3f} {}", place.x_mm, place.y_mm, explain(CorrectionFailure(answer.error())))});
+      findings_.add(Problem{ProblemName::outside_map,
+                            {move.line, 0},
+                            fmt::format("X{:.3f} Y{:.3f} {}",
+                                        place.x_mm,
+                                        place.y_mm,
+                                        correction_failure(answer.error()).sentence())});
       return {};
     }
     return {};

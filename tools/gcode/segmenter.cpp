@@ -73,7 +73,7 @@ tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& cur
     Point on_way = between(a.command, b.command, u);
     if (own_way) {
       const auto place = way.at(u);
-      if (!place) return tl::unexpected(CorrectionFailure::controller);
+      if (!place) return tl::unexpected(CorrectionReason::controller);
       on_way.x_mm = place->x_mm;
       on_way.y_mm = place->y_mm;
     }

@@ -22,13 +22,15 @@ constexpr double kShortestChainMm = 400.0;
 
 double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm); }
 
-tl::unexpected<Problem> no_place(CorrectionFailure failure, Point command, std::size_t line) {
-  const bool controller = failure.reason == CorrectionFailure::controller;
+tl::unexpected<Problem> no_place(const CorrectionFailure& failure,
+                                 Point command,
+                                 std::size_t line) {
+  const bool controller = failure.reason == CorrectionReason::controller;
   return refuse(
       controller ? ProblemName::outside_controller : ProblemName::outside_map,
       {line, 0},
       fmt::format(
-          "X{:.3f} Y{:.3f}: the tool's place {}", command.x_mm, command.y_mm, explain(failure)));
+          "X{:.3f} Y{:.3f}: the tool's place {}", command.x_mm, command.y_mm, failure.sentence()));
 }
 
 }  // namespace
@@ -60,7 +62,7 @@ Result<Point> SimulatedMachine::tool(Point command, std::size_t line) {
   const auto found =
       corrector_.map().tool({follow(left_mm_, paid->left_mm, options_.half_play_mm.left_mm),
                              follow(right_mm_, paid->right_mm, options_.half_play_mm.right_mm)});
-  if (!found) return no_place(CorrectionFailure::outside_map, command, line);
+  if (!found) return no_place(CorrectionReason::outside_map, command, line);
   return Point{found->x_mm, found->y_mm, command.z_mm};
 }
 
@@ -155,7 +157,7 @@ Result<bool> SimulatedMachine::chain_linear(Point from,
       }
       const auto where = corrector_.map().tool(lengths);
       const Point command = between(here, next, share);
-      if (!where) return no_place(CorrectionFailure::outside_map, command, line);
+      if (!where) return no_place(CorrectionReason::outside_map, command, line);
       if (!visit({where->x_mm, where->y_mm, command.z_mm}, command)) return false;
     }
     here = next;

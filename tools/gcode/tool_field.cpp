@@ -12,7 +12,6 @@ namespace {
 /// The points at which a cell is compared with the exact value.
 constexpr double kLook[][2] = {{0.5, 0.5}, {0.25, 0.75}};
 constexpr double kErrorSafety = 2.0;
-constexpr double kCurvatureSafety = 2.0;
 /// Used if the curvature is unknown.
 constexpr double kCarefulStepMm = 1.0;
 constexpr double kLongestStepMm = 24.0;

@@ -16,7 +16,6 @@ namespace {
 constexpr int kDeepest = 64;
 /// LinuxCNC's TOLERANCE_EQUAL.
 constexpr double kEqual = 0.0001;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -31,7 +30,7 @@ struct Function {
 
 Outcome arc_function(double x, double (*apply)(double)) {
   if (x < -1.0 || x > 1.0) return fails("asin and acos take values from -1 to 1");
-  return apply(x) / kDegree;
+  return apply(x) / kRadiansPerDegree;
 }
 
 /// Longer names before their prefixes.
@@ -39,7 +38,7 @@ constexpr Function kFunctions[] = {
     {"abs", [](double x) -> Outcome { return std::fabs(x); }},
     {"acos", [](double x) { return arc_function(x, [](double y) { return std::acos(y); }); }},
     {"asin", [](double x) { return arc_function(x, [](double y) { return std::asin(y); }); }},
-    {"cos", [](double x) -> Outcome { return std::cos(x * kDegree); }},
+    {"cos", [](double x) -> Outcome { return std::cos(x * kRadiansPerDegree); }},
     {"exp", [](double x) -> Outcome { return std::exp(x); }},
     {"fix", [](double x) -> Outcome { return std::floor(x); }},
     {"fup", [](double x) -> Outcome { return std::ceil(x); }},
@@ -49,13 +48,13 @@ constexpr Function kFunctions[] = {
        return std::log(x);
      }},
     {"round", [](double x) -> Outcome { return std::trunc(x + (x < 0.0 ? -0.5 : 0.5)); }},
-    {"sin", [](double x) -> Outcome { return std::sin(x * kDegree); }},
+    {"sin", [](double x) -> Outcome { return std::sin(x * kRadiansPerDegree); }},
     {"sqrt",
      [](double x) -> Outcome {
        if (x < 0.0) return fails("sqrt takes no value below zero");
        return std::sqrt(x);
      }},
-    {"tan", [](double x) -> Outcome { return std::tan(x * kDegree); }},
+    {"tan", [](double x) -> Outcome { return std::tan(x * kRadiansPerDegree); }},
 };
 
 double truth(bool value) { return value ? 1.0 : 0.0; }
@@ -251,7 +250,7 @@ Result<double> ValueReader::function() {
     if (!accept("/")) return refuse(ProblemName::bad_expression, place(), "atan takes [y]/[x]");
     const auto x = bracketed();
     if (!x) return x;
-    return std::atan2(*y, *x) / kDegree;
+    return std::atan2(*y, *x) / kRadiansPerDegree;
   }
   for (const Function& candidate : kFunctions) {
     if (!accept(candidate.name)) continue;

@@ -8,6 +8,7 @@
 /// LinuxCNC does. There are no exponents: E is a word.
 #pragma once
 
+#include <numbers>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,8 @@
 #include "tools/gcode/parameters.hpp"
 
 namespace chaintrue::gcode {
+
+inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 class ValueReader {
  public:

@@ -154,7 +154,7 @@ std::vector<ChartRow> arrow_rows(const Outline& sheet,
         after,
         fine,
         kAfterColor,
-        "After, under the magnifying glass",
+        "After, magnified",
         fmt::format(
             "The same arrows, {:g} times larger.{}", fine / coarse, words.close_caption))}});
   }

@@ -24,10 +24,14 @@ struct Outline {
   double y_max_mm = 0.0;
 };
 
-/// Vermilion and blue of Okabe and Ito's palette, distinguishable with every colour vision.
-inline constexpr const char* kBeforeColor = "#d55e00";
-inline constexpr const char* kAfterColor = "#0072b2";
-inline constexpr const char* kNeutralColor = "#8a94a3";
+/// The colours of every chart, page and sheet, of Okabe and Ito's palette, which every colour vision
+/// tells apart. tests/report holds the chart specifications, the page's style and Python to this list.
+inline constexpr const char* kBeforeColor = "#d55e00";  ///< as it is, too long, a bad reading
+inline constexpr const char* kAfterColor = "#0072b2";   ///< with the map or the causes, too short
+inline constexpr const char* kThirdColor =
+    "#009e73";  ///< another way of reading: an edge, chain paid out
+inline constexpr const char* kFourthColor = "#cc79a7";   ///< its opposite: chain taken in
+inline constexpr const char* kNeutralColor = "#8a94a3";  ///< a reference, what is not named
 
 /// A shift of the tool at a mark.
 struct Arrow {

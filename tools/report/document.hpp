@@ -77,10 +77,10 @@ struct Cell {
   std::variant<std::monostate, std::string, double> value{};
   Cell() = default;
   Cell(std::string text) : value(std::move(text)) {}  // NOLINT: a row reads as a list of values
-  Cell(std::string_view text) : value(std::string(text)) {}    // NOLINT
-  Cell(const char* text) : value(std::string(text)) {}         // NOLINT
-  Cell(double number) : value(number) {}                       // NOLINT
-  Cell(std::optional<double> number) {                         // NOLINT
+  Cell(std::string_view text) : value(std::string(text)) {}  // NOLINT
+  Cell(const char* text) : value(std::string(text)) {}       // NOLINT
+  Cell(double number) : value(number) {}                     // NOLINT
+  Cell(std::optional<double> number) {                       // NOLINT
     if (number) value = *number;
   }
 };
@@ -146,7 +146,7 @@ using Block = std::variant<Paragraph, List, Figures, Table, Chart, ChartRow>;
 struct Section {
   std::string title{};
   std::vector<Block> blocks{};
-  /// Shows only its title until it is opened; open in print.
+  /// On the page: after the open ones, only its title until it is opened; printed only where it is open.
   bool is_folded = false;
   Detail detail = Detail::always;
   /// Whether the terminal shows the title, with the blocks indented below it.

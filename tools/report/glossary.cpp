@@ -12,13 +12,13 @@ constexpr Term kTerms[] = {
     {"one sigma", "two values of three lie within it, nineteen of twenty within twice of it"},
     {"mark", "a place on the sheet at which the tool, or the chains, were measured"},
     {"map", "the true chain lengths for every place of the bed, made from the marks"},
-    {"as delivered", "the machine with the settings that it had when it was measured"},
-    {"as stated", "the machine as its file describes it, nothing calibrated"},
+    {"uncorrected", "the machine with the settings that it had when it was measured"},
     {"calibrated", "the settings moved to where they fit the readings best"},
-    {"held out", "foretold by a fit that had not seen it: the honest test of a fit"},
-    {"left out", "the same, one reading or one block of the bed at a time"},
-    {"residual", "what was read less what was foretold"},
-    {"chain zero", "what a chain reads too long or too short everywhere, since its zero is off"},
+    {"left out",
+     "one reading, or one block of the bed at a time, that the fit did not use: how well it "
+     "predicts that is the honest test of a fit"},
+    {"residual", "the reading minus what was expected"},
+    {"chain zero", "how much too long or short a chain reads everywhere, as its zero is off"},
     {"noise", "what readings of the same thing differ by"},
     {"pitch", "the length of one link, 6.35 mm when it is new"},
     {"catenary", "the curve in which a chain hangs"},
@@ -31,8 +31,7 @@ std::span<const Term> terms() { return kTerms; }
 
 Section glossary() {
   Table table{.columns = {{"Word"}, {"What it means here"}}, .rows = {}, .caption = {}};
-  for (const Term& term : kTerms)
-    table.rows.push_back({{term.word, term.meaning}, false});
+  for (const Term& term : kTerms) table.rows.push_back({{term.word, term.meaning}, false});
   Section section{"Words", {}};
   section.is_folded = true;
   section.blocks.emplace_back(std::move(table));

@@ -111,14 +111,14 @@ HeldOut held_out_of(const MapPictures& report) {
 }
 
 Chart target_chart(const MapPictures& report, const HeldOut& held_out) {
-  Chart chart{.specification = "held_out_target",
-              .title = "Every point predicted without itself",
-              .caption =
-                  "Each dot is one point's error at the tool, as a hit on a target. A cloud "
-                  "around the middle is noise; a cloud beside it would be a shift of the "
-                  "whole sheet."};
+  Chart chart{
+      .specification = "held_out_target",
+      .title = "Each point as the others predict it",
+      .caption =
+          "Each dot is one point's error at the tool, as a hit on a target. A cloud around the "
+          "middle is noise; a cloud off the middle would be a shift of the whole sheet."};
   if (held_out.has_bad)
-    chart.caption += " Crosses were set aside; those off the target stand at its rim.";
+    chart.caption += " Crosses were left out; those off the target stand at its rim.";
   DataTable hits{"hits", {"name", "dx_mm", "dy_mm", "is_bad"}, {}};
   for (const ReportPoint& point : report.points) {
     if (point.held_out)
@@ -135,7 +135,7 @@ Chart points_chart(const MapPictures& report, const HeldOut& held_out) {
   Chart chart{.specification = "held_out_points",
               .title = "Point by point",
               .caption = "In the order of the file."};
-  if (held_out.has_bad) chart.caption += " Points drawn as a cross were set aside by the fit.";
+  if (held_out.has_bad) chart.caption += " Points drawn as a cross were left out by the fit.";
   DataTable points{
       "points", {"number", "name", "x_mm", "y_mm", "error_mm", "sigmas", "is_bad"}, {}};
   for (std::size_t i = 0; i < report.points.size(); ++i) {
@@ -167,11 +167,11 @@ Chart points_chart(const MapPictures& report, const HeldOut& held_out) {
 Chart error_map_chart(const MapPictures& report) {
   if (!report.error_map) throw std::invalid_argument("no error map to draw");
   const ErrorMap& map = *report.error_map;
-  Chart chart{.specification = "error_map",
-              .title = "Expected error over the bed",
-              .caption =
-                  "One sigma at the tool, from the readings' noise carried through the fit. "
-                  "Circles are the points."};
+  Chart chart{
+      .specification = "error_map",
+      .title = "Expected error over the bed",
+      .caption =
+          "One sigma at the tool, as far as the readings' noise makes it. Circles are the points."};
   DataTable cells{"cells", {"x_mm", "y_mm", "error_mm", "coverage"}, {}};
   for (const ErrorCell& cell : map.cells)
     cells.rows.push_back({cell.x_mm, cell.y_mm, cell.error_mm, cell.coverage});

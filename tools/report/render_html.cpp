@@ -15,9 +15,9 @@
 #include <string_view>
 
 #include "grid/precondition.hpp"
+#include "tools/report/document.hpp"
 #include "tools/report/embedded.hpp"
 #include "tools/report/glossary.hpp"
-#include "tools/report/document.hpp"
 #include "tools/report/typeset.hpp"
 
 namespace chaintrue::report {
@@ -69,15 +69,13 @@ Json rows_of(const DataTable& table) {
   return rows;
 }
 
-class Writer {
+class HtmlWriter {
  public:
   std::string write(const Document& page) {
     head(page);
     verdict(page);
     if (!page.figures.empty()) write_figures(Figures{page.figures});
-    for (const Section& section : page.sections) write_section(section);
-    if (!page.remarks.blocks.empty()) write_section(page.remarks);
-    if (page.has_glossary) write_section(glossary());
+    write_sections(page);
     if (!page.provenance.empty()) add("<footer><p>{}</p></footer>\n", escaped(page.provenance));
     add("</main>\n<div id=\"tip\" role=\"tooltip\"></div>\n");
     scripts();
@@ -137,17 +135,36 @@ class Writer {
         "not.</p></noscript>\n");
   }
 
+  /// The open ones, then the folded ones.
+  void write_sections(const Document& page) {
+    std::vector<const Section*> sections;
+    for (const Section& section : page.sections) sections.push_back(&section);
+    if (!page.remarks.blocks.empty()) sections.push_back(&page.remarks);
+    const Section words = page.has_glossary ? glossary() : Section{};
+    if (page.has_glossary) sections.push_back(&words);
+    const auto folded =
+        std::stable_partition(sections.begin(), sections.end(), [](const Section* section) {
+          return !section->is_folded;
+        });
+    for (const Section* section : sections) write_section(*section);
+    if (folded == sections.end()) return;
+    add("<p class=\"on-paper\">What is folded on the screen is not printed: open there first what "
+        "is "
+        "to be on paper.</p>\n");
+  }
+
   void write_section(const Section& section) {
     const std::string heading = fmt::format("<h2>{}</h2>", set(section.title));
     if (section.is_folded) {
-      add("<section>\n<details>\n<summary>{}</summary>\n", heading);
+      add("<section class=\"folded\">\n<details>\n<summary>{}</summary>\n", heading);
     } else {
       add("<section>\n{}\n", heading);
     }
     for (const Block& block : section.blocks) {
       std::visit(Overloaded{
                      [&](const Paragraph& text) {
-                       add("<p>{}</p>\n", explained(text.is_note ? capitalised(text.text) : text.text));
+                       add("<p>{}</p>\n",
+                           explained(text.is_note ? capitalised(text.text) : text.text));
                      },
                      [&](const List& list) { write_list(list.items, list.mark); },
                      [&](const Figures& figures) { write_figures(figures); },
@@ -167,7 +184,7 @@ class Writer {
   void write_figures(const Figures& figures) {
     add("<div class=\"figures\">\n");
     for (const Figure& figure : figures.figures) {
-      add("<div><b>{}</b><span>{}</span></div>\n", escaped(figure.value), escaped(figure.label));
+      add("<div><b>{}</b><span>{}</span></div>\n", escaped(figure.value), explained(figure.label));
     }
     add("</div>\n");
   }
@@ -292,9 +309,11 @@ class Writer {
         continue;
       }
       explained_.insert(term.word);
-      html.replace(at,
-                   term.word.size(),
-                   fmt::format("<abbr title=\"{}\">{}</abbr>", escaped(term.meaning), term.word));
+      html.replace(
+          at,
+          term.word.size(),
+          fmt::format(
+              "<abbr title=\"{}\" tabindex=\"0\">{}</abbr>", escaped(term.meaning), term.word));
     }
     return html;
   }
@@ -312,6 +331,6 @@ class Writer {
 
 }  // namespace
 
-std::string render_html(const Document& document) { return Writer().write(document); }
+std::string render_html(const Document& document) { return HtmlWriter().write(document); }
 
 }  // namespace chaintrue::report

@@ -25,9 +25,9 @@ std::string blanks(int count) {
   return std::string(static_cast<std::size_t>(std::max(count, 0)), ' ');
 }
 
-class Writer {
+class TextWriter {
  public:
-  explicit Writer(Detail detail) : detail_(detail) {}
+  explicit TextWriter(Detail detail) : detail_(detail) {}
 
   std::string write(const Document& document) {
     paragraph(document.verdict, 0);
@@ -165,7 +165,7 @@ class Writer {
 }  // namespace
 
 std::string render_text(const Document& document, Detail detail) {
-  return Writer(detail).write(document);
+  return TextWriter(detail).write(document);
 }
 
 }  // namespace chaintrue::report

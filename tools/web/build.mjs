@@ -57,8 +57,13 @@ function licences() {
     .replaceAll("&", "&amp;").replaceAll("<", "&lt;");
 }
 
+const EVENINGS = ["worn_chain", "bent_beam", "long_tape", "slipped_tooth", "nothing_wrong"];
+
 function example() {
+  const evenings = Object.fromEntries(EVENINGS.map((name) => [name, read(join(root, `fixtures/start/${name}.csv`))]));
+  evenings.maslow4 = read(join(root, "fixtures/good/maslow4_log.txt"));
   return {
+    evenings,
     "groundcontrol.ini": read(join(root, "fixtures/good/groundcontrol_ring.ini")),
     "marks.csv": read(join(root, "fixtures/start/marks.csv")),
     "bracket.nc": read(join(root, "fixtures/gcode/bracket.nc")),

@@ -2,9 +2,10 @@
 /// \file
 /// anchor_flex: an anchor, or the frame, yields along the pull of its belt, independent of the belt's
 /// length.
-///   g  how far, mm
+///   g  how far at the pull that sizes refer to, mm
+///   P  pull over that one
 ///
-///   added = -g of a belt that is pulled, 0 of one that holds                                (1)
+///   added = -g P of a belt that is pulled, 0 of one that holds                              (1)
 #include "model/belts/effects/belt_effect.hpp"
 
 namespace chaintrue::model::belts {
@@ -24,7 +25,7 @@ constexpr EffectParameter kParameters[] = {{
 
 // (1)
 double add(double /*length_mm*/, double /*turn_mm*/, const BeltVisit& visit, Values values) {
-  return visit.pulled ? -values[0] : 0.0;
+  return visit.pulled ? -values[0] * visit.pull : 0.0;
 }
 
 }  // namespace
@@ -34,10 +35,10 @@ extern constinit const BeltEffect anchor_flex{
     .sides = kNoBelt,
     .parameters = kParameters,
     .cause = "anchors, arms or the frame give when a belt is pulled",
-    .signature = "the pulled belts read short by as much wherever the tool is",
-    .equation = "- g of a pulled belt",
+    .signature = "the pulled belts read equally short wherever the tool is",
+    .equation = "- g P of a pulled belt, P its pull over that of the first pass",
     .source = "a cantilever gives in proportion to its load; the motors pull to one current",
-    .not_modelled = "anchors that give unlike, and across the pull",
+    .not_modelled = "anchors giving unequally, and across the pull",
     .typical = "0.5 to 2 mm",
     .remedy = "brace the frame and the anchors; pull with less current while the anchors are found",
     .add = add,

@@ -14,7 +14,7 @@ using effects::EffectParameter;
 constexpr EffectParameter kParameters[] = {{
     .name = "offset_mm",
     .symbol = "h",
-    .meaning = "how much higher the anchor is than stated",
+    .meaning = "how far the anchor is above its setting",
     .nominal = 20.0,
     .lower = -300.0,
     .upper = 300.0,
@@ -39,7 +39,7 @@ extern constinit const BeltEffect anchor_height{
     .not_modelled = "a sled that tilts on uneven heights",
     .typical = "10 to 40 mm",
     .remedy_kind = effects::RemedyKind::change_the_machine,
-    .remedy = "measure the anchors' heights over the bed and state them (tlZ, trZ, blZ, brZ)",
+    .remedy = "measure the anchors' heights over the bed and enter them (tlZ, trZ, blZ, brZ)",
     .alter = alter,
 };
 

@@ -53,11 +53,11 @@ extern constinit const BeltEffect anchor_moved{
     .parameters = kParameters,
     .cause = "an anchor slipped or its screw came loose while the machine measured",
     .signature =
-        "from one visit on, one belt disagrees with the other three, by as much as its direction "
-        "lies along the slip",
+        "from one visit on, one belt disagrees with the other three, most where it points along "
+        "the slip",
     .equation = "anchor + d (cos a, sin a) for n >= m",
     .source = "geometry",
-    .not_modelled = "an anchor that creeps; state it as drift",
+    .not_modelled = "an anchor that creeps; use drift for it",
     .typical = "1 to 10 mm",
     .needs = effects::DataNeed::order,
     .remedy = "fasten that anchor and let the machine find its anchors again",

@@ -66,6 +66,15 @@ const effects::Effect& described(const BeltEffect& effect) {
   return descriptions()[static_cast<std::size_t>(own - belt_effects().begin())];
 }
 
+std::span<const effects::Effect* const> described_belt_effects() {
+  static const std::vector<const effects::Effect*> all = [] {
+    std::vector<const effects::Effect*> made;
+    for (const effects::Effect& effect : descriptions()) made.push_back(&effect);
+    return made;
+  }();
+  return all;
+}
+
 const BeltEffect* belt_effect_of(const effects::Effect& described) {
   for (std::size_t k = 0; k < descriptions().size(); ++k) {
     if (&descriptions()[k] == &described) return belt_effects()[k];

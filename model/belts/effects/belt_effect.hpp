@@ -11,7 +11,7 @@
 ///   print     the counted length in the controller's convention, with the arm, the extension and the
 ///             heights set in it                                        (belt_readings.hpp)
 ///
-/// Symbols: L the belt's own length, slanting, mm; n the number of the visit.
+/// Symbols: L the belt's own length, slanting, mm; n the number of the visit; P the pull at it.
 #pragma once
 
 #include <span>
@@ -32,6 +32,7 @@ struct BeltVisit {
   Belt belt = Belt::tl;
   bool pulled = false;  ///< by its motor at the reading; otherwise it is held
   int order = 0;        ///< n
+  double pull = 1.0;    ///< P, of a belt that is pulled, over the pull that sizes refer to
 };
 
 using effects::Values;
@@ -72,6 +73,8 @@ inline constexpr BeltSide kOneBeltOrAll[] = {
 [[nodiscard]] const BeltEffect* find_belt_effect(std::string_view id);
 /// Its texts, sides and parameters in the form of the chains' catalogue.
 [[nodiscard]] const effects::Effect& described(const BeltEffect& effect);
+/// All of them so, in the order of the table.
+[[nodiscard]] std::span<const effects::Effect* const> described_belt_effects();
 /// The effect with this description; null for one of the chains' catalogue.
 [[nodiscard]] const BeltEffect* belt_effect_of(const effects::Effect& described);
 

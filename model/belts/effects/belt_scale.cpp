@@ -15,7 +15,7 @@ using effects::EffectParameter;
 constexpr EffectParameter kParameters[] = {{
     .name = "scale",
     .symbol = "s",
-    .meaning = "by what share a turn pays out more than is believed",
+    .meaning = "how much more belt a turn pays out, as a share",
     .nominal = 0.002,
     .lower = -0.05,
     .upper = 0.05,
@@ -35,11 +35,11 @@ extern constinit const BeltEffect belt_scale{
     .parameters = kParameters,
     .cause = "one belt is worn, of another make, or runs on another pulley than the other three",
     .signature =
-        "one belt reads short or long in proportion to its length; of all four: a frame, and all that "
-        "is cut in it, of another size, and nothing in the readings",
+        "one belt reads short or long in proportion to its length; with all four, the frame and "
+        "all cuts are of another size, and no reading shows it",
     .equation = "L / (1 + s)",
     .source = "an encoder turn is 43.975 mm of belt in the firmware, the same for all four",
-    .not_modelled = "a scale that all four share: no belts tell it, a taped distance does",
+    .not_modelled = "a scale that all four share: only a taped distance shows it",
     .typical = "0.1 to 0.3 %",
     .remedy = "look at that belt's pulley and teeth, change the belt",
     .add = add,

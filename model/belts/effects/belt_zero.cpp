@@ -33,17 +33,17 @@ extern constinit const BeltEffect belt_zero{
     .sides = kOneBeltOrAll,
     .parameters = kParameters,
     .cause =
-        "a belt was not retracted to its end before it was counted; of all four, arm or extension "
-        "are not what is stated",
+        "a belt was not retracted to its end before it was counted; for all four, arm or extension "
+        "are set wrong",
     .signature =
-        "one belt is off by as much everywhere; all four: a frame that is too large or small, and "
-        "no four lengths that quite meet",
+        "one belt is off by the same everywhere; all four: a frame too large or small, and four "
+        "lengths that never quite meet",
     .equation = "+ z",
     .source = "kinematics: arm and extension are added to every belt",
     .not_modelled = "an arm that turns aside under load",
     .typical = "1 to 5 mm; 153.4 mm where lengths leave arm and extension out",
     .remedy =
-        "retract all belts and extend them again; measure arm and extension and state them; say "
+        "retract all belts and extend them again; measure arm and extension and enter them; say "
         "with lengths what a length counts",
     .add = add,
 };

@@ -44,7 +44,7 @@ extern constinit const BeltEffect tooth_skip{
     .signature = "from one visit on, one belt is off by a whole number of teeth",
     .equation = "+ k turn / 22 for n >= m",
     .source = "MaslowCNC/Maslow_4: 43.975 mm of belt for a turn of the encoder; teeth of 2 mm",
-    .not_modelled = "a second skip back; state it as an effect of its own",
+    .not_modelled = "a second skip back; give it as an effect of its own",
     .typical = "1 tooth, 2.0 mm; a turn, 44 mm",
     .needs = effects::DataNeed::order,
     .remedy =

@@ -16,7 +16,7 @@ constexpr EffectParameter kParameters[] = {
     {
         .name = "shift_mm",
         .symbol = "z",
-        .meaning = "what every reading from then on is too long by",
+        .meaning = "how much too long each later reading is",
         .nominal = 2.0,
         .lower = -500.0,
         .upper = 500.0,
@@ -37,10 +37,11 @@ extern constinit const BeltEffect zero_shift{
     .sides = kOneBelt,
     .parameters = kParameters,
     .cause = "the zero of a belt moved while the machine measured",
-    .signature = "from one visit on, one belt is off by the same amount, which need not be whole teeth",
+    .signature =
+        "from one visit on, one belt is off by the same amount, which need not be whole teeth",
     .equation = "+ z for n >= m",
     .source = "a belt that was retracted and extended anew, or slips where it is clamped",
-    .not_modelled = "a second shift; state it as an effect of its own",
+    .not_modelled = "a second shift; give it as an effect of its own",
     .typical = "1 to 10 mm",
     .needs = effects::DataNeed::order,
     .remedy =

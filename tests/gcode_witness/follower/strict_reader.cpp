@@ -50,7 +50,7 @@ std::optional<StrictLine> read_strictly(const std::string& line, std::string& ob
     return std::nullopt;
   }
   StrictLine result;
-  std::set<char> seen;
+  std::set<char> found;
   for (std::size_t at = 0; at < line.size();) {
     const char letter = line[at];
     if (letter == ' ') {
@@ -78,7 +78,7 @@ std::optional<StrictLine> read_strictly(const std::string& line, std::string& ob
       objection = "no number follows the letter " + line.substr(at, end - at);
       return std::nullopt;
     }
-    if (letter != 'G' && letter != 'M' && !seen.insert(letter).second) {
+    if (letter != 'G' && letter != 'M' && !found.insert(letter).second) {
       objection = std::string("a second word ") + letter;
       return std::nullopt;
     }

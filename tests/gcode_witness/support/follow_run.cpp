@@ -110,11 +110,11 @@ class Trial {
       return "verify: " + fault;
     if (const auto wrong = moved(*output, random_, 1.5 * tolerance_mm_)) {
       ++run.judged_moved;
-      if (std::string fault = alike(*wrong, "moved by 1.5 tolerances"); !fault.empty()) return fault;
+      if (std::string fault = same_verdicts(*wrong, "moved by 1.5 tolerances"); !fault.empty()) return fault;
     }
     if (const auto wrong = shortened(*output, random_)) {
       ++run.judged_moved;
-      return alike(*wrong, "without one command");
+      return same_verdicts(*wrong, "without one command");
     }
     return {};
   }
@@ -122,7 +122,7 @@ class Trial {
  private:
   /// Verify's verdict on a changed output must equal the follower's. Verify checks more than the
   /// path, so that it may fail where the path alone passes.
-  std::string alike(const std::string& output, const char* what) const {
+  std::string same_verdicts(const std::string& output, const char* what) const {
     if (shop_.follows(program_, output, (1.0 + kBand) * tolerance_mm_ + kOwnMm)) return {};
     if (!shop_.verify(program_, output, tolerance_mm_).empty()) return {};
     return fmt::format("verify holds the output {}, but the tool is {:.4f} mm off the path",

@@ -32,9 +32,10 @@ constexpr Card kCards[] = {{"belt_stretch", false, false, 0.002, 0.006, false},
                            {"tooth_skip", true, false, 1.0, 3.0, true},
                            {"drift", true, true, 0.01, 0.06, true},
                            {"belt_zero", true, true, 3.0, 25.0, true},
-                           {"zero_shift", true, false, 1.0, 10.0, true}};
-/// The last is asked for by name alone: the frozen sets are drawn from the others.
-constexpr std::size_t kDrawnCards = std::size(kCards) - 1;
+                           {"zero_shift", true, false, 1.0, 10.0, true},
+                           {"anchor_flex", false, false, 0.5, 3.0, false}};
+/// The last two are asked for by name alone: the frozen sets are drawn from the others.
+constexpr std::size_t kDrawnCards = std::size(kCards) - 2;
 
 double span(const std::array<double, 3>& anchor, double x, double y) {
   return std::hypot(anchor[0] - x, anchor[1] - y);
@@ -67,17 +68,38 @@ BeltFrame drawn_frame(Dice& dice) {
   return frame;
 }
 
+/// Every anchor gives along its belt in proportion to the belt's tension: the pulled ones by the
+/// secret's size at the frame's own pull.
+void let_anchors_give(const BeltSession& session, double give_mm_per_n, std::vector<FourLengths>& read) {
+  for (std::size_t n = 0; n < read.size(); ++n) {
+    const auto& [x, y] = session.commands[n];
+    FourLengths held{};
+    FourLengths pull{};
+    pull.fill(session.frame.pull_n);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double level = span(session.frame.anchors[i], x, y) - session.frame.reach_mm;
+      held[i] = std::hypot(level, session.frame.anchors[i][2]);
+    }
+    const SledAtRest rest =
+        rest_on_belts(session.frame, {false, false, true, true}, held, pull, x, y - 2.0);
+    for (std::size_t i = 0; i < 4; ++i) read[n][i] -= give_mm_per_n * rest.tension_n[i];
+  }
+}
+
 /// Readings of all four without noise, each belt in the true frame of its visit, starting with this
-/// visit.
+/// visit; motors pull so many times as hard as the frame has it.
 std::vector<FourLengths> readings(const BeltFrame& frame,
                                   const BeltSecret& secret,
                                   const std::vector<std::array<double, 2>>& commands,
-                                  int visit = 0) {
+                                  int visit = 0,
+                                  double times = 1.0) {
   BeltSession session{frame, commands};
+  session.frame.pull_n *= times;
   session.pull_noise = 0.0;
   session.noise_mm = 0.0;
   if (secret.effect == "belt_stretch") session.frame.stiffness_n = frame.pull_n / secret.size;
   std::vector<FourLengths> read = read_session(session);
+  if (secret.effect == "anchor_flex") let_anchors_give(session, secret.size / frame.pull_n, read);
   const auto own = [&](std::size_t i) { return secret.side == kSides[i] || secret.side == "all"; };
   if (secret.effect == "anchor_moved" || secret.effect == "anchor_height") {
     for (std::size_t i = 0; i < 4; ++i) {
@@ -178,6 +200,15 @@ BeltDraw draw_belts(const BeltRecipe& recipe, std::uint64_t seed) {
     }
     draw.secret.strength = dice.log_uniform(recipe.least_strength, recipe.most_strength);
     draw.noise_mm = beyond_the_fit(draw.frame, commands, change) / draw.secret.strength;
+  }
+  draw.pulls.assign(draw.lengths_mm.size(), recipe.pulls.front());
+  for (std::size_t pass = 1; pass < recipe.pulls.size(); ++pass) {
+    const double times = recipe.pulls[pass] / recipe.pulls.front();
+    for (const FourLengths& read : readings(
+             draw.frame, draw.secret, commands, static_cast<int>(draw.lengths_mm.size()), times)) {
+      draw.lengths_mm.push_back(read);
+      draw.pulls.push_back(recipe.pulls[pass]);
+    }
   }
   Dice noise(seed, "belt noise");
   for (FourLengths& read : draw.lengths_mm) {

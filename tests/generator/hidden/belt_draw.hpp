@@ -28,17 +28,20 @@ struct BeltSecret {
 };
 
 struct BeltRecipe {
-  std::string effect;  ///< empty: any of the seven that are observable at their usual sizes
+  std::string effect;  ///< empty: any of the seven that one pull shows at their usual sizes
   bool nothing = false;
   double least_strength = 6.0;
   double most_strength = 40.0;
   int bad_readings = 0;  ///< of one belt each, at separate points
+  /// All points once with each: sizes and the strength are those of the first.
+  std::vector<double> pulls = {1.0};
 };
 
 struct BeltDraw {
   BeltSecret secret;
   BeltFrame frame;  ///< the true one, before anything moved
   std::vector<FourLengths> lengths_mm;  ///< slanting, belts alone; in the order of the visits
+  std::vector<double> pulls;            ///< at each, as the recipe has them
   double noise_mm = 0.0;
 };
 [[nodiscard]] BeltDraw draw_belts(const BeltRecipe& recipe, std::uint64_t seed);

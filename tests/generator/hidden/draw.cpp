@@ -149,10 +149,10 @@ std::optional<SizedEffect> draw_effect(const Yardstick& yardstick, Cause cause, 
       effect.place = yardstick.visits()[count / 10 + 1 + dice.below(count - 2 * (count / 10) - 1)].number;
     }
     if (c.place == Place::angle) {
-      const auto seen = yardstick.angles(effect.where == Where::left ? 0 : 1);
-      const auto n_seen = static_cast<double>(seen.size());
-      const double from = seen[static_cast<std::size_t>(0.10 * n_seen)];
-      const double to = seen[static_cast<std::size_t>(0.85 * n_seen)];
+      const auto known = yardstick.angles(effect.where == Where::left ? 0 : 1);
+      const auto n_seen = static_cast<double>(known.size());
+      const double from = known[static_cast<std::size_t>(0.10 * n_seen)];
+      const double to = known[static_cast<std::size_t>(0.85 * n_seen)];
       effect.place = dice.uniform(from, to);
     }
     const double wanted =
@@ -172,11 +172,11 @@ std::vector<SizedEffect> draw_effects(
           recipe.cause && chosen.empty() ? *recipe.cause : static_cast<Cause>(dice.below(kDrawn));
       auto next = draw_effect(yardstick, cause, range, dice);
       if (!next) break;
-      const bool alike = std::any_of(chosen.begin(), chosen.end(), [&](const SizedEffect& other) {
+      const bool same = std::any_of(chosen.begin(), chosen.end(), [&](const SizedEffect& other) {
         return other.hidden.cause == next->hidden.cause ||
                std::abs(other.signature.dot(next->signature)) >= 0.85 * other.delta * next->delta;
       });
-      if (alike) break;
+      if (same) break;
       chosen.push_back(std::move(*next));
     }
     if (chosen.size() == count) return chosen;

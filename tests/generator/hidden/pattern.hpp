@@ -85,7 +85,7 @@ struct PatternRules {
   double least_delta = 6.0;
   double most_delta = 30.0;
   /// Collinear with some effect of the catalogue: |cosine| 0.9 to 0.98. Otherwise below 0.5 with
-  /// `beside`.
+  /// `alongside`.
   bool near = false;
 };
 /// \throws std::runtime_error if 20 000 draws find none.

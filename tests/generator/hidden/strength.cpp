@@ -187,9 +187,9 @@ std::vector<Rival> Yardstick::rivals() const {
       std::vector<double> places;
       if (c.place == Place::none) places.push_back(0.0);
       if (c.place == Place::angle) {
-        const auto seen = angles(where == Where::left ? 0 : 1);
+        const auto known = angles(where == Where::left ? 0 : 1);
         for (int k = 0; k < kPlaces; ++k) {
-          places.push_back(seen.front() + (seen.back() - seen.front()) * (k + 0.5) / kPlaces);
+          places.push_back(known.front() + (known.back() - known.front()) * (k + 0.5) / kPlaces);
         }
       }
       if (c.place == Place::visit) {

@@ -97,7 +97,7 @@ Kind slipped(const char* id, Way way, bool one_left_out) {
             // Lengths that stand twice to the last digit are counted once.
             if (one_left_out) points.pop_back();
             const bool is_after = one_left_out == (way == Way::commands);
-            return Expected{{is_after ? "those of the line after" : "those of the line before"},
+            return Expected{{is_after ? "of the line after" : "of the line before"},
                             point_place(from),
                             true};
           }};
@@ -130,7 +130,7 @@ void add_commands(std::vector<Kind>& kinds) {
   every("no minus on y", "minus signs of y_mm look left out", [](auto& p) {
     p.mark.y_mm = std::abs(p.mark.y_mm);
   });
-  every("no minus at all", "all of them look left out", [](auto& p) {
+  every("no minus at all", "all the minus signs look left out", [](auto& p) {
     p.mark = {std::abs(p.mark.x_mm), std::abs(p.mark.y_mm)};
   });
   every("marks in inches", "x_mm and y_mm look like inches", [](auto& p) {
@@ -142,7 +142,7 @@ void add_commands(std::vector<Kind>& kinds) {
   every("all x from the 100 mm mark", "all x_mm look 100 mm too large", [](auto& p) {
     p.mark.x_mm += 100.0;
   });
-  every("from the lower left corner", "counted from its lower left corner", [](auto& p) {
+  every("from the lower left corner", "counted from the bed's lower left corner", [](auto& p) {
     p.mark = {p.mark.x_mm + 1219.2, p.mark.y_mm + 609.6};
   });
   kinds.push_back(slipped("a row left out", way, true));
@@ -295,7 +295,7 @@ void add_holes(std::vector<Kind>& kinds) {
       every_distance("distances in inches", {"distances look like inches"}, 1.0 / kInchMm, 0.0));
   kinds.push_back(
       every_distance("distances in centimetres", {"distances look like centimetres"}, 0.1, 0.0));
-  kinds.push_back(every_distance("all from the 100 mm mark", {"state 100 mm"}, 1.0, 100.0));
+  kinds.push_back(every_distance("all from the 100 mm mark", {"give 100 mm"}, 1.0, 100.0));
   kinds.push_back(one_distance("one from the 100 mm mark", [](double& d, Dice&) -> std::vector<std::string> {
     const double meant = d;
     d += 100.0;
@@ -327,7 +327,7 @@ void add_holes(std::vector<Kind>& kinds) {
                      for (std::size_t i = from; i + 1 < distances.size(); ++i)
                        distances[i].distance_mm = distances[i + 1].distance_mm;
                      distances.pop_back();
-                     return Expected{{"they fit the line after"}, "", true};
+                     return Expected{{"fit the two holes of the line after"}, "", true};
                    }});
 }
 
@@ -356,8 +356,8 @@ void add_belts(std::vector<Kind>& kinds) {
                        return Expected{{words}, "", true};
                      }});
   };
-  unit("lengths in inches", "these look like inches", 1.0 / kInchMm);
-  unit("lengths in centimetres", "these look like centimetres", 0.1);
+  unit("lengths in inches", "these lengths look like inches", 1.0 / kInchMm);
+  unit("lengths in centimetres", "these lengths look like centimetres", 0.1);
   const auto taped = [&](const char* id, const char* words, double factor) {
     kinds.push_back({id, Way::belts, [=](Session& session, Dice&) {
                        auto& distance = std::get<MeasuredBelts>(session).distances.front();
@@ -422,8 +422,7 @@ std::vector<std::string> false_alarms(Way way, std::uint64_t seed) {
   std::vector<std::string> messages = reported_of(clean_session(way, seed)).messages;
   // Friction and drift part a mark's two visits as well: that they disagree is so, and names no slip.
   std::erase_if(messages, [](const std::string& message) {
-    return message.find("measured also at") != std::string::npos &&
-           message.find("where the noise allows") != std::string::npos;
+    return message.find("was measured twice, also at") != std::string::npos;
   });
   return messages;
 }

@@ -71,7 +71,7 @@ grid::MeasuredGrid commands_of(std::uint64_t seed) {
     grid.points.push_back(point);
   }
   const auto paid_out = grid::length_points(grid);
-  if (!paid_out) throw std::runtime_error("commands_of: " + paid_out.error().sentence);
+  if (!paid_out) throw std::runtime_error("commands_of: " + paid_out.error().sentence());
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
     const model::BedPoint near = *grid.points[i].commanded;
     const Vec2 place =
@@ -118,7 +118,7 @@ grid::MeasuredBelts belts_of(std::uint64_t seed) {
     belts.points.push_back(std::move(point));
   }
   const auto fit = grid::fit_belts(belts);
-  if (!fit) throw std::runtime_error("belts_of: " + fit.error().sentence);
+  if (!fit) throw std::runtime_error("belts_of: " + fit.error().sentence());
   const model::FramePoint centre = model::centre_of(belts.machine);
   for (std::size_t i = 0; i < belts.points.size(); ++i) {
     belts.points[i].commanded =

@@ -117,7 +117,7 @@ class ScatteredFitter {
       return refuse(fit.error().reason == FitFailure::Reason::rank_deficient
                         ? ScatteredFailure::Reason::rank_deficient
                         : ScatteredFailure::Reason::not_converged,
-                    fit.error().sentence);
+                    fit.error().sentence());
     }
     if (!judged) {
       leave_out_each(*fit);

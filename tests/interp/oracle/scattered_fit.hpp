@@ -108,7 +108,7 @@ class ScatteredSurface final : public Surface {
 /// point lies outside a given rectangle. Same input, same bytes.
 ///
 ///     auto surface = fit_scattered(points);
-///     if (!surface) { say(surface.error().sentence); }
+///     if (!surface) { say(surface.error().sentence()); }
 [[nodiscard]] tl::expected<ScatteredSurface, ScatteredFailure> fit_scattered(
     std::span<const ScatteredPoint> points, const ScatteredOptions& options = {});
 

@@ -88,7 +88,7 @@ tl::expected<LeverRuleResult, PoseFailure> lever_rule_pose(const EquilibriumPara
   const EquilibriumConstants m = equilibrium_constants(parameters);
   const DomainLimits limits = limits_of(m);
   const CircleGuess guess = circle_guess(limits, lengths);
-  if (!guess.circles_meet) return tl::unexpected(PoseFailure::too_short);
+  if (!guess.circles_meet) return tl::unexpected(PoseReason::too_short);
   const double spacing = m.motors.right.x_mm - m.motors.left.x_mm;
   // Steps 2 and 5, the sled's weight alone on straight lines to the axes.
   double share_n = m.W * (m.motors.right.x_mm - guess.point.x_mm) / spacing;
@@ -125,7 +125,7 @@ tl::expected<LeverRuleResult, PoseFailure> lever_rule_pose(const EquilibriumPara
     share_n += pass.gap_in_height_mm / (left.rise_by_share + right.rise_by_share);
     share_n = std::clamp(share_n, 0.0, m.W);
   }
-  return tl::unexpected(PoseFailure::not_converged);
+  return tl::unexpected(PoseReason::not_converged);
 }
 
 }  // namespace chaintrue::model

@@ -2,7 +2,7 @@
 /// \file
 /// baselines: what textbook methods of variable selection name on the columns of the diagnosis, next to
 /// the diagnosis itself, on sets of the frozen sealed list and on real scans with a cause added
-/// (docs/diagnosis.md).
+/// (docs/diagnosis_rates.md).
 ///
 ///   baselines --each 30                                           # sealed sets, of each kind
 ///   baselines --each 0 --scan C.csv --scan D.csv --draws 36       # real scans

@@ -14,7 +14,7 @@ using namespace grid::diagnosis;
 
 RegressorSystem linearised(const ObservationSet& session, const State& state) {
   auto system = linearise(session, state, Steps{});
-  if (!system) throw std::runtime_error(std::string(system.error().reason.sentence));
+  if (!system) throw std::runtime_error(system.error().sentence());
   return std::move(*system);
 }
 
@@ -51,7 +51,7 @@ RegressorSystem with_visible(const RegressorSystem& all, const MarginalisedSyste
 
 Prepared prepare(const grid::MeasuredGrid& grid) {
   const auto session = observations_of(grid::Measured(grid));
-  if (!session) throw std::runtime_error(session.error().sentence);
+  if (!session) throw std::runtime_error(session.error().sentence());
   const State state = calibrated(*session);
   RegressorSystem system = linearised(*session, state);
   add_regressors(*session, state, candidates(*session).testable, {}, system);

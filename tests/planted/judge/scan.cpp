@@ -126,7 +126,7 @@ Scan read_scan(const std::filesystem::path& scan, const std::filesystem::path& g
               grid::files::read_optical(scan, options).grid};
   result.grid.noise = grid::StatedNoise{0.1, 0.3, 12.0};
   const auto lengths = grid::length_points(result.grid);
-  if (!lengths) throw std::runtime_error(lengths.error().sentence);
+  if (!lengths) throw std::runtime_error(lengths.error().sentence());
   for (std::size_t i = 0; i < lengths->size(); ++i) {
     result.grid.points[i].lengths = (*lengths)[i].lengths;
     result.grid.points[i].commanded.reset();
@@ -140,7 +140,7 @@ grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid) {
   options.next_measurements = false;
   options.accept_class = true;
   auto found = grid::diagnosis::diagnose(grid, options);
-  if (!found) throw std::runtime_error(found.error().sentence);
+  if (!found) throw std::runtime_error(found.error().sentence());
   return std::move(*found);
 }
 

@@ -3,7 +3,7 @@
 /// road: what the road from readings to a cut is worth, with the causes that are found in the map and
 /// without. On hidden machines it holds each map's true error against what the map states; on a real
 /// scan it draws marks and holds both maps against all the others. Not part of the test run; its
-/// tables stand in docs/start.md. Same options, same table.
+/// tables stand in docs/map_rates.md. Same options, same table.
 ///
 ///   road --sets 40 --points 28                  // each effect of the catalogue at its usual size
 ///   road --scan scan.json --draws 200           // chaintrue import optical wrote scan.json
@@ -295,7 +295,7 @@ double error_at(const grid::CompensationMap& map,
 void print_scan(const Arguments& arguments) {
   const grid::MeasuredGrid whole = grid::files::read_grid(arguments.scan).grid;
   const auto points = grid::length_points(whole);
-  if (!points) throw std::runtime_error(points.error().sentence);
+  if (!points) throw std::runtime_error(points.error().sentence());
   std::vector<double> ratios;
   int built = 0;
   for (int draw = 0; draw < arguments.draws; ++draw) {

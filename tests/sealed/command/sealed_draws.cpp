@@ -2,7 +2,7 @@
 /// \file
 /// sealed_draws: hides a cause in many sets of data, diagnoses each, compares with the truth and
 /// prints how often the diagnosis was right. Not part of the test run; its tables are in
-/// docs/diagnosis.md. Same options, same table, for any --jobs.
+/// docs/diagnosis_rates.md. Same options, same table, for any --jobs.
 ///
 ///   sealed_draws --sets 2000 --mix single --points mix --jobs 2 --csv single.csv
 ///   sealed_draws --sets 500 --mix single --delta 6 --points 60 --ablation projection

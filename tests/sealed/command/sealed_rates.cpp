@@ -2,7 +2,7 @@
 /// \file
 /// sealed_rates: diagnoses the frozen list of sealed sets of chains, holes and belts, one line for
 /// each set, and prints the table of rates; or compares two versions of the diagnosis on the same
-/// sets. fixtures/sealed/outcomes.txt contains the frozen outcomes (docs/diagnosis.md).
+/// sets. fixtures/sealed/outcomes.txt contains the frozen outcomes (docs/diagnosis_rates.md).
 ///
 ///   sealed_rates now.txt --shard 3/16                      # of an hour and a half, resumable
 ///   sealed_rates all.txt --join now1.txt --join now2.txt --most 0

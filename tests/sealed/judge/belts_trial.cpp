@@ -15,6 +15,7 @@ grid::MeasuredBelts measured(const generator::BeltDraw& draw) {
   for (const generator::FourLengths& read : draw.lengths_mm) {
     grid::BeltPoint point;
     point.lengths_mm = {read[0], read[1], read[2], read[3]};
+    point.pull = grid::BeltPull{draw.pulls[static_cast<std::size_t>(order)]};
     point.order = order++;
     belts.points.push_back(std::move(point));
   }
@@ -62,6 +63,7 @@ int measure_as_proposed(const generator::BeltDraw& draw,
     grid::BeltPoint point;
     point.lengths_mm = {read[0], read[1], read[2], read[3]};
     point.order = order++;
+    point.pull = grid::BeltPull{draw.pulls.front()};
     belts.points.push_back(std::move(point));
   }
   return static_cast<int>(places.size());
@@ -90,7 +92,7 @@ BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t se
   const auto found = grid::diagnosis::diagnose(belts, how);
   if (!found) {
     trial.failed = true;
-    trial.sentence = found.error().sentence;
+    trial.sentence = found.error().sentence();
     return trial;
   }
   trial.sentence = found->sentence;

@@ -14,9 +14,9 @@ bool measure(generator::SealedSet& set,
              const NextMeasurement& next,
              generator::Dice& dice) {
   if (next.kind == MeasurementKind::reading) {
-    const auto reading = set.machine.read(next.what, next.side, dice);
+    const auto reading = set.machine.read(name(next.reading.value()), next.side, dice);
     if (!reading) return false;
-    grid.readings.push_back({next.what, next.side, reading->value, reading->sigma});
+    grid.readings.push_back({next.reading.value(), next.side, reading->value, reading->sigma});
     return true;
   }
   if (!next.mark) return false;

@@ -112,7 +112,7 @@ Trial run_holes_trial(bool long_chain, std::uint64_t seed) {
   const auto found = grid::diagnosis::diagnose(set, options);
   if (!found) {
     trial.failed = true;
-    trial.failure = found.error().sentence;
+    trial.failure = found.error().sentence();
     return trial;
   }
   take_over(*found, trial);

@@ -19,7 +19,7 @@ constexpr double kChance = 0.05;
 
 std::string percent(double share) { return fmt::format("{:.1f}", 100.0 * share); }
 
-std::pair<std::string, std::uint64_t> key(const Outcome& o) { return {o.kind, o.seed}; }
+std::pair<std::string, std::uint64_t> set_key(const Outcome& o) { return {o.kind, o.seed}; }
 
 bool same_set(const Outcome& a, const Outcome& b) {
   // The strength is written to 0.01; another compiler may round it to a neighbouring value.
@@ -150,11 +150,11 @@ Comparison compare(const std::vector<Outcome>& frozen,
                    const std::vector<Outcome>& now,
                    const std::vector<RateRow>& rows) {
   std::map<std::pair<std::string, std::uint64_t>, const Outcome*> of_now;
-  for (const Outcome& outcome : now) of_now[key(outcome)] = &outcome;
+  for (const Outcome& outcome : now) of_now[set_key(outcome)] = &outcome;
   std::vector<std::pair<Outcome, Outcome>> pairs;
   Comparison result;
   for (const Outcome& before : frozen) {
-    const auto found = of_now.find(key(before));
+    const auto found = of_now.find(set_key(before));
     if (found == of_now.end()) continue;
     const Outcome& after = *found->second;
     const bool failed = before.verdict == "failed" || after.verdict == "failed";

@@ -80,7 +80,7 @@ Trial run_trial(const TrialOptions& options, std::uint64_t seed) {
   for (const auto& hidden : set.answer.hidden) trial.hidden.push_back(id_of(hidden));
   if (!found) {
     trial.failed = true;
-    trial.failure = found.error().sentence;
+    trial.failure = found.error().sentence();
     return trial;
   }
   take_over(*found, trial);

@@ -77,7 +77,7 @@ double tool_rms_mm(const Fresh& fresh, const std::vector<Lengths>& predicted) {
   return std::sqrt(sum / static_cast<double>(predicted.size()));
 }
 
-std::optional<double> told(const generator::SealedSet& set,
+std::optional<double> reply(const generator::SealedSet& set,
                            const Fresh& fresh,
                            std::span<const Hidden> effects) {
   generator::Record record;
@@ -134,8 +134,8 @@ std::optional<TrueErrors> true_errors(const generator::SealedSet& set,
   const auto fresh = fresh_of(set);
   if (!fresh) return std::nullopt;
   const auto predicted = predicted_by(extended(found, hangs_on_visits(set)), *fresh);
-  const auto calibrated = told(set, *fresh, {});
-  const auto oracle = told(set, *fresh, set.answer.hidden);
+  const auto calibrated = reply(set, *fresh, {});
+  const auto oracle = reply(set, *fresh, set.answer.hidden);
   if (!predicted || !calibrated || !oracle) return std::nullopt;
   TrueErrors errors{*calibrated, tool_rms_mm(*fresh, *predicted), *oracle};
   if (found.improvement) {

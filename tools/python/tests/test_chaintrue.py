@@ -61,7 +61,7 @@ def test_a_query_has_shapes_and_an_inverse(map):
     answer = chaintrue.query(map, points)
     assert answer.lengths.shape == answer.sigma.shape == (3, 2)
     assert answer.tool_sigma.shape == answer.status.shape == (3,)
-    # The numbers of README.md, to the last digit.
+    # The numbers of docs/cut.md, to the last digit.
     assert [f"{length:.6f}" for length in answer.lengths[0]] == ["1678.789218", "1510.239393"]
     assert answer.status[0] == "inside"
     # Newton's steps end at 1e-9 mm; on the bed the tool moves at most ten times as far as the
@@ -78,7 +78,7 @@ def test_outside_is_masked_and_no_number(map):
 
 
 @pytest.mark.parametrize(
-    "points", [[1.0, 2.0], [[1.0, 2.0, 3.0]], [[numpy.nan, 0.0]], [[numpy.inf, 0.0]]]
+    "points", [1.0, [1.0, 2.0, 3.0], [[1.0, 2.0, 3.0]], [[numpy.nan, 0.0]], [[numpy.inf, 0.0]]]
 )
 def test_other_shapes_and_numbers_that_are_none_are_refused(map, points):
     with pytest.raises(ValueError, match=r"shape|none, or infinite"):

@@ -73,11 +73,6 @@
     }
   }
 
-  // On paper nothing is folded.
-  window.addEventListener("beforeprint", () => {
-    for (const folded of document.querySelectorAll("details")) folded.open = true;
-  });
-
   const specifications = read("specifications");
   Promise.all(read("data").charts.map((chart) => draw(chart, specifications[chart.spec]))).then(() => {
     document.documentElement.dataset.charts = "drawn";

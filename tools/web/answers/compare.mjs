@@ -12,7 +12,7 @@ const WRITTEN_DIGITS = 7;
 
 const NUMBER = /-?\d+\.?\d*(?:[eE][-+]?\d+)?/g;
 /** The hash of a text whose last digits differ is different. */
-const withoutHashes = (text) => text.replace(/(?<![\w.])[0-9a-f]{16}(?![\w.])/g, "(hash)");
+const withoutHashes = (text) => text.replace(/(?<![\w.])(?:[0-9a-f]{16}|[0-9a-f]{32}|[0-9a-f]{64})(?![\w.])/g, "(hash)");
 
 /** Compares texts; reports the first lines that differ: a whole report is too long. */
 export function assertSame(found, wanted, place) {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page: an owner's evening in four steps on one folder. The engine and the example are embedded as data.
+// The page: an owner's evening in steps on one folder. The engine and the example are embedded as data.
 import {XzReadableStream} from "xz-decompress";
 import {Engine} from "../engine/engine.js";
 import {decoded} from "./base85.js";
+import {Belts} from "./belts.js";
 import {Busy} from "./busy.js";
 import {cutStep} from "./cut.js";
 import {download, h} from "./dom.js";
 import {filesStep} from "./files.js";
 import {machineStep, mayReplace, openZip, replaceFolder} from "./machine.js";
-import {Maslow4} from "./maslow4.js";
 import {measureStep} from "./measure.js";
 import {resultStep} from "./result.js";
+import {Steps} from "./steps.js";
 import {Storage} from "./storage.js";
 import {Store} from "./store.js";
 import {zipOf} from "./zip.js";
@@ -29,9 +30,9 @@ class Page {
   engine = null;
   example = null;
   #banners = {storage: h("p", {class: "banner", role: "alert", hidden: true}), problem: h("p", {class: "banner bad", role: "alert", hidden: true})};
-  #steps = {};
-  #links = {};
-  #shown = null;
+  /** The last fit of the readings: {headline, sentences, tables, code}, or null. */
+  fit = null;
+  #steps = null;
   #undo = h("button", {type: "button", onclick: () => this.store.undo()}, "Undo");
   #redo = h("button", {type: "button", onclick: () => this.store.redo()}, "Redo");
   #zip = h("input", {type: "file", id: "zip", accept: ".zip", hidden: true, onchange: () => this.#opened()});
@@ -42,10 +43,10 @@ class Page {
 
   async begin() {
     this.example = JSON.parse(document.getElementById("example").textContent);
-    this.maslow4 = new Maslow4(this);
-    this.#steps = {machine: machineStep(this), measure: measureStep(this), result: resultStep(this), cut: cutStep(this), files: filesStep(this)};
-    this.machine = this.#steps.machine;
-    this.machine.element.append(this.maslow4.element);
+    this.belts = new Belts(this);
+    this.machine = machineStep(this);
+    const made = {machine: this.machine, measure: measureStep(this), result: resultStep(this), cut: cutStep(this), files: filesStep(this)};
+    this.#steps = new Steps(STEPS.map(([id, label]) => [id, label, made[id]]), (step) => this.#go(step));
     this.#draw();
     this.#listenToKeys();
     const [source, wasm, kept] = await Promise.all([unpacked("worker"), unpacked("wasm"), this.storage.open()]);
@@ -62,13 +63,8 @@ class Page {
       h("button", {type: "button", onclick: () => this.#zip.click()}, "Open"), this.#zip,
       h("button", {type: "button", onclick: () => mayReplace(this) && replaceFolder(this, {}, "machine")}, "Begin anew"));
     this.#zip.setAttribute("aria-label", "A zip that Download has made");
-    const nav = h("nav", {"aria-label": "Steps"}, h("ol", {}, STEPS.map(([step, label]) => {
-      this.#links[step] = h("button", {type: "button", onclick: () => this.#go(step)}, label);
-      return h("li", {}, this.#links[step]);
-    })));
-    document.querySelector("header").append(tools, nav);
-    document.querySelector("main").replaceChildren(this.#banners.storage, this.#banners.problem, this.busy.element,
-      ...STEPS.map(([step, label]) => h("div", {id: `step-${step}`, class: "step", role: "region", "aria-label": label}, this.#steps[step].element)));
+    document.querySelector("header").append(tools);
+    document.querySelector("main").replaceChildren(this.#banners.storage, this.#banners.problem, this.busy.element, this.#steps.element);
   }
 
   #go(step) {
@@ -78,17 +74,7 @@ class Page {
 
   #changed() {
     const {folder, view} = this.store;
-    for (const [step] of STEPS) {
-      document.getElementById(`step-${step}`).hidden = step !== view.step;
-      if (step === view.step) this.#links[step].setAttribute("aria-current", "step");
-      else this.#links[step].removeAttribute("aria-current");
-      this.#steps[step].update();
-    }
-    if (this.#shown !== view.step) {
-      this.#shown = view.step;
-      scrollTo(0, 0);
-    }
-    this.maslow4.update();
+    this.#steps.update(view.step);
     this.#undo.disabled = !this.store.canUndo;
     this.#redo.disabled = !this.store.canRedo;
     this.storage.keep({folder, view});

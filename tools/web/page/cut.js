@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fourth step: a program before and after.
+import {JOBS, NUMBERS, putAway, waysOf} from "./choice.js";
 import {DONE, runVerb, sentenceList, sentencesOf} from "./command.js";
 import {contentOf, download, fileDrop, h, unreadable} from "./dom.js";
+import {filledIn, HOLES, isBelts, mapOf, PASTED} from "./folder.js";
 import {reportFrame} from "./frame.js";
+import {inPage} from "./in_page.js";
 import {areTypedIn, settingsWords} from "./numbers.js";
 
 const PROGRAMS = [".nc", ".gcode", ".ngc", ".tap", ".cnc", ".txt"];
@@ -10,6 +13,10 @@ const PROGRAMS = [".nc", ".gcode", ".ngc", ".tap", ".cnc", ".txt"];
 const SHEETS = ["marks.nc", "holes.nc", "lengths.nc", "five.nc"];
 /** The task that a newer program supersedes. */
 const TASK = "cut";
+
+/** What the controller holds now, where that is not what it was measured with. */
+const nowWords = (folder) => (!isBelts(folder) ? settingsWords(folder) : folder[PASTED] ? ["--machine", PASTED] : []);
+const areIn = (folder) => (isBelts(folder) ? Boolean(folder[PASTED]) : areTypedIn(folder));
 
 const isProgram = (path) => PROGRAMS.some((end) => path.toLowerCase().endsWith(end));
 
@@ -27,18 +34,22 @@ export function cutStep(page) {
   const none = h("p", {class: "hint"}, "There is no map yet: type readings in first.");
   const jobs = h("p", {class: "buttons"});
   const settings = h("p", {class: "hint"});
-  const all = h("div", {hidden: true},
-    h("section", {}, h("h2", {}, "Cut a part true"),
+  const away = h("div");
+  const open = h("div", {hidden: true},
+    h("section", {}, h("h3", {}, "Cut a part true"),
       h("p", {}, "The program is rewritten so that the machine as it is cuts what was drawn, and run " +
         "on a simulated controller before you get it."),
       settings,
       fileDrop("program", "Open a G-code program", PROGRAMS.join(","), "Or drop it here.", ([file]) => take(file)), jobs),
     said, outcome);
+  const all = h("div", {hidden: true}, away, open);
 
   /** Of several programs in sequence only the last is processed and shown. */
   let latest = 0;
   /** Whether numbers were typed in when the program that is shown was compensated. */
   let wereTypedIn = false;
+  let awayFor = "";
+  let shownJobs = "";
   function begin() {
     page.engine.cancel((job) => job.supersede === TASK);
     outcome.replaceChildren();
@@ -48,7 +59,7 @@ export function cutStep(page) {
 
   function say(sentences, isProblem) {
     said.className = isProblem ? "said problem" : "said";
-    said.replaceChildren(sentenceList(sentences));
+    said.replaceChildren(sentenceList(sentences.map(inPage)));
   }
 
   async function take(file) {
@@ -73,7 +84,7 @@ export function cutStep(page) {
     const mine = begin();
     const stem = name.replace(/\.[^.]*$/, "");
     const names = {name, truth: `${stem}.true.nc`, report: `${stem}.html`};
-    const result = await runVerb(page, ["gcode", "compensate", name, "--map", "map.json", ...settingsWords(page.store.folder),
+    const result = await runVerb(page, ["gcode", "compensate", name, "--map", mapOf(page.store.folder), ...nowWords(page.store.folder),
       "-o", names.truth, "--report", names.report, "--force"], {supersede: TASK});
     if (mine !== latest) return;
     if (!result) {
@@ -81,15 +92,17 @@ export function cutStep(page) {
       return;
     }
     const isDone = result.code === DONE;
-    wereTypedIn = areTypedIn(page.store.folder);
+    wereTypedIn = areIn(page.store.folder);
     say(sentencesOf(result), !isDone);
     page.store.derive(result.files);
+    // Who compensates a program before the choice has chosen.
+    if (isDone && !page.store.view.way) page.store.show({way: JOBS});
     if (isDone) show(names, result.files);
   }
 
   function show({name, truth, report}, files) {
     const verdict = h("div", {class: "said", role: "status"});
-    outcome.replaceChildren(h("section", {}, h("h2", {}, name),
+    outcome.replaceChildren(h("section", {}, h("h3", {}, name),
       h("p", {class: "buttons"},
         h("button", {type: "button", class: "main", onclick: () => download(truth, files[truth])}, `Download ${truth}`),
         h("button", {type: "button", onclick: () => verify(name, truth, verdict)}, "Verify it once more")),
@@ -97,8 +110,21 @@ export function cutStep(page) {
       files[report] && reportFrame(`${name} before and after`, report, files[report], {onDownload: () => download(report, files[report])})));
   }
 
+  /** What stands here instead of the programs, where there is nothing to compensate. */
+  function drawAway(folder, view) {
+    const isChosen = view.way === NUMBERS && !areIn(folder);
+    const isAllIn = isBelts(folder) && areIn(folder) && filledIn(folder[HOLES]) === 0;
+    const key = isChosen ? "chosen" : isAllIn ? "all in" : "";
+    open.hidden = key !== "";
+    if (awayFor === key) return;
+    awayFor = key;
+    away.replaceChildren(...(isChosen ? [h("section", {}, putAway(page, waysOf(isBelts(folder)), NUMBERS))]
+      : isAllIn ? [h("section", {}, h("p", {}, "The lines are in the machine: cut programs as they are. What is left, holes and a tape show (under Measure); " +
+        "then programs can be compensated for it."))] : []));
+  }
+
   async function verify(name, truth, verdict) {
-    const result = await runVerb(page, ["gcode", "verify", name, truth, "--map", "map.json", ...settingsWords(page.store.folder)]);
+    const result = await runVerb(page, ["gcode", "verify", name, truth, "--map", mapOf(page.store.folder), ...nowWords(page.store.folder)]);
     if (!result) return;
     verdict.className = result.code === DONE ? "said" : "said problem";
     verdict.replaceChildren(sentenceList([...result.stdout.split("\n").filter(Boolean), ...sentencesOf(result)]));
@@ -106,19 +132,38 @@ export function cutStep(page) {
 
   return {
     element: h("div", {}, none, all),
+    given: () => done(page.store.folder),
     update() {
-      const {folder} = page.store;
-      none.hidden = Boolean(folder["map.json"]);
-      all.hidden = !folder["map.json"];
-      settings.textContent = areTypedIn(folder) ? "It is for the controller with the numbers that you typed in (see Map and causes)."
-        : "It is for the controller with the settings that it was measured with. If you have typed in the better numbers since, " +
-          "say so under Map and causes.";
-      if (outcome.firstChild && wereTypedIn !== areTypedIn(folder)) {
+      const {folder, view} = page.store;
+      const ready = Boolean(folder[mapOf(folder)]);
+      none.hidden = ready;
+      none.textContent = isBelts(folder) ? "The anchors are not found yet: paste the log first." : "There is no map yet: type readings in first.";
+      all.hidden = !ready;
+      drawAway(folder, view);
+      settings.textContent = settingsSentence(folder);
+      if (outcome.firstChild && wereTypedIn !== areIn(folder)) {
         begin();
         say(["The controller holds other numbers than this program was compensated for: compensate it again."], true);
       }
       const programs = Object.keys(folder).filter((path) => isProgram(path) && !SHEETS.includes(path) && !/\.(true\.nc|txt)$/i.test(path));
+      if (shownJobs === programs.join("/")) return;
+      shownJobs = programs.join("/");
       jobs.replaceChildren(...programs.map((path) => h("button", {type: "button", onclick: () => compensate(path)}, `Compensate ${path}`)));
     },
   };
+}
+
+function settingsSentence(folder) {
+  if (isBelts(folder)) {
+    return areIn(folder) ? "It is for the machine with the lines that you pasted (see Map and causes)."
+      : "It is for the machine with the anchors that it had when the log was made. If you have pasted the lines since, say so under Map and causes.";
+  }
+  return areIn(folder) ? "It is for the controller with the numbers that you typed in (see Map and causes)."
+    : "It is for the controller with the settings that it was measured with. If you have typed in the better numbers since, " +
+      "say so under Map and causes.";
+}
+
+/** The line of the folded step: the programs that were compensated. */
+function done(folder) {
+  return Object.keys(folder).filter((path) => path.endsWith(".true.nc")).join(", ");
 }

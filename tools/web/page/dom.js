@@ -63,3 +63,23 @@ export function fileDrop(id, label, accept, hint, take, {multiple = false} = {})
   });
   return zone;
 }
+
+/** Text that `draw` fills when it is first opened. `forget` empties it, and fills it anew if it is open. */
+export function folded(summary, draw) {
+  const box = h("div");
+  let isDrawn = false;
+  function fill() {
+    if (!element.open || isDrawn) return;
+    isDrawn = true;
+    draw(box);
+  }
+  const element = h("details", {class: "folded", ontoggle: fill}, h("summary", {}, summary), box);
+  return {
+    element,
+    forget() {
+      isDrawn = false;
+      box.replaceChildren();
+      fill();
+    },
+  };
+}

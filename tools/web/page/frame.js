@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A page written by the command, in a frame: it can run its charts, but reach neither this page nor a network.
-import {h, textOf} from "./dom.js";
+import {DONE, runVerb, sentenceList, sentencesOf} from "./command.js";
+import {download, h, textOf} from "./dom.js";
 
 /** Reports the frame's height, and prints on request: the frame has no origin, so only messages can be exchanged. */
 const INSIDE = `<script>
@@ -29,4 +30,17 @@ export function reportFrame(title, name, bytes, {onDownload}) {
       h("button", {type: "button", onclick: () => frame.contentWindow.postMessage("chaintrue print", "*")}, "Print"),
       h("button", {type: "button", onclick: () => onDownload(name)}, `Download ${name}`)),
     frame);
+}
+
+/** The command's report on a file of the folder, in a frame in `box`. */
+export async function report(page, from, to, title, box) {
+  const result = await runVerb(page, ["report", from, "-o", to, "--force"]);
+  if (!result) return;
+  if (result.code !== DONE) {
+    box.replaceChildren(sentenceList(sentencesOf(result), {class: "said problem"}));
+    return;
+  }
+  page.store.derive(result.files);
+  const bytes = result.files[to];
+  box.replaceChildren(reportFrame(title, to, bytes, {onDownload: () => download(to, bytes)}));
 }

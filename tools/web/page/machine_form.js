@@ -56,13 +56,16 @@ function fieldsOf(machine) {
   return [distance, rise, ...BED, ...(machine.attachment?.kind === "brackets" ? BRACKETS : RING), ...REST];
 }
 
+const withoutPlace = (sentence) => sentence.replace(/ \(\/[a-z_/]+\)$/, ".");
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
 export class MachineForm {
   element = h("form", {class: "machine-form", onsubmit: (event) => event.preventDefault()});
   #changed;
   #drawn = null;
   #fields = [];
 
-  /** @param changed(machine, name) is called with the machine with a number replaced */
+  /** @param changed(machine, name, pointer) is called with the machine with a number replaced, and its place in the file */
   constructor(changed) {
     this.#changed = changed;
   }
@@ -91,17 +94,29 @@ export class MachineForm {
     return left;
   }
 
+  /** Shows each assumption, a sentence that ends with its place in the file, at its field; returns those without a field. */
+  assume(sentences) {
+    const left = [...sentences];
+    for (const {field, assumed} of this.#fields) {
+      const index = left.findIndex((sentence) => sentence.includes(`(${field.pointer})`));
+      const sentence = index < 0 ? "" : left.splice(index, 1)[0];
+      assumed.textContent = capital(withoutPlace(sentence));
+    }
+    return left.map((sentence) => capital(withoutPlace(sentence)));
+  }
+
   #field(field, machine, picture) {
     const id = `machine-${field.id}`;
     const note = h("span", {class: "note", id: `${id}-note`});
+    const assumed = h("span", {class: "assumed", id: `${id}-assumed`});
     const light = (on) => picture.querySelector(`.of-${field.id}`)?.classList.toggle("lit", on);
     const input = h("input", {
-      id, type: "text", inputmode: "decimal", autocomplete: "off", "aria-describedby": note.id,
+      id, type: "text", inputmode: "text", autocomplete: "off", "aria-describedby": `${note.id} ${assumed.id}`,
       onfocus: () => light(true), onblur: () => light(false),
       onchange: () => this.#take(field, machine, input.value),
     });
     input.value = field.get(machine) ?? "";
-    return {field, input, note, row: h("p", {}, h("label", {for: id}, field.label), input, note)};
+    return {field, input, note, assumed, row: h("p", {}, h("label", {for: id}, field.label), input, note, assumed)};
   }
 
   #take(field, machine, typed) {
@@ -111,7 +126,7 @@ export class MachineForm {
     const isNumber = text !== "" && Number.isFinite(value);
     const changed = isNumber || field.pointer !== "/motors" ? field.set(machine, isNumber ? value : text)
       : put(machine, ["motors", "left", "x_mm"], text);
-    this.#changed(changed, `machine ${field.id}`);
+    this.#changed(changed, `machine ${field.id}`, field.pointer);
   }
 }
 

@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The second step: sheets to print, readings to type, and the fit as they are typed.
-import {CHECK_FAILED, DONE, problemOf, runVerb, sentenceList, sentencesOf} from "./command.js";
-import {bytesOf, download, h, textOf} from "./dom.js";
+import {CHECK_FAILED, DONE, runVerb, sentenceList, sentencesOf} from "./command.js";
+import {beltsMeasure} from "./belts_measure.js";
+import {bytesOf, download, folded, h, textOf} from "./dom.js";
+import {bedOf, fittedList, HOLES, isBelts, MARKS, NEW_POINTS, NO_DIAGNOSIS, programOf} from "./folder.js";
 import {reportFrame} from "./frame.js";
+import {explained} from "./glossary.js";
+import {howToMeasure} from "./how.js";
+import {hookTick, hookWords} from "./hook.js";
+import {inPage, sheetInPage} from "./in_page.js";
+import {fitParts} from "./measure_words.js";
 import {settingsWords} from "./numbers.js";
-import {Readings} from "./readings.js";
+import {markRow, Readings} from "./readings.js";
 import {Sheet} from "./sheet.js";
 
 const WAYS = [
-  ["marks.csv", "Marks: x and y of each from the sheet's middle lines, with a square"],
-  ["holes.csv", "Holes: distances between them, with a tape"],
+  [MARKS, "Marks: x and y of each from the sheet's middle lines, with a square"],
+  [HOLES, "Holes: distances between them, with a tape"],
   ["lengths.csv", "Chain lengths: read off the machine at each mark"],
 ];
-/** New points for checking the map, once there is one; they are not fitted. */
-export const NEW_POINTS = "five.csv";
 const CHECK = [NEW_POINTS, "New points: does the map still hold?"];
 /** Delay between the last key and a run of the command: the time between two keys. */
 const PAUSE_MS = 350;
@@ -21,7 +26,7 @@ const PAUSE_MS = 350;
 export function measureStep(page) {
   const said = h("div", {class: "said", role: "status", "aria-live": "polite"});
   const readings = new Readings((text, name) => {
-    page.store.change({[page.store.view.sheet]: bytesOf(text)}, name && `${page.store.view.sheet} ${name}`);
+    page.store.change({[page.store.view.sheet]: bytesOf(text), ...NO_DIAGNOSIS}, name && `${page.store.view.sheet} ${name}`);
     fitSoon();
   }, said);
   const print = h("div");
@@ -30,20 +35,28 @@ export function measureStep(page) {
   const way = h("select", {id: "way", onchange: () => chooseWay(page, way.value)}, [...WAYS, CHECK].map(([path, label]) => h("option", {value: path}, label)));
   const unit = h("select", {id: "unit", onchange: () => page.store.show({unit: unit.value})},
     h("option", {value: "mm"}, "millimetres"), h("option", {value: "in"}, "inches"));
+  const wish = h("input", {id: "wish", type: "text", inputmode: "decimal", size: 4,
+    onchange: () => page.store.show({wish: wish.value.trim()})});
   const program = h("button", {type: "button", onclick: () => {
     const name = programOf(page.store.view.sheet);
     download(name, page.store.folder[name]);
   }}, "Download the program that drives there");
   const sheetButton = h("button", {type: "button", onclick: () => showSheet()}, "Show the sheet to print");
-  const element = h("div", {},
-    h("section", {}, h("h2", {}, "Measure"),
+  const how = folded("How to measure", (box) => box.append(howToMeasure(page.store.view.sheet)));
+  const hook = hookTick(page);
+  const ofChains = h("div", {},
+    h("section", {}, h("h3", {}, "Measure"),
       h("p", {class: "choices"}, h("label", {for: "way"}, "What you read"), way),
       h("p", {class: "buttons"}, sheetButton, program),
       h("p", {class: "hint"}, "Run the program without any compensation, measure, and type what you read below. What you leave empty is left out."),
-      print),
-    h("section", {}, h("h2", {}, "Readings"),
-      h("p", {class: "choices"}, h("label", {for: "unit"}, "You read in"), unit),
+      how.element, print),
+    h("section", {}, h("h3", {}, "Readings"),
+      h("p", {class: "choices"},
+        h("span", {class: "pair"}, h("label", {for: "unit"}, "You read in"), unit), hook.element,
+        h("span", {class: "pair"}, h("label", {for: "wish"}, "Good enough for you, mm"), wish)),
       odd, readings.element));
+  const ofBelts = beltsMeasure(page);
+  const element = h("div", {}, ofChains, ofBelts.element);
   let timer = null;
 
   function fitSoon() {
@@ -55,16 +68,21 @@ export function measureStep(page) {
     const name = page.store.view.sheet.replace(/\.csv$/, ".html");
     const bytes = page.store.folder[name];
     if (print.firstChild || !bytes) print.replaceChildren();
-    else print.replaceChildren(reportFrame(`The sheet ${name}`, name, bytes, {onDownload: () => download(name, bytes)}));
+    else print.replaceChildren(reportFrame(`The sheet ${name}`, name, bytesOf(sheetInPage(textOf(bytes))), {onDownload: () => download(name, bytes)}));
     sheetButton.textContent = print.firstChild ? "Hide the sheet" : "Show the sheet to print";
   }
 
   let shown = null;
-  let onCauses = false;
+  let shownHow = null;
+  let fittedWith = "";
   return {
     element,
+    given: () => (isBelts(page.store.folder) ? ofBelts.given() : given(page.store)),
     update() {
       const {folder, view} = page.store;
+      ofBelts.update();
+      ofChains.hidden = isBelts(folder);
+      if (ofChains.hidden) return;
       way.value = view.sheet;
       way.lastChild.disabled = !folder["map.json"];
       unit.value = view.unit;
@@ -74,30 +92,42 @@ export function measureStep(page) {
       const bed = bedOf(folder);
       const sheet = bytes && bed ? Sheet.of(textOf(bytes)) : null;
       odd.hidden = sheet !== null || !bytes;
+      hook.update(page.store);
+      if (shownHow !== view.sheet) {
+        shownHow = view.sheet;
+        how.forget();
+        how.element.open = sheet !== null && sheet.filled === 0;
+      }
       readings.element.hidden = sheet === null;
       if (sheet) readings.draw(sheet, bed, view.unit);
-      if (shown === bytes && shown !== null && onCauses === Boolean(view.causes)) return;
+      if (document.activeElement !== wish) wish.value = view.wish ?? "";
+      const fitWith = [...choiceWords(view), ...hookWords(page.store)].join(" ");
+      if (shown === bytes && shown !== null && fittedWith === fitWith) return;
       shown = bytes;
-      onCauses = Boolean(view.causes);
-      if (sheet) fitSoon();
-      else said.replaceChildren();
+      fittedWith = fitWith;
+      page.fit = null;
+      if (sheet) {
+        fitSoon();
+        return;
+      }
+      said.replaceChildren();
     },
   };
 }
 
-const programOf = (sheet) => sheet.replace(/\.csv$/, ".nc");
-
-export function bedOf(folder) {
-  try {
-    const {bed} = JSON.parse(textOf(folder["machine.json"]));
-    return Number(bed.width_mm) > 0 && Number(bed.height_mm) > 0 ? bed : null;
-  } catch {
-    return null;
-  }
+/** The line of the folded step. */
+function given({folder, view}) {
+  const path = fittedList(view);
+  const sheet = folder[path] ? Sheet.of(textOf(folder[path])) : null;
+  if (!sheet || sheet.filled === 0) return "";
+  return `${sheet.filled} of ${sheet.rows.length} ${sheet.isOfPoints ? "marks" : "distances"} typed in`;
 }
 
-/** The list of readings for the map: the one shown, or the one shown last. */
-export const fittedList = ({sheet, fitted}) => (sheet === NEW_POINTS ? fitted ?? WAYS[0][0] : sheet);
+/** What the user chose about the fit. A wish that is no number is none. */
+function choiceWords({causes, wish}) {
+  const mm = Number((wish || "").replace(",", "."));
+  return [...(causes ? ["--causes"] : []), ...(mm > 0 ? ["--wish-mm", String(mm)] : [])];
+}
 
 export async function chooseWay(page, path) {
   if (!page.store.folder[path] && page.store.folder["machine.json"]) {
@@ -107,6 +137,7 @@ export async function chooseWay(page, path) {
     if (result?.code === DONE) page.store.derive(result.files);
     else if (result) page.alert(sentencesOf(result).join(" "));
   }
+  if (path !== NEW_POINTS && path !== fittedList(page.store.view)) page.store.derive(NO_DIAGNOSIS);
   page.store.show({sheet: path, fitted: fittedList({...page.store.view, sheet: path === NEW_POINTS ? page.store.view.sheet : path})});
 }
 
@@ -122,24 +153,27 @@ async function judge(page, readings, said) {
     return;
   }
   const isCheck = path === NEW_POINTS;
+  const isOnCauses = Boolean(page.store.view.causes);
   const words = isCheck ? ["check", "map.json", path, "--machine", "machine.json", ...settingsWords(page.store.folder)]
     : ["fit", path, "--machine", "machine.json", "-o", "map.json", "--force", "--verbose",
-      ...(page.store.view.causes ? ["--causes"] : [])];
+      ...choiceWords(page.store.view), ...hookWords(page.store)];
   const result = await runVerb(page, words, {quiet: true, supersede: "judge"});
   if (!result || page.store.folder[path] !== text) return;
   const sentences = sentencesOf(result);
   const problems = new Map();
   for (const sentence of sentences) markRow(problems, list, sentence, path);
   readings.mark(problems);
-  const withRows = (sentence) => list?.withRows(sentence) ?? sentence;
+  const withRows = (sentence) => inPage(list?.withRows(sentence) ?? sentence);
   if (isCheck) {
     showVerdict(said, result, sentences.map(withRows), withRows);
     return;
   }
-  if (result.code === DONE) page.store.derive({...result.files, "diagnosis.json": null, "diagnosis.html": null});
-  else if (page.store.folder["map.json"]) page.store.derive({"map.json": null, "diagnosis.json": null, "diagnosis.html": null});
-  said.className = result.code === DONE ? "said" : "said problem";
-  said.replaceChildren(...outcome(page, sentences.map(withRows), result.code));
+  const isDone = result.code === DONE;
+  page.fit = {...fitParts(sentences.map(withRows)), code: result.code, isOnCauses};
+  if (isDone) page.store.derive(result.files);
+  else page.store.derive({"map.json": null, ...NO_DIAGNOSIS});
+  said.className = isDone ? "said" : "said problem";
+  said.replaceChildren(...outcome(page));
 }
 
 /** The output of a check: the verdict on the first line, the numbers below. */
@@ -150,31 +184,13 @@ function showVerdict(said, {code, stdout}, sentences, withRows) {
     code === DONE || code === CHECK_FAILED ? h("pre", {tabindex: "0", "aria-label": "Measured less map"}, numbers.join("\n")) : "");
 }
 
-function outcome(page, sentences, code) {
-  // Tables of --verbose follow the sentences after an empty line; their lines begin with blanks or are their titles.
-  const end = sentences.findIndex((line) => /^Settings {3,}/.test(line));
-  const plain = end < 0 ? sentences : sentences.slice(0, end);
-  const tables = end < 0 ? [] : sentences.slice(end);
+function outcome(page) {
+  const {headline, sentences, tables, code} = page.fit;
   return [
-    sentenceList(plain),
+    headline && h("p", {class: "headline"}, explained(headline)),
+    sentenceList(sentences),
     tables.length > 0 && h("details", {}, h("summary", {}, "The numbers"), h("pre", {tabindex: "0"}, tables.join("\n"))),
     code === DONE && h("p", {class: "buttons"},
       h("button", {type: "button", class: "main", onclick: () => page.store.show({step: "result"})}, "See the map and the causes")),
   ].filter(Boolean);
-}
-
-/** Shows a message at the row that it refers to, by a place in the file or a point's number. */
-function markRow(problems, list, sentence, path) {
-  if (!list) return;
-  const problem = problemOf(sentence, path);
-  if (problem?.line) {
-    const cell = list.cellAt(problem.line, problem.column);
-    if (cell) problems.set(cell.row, {column: cell.column, text: problem.text});
-    return;
-  }
-  const point = /^Point (\d+) /.exec(sentence);
-  const between = /\b([A-Z]\d*)-([A-Z]\d*)\b/.exec(sentence);
-  const row = point ? list.rowOfPoint(Number(point[1]))
-    : between ? list.rows.findIndex(({cells}) => cells[0] === between[1] && cells[1] === between[2]) : -1;
-  if (row >= 0) problems.set(row, {column: null, text: list.withRows(sentence)});
 }

@@ -3,6 +3,7 @@
 // that memory: what the controller holds now, if other than when the map was measured.
 import {DONE, printed, runVerb, sentenceList, sentencesOf} from "./command.js";
 import {download, h, textOf} from "./dom.js";
+import {inPage} from "./in_page.js";
 
 const TYPED_IN = "settings.ini";
 
@@ -14,10 +15,10 @@ export const areTypedIn = (folder) => Boolean(folder[TYPED_IN]);
 export class Numbers {
   #page;
   #outcome = h("div");
-  #ask = h("p", {class: "buttons"}, h("button", {type: "button", onclick: () => this.#show()}, "Show the numbers to type in"));
   #typed = h("div", {hidden: true});
-  element = h("div", {}, this.#ask, this.#outcome, this.#typed);
+  element = h("div", {}, this.#outcome, this.#typed);
   #drawn = null;
+  #isShown = false;
 
   constructor(page) {
     this.#page = page;
@@ -26,12 +27,14 @@ export class Numbers {
   /** The map is another one: the numbers shown are not its numbers. */
   clear() {
     this.#outcome.replaceChildren();
+    this.#isShown = false;
   }
 
   update({folder}) {
     const typed = folder[TYPED_IN] ?? null;
-    this.#ask.hidden = this.#outcome.hidden = typed !== null;
+    this.#outcome.hidden = typed !== null;
     this.#typed.hidden = typed === null;
+    if (typed === null && !this.#isShown) this.#show();
     if (this.#drawn === typed) return;
     this.#drawn = typed;
     this.#typed.replaceChildren(...(typed === null ? [] : this.#memory(typed)));
@@ -51,6 +54,7 @@ export class Numbers {
   }
 
   async #show() {
+    this.#isShown = true;
     const result = await runVerb(this.#page, ["export", "groundcontrol", "map.json", "-o", TYPED_IN, "--force"]);
     if (!result) return;
     const bytes = result.files[TYPED_IN];
@@ -60,9 +64,8 @@ export class Numbers {
     }
     // The sentences on the command's own map for these numbers do not concern the page, which keeps one map.
     const sentences = sentencesOf(result).filter((sentence) => !sentence.includes("--map-after"));
-    this.#outcome.replaceChildren(printed(textOf(bytes), "Numbers to type in"), sentenceList(sentences),
-      h("p", {}, "Type them in, or leave the controller as it is and compensate each program. Say so here once they are in: what is " +
-        "compensated for the old numbers comes out wrong with the new ones."),
+    this.#outcome.replaceChildren(printed(textOf(bytes), "Numbers to type in"), sentenceList(sentences.map(inPage)),
+      h("p", {}, "Type them in, and say so here once they are in: what is compensated for the old numbers comes out wrong with the new ones."),
       h("p", {class: "buttons"}, h("button", {type: "button", class: "main",
         onclick: () => this.#page.store.change({[TYPED_IN]: bytes})}, "I have typed them in")));
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table for typing readings, next to the bed. Problems of a cell are the command's messages.
 import {bedPicture} from "./bed.js";
+import {problemOf} from "./command.js";
 import {h} from "./dom.js";
+import {inPage} from "./in_page.js";
 import {millimetresOf, shownIn} from "./sheet.js";
 
 const WORDS = {
@@ -72,7 +74,7 @@ export class Readings {
         return index === 0 ? h("th", {scope: "row"}, shown) : h("td", {class: "number"}, shown);
       }
       const input = h("input", {
-        type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false",
+        type: "text", inputmode: "text", autocomplete: "off", spellcheck: "false",
         "aria-label": `${wordOf(column, this.#unit)}, row ${cells[0]}${column === "distance_mm" ? ` to ${cells[1]}` : ""}`,
         "aria-describedby": name, "data-column": index,
         oninput: () => this.#typed(row, index, input.value),
@@ -160,4 +162,20 @@ function isAtEndOf(input) {
 
 function bedKey(bed) {
   return `${bed.width_mm}x${bed.height_mm}`;
+}
+
+/** Shows a message at the row that it refers to, by a place in the file or a point's number. */
+export function markRow(problems, list, sentence, path) {
+  if (!list) return;
+  const problem = problemOf(sentence, path);
+  if (problem?.line) {
+    const cell = list.cellAt(problem.line, problem.column);
+    if (cell) problems.set(cell.row, {column: cell.column, text: inPage(problem.text)});
+    return;
+  }
+  const point = /^Point (\d+) /.exec(sentence);
+  const between = /\b([A-Z]\d*)-([A-Z]\d*)\b/.exec(sentence);
+  const row = point ? list.rowOfPoint(Number(point[1]))
+    : between ? list.rows.findIndex(({cells}) => cells[0] === between[1] && cells[1] === between[2]) : -1;
+  if (row >= 0) problems.set(row, {column: null, text: inPage(list.withRows(sentence))});
 }

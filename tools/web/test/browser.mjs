@@ -66,7 +66,7 @@ export class Visit {
     const visit = new Visit();
     visit.downloads = temporaryFolder();
     visit.browser = await puppeteer.launch({
-      browser: browserName, executablePath: executableOf(browserName), headless: true,
+      browser: browserName, executablePath: executableOf(browserName), headless: true, timeout: PATIENCE_MS,
       // The sandbox is not available to root in a container. Only this page is opened.
       args: browserName === "chrome" ? ["--no-sandbox"] : [],
       ...(browserName === "chrome" && {downloadBehavior: {policy: "allow", downloadPath: visit.downloads}}),
@@ -106,6 +106,29 @@ export class Visit {
     const button = await this.page.waitForFunction((wanted) =>
       [...document.querySelectorAll("button")].find((one) => one.textContent === wanted && one.checkVisibility()), {}, text);
     await button.asElement().click();
+  }
+
+  /** Opens a settings file, and goes on from what was assumed to measuring. */
+  async openSettings(path) {
+    await this.upload("#settings", path);
+    await this.click("On to measuring");
+  }
+
+  /** Opens the folded text of this summary. */
+  async unfold(summary) {
+    const found = await this.page.waitForFunction((wanted) =>
+      [...document.querySelectorAll("summary")].find((one) => one.textContent === wanted && one.checkVisibility()), {}, summary);
+    if (!await found.evaluate((one) => one.parentElement.open)) await found.asElement().click();
+  }
+
+  /** Pastes a text into the box of this selector. */
+  async paste(selector, text) {
+    await this.page.waitForSelector(selector, {visible: true});
+    await this.page.$eval(selector, (box, pasted) => {
+      box.focus();
+      box.value = pasted;
+      box.dispatchEvent(new ClipboardEvent("paste", {bubbles: true, cancelable: true}));
+    }, text);
   }
 
   async upload(selector, path) {

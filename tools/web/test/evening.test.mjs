@@ -33,21 +33,26 @@ for (const browser of browsers) {
     test("from the settings file to the verified program", async () => {
       const visit = await Visit.to(browser);
       try {
-        await visit.upload("#settings", fixture("good/groundcontrol_ring.ini"));
+        await visit.openSettings(fixture("good/groundcontrol_ring.ini"));
         await typeReadings(visit);
         await slipAndMend(visit);
         await visit.reload();
         assert.deepEqual(await visit.values(), READINGS.flat(), "a reload loses nothing");
-        await visit.text(".said", "the map leaves 0.39 mm");
+        await visit.text(".said", "With this map it misses by about 0.2 mm");
         await visit.click("See the map and the causes");
+        await visit.text("#step-result .headline", "With this map it misses by about 0.2 mm");
+        await visit.unfold("The whole report");
         await visit.report("The map");
         await visit.click("Find the cause");
+        await visit.text("#step-result .verdict", "Most likely");
+        await visit.unfold("The whole diagnosis");
         const diagnosis = await visit.report("The diagnosis");
         assert.match(await diagnosis.$eval("main", (main) => main.textContent), /links/);
         await visit.click("What to measure next");
-        await visit.text("#step-result .sentences", "measure");
-        await visit.click("Show the numbers to type in");
+        await visit.text("#step-result .sentences", "measur");
+        await visit.click("Type numbers in");
         assert.match(await visit.text("#step-result pre", "motorspacingx"), /rotationradius/);
+        await visit.click("Compensate each job instead");
         await cutAPart(visit);
         await typeNumbersIn(visit);
         await cutWithThem(visit);
@@ -60,6 +65,37 @@ for (const browser of browsers) {
   });
 }
 
+/** What the first line says of each example evening. */
+const EVENINGS = [
+  ["A worn chain", "With this map it misses by about 0.2 mm"], ["A beam that bends", "With this map it misses by about 0.2 mm"],
+  ["A tape that is too long", "With this map it misses by about 0.2 mm"], ["A chain that jumped a tooth", "was measured twice"],
+  ["Nothing wrong", "Your machine needs no map"],
+];
+
+test("example evenings open with a click, and a wish is held against them", async () => {
+  const visit = await Visit.to(browsers[0]);
+  try {
+    for (const [title, said] of EVENINGS) {
+      await visit.click("Machine");
+      await visit.click(title);
+      await visit.text(".said", said);
+    }
+    await visit.click("Machine");
+    await visit.click("A Maslow 4");
+    await visit.text("#step-result .headline", "your machine misses by about");
+    await visit.click("Machine");
+    await visit.click("A worn chain");
+    await visit.text(".said", "With this map it misses by about");
+    const wish = await visit.page.waitForSelector("#wish", {visible: true});
+    await wish.type("0,5");
+    await visit.page.keyboard.press("Tab");
+    await visit.text(".said", "You wish for 0.5 mm: reached.");
+    assert.deepEqual(visit.problems, []);
+  } finally {
+    await visit.close();
+  }
+});
+
 /** From cell to cell by keyboard only; every third number with a comma. */
 async function typeReadings(visit) {
   await (await visit.cell(0, 0)).focus();
@@ -71,19 +107,19 @@ async function typeReadings(visit) {
     await visit.page.keyboard.press("Enter");
     await visit.page.keyboard.press("ArrowLeft");
   }
-  await visit.text(".said", "the map leaves 0.39 mm");
+  await visit.text(".said", "With this map it misses by about 0.2 mm");
 }
 
 async function slipAndMend(visit) {
   await visit.type(ROW_OF_SLIP, 1, "-23o.5");
   await visit.text("tr.note", "found -23o.5, expected a number in mm from -20000 to 20000 (y_mm)");
   await visit.type(ROW_OF_SLIP, 1, "-230.5");
-  await visit.text("tr.note", "Point 12 at (2, -230) was set aside");
+  await visit.text("tr.note", "Point 12 at (2, -230) is off by");
   assert.equal(await visit.page.$eval(`tr[data-row="${ROW_OF_SLIP}"] input`, (input) => input.getAttribute("aria-invalid")), "true");
   await visit.type(ROW_OF_SLIP, 1, READINGS[ROW_OF_SLIP][1]);
   await visit.page.waitForFunction(() => document.querySelectorAll("tr.note:not([hidden])").length === 0);
   // All marks are restored before the page is left.
-  await visit.text(".said", "the map leaves 0.39 mm");
+  await visit.text(".said", "With this map it misses by about 0.2 mm");
 }
 
 async function cutAPart(visit) {
@@ -100,6 +136,7 @@ async function cutAPart(visit) {
 /** Which of the two ways was taken outlives a reload, and what was compensated for the old numbers is put away. */
 async function typeNumbersIn(visit) {
   await visit.click("Map and causes");
+  await visit.click("Type numbers in instead");
   await visit.click("I have typed them in");
   await visit.click("Cut");
   await visit.text("#step-cut .said", "compensate it again");

@@ -57,8 +57,9 @@ for (const browser of browsers) {
     try {
       await visit.page.evaluate(tryEveryWayOut, server.url);
       await visit.click("Try an example machine");
-      await visit.text(".said", "the map leaves");
+      await visit.text(".said", "With this map it misses by");
       await visit.click("See the map and the causes");
+      await visit.unfold("The whole report");
       const report = await visit.report("The map");
       await report.evaluate(tryEveryWayOut, server.url);
       assert.deepEqual(server.asked, []);
@@ -89,7 +90,7 @@ for (const browser of browsers) {
     test(`storage that is ${name} is said, and the download works, in ${browser}`, async () => {
       const visit = await Visit.to(browser, {prepare});
       try {
-        await visit.upload("#settings", fixture("good/groundcontrol_ring.ini"));
+        await visit.openSettings(fixture("good/groundcontrol_ring.ini"));
         await visit.type(0, 0, "-1113");
         assert.match(await visit.text(".banner", "keeps nothing"), name === "full" ? /storage is full/ : /private window/);
         await visit.click("Download");
@@ -106,7 +107,7 @@ describe("files", () => {
   test("a wrong settings file is told whole, and nothing is lost", async () => {
     const visit = await Visit.to("chrome");
     try {
-      await visit.upload("#settings", fixture("good/groundcontrol_ring.ini"));
+      await visit.openSettings(fixture("good/groundcontrol_ring.ini"));
       await visit.cell(0, 0);
       await visit.click("Machine");
       await visit.upload("#settings", fixture("bad/groundcontrol_wrong_types.ini"));
@@ -130,7 +131,7 @@ describe("files", () => {
     const visit = await Visit.to("chrome");
     try {
       await visit.click("Try an example machine");
-      await visit.text(".said", "the map leaves 0.39 mm");
+      await visit.text(".said", "With this map it misses by about 0.2 mm");
       const before = await visit.values();
       await visit.click("Download");
       const bytes = await visit.downloaded("my-machine.zip");
@@ -138,7 +139,7 @@ describe("files", () => {
       writeFileSync(zip, bytes);
       await visit.click("Begin anew");
       await visit.upload("#settings", zip);
-      await visit.text(".said", "the map leaves 0.39 mm");
+      await visit.text(".said", "With this map it misses by about 0.2 mm");
       assert.deepEqual(await visit.values(), before);
       assert.deepEqual(Object.keys(folderOf(bytes)).sort(), ["README.txt", "bracket.nc", "groundcontrol.ini", "holes.csv", "holes.html",
         "holes.nc", "machine.json", "map.json", "marks.csv", "marks.html", "marks.nc"]);
@@ -153,7 +154,7 @@ describe("files", () => {
       const program = join(temporaryFolder(), "relief.nc");
       writeFileSync(program, reliefOf(5e6));
       await visit.click("Try an example machine");
-      await visit.text(".said", "the map leaves 0.39 mm");
+      await visit.text(".said", "With this map it misses by about 0.2 mm");
       await visit.click("Cut");
       await visit.upload("#program", program);
       await visit.text(".busy", "gcode");
@@ -185,7 +186,7 @@ describe("files", () => {
         globalThis.healthy = true;
       });
       await visit.type(0, 0, "-1113.5");
-      await visit.text(".said", "the map leaves");
+      await visit.text(".said", "With this map it misses by");
     } finally {
       await visit.close();
     }
@@ -200,13 +201,16 @@ describe("for everybody", () => {
       const visit = await Visit.to("chrome", {width, dark});
       try {
         await visit.click("Try an example machine");
-        await visit.text(".said", "the map leaves 0.39 mm");
+        await visit.text(".said", "With this map it misses by about 0.2 mm");
         await visit.type(11, 1, "-230.5");
-        await visit.text("tr.note", "was set aside");
+        await visit.text("tr.note", "was left out");
         await visit.page.evaluate(axe);
         for (const step of ["Machine", "Measure", "Map and causes", "Cut", "Files"]) {
           await visit.click(step);
-          if (step === "Map and causes") await visit.report("The map");
+          if (step === "Map and causes") {
+            await visit.unfold("The whole report");
+            await visit.report("The map");
+          }
           const found = await visit.page.evaluate(() => axe.run(document, {iframes: false}));
           const serious = found.violations.filter(({impact}) => impact === "serious" || impact === "critical");
           assert.deepEqual(serious.map(({id, nodes}) => `${id}: ${nodes[0].html}`), [], step);
@@ -219,13 +223,13 @@ describe("for everybody", () => {
     });
   }
 
-  test("a step begins at its top, also while its report grows", async () => {
+  test("a step begins at its top, also while its picture grows", async () => {
     const visit = await Visit.to("chrome", {width: 400});
     try {
       await visit.click("Try an example machine");
-      await visit.text(".said", "the map leaves");
+      await visit.text(".said", "With this map it misses by");
       await visit.click("See the map and the causes");
-      await visit.report("The map");
+      await visit.text("#step-result .headline", "With this map it misses by");
       assert.equal(await visit.page.evaluate(() => scrollY), 0);
     } finally {
       await visit.close();

@@ -47,10 +47,13 @@ test("times of the page", async (context) => {
     say("from opening the file to usable", await shortest(3, () => visit.reload()));
     let begun = performance.now();
     await visit.click("Try an example machine");
-    await visit.text(".said", "the map leaves");
+    await visit.text(".said", "With this map it misses by");
     await visit.click("See the map and the causes");
+    await visit.text("#step-result .headline", "With this map it misses by");
+    say("from the example machine to the result, with two clicks", since(begun));
+    await visit.unfold("The whole report");
     await visit.report("The map");
-    say("from the example machine to the drawn report, with two clicks", since(begun));
+    say("from the example machine to the drawn report, with three clicks", since(begun));
     await visit.click("Cut");
     begun = performance.now();
     await visit.upload("#program", join(root, "fixtures/gcode/bracket.nc"));

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/belts/commands_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/statistics.hpp"
+#include "model/belts/belt_kinematics.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using model::Belt;
+using model::kBelts;
+
+struct ExpectedPlace {
+  model::PerBelt<double> read_mm;
+  model::PerBelt<double> expected_mm;
+};
+
+std::vector<ExpectedPlace> expected_places(const MeasuredBelts& belts) {
+  std::vector<ExpectedPlace> places;
+  for (const BeltPoint& point : belts.points) {
+    if (!point.commanded) continue;
+    const auto lengths =
+        model::lengths_at(belts.machine, model::to_frame(belts.machine, *point.commanded));
+    if (lengths) places.push_back({point.lengths_mm, *lengths});
+  }
+  return places;
+}
+
+double typical_mm(const std::vector<ExpectedPlace>& places, const std::vector<BeltPair>& swap) {
+  std::vector<double> off;
+  for (const ExpectedPlace& place : places) {
+    model::PerBelt<double> read_mm = place.read_mm;
+    for (const BeltPair& pair : swap) std::swap(read_mm[pair.first], read_mm[pair.second]);
+    for (const Belt belt : kBelts) off.push_back(std::abs(read_mm[belt] - place.expected_mm[belt]));
+  }
+  return median(off);
+}
+
+/// The exchange that agrees best, where it is beyond doubt.
+std::optional<std::vector<BeltPair>> swapped(const std::vector<ExpectedPlace>& places,
+                                             double as_stated_mm) {
+  // Near the middle of a frame its belts differ by little: a few times what readings and anchors in force
+  // are off by is beyond doubt where an exchange mends three quarters of it.
+  constexpr double kBeyondDoubtMm = 40.0;
+  constexpr double kTimesBetter = 4.0;
+  if (as_stated_mm < kBeyondDoubtMm) return std::nullopt;
+  std::optional<std::vector<BeltPair>> best;
+  double least_mm = as_stated_mm / kTimesBetter;
+  for (const auto& swap : belt_swaps()) {
+    const double typical = typical_mm(places, swap);
+    if (typical >= least_mm) continue;
+    least_mm = typical;
+    best = swap;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<AgainstCommands> against_commands(const MeasuredBelts& belts) {
+  if (!belts.machine.anchors_known) return std::nullopt;
+  const std::vector<ExpectedPlace> places = expected_places(belts);
+  if (places.empty()) return std::nullopt;
+  AgainstCommands found;
+  found.places = places.size();
+  std::vector<double> upper_mm;
+  for (const Belt belt : kBelts) {
+    std::vector<double> off;
+    for (const ExpectedPlace& place : places) {
+      off.push_back(place.read_mm[belt] - place.expected_mm[belt]);
+      if (model::is_upper(belt)) upper_mm.push_back(std::abs(off.back()));
+    }
+    found.median_mm[belt] = median(off);
+  }
+  found.typical_mm = typical_mm(places, {});
+  found.upper_mm = median(upper_mm);
+  found.swapped = swapped(places, found.typical_mm);
+  return found;
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/belts/fit_report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "grid/belts/prediction.hpp"
+
+namespace chaintrue::grid::belts {
+
+using model::Belt;
+using model::kBelts;
+
+namespace {
+
+constexpr std::array<std::string_view, 5> kCoordinateNames = {
+    "tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"};
+
+void fill_coordinates(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFit& fit) {
+  const AnchorVector stated = anchors_of(belts.machine);
+  const AnchorVector fitted = anchors_of(fit.machine);
+  Eigen::Matrix<double, 5, 4> squares = Eigen::Matrix<double, 5, 4>::Zero();
+  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+    for (const Belt belt : kBelts) {
+      if (!view.counts(k, belt)) continue;
+      squares.col(static_cast<Eigen::Index>(belt)) += view.influence(k, belt).head<5>().cwiseAbs2();
+    }
+  }
+  for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    AnchorCoordinate& coordinate = fit.coordinates[i];
+    coordinate.name = kCoordinateNames[i];
+    if (belts.machine.anchors_known) coordinate.stated_mm = stated[row];
+    coordinate.fitted_mm = fitted[row];
+    coordinate.sigma_mm = std::sqrt(fit.covariance_mm2(row, row));
+    for (const Belt belt : kBelts) {
+      coordinate.variance_share[belt] =
+          squares(row, static_cast<Eigen::Index>(belt)) / squares.row(row).sum();
+    }
+  }
+}
+
+void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFit& fit) {
+  double square = 0.0;
+  model::PerBelt<double> squares;
+  model::PerBelt<int> counts;
+  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+    FittedPlace place{view.frame().state.places[k], view.place_covariance_mm2(k), {}};
+    std::vector<BadBeltReading> bad;
+    for (const Belt belt : kBelts) {
+      BeltResidual& residual = place.belts[belt];
+      residual = view.residual(k, belt);
+      square += residual.residual_mm * residual.residual_mm;
+      if (residual.counts) {
+        squares[belt] += residual.residual_mm * residual.residual_mm;
+        ++counts[belt];
+      } else {
+        bad.push_back({k, belt, residual.deleted_residual_mm});
+      }
+    }
+    // Two readings fix a place and check nothing.
+    if (bad.size() > 1) {
+      fit.bad_points.push_back(k);
+    } else {
+      fit.bad.insert(fit.bad.end(), bad.begin(), bad.end());
+    }
+    fit.places.push_back(std::move(place));
+  }
+  fit.rms_mm = std::sqrt(square / (4.0 * static_cast<double>(belts.points.size())));
+  for (const Belt belt : kBelts) {
+    fit.rms_of_mm[belt] = counts[belt] > 0 ? std::sqrt(squares[belt] / counts[belt]) : 0.0;
+  }
+  std::stable_sort(fit.bad.begin(), fit.bad.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.residual_mm) > std::abs(b.residual_mm);
+  });
+}
+
+void fill_scale(const MeasuredBelts& belts,
+                const FitDiagnostics& view,
+                const Eigen::MatrixXd& covariance,
+                BeltsFit& fit) {
+  if (!view.has_scale()) return;
+  BeltScale scale;
+  scale.factor = std::exp(view.frame().state.log_scale);
+  scale.sigma = scale.factor * std::sqrt(covariance(kAnchorUnknowns, kAnchorUnknowns));
+  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
+    scale.residuals_mm.push_back(view.equations().distance_residual[static_cast<Eigen::Index>(i)] *
+                                 belts.distances[i].sigma_mm);
+  }
+  fit.scale = std::move(scale);
+}
+
+}  // namespace
+
+BeltsFit fit_report(const MeasuredBelts& belts,
+                    const FitDiagnostics& view,
+                    const Eigen::MatrixXd& covariance) {
+  BeltsFit fit;
+  fit.machine = with_anchors(belts.machine, view.frame().state.anchors);
+  fit.covariance_mm2 = covariance.topLeftCorner<5, 5>();
+  fit.residual_sigma_mm = view.frame().residual_sigma_mm;
+  fit.checks = static_cast<int>(view.frame().checks);
+  fill_coordinates(belts, view, fit);
+  fill_places(belts, view, fit);
+  fill_scale(belts, view, covariance, fit);
+  fit.one_left_out = predict_one_by_one(belts, view);
+  return fit;
+}
+
+}  // namespace chaintrue::grid::belts

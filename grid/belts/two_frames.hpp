@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Two frames in one list of places: the first so many make one frame, the others another.
+///
+/// \code
+///   if (const auto first = second_frame_begins(belts)) say("from point", *first + 1);
+/// \endcode
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "grid/belts/measured_belts.hpp"
+
+namespace chaintrue::grid {
+
+/// The first point of the second frame, where all points together make none and either part makes one.
+/// Both parts have kFewestBeltPoints or more.
+[[nodiscard]] std::optional<std::size_t> second_frame_begins(const MeasuredBelts& belts);
+
+}  // namespace chaintrue::grid

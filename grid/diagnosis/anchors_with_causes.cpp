@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/anchors_with_causes.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "grid/belts/fit_report.hpp"
+#include "grid/diagnosis/belts_report.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using belts::AnchorFit;
+using belts::FitDiagnostics;
+using belts::kAnchorUnknowns;
+using model::Belt;
+using model::kBelts;
+
+/// As fit_belts() has it: readings in whole hundredths leave no less.
+constexpr double kLeastSpreadMm = 1e-3;
+
+void find_places(const MeasuredBelts& belts, AnchorFit& frame) {
+  belts::place_all(belts,
+                   belts::readings_of(belts, frame.counting, frame.residual_sigma_mm),
+                   belts::mechanism_at(belts, frame.state),
+                   frame);
+}
+
+/// Places, and the spread about them.
+void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, AnchorFit& frame) {
+  MeasuredBelts untaped = without_causes;
+  untaped.distances.clear();
+  find_places(untaped, frame);
+  frame.checks = std::max<Eigen::Index>(
+      belts::checks_of(frame.counting) - static_cast<Eigen::Index>(sizes), 1);
+  const belts::ReadingLines lines = belts::reading_lines(untaped, frame.state);
+  double square = 0.0;
+  for (std::size_t k = 0; k < frame.counting.size(); ++k) {
+    for (const Belt belt : kBelts) {
+      if (frame.counting[k][belt]) square += std::pow(lines.residual_mm[belts::row_of(k, belt)], 2);
+    }
+  }
+  frame.residual_sigma_mm =
+      std::max(std::sqrt(square / static_cast<double>(frame.checks)), kLeastSpreadMm);
+}
+
+/// (1) of anchors_with_causes.hpp. \returns the covariance of anchors and scale; empty where the
+/// distances do not converge.
+std::optional<Eigen::MatrixXd> take_distances(const MeasuredBelts& without_causes,
+                                              const AveragedAnchors& averaged,
+                                              AnchorFit& frame) {
+  MeasuredBelts untaped = without_causes;
+  untaped.distances.clear();
+  const auto alone = belts::fit_anchors_from(untaped, frame.state, frame.counting);
+  const auto taped = belts::fit_anchors_from(without_causes, frame.state, frame.counting);
+  if (!alone || !taped || !taped->is_sound) return std::nullopt;
+  constexpr Eigen::Index kAll = kAnchorUnknowns + 1;
+  const Eigen::MatrixXd own = FitDiagnostics(untaped, *alone).precision();
+  const Eigen::MatrixXd with_tape = FitDiagnostics(without_causes, *taped).precision();
+  const Eigen::MatrixXd known = averaged.covariance_mm2.llt().solve(
+      Eigen::MatrixXd::Identity(kAnchorUnknowns, kAnchorUnknowns));
+  Eigen::VectorXd there(kAll);
+  there << taped->state.anchors, taped->state.log_scale;
+  Eigen::MatrixXd precision = with_tape;
+  precision.topLeftCorner(kAnchorUnknowns, kAnchorUnknowns) += known - own;
+  Eigen::VectorXd sum = with_tape * there;
+  sum.head(kAnchorUnknowns) += known * averaged.anchors - own * alone->state.anchors;
+  const Eigen::LDLT<Eigen::MatrixXd> factor(precision);
+  const Eigen::VectorXd found = factor.solve(sum);
+  frame.state.anchors = found.head<kAnchorUnknowns>();
+  frame.state.log_scale = found[kAnchorUnknowns];
+  find_places(without_causes, frame);
+  return factor.solve(Eigen::MatrixXd::Identity(kAll, kAll));
+}
+
+/// Within what the effect's parameter may be: an average over models may lie a little outside.
+CauseBesideAnchors beside_anchors(const AveragedCause& own) {
+  CauseBesideAnchors result;
+  result.effect = own.cause.cause.effect->id;
+  result.side = name(own.cause.cause.side);
+  for (std::size_t i = 0; i < own.cause.values.size(); ++i) {
+    const auto& parameter = own.cause.cause.effect->parameters[i];
+    result.parameters[std::string(parameter.name)] =
+        std::clamp(own.cause.values[i], parameter.lower, parameter.upper);
+  }
+  result.sigma = own.sigma;
+  result.probability = own.probability;
+  return result;
+}
+
+/// A fit, with what it leaves for holes.
+struct FitBesideCauses {
+  BeltsByThemselves alone;
+  MeasuredBelts without_causes;
+};
+
+tl::expected<FitBesideCauses, BeltsFitFailure> fit_beside_causes(const MeasuredBelts& belts) {
+  auto alone = fit_belts(belts);
+  if (!alone) return tl::unexpected(alone.error());
+  auto analysed = analyse(belts, {}, AnalysisDepth::anchors);
+  if (!analysed) {
+    return tl::unexpected(
+        BeltsFitFailure{BeltsFitFailure::Reason::no_frame, analysed.error().sentence()});
+  }
+  const AveragedAnchors& averaged = analysed->averaged;
+  std::vector<CauseBesideAnchors> causes;
+  std::vector<BeltCause> sizes;
+  for (const AveragedCause& own : averaged.causes) {
+    causes.push_back(beside_anchors(own));
+    sizes.push_back(own.cause);
+  }
+  AnchorFit frame = analysed->state.frame;
+  frame.counting = decided_counting(*analysed);
+  frame.state.anchors = averaged.anchors;
+  MeasuredBelts without_causes = without_effects(belts, sizes, frame.state);
+  place_and_judge(without_causes, sizes.size(), frame);
+  Eigen::MatrixXd covariance = averaged.covariance_mm2;
+  if (!belts.distances.empty()) {
+    const auto with_scale = take_distances(without_causes, averaged, frame);
+    // Distances that end nowhere with these readings: what they contradict shows with the readings as
+    // they are.
+    if (!with_scale) {
+      const auto as_read = belts::fit_anchors_robustly(belts);
+      const Eigen::MatrixXd own = FitDiagnostics(belts, *as_read).covariance();
+      return FitBesideCauses{{*std::move(alone), *as_read, own}, belts};
+    }
+    covariance = *with_scale;
+  }
+  BeltsFit fit =
+      belts::fit_report(without_causes, FitDiagnostics(without_causes, frame), covariance);
+  fit.causes = std::move(causes);
+  fit.rms_mm = alone->rms_mm;
+  Explained explained{{frame, sizes}, {}};
+  fit.half_left_out = prediction_by_halves(analysed->belts, explained);
+  return FitBesideCauses{{std::move(fit), std::move(frame), std::move(covariance)},
+                         std::move(without_causes)};
+}
+
+}  // namespace
+
+tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const MeasuredBelts& belts) {
+  return fit_beside_causes(belts).map(
+      [](FitBesideCauses found) { return std::move(found.alone.fit); });
+}
+
+tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_with_causes_and_holes(
+    const MeasuredBelts& belts, const std::vector<BeltHoles>& sets) {
+  if (belts.points.empty()) return fit_belts_and_holes(belts, sets);
+  auto found = fit_beside_causes(belts);
+  if (!found) return tl::unexpected(found.error());
+  return fit_belts_and_holes(found->without_causes, sets, std::move(found->alone));
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The anchors of a router on four belts, with sigmas that count what else may act: the stretch of the
+/// belts that are pulled, and every other cause of the belts' table at its usual size
+/// (averaged_anchors.hpp). They are those of a diagnosis of the same belts.
+///
+/// With P and P_t the precision of anchors and scale by readings freed of the causes, without and with
+/// the taped distances, x and x_t where either has its minimum, and C, a the averaged anchors:
+///
+///   Q = C^-1 + P_t - P,   x_all = Q^-1 (C^-1 a + P_t x_t - P x)                             (1)
+///
+/// \code
+///   const auto fit = fit_with_causes(belts);
+///   if (fit) use(fit->coordinates[0].sigma_mm, fit->causes);
+/// \endcode
+#pragma once
+
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/belts/belts_and_holes.hpp"
+#include "grid/belts/belts_fit.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// Fails in words where fit_belts() does.
+[[nodiscard]] tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const MeasuredBelts& belts);
+
+/// The same with holes that were cut and taped; belts without points are as their machine states them.
+/// \throws std::invalid_argument as fit_belts_and_holes() does.
+[[nodiscard]] tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_with_causes_and_holes(
+    const MeasuredBelts& belts, const std::vector<BeltHoles>& sets);
+
+}  // namespace chaintrue::grid::diagnosis

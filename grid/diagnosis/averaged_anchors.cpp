@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/averaged_anchors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "grid/diagnosis/estimate.hpp"
+#include "grid/diagnosis/regressors.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using AnchorSquare = decltype(AveragedAnchors::covariance_mm2);
+
+/// Models of less weight than this share of the best move no sigma by a hundredth.
+constexpr double kLeastWeight = 1e-3;
+/// Logarithm of the evidence of a usual size below which the readings show plainly that it is not: it
+/// stays as it was found. No chance makes it in a hundred thousand sessions.
+constexpr double kPlainlyUnusual = -12.0;
+/// A cause other than stretch is reported with the anchors where it is more likely than not.
+constexpr double kMoreLikelyThanNot = 0.5;
+/// That pulled belts stretch: every published frame's do.
+constexpr double kStretches = 0.9;
+/// Each further cause of a set has a fifth of its weight, as kPriorOfTwo to kPriorOfOne.
+constexpr double kWeightBesideOthers = 0.2;
+
+/// Odds of a cause at its usual size against none, for sigmas: as large as it takes for 95 % intervals
+/// to hold 92 % and more. Those that the readings show plainly need none.
+struct CauseWeight {
+  std::string_view effect;
+  double odds;
+};
+constexpr CauseWeight kWeights[] = {{"belt_zero", 1.0}, {"anchor_flex", 0.13}, {"drift", 0.045}};
+constexpr double kOtherWeight = 0.013;
+
+double odds_of(const CauseId& cause) {
+  const auto* found = std::find_if(std::begin(kWeights), std::end(kWeights), [&](const auto& own) {
+    return own.effect == cause.effect->id;
+  });
+  return found == std::end(kWeights) ? kOtherWeight : found->odds;
+}
+
+bool is_in(const BeltsState& state, const CauseId& cause) {
+  return std::any_of(state.causes.begin(), state.causes.end(), [&cause](const BeltCause& own) {
+    return own.cause == cause;
+  });
+}
+
+/// Variances of a coefficient's prior, in the noise found: usual, and as wide as an estimate has it.
+struct SizePrior {
+  double usual = 0.0;
+  double wide = 0.0;
+  /// Logarithm of the evidence with the usual one over that with both as a comparison weighs them, of a
+  /// coefficient that the readings alone put at `at` with this variance.
+  [[nodiscard]] double log_evidence(double at, double variance) const {
+    const auto log_density = [&](double prior) {
+      return -0.5 * (at * at / (variance + prior) + std::log(variance + prior));
+    };
+    const double more = log_density(wide) - log_density(usual);
+    return -std::log(1.0 - kWideSignalToNoisePrior + kWideSignalToNoisePrior * std::exp(more));
+  }
+};
+
+SizePrior prior_of(const Regressor& regressor, double noise_square) {
+  const double widening = kWideSignalToNoise / kUsualSignalToNoise;
+  const double usual = regressor.coefficient_sigma * regressor.coefficient_sigma * noise_square;
+  return {usual, usual * widening * widening};
+}
+
+/// Holds sizes to their usual spread, but of causes that the state holds. \returns the logarithm of
+/// what that makes of the model's evidence.
+double hold_to_usual_sizes(const BeltsState& state,
+                           const RegressorSystem& system,
+                           Estimate& found) {
+  const Eigen::Index settings = found.setting_change.size();
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(found.covariance.rows());
+  double log_evidence = 0.0;
+  for (std::size_t i = 0; i < found.free.size(); ++i) {
+    const std::size_t k = found.free[i];
+    const Regressor& regressor = system.regressors[static_cast<std::size_t>(found.regressors[k])];
+    if (!(regressor.coefficient_sigma > 0.0) || is_in(state, regressor.cause)) continue;
+    const SizePrior prior = prior_of(regressor, found.noise_square);
+    const Eigen::Index at = settings + static_cast<Eigen::Index>(i);
+    const double variance = found.covariance(at, at);
+    const double coefficient = found.coefficient(static_cast<Eigen::Index>(k)) + change(at);
+    // A prior that leaves a variance as it is has learnt nothing of the readings.
+    constexpr double kNothing = 1e-9;
+    const double from_readings =
+        variance * prior.wide / std::max(prior.wide - variance, kNothing * prior.wide);
+    const double own = prior.log_evidence(coefficient * from_readings / variance, from_readings);
+    log_evidence += std::max(own, kPlainlyUnusual);
+    if (own < kPlainlyUnusual) continue;
+    const Eigen::VectorXd column = found.covariance.col(at);
+    const double narrower = prior.usual * prior.wide / (prior.wide - prior.usual);
+    const Eigen::VectorXd gain = column / (variance + narrower);
+    change -= gain * coefficient;
+    found.covariance -= gain * column.transpose();
+  }
+  found.setting_change += change.head(settings);
+  found.setting_covariance = found.covariance.topLeftCorner(settings, settings);
+  for (std::size_t i = 0; i < found.free.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(found.free[i]);
+    const Eigen::Index at = settings + static_cast<Eigen::Index>(i);
+    found.coefficient(k) += change(at);
+    found.coefficient_sigma(k) = std::sqrt(std::max(found.covariance(at, at), 0.0));
+  }
+  return log_evidence;
+}
+
+/// Sums over models of weight, of weight by size, and of weight by size^2 + sigma^2.
+struct SizeMoments {
+  bool expected = false;
+  double weight = 0.0;
+  double first = 0.0;
+  double second = 0.0;
+  BeltCause weightiest;
+  double most = 0.0;
+
+  void add(double own, const BeltCause& cause, double sigma) {
+    const double size = cause.values.front();
+    weight += own;
+    first += own * size;
+    second += own * (size * size + sigma * sigma);
+    if (own <= most) return;
+    most = own;
+    weightiest = cause;
+  }
+  [[nodiscard]] AveragedCause averaged() const {
+    AveragedCause result{weightiest, 0.0, 0.0};
+    const double mean = first / weight;
+    result.cause.values.front() = mean;
+    result.sigma = std::sqrt(std::max(second / weight - mean * mean, 0.0));
+    return result;
+  }
+};
+
+class Averaging {
+ public:
+  Averaging(const BeltsState& state,
+            const RegressorSystem& system,
+            const ModelComparison& comparison)
+      : state_(state), system_(system), comparison_(comparison) {
+    for (const Regressor& own : system.regressors)
+      share_of_effect_[own.cause.effect] += std::exp(own.log_prior);
+  }
+
+  AveragedAnchors averaged() {
+    (void)comparison_.best();  // throws where there is none
+    std::vector<double> log_weights;
+    for (const CandidateModel& model : comparison_.models)
+      log_weights.push_back(model.log_weight + log_prior_change(model));
+    const double most = *std::max_element(log_weights.begin(), log_weights.end());
+    for (std::size_t m = 0; m < log_weights.size(); ++m) {
+      const double weight = std::exp(log_weights[m] - most);
+      if (weight > kLeastWeight) add(comparison_.models[m], weight);
+    }
+    const std::vector<Key> reported = reported_causes();
+    const belts::AnchorVector mean = change_with(reported);
+    AveragedAnchors result;
+    for (const Part& part : parts_) {
+      const belts::AnchorVector off = part.change - mean;
+      result.covariance_mm2 += part.weight / total_ * (part.covariance + off * off.transpose());
+    }
+    result.anchors = state_.frame.state.anchors + mean;
+    for (const Key& key : reported) {
+      const SizeMoments& moments = sizes_.at(key);
+      result.causes.push_back(moments.averaged());
+      result.causes.back().probability = moments.weight / total_;
+    }
+    return result;
+  }
+
+ private:
+  /// An effect, and the number of its side.
+  using Key = std::pair<const void*, int>;
+
+  /// Anchors of one model, from the state.
+  struct Part {
+    double weight = 0.0;
+    std::vector<Key> causes;  ///< sorted
+    belts::AnchorVector change;
+    AnchorSquare covariance;
+  };
+  static Key key_of(const Regressor& regressor) {
+    return {regressor.cause.effect, static_cast<int>(regressor.cause.side)};
+  }
+
+  /// The stretch, and what else is more likely than not.
+  [[nodiscard]] std::vector<Key> reported_causes() const {
+    std::vector<Key> reported;
+    for (const auto& [key, moments] : sizes_) {
+      if (moments.expected || moments.weight / total_ > kMoreLikelyThanNot) reported.push_back(key);
+    }
+    return reported;
+  }
+
+  /// Mean over the models of exactly these causes, over all where there are none: anchors belong to the causes that are
+  /// reported with them.
+  [[nodiscard]] belts::AnchorVector change_with(const std::vector<Key>& causes) const {
+    belts::AnchorVector sum = belts::AnchorVector::Zero();
+    double weight = 0.0;
+    for (const Part& part : parts_) {
+      if (part.causes != causes) continue;
+      sum += part.weight * part.change;
+      weight += part.weight;
+    }
+    if (weight > 0.0) return sum / weight;
+    for (const Part& part : parts_) sum += part.weight / total_ * part.change;
+    return sum;
+  }
+
+  /// From the comparison's prior of causes to kWeights.
+  [[nodiscard]] double log_prior_change(const CandidateModel& model) const {
+    const bool smooth = model.discrepancy >= 0;
+    double change = log_prior(system_, {}, smooth) - log_prior(system_, model.regressors, smooth);
+    bool stretches = false;
+    bool beside_others = false;
+    for (const int index : model.regressors) {
+      const Regressor& own = system_.regressors[static_cast<std::size_t>(index)];
+      if (own.expected) {
+        stretches = true;
+        continue;
+      }
+      change += own.log_prior - std::log(share_of_effect_.at(own.cause.effect)) +
+                std::log(odds_of(own.cause));
+      if (beside_others) change += std::log(kWeightBesideOthers);
+      beside_others = true;
+    }
+    return change + std::log(stretches ? kStretches : 1.0 - kStretches);
+  }
+
+  void add(const CandidateModel& model, double weight) {
+    const MarginalisedSystem& marginalised = comparison_.marginalised_systems[model.marginalised];
+    auto& noise = noise_[{model.marginalised, model.discrepancy}];
+    if (noise == nullptr) noise = discrepancy_noise(system_, marginalised, model.discrepancy);
+    Estimate found = estimate(system_, marginalised, model.regressors, noise.get());
+    weight *= std::exp(hold_to_usual_sizes(state_, system_, found));
+    total_ += weight;
+    std::vector<Key> causes;
+    for (const int index : model.regressors)
+      causes.push_back(key_of(system_.regressors[static_cast<std::size_t>(index)]));
+    std::sort(causes.begin(), causes.end());
+    causes.erase(std::unique(causes.begin(), causes.end()), causes.end());
+    parts_.push_back({weight,
+                      std::move(causes),
+                      found.setting_change.head<belts::kAnchorUnknowns>(),
+                      AnchorSquare(found.setting_covariance)});
+    for (std::size_t k = 0; k < model.regressors.size(); ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      const Regressor& own = system_.regressors[static_cast<std::size_t>(model.regressors[k])];
+      BeltCause cause{own.cause, own.values};
+      cause.values.front() = size_at(own, found.coefficient(row));
+      const double slope = std::abs(size_slope(own, found.coefficient(row)));
+      SizeMoments& moments = sizes_[key_of(own)];
+      moments.expected = own.expected;
+      moments.add(weight, cause, own.fixed ? 0.0 : slope * found.coefficient_sigma(row));
+    }
+  }
+
+  const BeltsState& state_;
+  const RegressorSystem& system_;
+  const ModelComparison& comparison_;
+  std::map<const void*, double> share_of_effect_;
+  double total_ = 0.0;
+  std::vector<Part> parts_;
+  std::map<std::pair<std::size_t, int>, std::shared_ptr<const DiscrepancyNoise>> noise_;
+  std::map<Key, SizeMoments> sizes_;
+};
+
+}  // namespace
+
+AveragedAnchors averaged_anchors(const BeltsState& state,
+                                 const RegressorSystem& system,
+                                 const ModelComparison& comparison) {
+  return Averaging(state, system, comparison).averaged();
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Anchors of four belts averaged over the models of a comparison: stretch of the pulled belts, every
+/// other cause with it and sets of them, each with and without a smooth pattern, as the readings make
+/// them likely. Private to grid/diagnosis.
+///
+/// With anchors a_m, covariance C_m and weight w_m of model m, together 1:
+///
+///   a = sum_r w_r a_r / sum_r w_r,   C = sum_m w_m (C_m + (a_m - a)(a_m - a)')              (1)
+///
+/// where r are the models of exactly the causes that are reported: anchors are used with these, and a mean over all would
+/// fit the readings with none of them. C is the expected square of what the anchors are then off by.
+///
+/// w_m is the evidence of the comparison with another prior. A diagnosis asks which cause acts, and
+/// holds each for rare; a sigma has to hold where one acts at its usual size, and each has the weight
+/// that makes 95 % intervals hold it then (kWeights, found by tests/sealed/command/anchor_coverage).
+/// Causes about which the state is linear keep the sizes that were found, however unusual; all others
+/// have their usual spread.
+///
+/// Source: J. Hoeting, D. Madigan, A. Raftery and C. Volinsky, Bayesian Model Averaging, Statist.
+/// Sci. 14 (1999) 382, equations 1 and 2.
+#pragma once
+
+#include <vector>
+
+#include "grid/diagnosis/belts_system.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// A cause with its values, how sure the first of them is, and how likely it is to act.
+struct AveragedCause {
+  BeltCause cause;
+  double sigma = 0.0;
+  double probability = 0.0;
+};
+
+struct AveragedAnchors {
+  belts::AnchorVector anchors = belts::AnchorVector::Zero();
+  Eigen::Matrix<double, belts::kAnchorUnknowns, belts::kAnchorUnknowns> covariance_mm2 =
+      Eigen::Matrix<double, belts::kAnchorUnknowns, belts::kAnchorUnknowns>::Zero();
+  /// The stretch, and what else is more likely than not; sizes averaged over the models that hold them.
+  std::vector<AveragedCause> causes;
+};
+
+/// \pre the system is linear about `state`. \throws std::invalid_argument for a comparison without a
+/// model.
+[[nodiscard]] AveragedAnchors averaged_anchors(const BeltsState& state,
+                                               const RegressorSystem& system,
+                                               const ModelComparison& comparison);
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/order_search.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "grid/diagnosis/regressors.hpp"
+#include "grid/diagnosis/workshop_units.hpp"
+#include "grid/observation/length_points.hpp"
+#include "grid/statistics.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// Models of less weight than this share of all hold too little to move p(o) by a hundredth.
+constexpr double kLeastModelShare = 0.01;
+constexpr std::size_t kMostModels = 5;
+
+const MeasuredGrid* grid_without_order(const Measured& measured) {
+  if (measured.files().size() != 1) return nullptr;
+  const MeasuredGrid* grid = measured.files().front().grid();
+  if (grid == nullptr) return nullptr;
+  const bool numbered = std::any_of(
+      grid->points.begin(), grid->points.end(), [](const MeasuredPoint& point) { return point.order.has_value(); });
+  return numbered ? nullptr : grid;
+}
+
+/// The points by place, so that the order of the file's rows is of no account.
+std::vector<std::size_t> by_place(const std::vector<MeasuredPoint>& points) {
+  std::vector<std::size_t> result(points.size());
+  std::iota(result.begin(), result.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) {
+    const MeasuredPoint& point = points[i];
+    const model::ChainLengths lengths = point.lengths.value_or(model::ChainLengths{});
+    return std::tuple(point.mark.y_mm, point.mark.x_mm, lengths.left_mm, lengths.right_mm);
+  };
+  std::stable_sort(result.begin(), result.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return result;
+}
+
+/// Whether a point's mark was measured more than once: nobody knows which visit was the first, nor when the others were.
+std::vector<bool> measured_again(const std::vector<MeasuredPoint>& points) {
+  std::vector<bool> again(points.size(), false);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t k = 0; k < points.size() && !again[i]; ++k) {
+      again[i] = k != i && std::hypot(points[i].mark.x_mm - points[k].mark.x_mm,
+                                      points[i].mark.y_mm - points[k].mark.y_mm) <= kRepeatDistanceMm;
+    }
+  }
+  return again;
+}
+
+/// A model of the comparison, all that it holds integrated out.
+struct GivenModel {
+  double log_weight = 0.0;
+  double log_odds = 0.0;  ///< of one cause more
+  KeptRows kept;
+  Eigen::LLT<Eigen::MatrixXd> llt;
+  Eigen::VectorXd e;  ///< N, reduced by llt
+};
+
+GivenModel given(const Analysis& a, const CandidateModel& model, const std::vector<bool>& again) {
+  const RegressorSystem& system = a.system;
+  const MarginalisedSystem& marginalised = a.comparison.marginalised_systems[model.marginalised];
+  GivenModel result;
+  result.log_weight = model.log_weight;
+  result.log_odds = log_odds_of_another(system, model.regressors, model.discrepancy >= 0);
+  std::vector<bool> left_out = marginalised.outliers;
+  for (std::size_t u = 0; u < a.session.units.size(); ++u) {
+    const NumberedUnit& unit = a.session.units[u];
+    if (a.session.parts[unit.part].reads_chains() && again[unit.index]) left_out[u] = true;
+  }
+  result.kept = KeptRows(system, left_out);
+  const Eigen::MatrixXd settings = result.kept.of(system.by_setting);
+  Eigen::VectorXd e = result.kept(system.e) - settings * system.expected_change;
+  const Eigen::MatrixXd scaled = settings * system.sigma.asDiagonal();
+  Eigen::MatrixXd covariance = scaled * scaled.transpose();
+  for (const int k : model.regressors) {
+    const Eigen::VectorXd column = result.kept(system.g.col(k));
+    if (system.regressors[static_cast<std::size_t>(k)].fixed) {
+      e -= column;
+      continue;
+    }
+    const Eigen::VectorXd wide = column * wide_coefficient_sigma(system, marginalised, k);
+    covariance += wide * wide.transpose();
+  }
+  if (model.discrepancy >= 0) {
+    const Discrepancy process = discrepancy_of(system, marginalised, model.discrepancy);
+    covariance += process.sigma_mm * process.sigma_mm *
+                  discrepancy_covariance(system, result.kept, process.kernel);
+  }
+  covariance.diagonal().array() += 1.0;
+  result.llt.compute(covariance);
+  result.e = result.llt.matrixL().solve(e);
+  return result;
+}
+
+std::vector<GivenModel> leading_models(const Analysis& a, const std::vector<bool>& again) {
+  std::vector<GivenModel> result;
+  for (const CandidateModel& model : a.comparison.models) {
+    if (result.size() == kMostModels || a.comparison.probability(model) < kLeastModelShare) break;
+    result.push_back(given(a, model, again));
+  }
+  return result;
+}
+
+/// Columns of what depends on the order by a size alone, in the rows of the analysis.
+RegressorSystem order_columns(const Analysis& a, const Measured& ordered) {
+  RegressorSystem result;
+  auto set = observations_of(ordered);
+  if (!set) return result;
+  auto system = linearise(*set, a.state, a.options.steps);
+  if (!system) return result;
+  std::vector<CauseId> causes;
+  for (const CauseId& cause : candidates(*set).testable) {
+    const bool at_a_visit = std::any_of(
+        cause.effect->parameters.begin(), cause.effect->parameters.end(), [](const auto& parameter) {
+          return parameter.role == model::effects::ParameterRole::place;
+        });
+    if (cause.effect->needs == model::effects::DataNeed::order && !at_a_visit) causes.push_back(cause);
+  }
+  add_regressors(*set, a.state, causes, {}, *system);
+  std::map<std::pair<std::size_t, std::size_t>, const NumberedUnit*> of;
+  for (const NumberedUnit& unit : set->units) of[{unit.part, unit.index}] = &unit;
+  const Eigen::MatrixXd columns = system->g.dense();
+  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(a.session.rows, columns.cols());
+  for (const NumberedUnit& unit : a.session.units) {
+    const NumberedUnit& own = *of.at({unit.part, unit.index});
+    moved.middleRows(unit.first_row, unit.rows) = columns.middleRows(own.first_row, own.rows);
+  }
+  result.g = std::move(moved);
+  result.regressors = std::move(system->regressors);
+  return result;
+}
+
+/// log sum_c odds_M B(c | M, o)
+double log_order_factor(const RegressorSystem& columns, const GivenModel& model, double noise_dof) {
+  MarginalisedSystem reduced;
+  reduced.g = columns.g.mapped([&](const auto& all) {
+    return Eigen::MatrixXd(model.llt.matrixL().solve(model.kept.of(all)));
+  });
+  const NoiseDensity noise(noise_dof, model.kept.size());
+  const SingleScores scores = single_scores(columns, reduced, noise, model.e, true);
+  return log_sum(scores.log_factor) + model.log_odds;
+}
+
+}  // namespace
+
+std::string in_words(const VisitingOrderFound& found) {
+  const std::string order = found.corner_known
+                                ? grid::in_words(found.order)
+                                : fmt::format("{} in {}", found.order.serpentine ? "there and back" : "one way",
+                                              found.order.rows ? "rows" : "columns");
+  return fmt::format(
+      "Nobody wrote down in which order the marks were visited. The readings say it: {} ({}). If that is not "
+      "so, write the order down, or name it with --assume-order.",
+      order, percent(found.probability));
+}
+
+std::vector<double> order_probabilities(const Measured& measured, const Analysis& a) {
+  const std::vector<VisitingOrder> orders = line_by_line_orders();
+  std::vector<double> result(orders.size(), 0.0);
+  const MeasuredGrid* grid = grid_without_order(measured);
+  if (grid == nullptr) return result;
+  const std::vector<GivenModel> models = leading_models(a, measured_again(grid->points));
+  std::vector<std::pair<std::size_t, double>> log_weights;
+  for (std::size_t k = 0; k < orders.size(); ++k) {
+    const auto ordered = visited_in(measured, orders[k]);
+    if (!ordered) continue;
+    const RegressorSystem columns = order_columns(a, *ordered);
+    if (columns.regressors.empty()) continue;
+    std::vector<double> terms;
+    for (const GivenModel& model : models)
+      terms.push_back(model.log_weight + log_order_factor(columns, model, noise_dof(a)));
+    log_weights.emplace_back(k, log_sum(terms));
+  }
+  std::vector<double> all = {a.comparison.log_total};
+  const double share = std::log(kOrderPrior / static_cast<double>(std::max<std::size_t>(1, log_weights.size())));
+  for (auto& [order, log_weight] : log_weights) all.push_back(log_weight += share);
+  const double total = log_sum(all);
+  for (const auto& [order, log_weight] : log_weights) result[order] = std::exp(log_weight - total);
+  return result;
+}
+
+std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured, const Analysis& analysis) {
+  const std::vector<double> probabilities = order_probabilities(measured, analysis);
+  const std::vector<VisitingOrder> orders = line_by_line_orders();
+  const auto best = static_cast<std::size_t>(
+      std::max_element(probabilities.begin(), probabilities.end()) - probabilities.begin());
+  VisitingOrderFound found{orders[best], probabilities[best], true};
+  if (found.probability < kLeastModelShare) return std::nullopt;
+  // Corners differ in the few steps between lines, which marks measured again in between make others.
+  const std::vector<bool> again = measured_again(grid_without_order(measured)->points);
+  const bool tells_corners = std::find(again.begin(), again.end(), true) == again.end();
+  if (tells_corners && found.probability >= kOrderFound) return found;
+  double from_any_corner = 0.0;
+  for (std::size_t k = 0; k < orders.size(); ++k) {
+    if (orders[k].rows == found.order.rows && orders[k].serpentine == found.order.serpentine)
+      from_any_corner += probabilities[k];
+  }
+  if (from_any_corner < kOrderFound) return std::nullopt;
+  return VisitingOrderFound{found.order, from_any_corner, false};
+}
+
+std::optional<Measured> visited_in(const Measured& measured, const VisitingOrder& order) {
+  const MeasuredGrid* grid = grid_without_order(measured);
+  if (grid == nullptr) return std::nullopt;
+  const std::vector<std::size_t> places = by_place(grid->points);
+  std::vector<MeasuredPoint> points;
+  for (const std::size_t i : places) points.push_back(grid->points[i]);
+  const auto numbers = visit_numbers(points, order);
+  if (!numbers) return std::nullopt;
+  MeasuredGrid numbered = *grid;
+  for (std::size_t k = 0; k < places.size(); ++k) numbered.points[places[k]].order = (*numbers)[k];
+  Measured result;
+  result.add({measured.files().front().name, std::move(numbered)});
+  return result;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/drawing_file.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "grid/files/plotter_record.hpp"
+#include "grid/files/record_values.hpp"
+#include "grid/files/schemas.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using observation::DrawnMeasure;
+
+struct CrossInFile {
+  std::string name;
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+};
+
+/// Crosses by their names.
+struct MeasureInFile {
+  DrawnMeasure::Kind kind = DrawnMeasure::Kind::length;
+  std::string from;
+  std::string to;
+  std::string middle;
+  std::optional<double> value_mm;
+  double sigma_mm = kRulerSigmaMm;
+};
+
+struct DrawingInFile {
+  std::string name;
+  SetPlotter set;
+  std::vector<CrossInFile> crosses;
+  std::vector<MeasureInFile> measures;
+};
+
+const Record<CrossInFile>& cross_record() {
+  static const auto record = Record<CrossInFile>("a drawn cross")
+                                 .required("name", &CrossInFile::name, text())
+                                 .required("x_mm", &CrossInFile::x_mm, number(kPlaceMm))
+                                 .required("y_mm", &CrossInFile::y_mm, number(kPlaceMm));
+  return record;
+}
+
+void check_middle(const Cursor& at, MeasureInFile& measure) {
+  if (!at.clean()) return;
+  const bool is_bow = measure.kind == DrawnMeasure::Kind::bow;
+  if (is_bow && measure.middle.empty())
+    at.child("middle").missing("the cross at which the bow was measured");
+  if (!is_bow && !measure.middle.empty())
+    at.child("middle").expect("to be left out: a length has two ends alone");
+}
+
+const Record<MeasureInFile>& measure_record() {
+  using Kind = DrawnMeasure::Kind;
+  using Measure = MeasureInFile;
+  static const Value<double> value = number(kPlaceMm);
+  static const auto record =
+      Record<Measure>("a measure on a drawing")
+          .required(
+              "kind", &Measure::kind, choice<Kind>({{"length", Kind::length}, {"bow", Kind::bow}}))
+          .required("from", &Measure::from, text())
+          .required("to", &Measure::to, text())
+          .sparse("middle", &Measure::middle, text())
+          .custom(
+              "value_mm",
+              false,
+              value.expected,
+              [](const Cursor& at, Measure& measure) {
+                if (!at.json().is_null()) measure.value_mm = value.read(at);
+              },
+              // A null is there to be filled in.
+              [](const Measure& measure) -> std::optional<Json> {
+                return measure.value_mm ? value.write(*measure.value_mm) : Json();
+              })
+          .optional("sigma_mm", &Measure::sigma_mm, number({"mm", 0.01, 50.0}))
+          .check(check_middle);
+  return record;
+}
+
+bool has_cross(const DrawingInFile& drawing, const std::string& name) {
+  return std::any_of(drawing.crosses.begin(), drawing.crosses.end(), [&](const CrossInFile& cross) {
+    return cross.name == name;
+  });
+}
+
+void check_drawing(const Cursor& at, DrawingInFile& drawing) {
+  if (!at.clean()) return;
+  for (std::size_t i = 0; i < drawing.crosses.size(); ++i) {
+    const auto same = [&](const CrossInFile& cross) {
+      return cross.name == drawing.crosses[i].name;
+    };
+    const auto own = drawing.crosses.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::any_of(drawing.crosses.begin(), own, same))
+      at.child("crosses").element(i).child("name").expect("a name that no other cross has");
+  }
+  for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
+    const Cursor place = at.child("measures");
+    const Cursor measure = place.element(i);
+    const MeasureInFile& own = drawing.measures[i];
+    for (const auto& [key, name] : {std::pair{"from", own.from}, std::pair{"to", own.to}}) {
+      if (!has_cross(drawing, name)) measure.child(key).expect("the name of one of the crosses");
+    }
+    if (!own.middle.empty() && !has_cross(drawing, own.middle))
+      measure.child("middle").expect("the name of one of the crosses");
+    if (own.to == own.from || own.middle == own.from || own.middle == own.to)
+      measure.expect("crosses that differ");
+  }
+}
+
+const Record<DrawingInFile>& drawing_record() {
+  using Drawing = DrawingInFile;
+  static const auto record =
+      Record<Drawing>("a test drawing", kDrawingFormat)
+          .sparse("name", &Drawing::name, text())
+          .required("set", &Drawing::set, object(set_plotter_record()))
+          .required("crosses", &Drawing::crosses, list(object(cross_record()), 3))
+          .required("measures", &Drawing::measures, list(object(measure_record())))
+          .check(check_drawing);
+  return record;
+}
+
+DrawingInFile in_file(const TestDrawing& drawing, bool is_blank) {
+  DrawingInFile file;
+  file.name = drawing.name;
+  file.set = drawing;
+  for (const DrawnCross& cross : drawing.crosses)
+    file.crosses.push_back({cross.name, cross.commanded.x_mm, cross.commanded.y_mm});
+  const auto name = [&](std::size_t cross) { return drawing.crosses.at(cross).name; };
+  for (const DrawnMeasure& own : drawing.measures) {
+    MeasureInFile measure{own.kind, name(own.from), name(own.to), {}, own.value_mm, own.sigma_mm};
+    if (own.kind == DrawnMeasure::Kind::bow) measure.middle = name(own.middle);
+    if (is_blank) measure.value_mm.reset();
+    file.measures.push_back(std::move(measure));
+  }
+  return file;
+}
+
+}  // namespace
+
+TestDrawing parse_drawing(const std::string& text, const std::string& file) {
+  const DrawingInFile read = read_document(drawing_record(), text, file);
+  TestDrawing drawing;
+  static_cast<SetPlotter&>(drawing) = read.set;
+  drawing.name = read.name;
+  for (const CrossInFile& cross : read.crosses)
+    drawing.crosses.push_back({cross.name, {cross.x_mm, cross.y_mm}});
+  const auto index = [&](const std::string& name) {
+    const auto found = std::find_if(read.crosses.begin(),
+                                    read.crosses.end(),
+                                    [&](const CrossInFile& cross) { return cross.name == name; });
+    return static_cast<std::size_t>(std::distance(read.crosses.begin(), found));
+  };
+  for (const MeasureInFile& own : read.measures) {
+    if (!own.value_mm) continue;
+    const std::size_t middle = own.middle.empty() ? 0 : index(own.middle);
+    drawing.measures.push_back(
+        {own.kind, index(own.from), index(own.to), middle, *own.value_mm, own.sigma_mm});
+  }
+  return drawing;
+}
+
+std::string write_drawing(const TestDrawing& drawing) {
+  return write_document(drawing_record(), in_file(drawing, false));
+}
+
+std::string write_blank_drawing(const TestDrawing& drawing) {
+  return write_document(drawing_record(), in_file(drawing, true));
+}
+
+Json drawing_schema() { return drawing_record().schema(); }
+
+}  // namespace chaintrue::grid::files

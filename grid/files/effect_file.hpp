@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue_effect files: an effect that a user declares (model/effects/declared_effect.hpp).
+///
+/// \code
+///   model::Machine machine = read_machine("machine.json");
+///   declare_effects({"second_harmonic.json"}, machine);   // machine.declared has it
+/// \endcode
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grid/files/input_error.hpp"
+#include "model/effects/declared_effect.hpp"
+#include "model/machine.hpp"
+
+namespace chaintrue::grid::files {
+
+/// Parses text; `file` is the name used in messages. A problem of a formula has the line and the
+/// column where it stands. \throws InputError with every problem.
+[[nodiscard]] model::effects::Declaration parse_effect(const std::string& text,
+                                                       const std::string& file);
+[[nodiscard]] std::string write_effect(const model::effects::Declaration& declaration);
+
+/// Reads the files and adds what they declare to the machine, once each; formulas must be finite
+/// on its bed and nothing at null. \throws InputError with every problem of every file.
+void declare_effects(const std::vector<std::string>& paths, model::Machine& machine);
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/effect_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/files/record_values.hpp"
+#include "grid/files/schemas.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using model::effects::ActsOn;
+using model::effects::Declaration;
+using model::effects::DeclarationProblem;
+using model::effects::DeclaredParameter;
+using model::effects::Effect;
+using model::effects::EffectSide;
+using model::effects::ParameterRole;
+using model::effects::RemedyKind;
+
+/// The usual size is one sigma from null; a place is anywhere, 0 where that may be.
+double assumed_nominal(const DeclaredParameter& p) {
+  if (p.role == ParameterRole::size) return std::min(p.null + p.prior_sigma, p.upper);
+  const double middle = 0.5 * (p.lower + p.upper);
+  const double place = p.lower <= 0.0 && p.upper >= 0.0 ? 0.0 : middle;
+  return p.integer ? std::floor(place) : place;
+}
+
+void check_parameter(const Cursor& at, DeclaredParameter& p) {
+  const bool place = p.role == ParameterRole::place;
+  if (place && at.has("null") && !at.child("null").json().is_null())
+    at.child("null").expect("to be left out of a place, which has no value without effect");
+  if (!at.has("nominal") || at.child("nominal").json().is_null()) p.nominal = assumed_nominal(p);
+  if (place) p.null = p.nominal;
+  if (p.symbol.empty()) p.symbol = p.name;
+  if (p.meaning.empty()) p.meaning = place ? "where it sets in" : "how large it is";
+}
+
+const Record<DeclaredParameter>& parameter_record() {
+  static const auto record =
+      Record<DeclaredParameter>("a parameter of an effect")
+          .required("name", &DeclaredParameter::name, text())
+          .sparse("symbol", &DeclaredParameter::symbol, text())
+          .sparse("meaning", &DeclaredParameter::meaning, text())
+          .optional("role",
+                    &DeclaredParameter::role,
+                    choice<ParameterRole>(
+                        {{"size", ParameterRole::size}, {"place", ParameterRole::place}}))
+          .custom(
+              "null",
+              false,
+              number(kAnyNumber).expected,
+              [](const Cursor& at, DeclaredParameter& p) {
+                p.null = number(kAnyNumber).read(at).value_or(0.0);
+              },
+              [](const DeclaredParameter& p) -> std::optional<Json> {
+                if (p.role == ParameterRole::place) return std::nullopt;
+                return Json(p.null);
+              })
+          .custom(
+              "nominal",
+              false,
+              number(kAnyNumber).expected,
+              [](const Cursor& at, DeclaredParameter& p) {
+                p.nominal = number(kAnyNumber).read(at).value_or(0.0);
+              },
+              [](const DeclaredParameter& p) { return std::optional<Json>(p.nominal); })
+          .required("prior_sigma", &DeclaredParameter::prior_sigma, number(kAnyNumber))
+          .required("lower", &DeclaredParameter::lower, number(kAnyNumber))
+          .required("upper", &DeclaredParameter::upper, number(kAnyNumber))
+          .optional("whole", &DeclaredParameter::integer, boolean())
+          .optional("mirror_sign", &DeclaredParameter::mirror_sign, number({"", -1.0, 1.0}))
+          .check(check_parameter);
+  return record;
+}
+
+std::string words_of_sizes(const Declaration& own) {
+  if (own.parameters.empty()) return {};
+  return fmt::format("{} = {:g}", own.parameters.front().name, own.parameters.front().nominal);
+}
+
+void check_words(const Cursor&, Declaration& own) {
+  if (own.signature.empty()) own.signature = "what its formula adds";
+  if (own.typical.empty()) own.typical = words_of_sizes(own);
+  if (own.source.empty()) own.source = "declared in a file";
+}
+
+Value<RemedyKind> remedy_word() {
+  std::vector<std::pair<std::string, RemedyKind>> names;
+  for (const RemedyKind kind : {RemedyKind::change_the_machine,
+                                RemedyKind::correct_the_data,
+                                RemedyKind::repair,
+                                RemedyKind::compensate_on_its_own})
+    names.emplace_back(std::string(name(kind)), kind);
+  return choice<RemedyKind>(std::move(names));
+}
+
+/// Added below the pointer; of a formula with the column in its text.
+void add_problems(const Cursor& at, const std::vector<DeclarationProblem>& found) {
+  for (const DeclarationProblem& problem : found) {
+    std::string place = at.pointer() + problem.place;
+    if (problem.offset) place += fmt::format(", column {} of the formula", *problem.offset + 1);
+    at.problems().add(std::move(place), problem.value, problem.expected);
+  }
+}
+
+}  // namespace
+
+const Record<Declaration>& declaration_record() {
+  static const auto record =
+      Record<Declaration>("a declared effect", kEffectFormat)
+          .required("id", &Declaration::id, text())
+          .sparse("instead_of", &Declaration::instead_of, text())
+          .required("acts_on",
+                    &Declaration::acts_on,
+                    choice<ActsOn>({{"paper", ActsOn::paper},
+                                    {"chain", ActsOn::chain},
+                                    {"reading", ActsOn::reading},
+                                    {"visit", ActsOn::visit}}))
+          .sparse("sides",
+                  &Declaration::sides,
+                  list(choice<EffectSide>({{"left", EffectSide::left},
+                                           {"right", EffectSide::right},
+                                           {"both", EffectSide::both},
+                                           {"x", EffectSide::x},
+                                           {"y", EffectSide::y}})))
+          .required("parameters", &Declaration::parameters, list(object(parameter_record())))
+          .sparse("adds_mm", &Declaration::adds_mm, text())
+          .sparse("adds_x_mm", &Declaration::adds_x_mm, text())
+          .sparse("adds_y_mm", &Declaration::adds_y_mm, text())
+          .sparse("elongation", &Declaration::elongation, text())
+          .required("cause", &Declaration::cause, text())
+          .sparse("signature", &Declaration::signature, text())
+          .optional("remedy_kind", &Declaration::remedy_kind, remedy_word())
+          .required("remedy", &Declaration::remedy, text())
+          .required("not_modelled", &Declaration::not_modelled, text())
+          .sparse("typical", &Declaration::typical, text())
+          .sparse("source", &Declaration::source, text())
+          .check(check_words);
+  return record;
+}
+
+void read_declared(const Cursor& at, std::vector<const Effect*>& declared) {
+  if (at.json().is_null()) return;
+  if (!at.json().is_array()) return at.expect("a list of declared effects");
+  for (std::size_t i = 0; i < at.json().size(); ++i) {
+    const Cursor own = at.element(i);
+    const auto declaration = declaration_record().read(own);
+    if (!declaration || !own.clean()) continue;
+    add_problems(own, problems_of(*declaration));
+    if (!own.clean()) continue;
+    const Effect* effect = &declared_effect(*declaration);
+    const bool twice = std::any_of(declared.begin(), declared.end(), [&](const Effect* other) {
+      return other->id == effect->id;
+    });
+    if (twice) {
+      own.child("id").expect("a name that no other effect of this machine has");
+    } else {
+      declared.push_back(effect);
+    }
+  }
+}
+
+void check_declared_on_bed(const Cursor& at, const model::Machine& machine) {
+  for (std::size_t i = 0; i < machine.declared.size(); ++i)
+    add_problems(at.element(i), problems_on_bed(*declaration_of(*machine.declared[i]), machine));
+}
+
+std::optional<Json> write_declared(const std::vector<const Effect*>& declared) {
+  if (declared.empty()) return std::nullopt;
+  Json all = Json::array();
+  for (const Effect* effect : declared)
+    all.push_back(declaration_record().write(*declaration_of(*effect)));
+  return all;
+}
+
+Expected declared_expected() {
+  return {"a list of declared effects", [] {
+            return Json{{"type", "array"}, {"items", declaration_record().expected().schema()}};
+          }};
+}
+
+const Effect* declared_in_document(const Cursor& at, std::string_view id) {
+  const Json& root = at.root();
+  const auto machine = root.is_object() ? root.find("extended_machine") : root.end();
+  if (machine == root.end() || !machine->is_object()) return nullptr;
+  const auto all = machine->find("declared_effects");
+  if (all == machine->end()) return nullptr;
+  // The machine's own record reports what is wrong with them.
+  Problems unsaid(at.problems().file());
+  std::vector<const Effect*> declared;
+  read_declared(Cursor(*all, unsaid), declared);
+  const auto found = std::find_if(
+      declared.begin(), declared.end(), [&](const Effect* effect) { return effect->id == id; });
+  return found == declared.end() ? nullptr : *found;
+}
+
+Json effect_schema() { return declaration_record().schema(); }
+
+}  // namespace chaintrue::grid::files

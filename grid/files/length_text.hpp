@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Lengths as people write them into a table or behind an option: with a unit, or as the fraction
+/// that an inch rule shows. Private to grid/files.
+///
+///   text                     mm
+///   12.5 mm, 1.25 cm, 2 m    12.5, 12.5, 2000
+///   43 in, 43", 43 inches    1092.2
+///   43 13/16, -43 13/16"     1112.8375, -1112.8375: a fraction is one of an inch
+///   5/8                      15.875
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace chaintrue::grid::files {
+
+/// Millimetres; nothing where the text is no length with a unit, and no fraction. A bare number is
+/// none: its unit is that of its place. \post The value is finite.
+[[nodiscard]] std::optional<double> length_with_unit_mm(std::string_view text);
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/maslow4_failure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "grid/belts/commands_check.hpp"
+#include "grid/files/problems.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using model::Belt;
+using model::kBelts;
+
+/// The firmware's own limit for four readings of a belt.
+constexpr double kReadingsAgreeMm = 2.5;
+/// A number of turns of the encoder is taken for whole to within this: a belt's own scatter.
+constexpr double kWholeTurnMm = 3.0;
+
+bool has(std::string_view line, std::string_view word) {
+  return line.find(word) != std::string_view::npos;
+}
+
+double spread(const std::vector<double>& readings_mm) {
+  if (readings_mm.size() < 2) return 0.0;
+  const auto [least, most] = std::minmax_element(readings_mm.begin(), readings_mm.end());
+  return *most - *least;
+}
+
+/// Whole turns that a length is off by; 0 where it is none.
+int whole_turns(double off_mm, double turn_mm) {
+  const double turns = std::round(std::abs(off_mm) / turn_mm);
+  const bool is_whole = std::abs(std::abs(off_mm) - turns * turn_mm) < kWholeTurnMm;
+  return is_whole ? static_cast<int>(turns) : 0;
+}
+
+std::string turns_in_words(int turns) {
+  return turns == 1 ? "a whole turn of its encoder" : fmt::format("{} turns of its encoder", turns);
+}
+
+std::string where(const RunStopped& stopped) {
+  const std::string reached =
+      stopped.last_measured < 0
+          ? "before the first waypoint was measured"
+          : fmt::format("after waypoint {}{}, as the machine counts from 0",
+                        stopped.last_measured,
+                        stopped.last_announced > stopped.last_measured
+                            ? fmt::format(" of 0 to {}", stopped.last_announced)
+                            : "");
+  return fmt::format("This run did not come to its end: {} {}",
+                     stopped.said.empty() ? "the log ends" : "it stopped",
+                     reached);
+}
+
+/// What the single readings show, and what makes that; empty where there are none.
+std::string seen_in_readings(const RunStopped& stopped, double turn_mm) {
+  Belt worst = Belt::tl;
+  int apart = 0;
+  for (const Belt belt : kBelts) {
+    if (spread(stopped.readings_mm[belt]) > spread(stopped.readings_mm[worst])) worst = belt;
+    if (spread(stopped.readings_mm[belt]) > kReadingsAgreeMm) ++apart;
+  }
+  const double most_mm = spread(stopped.readings_mm[worst]);
+  if (most_mm <= 0.0) return "";
+  const std::string text =
+      fmt::format(" At waypoint {} the readings of the {} belt lie {:.1f} mm apart",
+                  stopped.last_measured + 1,
+                  model::words(worst),
+                  most_mm);
+  if (const int turns = whole_turns(most_mm, turn_mm)) {
+    return fmt::format(
+        "{}, {}: an encoder that lost turns makes that. Look at its magnet and its cable, retract "
+        "that belt, extend it anew and measure again.",
+        text,
+        turns_in_words(turns));
+  }
+  if (apart > 1) {
+    return fmt::format(
+        "{}, and {} belts disagree with themselves: a sled that still swings, a frame that gives, "
+        "or "
+        "a pull that is too weak make that. Fasten the frame, and raise "
+        "Maslow_Calibration_Current_Threshold by a little.",
+        text,
+        apart);
+  }
+  return fmt::format(
+      "{}, the others agree: a slack belt, or one that catches at the arm or on the spool, makes "
+      "that. Free it, see that it is taut at this place, and measure again.",
+      text);
+}
+
+/// What the places that were read show against where the machine was sent.
+std::string seen_against_commands(const MeasuredBelts& belts) {
+  // Anchors in force are off by less; a belt that counts from elsewhere is not.
+  constexpr double kFarMm = 20.0;
+  const auto found = against_commands(belts);
+  if (!found) return "";
+  if (found->swapped) {
+    return fmt::format(
+        " The lengths look like {}: belts at the wrong anchors, or plugged in in the wrong order, "
+        "make "
+        "that. Set it right and measure again.",
+        grid::words_of(*found->swapped));
+  }
+  Belt worst = Belt::tl;
+  int far = 0;
+  for (const Belt belt : kBelts) {
+    const auto off = [&](Belt b) { return std::abs(found->median_mm[b]); };
+    if (off(belt) > off(worst)) worst = belt;
+    if (off(belt) > kFarMm) ++far;
+  }
+  if (far != 1) return "";
+  const double off_mm = found->median_mm[worst];
+  const int turns = whole_turns(off_mm, belts.machine.belt_turn_mm);
+  return fmt::format(
+      " The {} belt reads {:.0f} mm {} than the settings have it where the machine was sent, the "
+      "others "
+      "agree: {} makes that. Retract it, extend it anew and measure again.",
+      model::words(worst),
+      std::abs(off_mm),
+      off_mm > 0.0 ? "longer" : "shorter",
+      turns > 0      ? fmt::format("{}, lost or gained,", turns_in_words(turns))
+      : off_mm > 0.0 ? "a slack belt, or an anchor nearer than stated,"
+                     : "an anchor that is farther than stated, or an arm that catches,");
+}
+
+std::string_view by_kind(StopKind kind) {
+  switch (kind) {
+    case StopKind::readings_disagree:
+    case StopKind::gave_up_reading:
+      return " The readings of one place did not agree: a slack belt, a belt that catches, or an "
+             "encoder that loses turns make that. Watch the four belts at that place: each must be "
+             "taut and its spool must stand still while it is read.";
+    case StopKind::imbalance:
+      return " The machine gives up where one belt's misfit is twice another's; of six places good "
+             "readings do that by chance. Nothing need be wrong with the belts: start it again, or "
+             "go "
+             "by the readings that are there.";
+    case StopKind::not_converged:
+      return " The machine's own solver stalled, which says little of the readings: a frame stated "
+             "far "
+             "from its true size makes that, belts at the wrong anchors do, and so does chance. "
+             "Tape "
+             "the frame, put its size into the settings and start again.";
+    case StopKind::low_fitness:
+      return " In the machine's view the readings contradict each other: belts at the wrong "
+             "anchors, "
+             "a slack belt at some place, an encoder that lost turns, or arms that are swapped "
+             "make "
+             "that. See that each belt goes to its own anchor (tl, tr, bl, br), and that all are "
+             "taut.";
+    case StopKind::centre_off:
+      return " The first place is not where the settings have it: settings of another frame, belts "
+             "at "
+             "the wrong anchors, or belts that were not drawn in before they were let out make "
+             "that. "
+             "Retract all, extend all, tape the frame and state its size.";
+    case StopKind::went_back:
+      return " The machine went back to \"Belts Extended\" without a word: somebody stopped it, "
+             "its "
+             "power failed for a moment, or it lost the connection. Start again.";
+    case StopKind::other_error:
+      return " See what the machine says there, and start again.";
+    case StopKind::log_ends:
+      return " Either the run was stopped there or the text was cut when it was copied: paste it "
+             "once "
+             "more from its beginning to its end, or measure on.";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::optional<StopKind> stop_of(std::string_view line) {
+  struct Sign {
+    std::string_view word;
+    StopKind kind;
+  };
+  constexpr std::array kSigns = {
+      Sign{"Critical error, measurements are not within", StopKind::gave_up_reading},
+      Sign{"measurements are not within", StopKind::readings_disagree},
+      Sign{"per-anchor RMS imbalance", StopKind::imbalance},
+      Sign{"did not converge", StopKind::not_converged},
+      Sign{"Find Anchors fit failed", StopKind::low_fitness},
+      Sign{"recompute failed", StopKind::low_fitness},
+      Sign{"stopped due to low fitness", StopKind::low_fitness},
+      Sign{"Center point deviation", StopKind::centre_off}};
+  for (const Sign& sign : kSigns) {
+    if (has(line, sign.word)) return sign.kind;
+  }
+  if (has(line, "state change from Find") && has(line, "to Belts Extended"))
+    return StopKind::went_back;
+  return has(line, "[MSG:ERR") ? std::optional(StopKind::other_error) : std::nullopt;
+}
+
+std::string words_of(const RunStopped& stopped, const MeasuredBelts& belts) {
+  std::string text = where(stopped);
+  if (!stopped.said.empty()) text += fmt::format("; it said {}", shortened(stopped.said));
+  text += ".";
+  const std::string found =
+      seen_in_readings(stopped, belts.machine.belt_turn_mm) + seen_against_commands(belts);
+  text += found.empty() ? std::string(by_kind(stopped.kind)) : found;
+  const std::size_t count = belts.points.size();
+  if (count >= kFewestBeltPoints) {
+    text += fmt::format(
+        " {} places were read before: chaintrue diagnose weighs the causes by these.", count);
+  } else {
+    text += fmt::format(" {} were read before, and a fit takes {}.",
+                        count == 0   ? "No places"
+                        : count == 1 ? "One place"
+                                     : fmt::format("{} places", count),
+                        kFewestBeltPoints);
+  }
+  return text;
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Places of a run of a Maslow 4's log, rebuilt from what is there; what is damaged is left out, with its
+/// line. Private to grid/files.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "grid/files/maslow4_log.hpp"
+#include "grid/files/maslow4_scan.hpp"
+#include "grid/files/problems.hpp"
+
+namespace chaintrue::grid::files {
+
+/// Adds places that no list has: the median of a belt's single readings, where these agree to a
+/// centimetre. Each is said.
+void rebuild_from_singles(ScannedRun& run, Problems& problems);
+
+struct PlacesOfLog {
+  std::vector<BeltPoint> points;
+  std::vector<std::size_t> lines;  ///< of each point
+};
+/// Appends the readable places of a run, within the range of its points.
+void take_places(const ScannedRun& run,
+                 PointRange within,
+                 model::Orientation orientation,
+                 PlacesOfLog& places);
+
+/// Says which readings are not readable; where fewer than kFewestBeltPoints are they are problems.
+void report_unreadable(const ScannedRun& run,
+                       PointRange within,
+                       std::size_t readable,
+                       Problems& problems);
+
+/// Leaves out, and says so: places that are copies of others to the last digit, where the log does not
+/// read places twice on purpose.
+void leave_out_copies(MeasuredBelts& belts, std::vector<std::size_t>& lines, Problems& problems);
+/// Leaves out, and says so: a few places whose lengths end nowhere together.
+void leave_out_nowhere(MeasuredBelts& belts, std::vector<std::size_t>& lines, Problems& problems);
+
+/// Runs whose places are of two frames become two.
+void part_frames(const model::BeltMachine& machine,
+                 std::vector<ScannedRun>& runs,
+                 Problems& problems);
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/maslow4_session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "grid/belts/two_frames.hpp"
+#include "grid/files/number_text.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+constexpr double kLeastPull = 1e-3;
+constexpr double kMostPull = 1e6;
+
+std::optional<BeltPull> pull_of(std::string_view text) {
+  using PullUnit = BeltPull::Unit;
+  constexpr std::array kPullUnits = {std::pair{std::string_view("mA"), PullUnit::milliampere},
+                                     std::pair{std::string_view("N"), PullUnit::newton},
+                                     std::pair{std::string_view(""), PullUnit::relative}};
+  for (const auto& [word, unit] : kPullUnits) {
+    if (!text.ends_with(word)) continue;
+    const auto value = number_of(text.substr(0, text.size() - word.size()));
+    if (!value || !(*value >= kLeastPull && *value <= kMostPull)) return std::nullopt;
+    return BeltPull{*value, unit};
+  }
+  return std::nullopt;
+}
+
+void give_pull(const BeltPull& pull, MeasuredBelts& belts) {
+  for (BeltPoint& point : belts.points) point.pull = pull;
+}
+
+void check_all_have_pulls(const std::vector<Maslow4Import>& runs, std::size_t given) {
+  if (given > 0 && given != runs.size()) {
+    throw InputError({{"the command line",
+                       "--pulls",
+                       fmt::format("{}", given),
+                       fmt::format("a pull for each of the {} runs, in their order", runs.size())}});
+  }
+  if (given > 0 || runs.size() == 1) return;
+  for (const Maslow4Import& run : runs) {
+    if (!run.belts.points.empty() && run.belts.points.front().pull) continue;
+    throw InputError(
+        {{run.belts.name,
+          "",
+          "no Maslow_Calibration_Current_Threshold",
+          "how hard belts were pulled in each run: --pulls 1300mA,1900mA (that setting), or --pulls "
+          "1,1.6 where only the ratio is known; --pulls 1,1 where nothing was changed"}});
+  }
+}
+
+/// One frame has all points, whichever run they are of.
+void check_frame(const MeasuredBelts& session, const std::string& name) {
+  if (session.points.size() > kMostBeltPoints) return;
+  const auto second = second_frame_begins(session);
+  if (!second) return;
+  throw InputError({{name,
+                     "",
+                     "readings of other anchors than those of the run before",
+                     "runs of one frame: anchors that stand elsewhere are another session"}});
+}
+
+}  // namespace
+
+std::vector<BeltPull> pulls_of(const std::string& text, const std::string& option) {
+  std::vector<BeltPull> pulls;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    const auto pull = pull_of(std::string_view(text).substr(begin, comma - begin));
+    begin = comma + 1;
+    if (pull && (pulls.empty() || pull->unit == pulls.front().unit)) {
+      pulls.push_back(*pull);
+      continue;
+    }
+    throw InputError({{"the command line",
+                       option,
+                       shortened(text),
+                       "how hard belts were pulled, one number for each run: 1,1.6 against each "
+                       "other, 1300mA,1900mA of the motors' current, or 150N,240N"}});
+  }
+  return pulls;
+}
+
+Maslow4Import one_session(std::vector<Maslow4Import> runs, const std::vector<BeltPull>& pulls) {
+  if (runs.empty()) throw std::logic_error("a session of no runs");
+  check_all_have_pulls(runs, pulls.size());
+  for (std::size_t i = 0; i < pulls.size(); ++i) give_pull(pulls[i], runs[i].belts);
+  Maslow4Import session = std::move(runs.front());
+  const bool has_pull = !session.belts.points.empty() && session.belts.points.front().pull;
+  if (runs.size() == 1 && !has_pull && session.settings_pull)
+    give_pull(*session.settings_pull, session.belts);
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    Maslow4Import& run = runs[i];
+    int visit = 0;
+    for (const BeltPoint& point : session.belts.points)
+      visit = std::max(visit, point.order.value_or(-1) + 1);
+    for (BeltPoint& point : run.belts.points) {
+      if (point.order) *point.order += visit;
+      session.belts.points.push_back(std::move(point));
+    }
+    check_frame(session.belts, run.belts.name);
+    session.warnings.insert(session.warnings.end(), run.warnings.begin(), run.warnings.end());
+    session.is_enough = session.is_enough || run.is_enough;
+    if (run.stopped) session.stopped = std::move(run.stopped);
+    // The machine's own figures are of one run.
+    session.belts.firmware_fit.reset();
+  }
+  return session;
+}
+
+}  // namespace chaintrue::grid::files

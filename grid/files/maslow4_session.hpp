@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Several runs of a Maslow 4's calibration as one session: the same machine, each run with a pull of
+/// its own. Visits are numbered on from run to run.
+///
+/// How hard belts were pulled comes from `--pulls`, or, where a log prints it,
+/// from Maslow_Calibration_Current_Threshold, mA (MaslowCNC/Maslow_4, firmware/FluidNC/src/Maslow).
+///
+/// \code
+///   std::vector<Maslow4Import> runs = {parse_maslow4(one, "1.log"), parse_maslow4(two, "2.log")};
+///   const Maslow4Import session = one_session(std::move(runs), pulls_of("1,1.6", "--pulls"));
+/// \endcode
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grid/files/maslow4_log.hpp"
+
+namespace chaintrue::grid::files {
+
+/// "1,1.6" relative, "1300mA,1900mA" or "150N,240N"; one unit. \throws InputError otherwise.
+[[nodiscard]] std::vector<BeltPull> pulls_of(const std::string& text, const std::string& option);
+
+/// `pulls`: one of each run; empty: as the logs have them. Of one run the run itself, with its pull.
+/// \throws InputError where runs are of different frames, or where it is not known how hard each was pulled.
+/// \throws std::logic_error without runs.
+[[nodiscard]] Maslow4Import one_session(std::vector<Maslow4Import> runs,
+                                        const std::vector<BeltPull>& pulls);
+
+}  // namespace chaintrue::grid::files

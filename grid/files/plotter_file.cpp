@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/plotter_file.hpp"
+
+#include "grid/files/plotter_record.hpp"
+#include "grid/files/record_values.hpp"
+#include "grid/files/schemas.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+const Record<FoundSetting>& found_setting_record() {
+  static const auto record = Record<FoundSetting>("a setting that was found")
+                                 .required("value", &FoundSetting::value, number(kMillimetres))
+                                 .required("sigma", &FoundSetting::sigma, number(kSigmaMm));
+  return record;
+}
+
+const Record<FoundPlotter>& found_plotter_record() {
+  using Found = FoundPlotter;
+  const auto setting = [] { return object(found_setting_record()); };
+  static const auto record =
+      Record<Found>("the settings that a drawing found")
+          .required("pin_spacing_mm", &Found::pin_spacing_mm, setting())
+          .required("pin_rise_mm", &Found::pin_rise_mm, setting())
+          .required("zero_left_mm", &Found::zero_left_mm, setting())
+          .required("zero_right_mm", &Found::zero_right_mm, setting())
+          .required("scale_left_mm_per_m", &Found::scale_left_mm_per_m, setting())
+          .required("scale_right_mm_per_m", &Found::scale_right_mm_per_m, setting());
+  return record;
+}
+
+/// A machine of these settings must be one.
+void check_found(const Cursor& at, KnownPlotter& plotter) {
+  if (!at.clean() || !plotter.found) return;
+  const auto problems = model::problems_of(machine_found(plotter.set, *plotter.found));
+  if (problems.empty()) return;
+  at.problems().add(at.pointer() + "/found",
+                    problems.front().parameter.substr(1) + " " + problems.front().value,
+                    problems.front().expected);
+}
+
+const Record<KnownPlotter>& plotter_record() {
+  static const auto record =
+      Record<KnownPlotter>("a V-plotter", kPlotterFormat)
+          .required("set", &KnownPlotter::set, object(set_plotter_record()))
+          .optional("found", &KnownPlotter::found, object(found_plotter_record()))
+          .check(check_found);
+  return record;
+}
+
+}  // namespace
+
+KnownPlotter parse_plotter(const std::string& text, const std::string& file) {
+  return read_document(plotter_record(), text, file);
+}
+
+std::string write_plotter(const KnownPlotter& plotter, const std::vector<std::string>& comments) {
+  Json json = plotter_record().write(plotter);
+  if (!comments.empty()) json["comment"] = comments;
+  return print_json(json);
+}
+
+Json plotter_schema() { return plotter_record().schema(); }
+
+}  // namespace chaintrue::grid::files

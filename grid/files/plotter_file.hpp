@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue_plotter files: a V-plotter as its controller holds it, and what a test drawing found of
+/// it. Unknown keys are errors, except "comment". Same plotter, same bytes.
+///
+/// \code
+///   const KnownPlotter plotter = parse_plotter(text, "plotter.json");
+///   write_whole_file("plotter.json", write_plotter(plotter));
+/// \endcode
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grid/files/input_error.hpp"
+#include "grid/plotter/found_plotter.hpp"
+
+namespace chaintrue::grid::files {
+
+/// `file` is the name used in messages. \throws InputError with every problem.
+[[nodiscard]] KnownPlotter parse_plotter(const std::string& text, const std::string& file);
+/// `comments` go under the key "comment", one line each; readers ignore them. \throws
+/// std::logic_error where a number is not finite.
+[[nodiscard]] std::string write_plotter(const KnownPlotter& plotter,
+                                        const std::vector<std::string>& comments = {});
+
+}  // namespace chaintrue::grid::files

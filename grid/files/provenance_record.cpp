@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/provenance_record.hpp"
+
+#include "grid/files/sources.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+const Record<SourceFile>& source_file_record() {
+  static const auto record = Record<SourceFile>("a file that was read")
+                                 .required("name", &SourceFile::name, text())
+                                 .required("sha256", &SourceFile::sha256, text());
+  return record;
+}
+
+}  // namespace
+
+const Record<Provenance>& provenance_record() {
+  static const auto record =
+      Record<Provenance>("where a result comes from")
+          .required("version", &Provenance::version, text())
+          .required("verb", &Provenance::verb, text())
+          .required("options", &Provenance::options, list(text()))
+          .required("inputs", &Provenance::inputs, list(object(source_file_record())));
+  return record;
+}
+
+Json with_made_by(Json document, const std::optional<Provenance>& made_by) {
+  if (made_by) document["made_by"] = provenance_record().write(*made_by);
+  return document;
+}
+
+std::optional<Provenance> made_by_of(const std::string& text, const std::string& file) {
+  Problems problems(file);
+  const Json document = parse_json(text, problems);
+  if (!document.is_object() || !document.contains("made_by")) return std::nullopt;
+  return provenance_record().read(Cursor(document, problems).child("made_by"));
+}
+
+}  // namespace chaintrue::grid::files

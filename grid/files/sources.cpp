@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/sources.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace chaintrue::grid::files {
+namespace {
+
+std::vector<SourceFile>& sources_of_this_thread() {
+  thread_local std::vector<SourceFile> sources;
+  return sources;
+}
+
+}  // namespace
+
+std::string_view version() { return CHAINTRUE_VERSION; }
+
+std::string name_without_folders(const std::filesystem::path& path) {
+  return path == "-" ? "standard input" : path.filename().string();
+}
+
+std::vector<SourceFile> sources_read() { return sources_of_this_thread(); }
+
+void note_source(SourceFile source) {
+  std::vector<SourceFile>& sources = sources_of_this_thread();
+  if (std::find(sources.begin(), sources.end(), source) == sources.end())
+    sources.push_back(std::move(source));
+}
+
+void forget_sources() { sources_of_this_thread().clear(); }
+
+std::vector<std::string> changed_since(const Provenance& then, const std::vector<SourceFile>& now) {
+  std::vector<std::string> changed;
+  for (const SourceFile& given : now) {
+    const auto has_name = [&](const SourceFile& one) { return one.name == given.name; };
+    const bool was_there = std::any_of(then.inputs.begin(), then.inputs.end(), has_name);
+    const bool is_same =
+        std::find(then.inputs.begin(), then.inputs.end(), given) != then.inputs.end();
+    if (was_there && !is_same) changed.push_back(given.name);
+  }
+  return changed;
+}
+
+}  // namespace chaintrue::grid::files

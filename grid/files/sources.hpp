@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The files that a result is made from, and the version that makes it.
+///
+/// \code
+///   const Provenance made_by{std::string(version()), "fit", {"--surface direct"}, sources_read()};
+/// \endcode
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grid/provenance.hpp"
+
+namespace chaintrue::grid::files {
+
+/// Of this program: "0.1.0".
+[[nodiscard]] std::string_view version();
+
+/// A name without folders; "standard input" for "-".
+[[nodiscard]] std::string name_without_folders(const std::filesystem::path& path);
+
+/// What read_whole_file() has read on this thread, in that order, each file once for each content.
+[[nodiscard]] std::vector<SourceFile> sources_read();
+/// For a file that is read in another way.
+void note_source(SourceFile source);
+/// Begins anew, on a thread that does more than one piece of work.
+void forget_sources();
+
+/// What a map's, a diagnosis' or anchors' file says of itself; empty where it says nothing. For a file
+/// that its reader has taken.
+[[nodiscard]] std::optional<Provenance> made_by_of(const std::string& text,
+                                                   const std::string& file);
+
+/// The inputs that have the same name as one of `now` and another content.
+[[nodiscard]] std::vector<std::string> changed_since(const Provenance& then,
+                                                     const std::vector<SourceFile>& now);
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a person measured on a drawing that the machine made: lengths between drawn crosses, and the
+/// bow of a line, with a string held along it.
+///
+///   K_i   lengths that the controller paid out for cross i (two; a controller that counts right)
+///   q_i   where the tool was: f(q_i) = K_i, dq_i/dtheta = -J_i^-1 df/dtheta
+///   u, n  along the line from a to b, and across it to the left of who walks from a to b
+///
+///   length   |q_b - q_a|,           derivative u (dq_b - dq_a)
+///   bow      n (q_m - q_a),         derivative n (dq_m - dq_a - t (dq_b - dq_a))            (1)
+///
+/// m is the drawn point at which the bow was measured and t its share of the way along the string.
+/// Both are of the drawing alone: where the sheet lay does not matter, and neither does the drawing's
+/// turn. A row for each measure, which is good or bad by itself.
+///
+/// \code
+///   const DrawnMeasures readings(points, measures, 15.0);
+///   const auto line = readings.linearise(View(mechanism), columns_of(readings));
+/// \endcode
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grid/observation/observation.hpp"
+
+namespace chaintrue::grid::observation {
+
+/// A point that was drawn.
+struct DrawnPoint {
+  std::string name;            ///< "A"
+  model::MarkPoint commanded;  ///< in the controller's own frame
+  model::ChainLengths paid_out;
+};
+
+struct DrawnMeasure {
+  enum class Kind { length, bow } kind = Kind::length;
+  /// Into the points.
+  std::size_t from = 0;
+  std::size_t to = 0;
+  std::size_t middle = 0;  ///< of a bow
+  double value_mm = 0.0;   ///< of a bow positive to the left of who walks from `from` to `to`
+  double sigma_mm = 0.5;
+};
+
+/// (1) of three points; of a length the last is not looked at.
+[[nodiscard]] double measured_between(DrawnMeasure::Kind kind,
+                                      const Eigen::Vector2d& from,
+                                      const Eigen::Vector2d& to,
+                                      const Eigen::Vector2d& middle);
+
+class DrawnMeasures final : public Observation {
+ public:
+  /// Sorts the measures by their points. `noise_dof` is how well their sigmas are known. \throws
+  /// std::invalid_argument for a sigma that is not positive or a point that is not there.
+  DrawnMeasures(std::vector<DrawnPoint> points,
+                std::vector<DrawnMeasure> measures,
+                double noise_dof);
+
+  [[nodiscard]] const Kind& kind() const override { return drawn_measures; }
+  [[nodiscard]] bool ordered() const override { return false; }
+  [[nodiscard]] double noise_dof() const override { return noise_dof_; }
+  [[nodiscard]] bool may_be_outlier() const override { return true; }
+  [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
+      const View& view) const override;
+  [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
+      const View& view, const Columns& columns) const override;
+  [[nodiscard]] std::string untestable(const model::effects::Effect& effect,
+                                       model::effects::EffectSide side) const override;
+  /// "the length A-B", "the bow of A-B".
+  [[nodiscard]] std::string name_of(std::size_t unit) const override;
+
+  [[nodiscard]] const std::vector<DrawnPoint>& points() const { return points_; }
+  /// In the order of the rows.
+  [[nodiscard]] const std::vector<DrawnMeasure>& measures() const { return measures_; }
+
+ private:
+  /// A point with its derivative by the parameters, 2 x p or 2 x 0.
+  struct Located {
+    Eigen::Vector2d at;
+    Eigen::Matrix2Xd by_parameter;
+  };
+  [[nodiscard]] tl::expected<std::vector<Located>, Unreachable> located(const View& view,
+                                                                        bool with_parameters) const;
+
+  std::vector<DrawnPoint> points_;
+  std::vector<DrawnMeasure> measures_;
+  double noise_dof_;
+};
+
+}  // namespace chaintrue::grid::observation

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/observation/visiting_order.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/observation/length_points.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+constexpr double kLineGapShare = 0.25;
+/// Marks further apart than so many gaps across a line are no line but a cloud.
+constexpr double kWidestLine = 2.0;
+/// Fewer marks a line than this on average are no lines.
+constexpr double kFewestALine = 2.0;
+
+/// A mark along and across the lines: lines follow each other by rising `across`.
+struct MarkInLine {
+  std::size_t index = 0;
+  double across_mm = 0.0;
+  double along_mm = 0.0;
+};
+
+MarkInLine in_line(const model::MarkPoint& mark, std::size_t index, const VisitingOrder& order) {
+  const double x = order.from_right ? -mark.x_mm : mark.x_mm;
+  const double y = order.from_below ? mark.y_mm : -mark.y_mm;
+  return order.rows ? MarkInLine{index, y, x} : MarkInLine{index, x, y};
+}
+
+struct Visits {
+  std::vector<MarkInLine> first;
+  std::vector<std::size_t> again;
+};
+
+Visits visits_of(const std::vector<MeasuredPoint>& points, const VisitingOrder& order) {
+  Visits visits;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const model::MarkPoint& mark = points[i].mark;
+    const bool again = std::any_of(visits.first.begin(), visits.first.end(), [&](const MarkInLine& place) {
+      const model::MarkPoint& other = points[place.index].mark;
+      return std::hypot(other.x_mm - mark.x_mm, other.y_mm - mark.y_mm) <= kRepeatDistanceMm;
+    });
+    if (again) {
+      visits.again.push_back(i);
+    } else {
+      visits.first.push_back(in_line(mark, i, order));
+    }
+  }
+  return visits;
+}
+
+/// Side of the square that one mark has to itself.
+double usual_spacing_mm(const std::vector<MarkInLine>& marks) {
+  const auto [low_a, high_a] =
+      std::minmax_element(marks.begin(), marks.end(), [](const MarkInLine& a, const MarkInLine& b) {
+        return a.across_mm < b.across_mm;
+      });
+  const auto [low_b, high_b] =
+      std::minmax_element(marks.begin(), marks.end(), [](const MarkInLine& a, const MarkInLine& b) {
+        return a.along_mm < b.along_mm;
+      });
+  const double area_mm2 = (high_a->across_mm - low_a->across_mm) * (high_b->along_mm - low_b->along_mm);
+  return std::sqrt(area_mm2 / static_cast<double>(marks.size()));
+}
+
+/// Sorted across; empty where the marks stand in none.
+std::vector<std::vector<MarkInLine>> lines_of(std::vector<MarkInLine> marks) {
+  std::stable_sort(marks.begin(), marks.end(), [](const MarkInLine& a, const MarkInLine& b) {
+    return a.across_mm < b.across_mm;
+  });
+  const double gap_mm = kLineGapShare * usual_spacing_mm(marks);
+  std::vector<std::vector<MarkInLine>> lines(1);
+  for (const MarkInLine& mark : marks) {
+    if (!lines.back().empty() && mark.across_mm - lines.back().back().across_mm > gap_mm)
+      lines.emplace_back();
+    lines.back().push_back(mark);
+  }
+  const bool is_blurred = std::any_of(lines.begin(), lines.end(), [&](const auto& line) {
+    return line.back().across_mm - line.front().across_mm > kWidestLine * gap_mm;
+  });
+  if (is_blurred || lines.size() < 2 ||
+      static_cast<double>(marks.size()) < kFewestALine * static_cast<double>(lines.size()))
+    return {};
+  return lines;
+}
+
+}  // namespace
+
+std::vector<VisitingOrder> line_by_line_orders() {
+  std::vector<VisitingOrder> all;
+  for (const bool rows : {true, false}) {
+    for (const bool serpentine : {false, true}) {
+      for (const bool from_right : {false, true}) {
+        for (const bool from_below : {false, true})
+          all.push_back({rows, serpentine, from_right, from_below});
+      }
+    }
+  }
+  return all;
+}
+
+tl::expected<std::vector<int>, std::string> visit_numbers(const std::vector<MeasuredPoint>& points,
+                                                          const VisitingOrder& order) {
+  if (points.empty()) return std::vector<int>();
+  const Visits visits = visits_of(points, order);
+  std::vector<std::vector<MarkInLine>> lines = lines_of(visits.first);
+  if (lines.empty()) {
+    return tl::unexpected(
+        fmt::format("marks that stand in {}; these do not", order.rows ? "rows" : "columns"));
+  }
+  std::vector<int> numbers(points.size());
+  int visit = 0;
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    std::stable_sort(lines[line].begin(), lines[line].end(), [](const MarkInLine& a, const MarkInLine& b) {
+      return a.along_mm < b.along_mm;
+    });
+    if (order.serpentine && line % 2 == 1) std::reverse(lines[line].begin(), lines[line].end());
+    for (const MarkInLine& mark : lines[line]) numbers[mark.index] = visit++;
+  }
+  for (const std::size_t index : visits.again) numbers[index] = visit++;
+  return numbers;
+}
+
+std::string in_words(const VisitingOrder& order) {
+  return fmt::format("{}{}, from the {} {}",
+                     order.rows ? "row by row" : "column by column",
+                     order.serpentine ? ", each the other way than the one before" : ", all in one direction",
+                     order.from_below ? "bottom" : "top",
+                     order.from_right ? "right" : "left");
+}
+
+}  // namespace chaintrue::grid

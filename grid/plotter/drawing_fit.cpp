@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/plotter/drawing_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+#include "grid/estimation/estimate.hpp"
+#include "grid/plotter/drawing_slips.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using observation::DrawnMeasure;
+using observation::View;
+
+// Beyond it the settings do not explain the drawing: a ruler errs by less than five times what was
+// said of it.
+constexpr double kMostNoiseFactor = 5.0;
+// More rejected measures than these do not judge the rest.
+constexpr double kMostRejectedShare = 0.2;
+
+/// In the order of the drawing's measures.
+Eigen::VectorXd in_file_order(const observation::DrawnMeasures& readings,
+                              const Eigen::VectorXd& rows) {
+  Eigen::VectorXd ordered(rows.size());
+  for (const observation::Unit& unit : readings.units())
+    ordered[static_cast<Eigen::Index>(unit.index)] = rows[unit.first_row];
+  return ordered;
+}
+
+std::string sentence_of(const TestDrawing& drawing, std::size_t cross, std::string_view reason) {
+  const DrawnCross& own = drawing.crosses.at(cross);
+  return fmt::format("cross {} at ({:.1f}, {:.1f}) mm: {}",
+                     own.name,
+                     own.commanded.x_mm,
+                     own.commanded.y_mm,
+                     reason);
+}
+
+tl::expected<estimation::Estimate, DrawingFailure> estimated(
+    const model::PlotterMachine& machine,
+    const std::shared_ptr<const observation::DrawnMeasures>& readings) {
+  estimation::EstimationInput input;
+  input.mechanism = model::make_plotter_mechanism(machine);
+  input.observations = {readings};
+  input.noise.knowledge = interp::NoiseKnowledge::unknown;
+  input.noise_prior = interp::SmoothingPrior::none;
+  input.surface = estimation::SurfaceUse::none;
+  input.domain = {0.0, 1.0, 0.0, 1.0};  // of a surface, which there is none
+  auto found = estimation::estimate(input);
+  if (!found)
+    return tl::unexpected(DrawingFailure{DrawingReason::not_converged, found.error().sentence()});
+  if (found->converged) return found.value();
+  return tl::unexpected(DrawingFailure{
+      DrawingReason::not_converged,
+      "the settings did not settle: no settings near those in the file make this drawing. "
+      "Look whether the machine's kind, its pins' spacing and the crosses are those of the "
+      "drawing"});
+}
+
+const model::PlotterMachine& machine_of(const estimation::Estimate& estimate) {
+  return dynamic_cast<const model::PlotterMechanism&>(*estimate.mechanism).machine();
+}
+
+/// A page that was scaled by more than the stated settings can follow: next to nothing is taken as
+/// known of pins and cords.
+std::optional<DrawingFailure> scaled_beyond_what_is_stated(
+    const TestDrawing& drawing, const std::shared_ptr<const observation::DrawnMeasures>& readings) {
+  model::PlotterMachine open = drawing.machine;
+  open.uncertainty.pin_spacing_mm = std::min(0.1 * open.pin_spacing_mm, 1000.0);
+  open.uncertainty.zero_mm = 100.0;
+  open.uncertainty.scale_mm_per_m = 100.0;
+  const auto estimate = estimated(open, readings);
+  if (!estimate || estimate->noise_factor > kMostNoiseFactor) return std::nullopt;
+  return scaled_page_of(drawing.machine, machine_of(*estimate));
+}
+
+std::vector<PlotterSetting> settings_of(const estimation::Estimate& estimate) {
+  const auto parameters = estimate.mechanism->parameters();
+  std::vector<PlotterSetting> settings;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    PlotterSetting own{parameters[k].name,
+                       *parameters[k].stated,
+                       estimate.mechanism->values()[at],
+                       std::sqrt(std::max(estimate.covariance(at, at), 0.0))};
+    own.is_off = std::abs(own.found - own.stated) > kOffSigmas * own.sigma;
+    settings.push_back(own);
+  }
+  return settings;
+}
+
+/// What the next drawing measures with these settings typed in; empty where it cannot be drawn.
+std::optional<Eigen::VectorXd> next_drawing(const TestDrawing& drawing, const DrawingFit& fit) {
+  std::vector<Eigen::Vector2d> pens;
+  for (const DrawnCross& cross : drawing.crosses) {
+    const auto pen = pen_of_command(drawing.firmware, fit.to_set, *fit.mechanism, cross.commanded);
+    if (!pen) return std::nullopt;
+    pens.emplace_back(pen->x_mm, pen->y_mm);
+  }
+  Eigen::VectorXd values(std::ssize(drawing.measures));
+  for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
+    const DrawnMeasure& m = drawing.measures[i];
+    values[static_cast<Eigen::Index>(i)] =
+        observation::measured_between(m.kind, pens[m.from], pens[m.to], pens[m.middle]);
+  }
+  return values;
+}
+
+}  // namespace
+
+model::PlotterMachine typed_in(model::PlotterFirmware firmware, model::PlotterMachine found) {
+  using model::PlotterFirmware;
+  if (firmware == PlotterFirmware::fluidnc) return found;
+  const auto shared = [](model::ChainLengths own) {
+    const double mean = 0.5 * (own.left_mm + own.right_mm);
+    return model::ChainLengths{mean, mean};
+  };
+  found.pin_rise_mm = 0.0;
+  if (firmware == PlotterFirmware::marlin) return found;
+  found.scale_mm_per_m = shared(found.scale_mm_per_m);
+  if (firmware == PlotterFirmware::polargraph) return found;
+  found.pin_spacing_mm = std::round(found.pin_spacing_mm);
+  found.zero_mm = shared(found.zero_mm);
+  return found;
+}
+
+tl::expected<model::ToolPosition, model::MechanismFailure> pen_of_command(
+    model::PlotterFirmware firmware,
+    const model::PlotterMachine& set,
+    const model::PlotterMechanism& found,
+    model::BedPoint command) {
+  const auto lengths = model::paid_out(firmware, set, command);
+  if (!lengths) return tl::unexpected(model::mechanism_failure(lengths.error()));
+  return found.locate_by_first(*lengths);
+}
+
+tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing) {
+  if (drawing.measures.size() < kFewestMeasures) {
+    return tl::unexpected(DrawingFailure{
+        DrawingReason::too_few,
+        fmt::format(
+            "{} measures; {} at least, of the 24 on the sheet, say whether what is found is "
+            "right",
+            drawing.measures.size(),
+            kFewestMeasures)});
+  }
+  auto made = drawn_measures_of(drawing);
+  if (!made) {
+    return tl::unexpected(
+        DrawingFailure{DrawingReason::cross_out_of_reach,
+                       sentence_of(drawing, made.error().place, made.error().sentence())});
+  }
+  const auto readings = std::make_shared<const observation::DrawnMeasures>(std::move(*made));
+  const auto as_set = readings->predicted(View(model::make_plotter_mechanism(drawing.machine)));
+  if (!as_set) {
+    return tl::unexpected(
+        DrawingFailure{DrawingReason::cross_out_of_reach,
+                       sentence_of(drawing, as_set.error().place, as_set.error().sentence())});
+  }
+  const Eigen::VectorXd stated = in_file_order(*readings, *as_set);
+  if (auto slip = slip_before_fit(drawing, stated)) return tl::unexpected(std::move(*slip));
+  const auto estimate = estimated(drawing.machine, readings);
+  if (!estimate) return tl::unexpected(estimate.error());
+
+  const Eigen::VectorXd found = in_file_order(*readings, estimate->observations.front().predicted);
+  std::vector<bool> rejected(drawing.measures.size(), false);
+  for (const estimation::UnitEstimate& unit : estimate->units)
+    rejected[readings->units()[unit.unit].index] = unit.is_rejected();
+  if (auto slip = exchanged_rows(drawing, found, rejected)) return tl::unexpected(std::move(*slip));
+  const auto bad = std::count(rejected.begin(), rejected.end(), true);
+  if (estimate->noise_factor > kMostNoiseFactor ||
+      static_cast<double>(bad) > kMostRejectedShare * static_cast<double>(rejected.size())) {
+    if (auto slip = scaled_beyond_what_is_stated(drawing, readings))
+      return tl::unexpected(std::move(*slip));
+    return tl::unexpected(DrawingFailure{
+        DrawingReason::no_settings_fit,
+        fmt::format(
+            "no settings make this drawing: {} of {} measures do not fit the rest, which "
+            "scatter {:.1f} times as much as a ruler does. Measure the worst again, then draw "
+            "the page a second time: a machine that slips draws another one",
+            bad,
+            rejected.size(),
+            estimate->noise_factor)});
+  }
+
+  DrawingFit fit;
+  fit.mechanism = std::dynamic_pointer_cast<const model::PlotterMechanism>(estimate->mechanism);
+  if (auto slip = scaled_page_of(drawing.machine, machine_of(*estimate)))
+    return tl::unexpected(std::move(*slip));
+  fit.settings = settings_of(*estimate);
+  fit.noise_factor = estimate->noise_factor;
+  fit.to_set = typed_in(drawing.firmware, fit.mechanism->machine());
+  const auto after = next_drawing(drawing, fit);
+  if (!after) {
+    return tl::unexpected(
+        DrawingFailure{DrawingReason::not_converged,
+                       "with the settings that were found the page cannot be drawn again"});
+  }
+  for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    fit.measures.push_back(
+        {drawing.measures[i].value_mm, stated[row], found[row], (*after)[row], rejected[i]});
+  }
+  return fit;
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The settings of a V-plotter from a test drawing: the one estimate (estimation/estimate.hpp) of its
+/// lengths and bows, what would have to be set in the controller, and what the next drawing is like
+/// then.
+///
+/// A drawing fixes the pins' spacing, zeros and scales. It does not turn with gravity: of the pins'
+/// rise it says what tilts the gondola, and nothing of a point.
+///
+/// Slips that a drawing of one machine cannot show are refused with their name, before and after the
+/// estimate: inches, a drawing that was scaled when printed, a line measured along its bow, two
+/// lengths in each other's row, and measures that fit no settings.
+///
+/// \code
+///   const auto fit = fit_drawing(drawing);
+///   if (!fit) say(fit.error().sentence());
+///   else for (const PlotterSetting& one : fit->settings) say(one.name, one.found, one.sigma);
+/// \endcode
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/plotter/test_drawing.hpp"
+#include "model/failure.hpp"
+
+namespace chaintrue::grid {
+
+/// A parameter of the mechanism.
+struct PlotterSetting {
+  std::string_view name;
+  double stated = 0.0;
+  double found = 0.0;
+  double sigma = 0.0;
+  bool is_off = false;  ///< by more than chance: kOffSigmas
+};
+inline constexpr double kOffSigmas = 3.0;
+
+/// A measure after the fit, mm.
+struct FittedMeasure {
+  double measured_mm = 0.0;
+  double as_set_mm = 0.0;  ///< of the machine as stated
+  double found_mm = 0.0;   ///< of the machine as found
+  double after_mm = 0.0;   ///< on the next drawing, with the settings typed in
+  bool rejected = false;   ///< it fits neither the rest nor another row
+};
+
+struct DrawingFit {
+  std::shared_ptr<const model::PlotterMechanism> mechanism;  ///< as found
+  std::vector<PlotterSetting> settings;
+  /// In the order of the drawing's measures.
+  std::vector<FittedMeasure> measures;
+  /// The noise found, as a multiple of the sigmas that went in.
+  double noise_factor = 1.0;
+  /// What the controller is to hold; typed_in() of it is what a person can enter.
+  model::PlotterMachine to_set;
+};
+
+enum class DrawingReason {
+  too_few,
+  cross_out_of_reach,
+  inches,
+  scaled_when_printed,
+  bow_is_a_length,
+  rows_exchanged,
+  no_settings_fit,
+  not_converged,
+};
+using DrawingFailure = Failure<DrawingReason>;
+
+/// With fewer measures than these nothing checks what is found.
+inline constexpr std::size_t kFewestMeasures = 12;
+
+[[nodiscard]] tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing);
+
+/// What a controller can hold of a machine that was found. FluidNC has all of it. Marlin takes the pins
+/// as level; Polargraph has one scale for both cords besides; a mural one zero besides, and whole
+/// millimetres between its pins.
+[[nodiscard]] model::PlotterMachine typed_in(model::PlotterFirmware firmware,
+                                             model::PlotterMachine found);
+
+/// Where the pen of `found` is for a command to a controller that holds `set`.
+[[nodiscard]] tl::expected<model::ToolPosition, model::MechanismFailure> pen_of_command(
+    model::PlotterFirmware firmware,
+    const model::PlotterMachine& set,
+    const model::PlotterMechanism& found,
+    model::BedPoint command);
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The page that a V-plotter draws for its test drawing, and the list of what to measure on it.
+///
+/// \code
+///   const TestDrawing drawing = planned_drawing(machine, PlotterFirmware::fluidnc);
+///   write("page.gcode", drawing_gcode(drawing, {"M5", "M3 S90"}, 1500.0));
+///   write("sheet.txt", measuring_list(drawing));
+/// \endcode
+#pragma once
+
+#include <string>
+
+#include "grid/plotter/test_drawing.hpp"
+
+namespace chaintrue::grid {
+
+/// In the controller's coordinates (TestDrawing::pins_middle), millimetres, absolute: a cross at each
+/// point, then every line of which a bow is measured, from its first cross to its last.
+[[nodiscard]] std::string drawing_gcode(const TestDrawing& drawing,
+                                        const PenCommands& pen,
+                                        double feed_mm_per_min);
+
+/// The same for a mural, which is sent a picture: 1 unit is 1 mm, the origin is the left top corner of
+/// the drawing area.
+[[nodiscard]] std::string drawing_svg(const TestDrawing& drawing);
+
+/// What to measure, a numbered line each with a place for the value, in the order of the measures.
+[[nodiscard]] std::string measuring_list(const TestDrawing& drawing);
+
+}  // namespace chaintrue::grid

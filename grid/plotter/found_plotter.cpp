@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/plotter/found_plotter.hpp"
+
+namespace chaintrue::grid {
+
+using model::PlotterMachine;
+using model::Side;
+
+FoundPlotter found_by(const DrawingFit& fit) {
+  const auto at = [&](model::PlotterParameter parameter) {
+    const PlotterSetting& own = fit.settings.at(static_cast<std::size_t>(parameter));
+    return FoundSetting{own.found, own.sigma};
+  };
+  return {at(model::kPinSpacing),
+          at(model::kPinRise),
+          at(model::kZeroLeft),
+          at(model::kZeroRight),
+          at(model::kScaleLeft),
+          at(model::kScaleRight)};
+}
+
+PlotterMachine machine_found(const SetPlotter& set, const FoundPlotter& found) {
+  PlotterMachine machine = set.machine;
+  machine.pin_spacing_mm = found.pin_spacing_mm.value;
+  machine.pin_rise_mm = found.pin_rise_mm.value;
+  machine.zero_mm = {found.zero_left_mm.value, found.zero_right_mm.value};
+  machine.scale_mm_per_m = {found.scale_left_mm_per_m.value, found.scale_right_mm_per_m.value};
+  return machine;
+}
+
+double more_steps(const SetPlotter& set, const PlotterMachine& found, Side side) {
+  return (1.0 + 1e-3 * typed_in(set.firmware, found).scale_mm_per_m[side]) /
+         (1.0 + 1e-3 * set.machine.scale_mm_per_m[side]);
+}
+
+SetPlotter once_typed_in(const SetPlotter& set, const PlotterMachine& found) {
+  const PlotterMachine held = typed_in(set.firmware, found);
+  SetPlotter next = set;
+  next.machine.pin_spacing_mm = held.pin_spacing_mm;
+  next.machine.pin_rise_mm = held.pin_rise_mm;
+  for (const Side side : model::kSides) next.steps_per_mm[side] *= more_steps(set, found, side);
+  if (set.firmware == model::PlotterFirmware::mural) {
+    const double factor = more_steps(set, found, Side::left);
+    const double too_much_mm = held.zero_mm.left_mm - set.machine.zero_mm.left_mm;
+    next.machine.pulley_radius_mm /= factor;
+    next.homed_offset_mm = (set.homed_offset_mm - too_much_mm) / factor;
+  } else if (set.home) {
+    const auto mechanism = model::make_plotter_mechanism(found);
+    const auto pen = pen_of_command(set.firmware, set.machine, *mechanism, *set.home);
+    if (pen) next.home = model::BedPoint{pen->x_mm, pen->y_mm};
+  }
+  return next;
+}
+
+}  // namespace chaintrue::grid

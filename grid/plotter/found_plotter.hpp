@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A V-plotter as its controller holds it, what a test drawing found of it, and the plotter once the
+/// numbers are typed in.
+///
+/// \code
+///   const KnownPlotter known{drawing, found_by(*fit)};
+///   const SetPlotter next = once_typed_in(known.set, machine_found(known.set, *known.found));
+/// \endcode
+#pragma once
+
+#include <optional>
+
+#include "grid/plotter/drawing_fit.hpp"
+
+namespace chaintrue::grid {
+
+struct FoundSetting {
+  double value = 0.0;
+  double sigma = 0.0;
+};
+
+/// The mechanism's parameters, by their names.
+struct FoundPlotter {
+  FoundSetting pin_spacing_mm;
+  FoundSetting pin_rise_mm;
+  FoundSetting zero_left_mm;
+  FoundSetting zero_right_mm;
+  FoundSetting scale_left_mm_per_m;
+  FoundSetting scale_right_mm_per_m;
+};
+
+struct KnownPlotter {
+  SetPlotter set;
+  std::optional<FoundPlotter> found;  ///< none before a drawing was measured
+};
+
+[[nodiscard]] FoundPlotter found_by(const DrawingFit& fit);
+
+/// The machine of `set` as it was found.
+[[nodiscard]] model::PlotterMachine machine_found(const SetPlotter& set, const FoundPlotter& found);
+
+/// What the controller holds once settings_to_paste(set, found) are typed in: it counts the cords
+/// right, and is given where the pen is.
+[[nodiscard]] SetPlotter once_typed_in(const SetPlotter& set, const model::PlotterMachine& found);
+
+/// Counted over true, relative to what the controller already allows for: by so much more steps go
+/// to a millimetre.
+[[nodiscard]] double more_steps(const SetPlotter& set,
+                                const model::PlotterMachine& found,
+                                model::Side side);
+
+}  // namespace chaintrue::grid

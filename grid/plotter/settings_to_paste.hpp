@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a person types into a V-plotter's controller after a test drawing, in the controller's own words.
+///
+///   fluidnc      config.yaml: kinematics/WallPlotter, steps_per_mm of both axes
+///   marlin       M92, M665 L R T (Makelangelo: the same firmware), M500
+///   polargraph   machine.width, machine.motors.mmPerRev of the properties file
+///   mural        top distance, effective pulley diameter, homed step offset
+///
+/// A zero is not set but for the mural's: the controller is given by G92 where the pen really is when
+/// it stands where it is switched on.
+///
+/// \code
+///   for (const std::string& line : settings_to_paste(set, machine_found(set, found)))
+///     fmt::print("{}\n", line);
+/// \endcode
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grid/plotter/found_plotter.hpp"
+
+namespace chaintrue::grid {
+
+/// In the order in which they are typed in.
+[[nodiscard]] std::vector<std::string> settings_to_paste(const SetPlotter& set,
+                                                         const model::PlotterMachine& found);
+
+}  // namespace chaintrue::grid

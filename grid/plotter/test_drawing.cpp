@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/plotter/test_drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace chaintrue::grid {
+namespace {
+
+using observation::DrawnMeasure;
+
+/// A string's sigmas are known about as well as a person knows a ruler's.
+constexpr double kRulerDof = 15.0;
+
+constexpr std::string_view kCrosses = "ABCDEFGHM";
+
+std::size_t cross_of(char name) { return kCrosses.find(name); }
+
+}  // namespace
+
+TestDrawing planned_drawing(const model::PlotterMachine& machine, model::PlotterFirmware firmware) {
+  SetPlotter set;
+  set.machine = machine;
+  set.firmware = firmware;
+  return planned_drawing(set);
+}
+
+TestDrawing planned_drawing(const SetPlotter& set) {
+  const model::DrawingArea& a = set.machine.area;
+  const double x = 0.5 * (a.left_mm + a.right_mm), y = 0.5 * (a.bottom_mm + a.top_mm);
+  TestDrawing drawing;
+  static_cast<SetPlotter&>(drawing) = set;
+  drawing.name = set.machine.name;
+  const model::BedPoint places[] = {{a.left_mm, a.top_mm},
+                                    {a.right_mm, a.top_mm},
+                                    {a.right_mm, a.bottom_mm},
+                                    {a.left_mm, a.bottom_mm},
+                                    {x, a.top_mm},
+                                    {a.right_mm, y},
+                                    {x, a.bottom_mm},
+                                    {a.left_mm, y},
+                                    {x, y}};
+  for (std::size_t i = 0; i < kCrosses.size(); ++i)
+    drawing.crosses.push_back({std::string(1, kCrosses[i]), places[i]});
+  for (const std::string_view ends : {"AB",
+                                      "HF",
+                                      "DC",
+                                      "DA",
+                                      "GE",
+                                      "CB",
+                                      "AC",
+                                      "DB",
+                                      "HE",
+                                      "EF",
+                                      "GF",
+                                      "HG",
+                                      "AM",
+                                      "MB",
+                                      "DM",
+                                      "MC"}) {
+    drawing.measures.push_back({DrawnMeasure::Kind::length, cross_of(ends[0]), cross_of(ends[1])});
+    drawing.measures.back().sigma_mm = kRulerSigmaMm;
+  }
+  for (const std::string_view line : {"AEB", "HMF", "DGC", "DHA", "GME", "CFB", "AMC", "DMB"}) {
+    drawing.measures.push_back({DrawnMeasure::Kind::bow,
+                                cross_of(line[0]),
+                                cross_of(line[2]),
+                                cross_of(line[1]),
+                                0.0,
+                                kRulerSigmaMm});
+  }
+  return drawing;
+}
+
+tl::expected<observation::DrawnMeasures, CrossFailure> drawn_measures_of(
+    const TestDrawing& drawing) {
+  std::vector<observation::DrawnPoint> points;
+  for (std::size_t i = 0; i < drawing.crosses.size(); ++i) {
+    const DrawnCross& cross = drawing.crosses[i];
+    const auto lengths = model::paid_out(drawing.firmware, drawing.machine, cross.commanded);
+    if (!lengths) return tl::unexpected(lengths.error().at(i));
+    points.push_back({cross.name, {cross.commanded.x_mm, cross.commanded.y_mm}, *lengths});
+  }
+  return observation::DrawnMeasures(std::move(points), drawing.measures, kRulerDof);
+}
+
+std::string words_of(const TestDrawing& drawing, std::size_t measure) {
+  const DrawnMeasure& m = drawing.measures.at(measure);
+  const auto name = [&](std::size_t cross) { return drawing.crosses.at(cross).name; };
+  if (m.kind == DrawnMeasure::Kind::length)
+    return fmt::format("the length {}-{}", name(m.from), name(m.to));
+  return fmt::format("the bow of {}-{} at {}", name(m.from), name(m.to), name(m.middle));
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A test drawing of a V-plotter: nine crosses on a rectangle with its middle lines and diagonals, and
+/// what a person measures on it with a ruler and a string.
+///
+///     A --- E --- B
+///     |     |     |
+///     H --- M --- F
+///     |     |     |
+///     D --- G --- C
+///
+/// \code
+///   const TestDrawing sheet = planned_drawing(machine, PlotterFirmware::mural);
+///   // the person fills in sheet.measures[i].value_mm
+///   const auto fit = fit_drawing(sheet);
+/// \endcode
+#pragma once
+
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/observation/drawn_measures.hpp"
+#include "model/plotter/plotter_controller.hpp"
+#include "model/plotter/plotter_mechanism.hpp"
+
+namespace chaintrue::grid {
+
+/// A cross, in the machine's frame as it was commanded.
+struct DrawnCross {
+  std::string name;
+  model::BedPoint commanded;
+};
+
+/// The homed step offset of a mural's firmware unless it was changed.
+inline constexpr double kMuralHomedOffsetMm = 40.0;
+
+/// Lines of G-code that lift the pen and put it down.
+struct PenCommands {
+  std::string up = "G0 Z5";
+  std::string down = "G0 Z0";
+};
+
+/// A V-plotter as its controller holds it.
+struct SetPlotter {
+  model::PlotterMachine machine;
+  model::PlotterFirmware firmware = model::PlotterFirmware::fluidnc;
+  /// Of a motor; 0: not stated.
+  model::PerSide<double> steps_per_mm{};
+  /// Where the controller takes the pen to be when it is switched on, in the machine's frame; of all
+  /// but a mural.
+  std::optional<model::BedPoint> home;
+  /// The middle between the pins in the controller's own coordinates.
+  model::BedPoint pins_middle;
+  double homed_offset_mm = kMuralHomedOffsetMm;  ///< of a mural
+  PenCommands pen;
+  double feed_mm_per_min = 1500.0;
+};
+
+struct TestDrawing : SetPlotter {
+  std::string name;
+  std::vector<DrawnCross> crosses;
+  /// Points by their place among the crosses.
+  std::vector<observation::DrawnMeasure> measures;
+};
+
+/// Of a ruler, and of where the lines of a cross meet.
+inline constexpr double kRulerSigmaMm = 0.5;
+
+/// The crosses over the machine's drawing area, and 24 measures without values: 16 lengths and the
+/// bows of eight lines at their middles.
+[[nodiscard]] TestDrawing planned_drawing(const SetPlotter& set);
+[[nodiscard]] TestDrawing planned_drawing(const model::PlotterMachine& machine,
+                                          model::PlotterFirmware firmware);
+
+/// The drawing as readings: each cross with what the controller paid out for it. Fails where the
+/// controller cannot hold a cross, with its place among the crosses.
+using CrossFailure = Failure<model::PlotterReason, std::size_t>;
+[[nodiscard]] tl::expected<observation::DrawnMeasures, CrossFailure> drawn_measures_of(
+    const TestDrawing& drawing);
+
+/// "the length A-B", "the bow of A-B at E".
+[[nodiscard]] std::string words_of(const TestDrawing& drawing, std::size_t measure);
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// An effect that a user declares in a file: its words, its parameters and a formula, made into an
+/// Effect like those of the catalogue.
+///
+/// | acts on | formulas | what they may use besides the parameters |
+/// |---|---|---|
+/// | paper   | adds_x_mm, adds_y_mm | x, y of the mark; in proportion to them, as a tape or a skew acts |
+/// | chain   | adds_mm | L0, S, phi, T, H, turn, pitch, x, y, r (symbols of effect.hpp; x, y, r the tool's place and its distance from the middle); or d alone |
+/// |         | elongation | nothing: counted length = true length / (1 + elongation) |
+/// | reading | adds_mm | n, pitch |
+/// | visit   | adds_mm | n, pitch; added at the visit that its place names and at no other |
+///
+/// d is +1 where a chain was paid out to its length, -1 where it was taken in. An effect has one
+/// size, its first parameter, and one place at most, its second. Not modelled: what changes the
+/// equilibrium (machine), a place of the tool that is shifted, more than one size.
+///
+/// \code
+///   Declaration own;                     // files: grid/files/effect_file.hpp
+///   if (problems_of(own).empty()) machine.declared.push_back(&declared_effect(own));
+/// \endcode
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/effects/effect.hpp"
+#include "model/effects/formula.hpp"
+
+namespace chaintrue::model::effects {
+
+enum class ActsOn { paper, chain, reading, visit };
+
+struct DeclaredParameter {
+  std::string name;  ///< ends in its unit
+  std::string symbol;
+  std::string meaning;
+  ParameterRole role = ParameterRole::size;
+  double null = 0.0;
+  double nominal = 0.0;
+  double lower = 0.0;
+  double upper = 0.0;
+  double prior_sigma = 0.0;
+  bool integer = false;
+  double mirror_sign = 1.0;
+  friend bool operator==(const DeclaredParameter&, const DeclaredParameter&) = default;
+};
+
+/// The content of a file. Texts of formulas are empty where they are not stated.
+struct Declaration {
+  std::string id;
+  /// The effect of the catalogue in whose place it is weighed; empty: in addition to all of them.
+  std::string instead_of;
+  ActsOn acts_on = ActsOn::chain;
+  std::vector<EffectSide> sides;
+  std::vector<DeclaredParameter> parameters;
+  std::string adds_mm;
+  std::string adds_x_mm;
+  std::string adds_y_mm;
+  std::string elongation;
+  std::string cause;
+  std::string signature;
+  RemedyKind remedy_kind = RemedyKind::repair;
+  std::string remedy;
+  std::string not_modelled;
+  std::string typical;
+  std::string source;
+  friend bool operator==(const Declaration&, const Declaration&) = default;
+};
+
+struct DeclarationProblem {
+  std::string place;  ///< JSON pointer below the declaration: "/parameters/0/lower"
+  /// Of a formula: where in its text, in bytes.
+  std::optional<std::size_t> offset;
+  std::string value;
+  std::string expected;
+};
+
+/// The unit that a parameter's name ends in: "amplitude_mm", "slope_mm_per_rad", "share". Empty for
+/// a unit that formulas do not know, such as "_deg".
+[[nodiscard]] std::optional<FormulaUnit> unit_of_name(std::string_view name);
+
+/// Everything that is wrong with a declaration by itself.
+[[nodiscard]] std::vector<DeclarationProblem> problems_of(const Declaration& declaration);
+/// Whether its formulas are finite, and null at null, on the bed of this machine. Precondition: no
+/// problems of its own.
+[[nodiscard]] std::vector<DeclarationProblem> problems_on_bed(const Declaration& declaration,
+                                                              const Machine& machine);
+
+/// The effect so declared, which lives as long as the program, as those of the catalogue do: causes
+/// refer to it. Equal declarations are one effect. \throws std::invalid_argument for a declaration
+/// whose formulas have problems.
+[[nodiscard]] const Effect& declared_effect(const Declaration& declaration);
+/// Null for an effect of the catalogue.
+[[nodiscard]] const Declaration* declaration_of(const Effect& effect);
+
+/// What a place of a declared effect is compared with, for where it may set in.
+enum class PlaceVariable {
+  none,
+  visit,
+  phase,
+  angle,
+  free_length,
+  length,
+  tension,
+  horizontal,
+  x,
+  y,
+  distance
+};
+/// Precondition: a declared effect with a place. The one variable of the place's unit that its
+/// formula uses; none where there are none or several.
+[[nodiscard]] PlaceVariable place_variable(const Effect& effect);
+
+[[nodiscard]] std::string_view name(ActsOn acts_on);
+
+}  // namespace chaintrue::model::effects

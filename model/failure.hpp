@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Why something has no result: the error of every tl::expected of model and of what uses it, with the reason
+/// for a program and the sentence for a person. Failures of interp have the same shape.
+///
+/// \code
+///   const auto pose = kinematics->inverse({100.0, -200.0});
+///   if (!pose && pose.error() == PoseReason::slack) ...
+///   if (!pose) fmt::print("{}\n", pose.error().sentence());
+/// \endcode
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace chaintrue {
+
+/// The place of a failure that is of no place.
+struct Nowhere {
+  friend bool operator==(const Nowhere&, const Nowhere&) = default;
+};
+
+/// `ReasonType` is a scoped enum or, where each mechanism has reasons of its own, model::MechanismReason.
+/// `PlaceType` says which of many points, visits or marks. A failure by its reason alone allocates
+/// nothing.
+template <typename ReasonType, typename PlaceType = Nowhere>
+struct Failure {
+  using Reason = ReasonType;
+
+  /// The reason is the whole answer; sentence_of(reason) has its words.
+  constexpr Failure(Reason why) : reason(std::move(why)) {}  // NOLINT: an error is made of its reason
+  /// With the sentence: of a whole task, which names what it was about.
+  Failure(Reason why, std::string words) : reason(std::move(why)), text(std::move(words)) {}
+
+  Failure(Reason why, PlaceType where) : reason(std::move(why)), place(std::move(where)) {}
+
+  /// The same at a place.
+  template <typename OtherPlace>
+  [[nodiscard]] Failure<Reason, OtherPlace> at(OtherPlace where) const {
+    Failure<Reason, OtherPlace> there(reason, text);
+    there.cause = cause;
+    there.place = std::move(where);
+    return there;
+  }
+  /// The same for the reason of what lies below; `below` has static lifetime.
+  [[nodiscard]] Failure because_of(std::string_view below) const {
+    Failure more = *this;
+    more.cause = below;
+    return more;
+  }
+
+  [[nodiscard]] std::string sentence() const {
+    if constexpr (requires(const Reason& why) { sentence_of(why); }) {
+      if (text.empty()) {
+        std::string words(sentence_of(reason));
+        return cause.empty() ? words : words.append(": ").append(cause);
+      }
+    }
+    return text;
+  }
+
+  Reason reason;
+  PlaceType place{};
+  /// What lies below: the sentence of the pose's own failure. Empty: none is known.
+  std::string_view cause;
+  /// Empty: the words are those of the reason.
+  std::string text;
+
+  friend bool operator==(const Failure&, const Failure&) = default;
+  friend bool operator==(const Failure& failure, const Reason& why) {
+    return failure.reason == why;
+  }
+};
+
+}  // namespace chaintrue

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/plotter/plotter_mechanism.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "model/plotter/effects/plotter_effect.hpp"
+
+namespace chaintrue::model {
+namespace {
+
+constexpr std::array<std::string_view, 2> kCordLengths = {"left", "right"};
+
+/// The settings in force, in the order of PlotterParameter.
+template <class Machine>
+auto settings_of(Machine& machine) {
+  return std::array{&machine.pin_spacing_mm,
+                    &machine.pin_rise_mm,
+                    &machine.zero_mm.left_mm,
+                    &machine.zero_mm.right_mm,
+                    &machine.scale_mm_per_m.left_mm,
+                    &machine.scale_mm_per_m.right_mm};
+}
+
+Eigen::VectorXd values_of(const PlotterMachine& machine) {
+  Eigen::VectorXd values(kPlotterParameters);
+  const auto settings = settings_of(machine);
+  for (std::size_t i = 0; i < settings.size(); ++i)
+    values[static_cast<Eigen::Index>(i)] = *settings[i];
+  return values;
+}
+
+std::vector<MechanismParameter> stated_parameters(const PlotterMachine& machine) {
+  const PlotterUncertainty& sigma = machine.uncertainty;
+  const Eigen::VectorXd v = values_of(machine);
+  return {{"pin_spacing_mm", "mm", v[kPinSpacing], sigma.pin_spacing_mm},
+          {"pin_rise_mm", "mm", v[kPinRise], sigma.pin_rise_mm},
+          {"zero_left_mm", "mm", v[kZeroLeft], sigma.zero_mm, true},
+          {"zero_right_mm", "mm", v[kZeroRight], sigma.zero_mm, true},
+          {"scale_left_mm_per_m", "mm_per_m", v[kScaleLeft], sigma.scale_mm_per_m},
+          {"scale_right_mm_per_m", "mm_per_m", v[kScaleRight], sigma.scale_mm_per_m}};
+}
+
+void require_sound(const std::vector<MachineProblem>& problems) {
+  if (problems.empty()) return;
+  throw std::invalid_argument(fmt::format("{}: found {}, expected {}",
+                                          problems.front().parameter,
+                                          problems.front().value,
+                                          problems.front().expected));
+}
+
+plotter::CordVisit visit_of(const PlotterMachine& machine, const MechanismVisit& visit) {
+  plotter::CordVisit own;
+  if (!visit.direction.empty()) own.direction = {visit.direction.at(0), visit.direction.at(1)};
+  own.order = visit.order;
+  own.turn_mm = 2.0 * std::numbers::pi * machine.pulley_radius_mm;
+  own.tooth_mm = machine.cord.tooth_mm;
+  return own;
+}
+
+}  // namespace
+
+MechanismFailure mechanism_failure(const PlotterFailure& failure) {
+  return MechanismReason{name(failure.reason), sentence_of(failure.reason)};
+}
+
+std::shared_ptr<const PlotterMechanism> make_plotter_mechanism(const PlotterMachine& machine) {
+  return std::make_shared<const PlotterMechanism>(machine);
+}
+
+PlotterMechanism::PlotterMechanism(const PlotterMachine& machine)
+    : PlotterMechanism(machine, stated_parameters(machine), {}) {}
+
+PlotterMechanism::PlotterMechanism(PlotterMachine machine,
+                                   std::vector<MechanismParameter> parameters,
+                                   std::vector<AppliedEffect> applied)
+    : machine_(std::move(machine)),
+      statics_(plotter::statics_of(machine_)),
+      parameters_(std::move(parameters)),
+      values_(values_of(machine_)),
+      applied_(std::move(applied)),
+      acting_(effects::resolve(plotter::described_plotter_effects(), applied_)) {
+  require_sound(problems_of(machine_));
+}
+
+std::span<const std::string_view> PlotterMechanism::lengths() const { return kCordLengths; }
+
+MechanismExtent PlotterMechanism::extent() const {
+  const DrawingArea& area = machine_.area;
+  return {area.left_mm, area.right_mm, area.bottom_mm, area.top_mm};
+}
+
+std::shared_ptr<const Mechanism> PlotterMechanism::with_values(
+    const Eigen::VectorXd& values) const {
+  if (values.size() != kPlotterParameters || !values.allFinite()) {
+    throw std::invalid_argument(
+        fmt::format("{} values of {} parameters of a plotter, or not finite",
+                    values.size(),
+                    kPlotterParameters + 0));
+  }
+  PlotterMachine changed = machine_;
+  const auto settings = settings_of(changed);
+  for (std::size_t i = 0; i < settings.size(); ++i)
+    *settings[i] = values[static_cast<Eigen::Index>(i)];
+  return std::shared_ptr<const Mechanism>(
+      new PlotterMechanism(std::move(changed), parameters_, applied_));
+}
+
+std::span<const effects::Effect* const> PlotterMechanism::effects() const {
+  return plotter::described_plotter_effects();
+}
+
+std::vector<MachineProblem> PlotterMechanism::problems_of_effects(
+    const std::vector<AppliedEffect>& applied) const {
+  const auto table = plotter::described_plotter_effects();
+  std::vector<MachineProblem> problems = effects::problems_in(table, applied);
+  if (problems.empty()) {
+    for (std::size_t i = 0; i < applied.size(); ++i) {
+      const std::size_t number = effects::resolve(table, {applied[i]}).front().number;
+      const auto needs = plotter::plotter_effects()[number]->needs;
+      const std::string_view needed = needs != nullptr ? needs(machine_) : "";
+      if (!needed.empty()) {
+        problems.push_back(
+            {fmt::format("/{}/effect", i), applied[i].effect, fmt::format("{} to act on", needed)});
+      }
+    }
+  }
+  for (MachineProblem& problem : problems) problem.parameter = "/effects" + problem.parameter;
+  return problems;
+}
+
+std::shared_ptr<const Mechanism> PlotterMechanism::with_effects(
+    const std::vector<AppliedEffect>& applied) const {
+  require_sound(problems_of_effects(applied));
+  std::vector<AppliedEffect> all = applied_;
+  all.insert(all.end(), applied.begin(), applied.end());
+  return std::shared_ptr<const Mechanism>(
+      new PlotterMechanism(machine_, parameters_, std::move(all)));
+}
+
+tl::expected<LengthsPrediction, MechanismFailure> PlotterMechanism::predict(
+    const ToolPosition& position, const MechanismVisit& visit, Derivatives wanted) const {
+  using plotter::Number;
+  const plotter::CordVisit at = visit_of(machine_, visit);
+  plotter::Statics statics = statics_;
+  for (const effects::TableEffect& own : acting_) {
+    const auto alter = plotter::plotter_effects()[own.number]->alter;
+    if (alter != nullptr) alter(statics, own.side, at, own.values);
+  }
+  const auto cords = plotter::cords_at(
+      statics, {position.x_mm, position.y_mm, machine_.pin_spacing_mm, machine_.pin_rise_mm});
+  if (!cords) return tl::unexpected(mechanism_failure(cords.error()));
+  const bool all = wanted == Derivatives::by_position_and_parameter;
+  LengthsPrediction result;
+  result.lengths_mm.resize(2);
+  result.by_position.resize(2, 2);
+  result.by_parameter = Eigen::MatrixXd::Zero(2, all ? +kPlotterParameters : 0);
+  for (const Side side : kSides) {
+    const Eigen::Index row = side == Side::left ? 0 : 1;
+    Number counted = (*cords)[side].length_mm;
+    for (const effects::TableEffect& own : acting_) {
+      const auto add = plotter::plotter_effects()[own.number]->add;
+      if (add != nullptr && effects::acts_on(own.side, side))
+        counted = counted + add((*cords)[side], at, own.values);
+    }
+    const double scale = 1.0 + 1e-3 * machine_.scale_mm_per_m[side];
+    result.lengths_mm[row] = counted.value * scale + machine_.zero_mm[side];  // (1)
+    for (const Eigen::Index axis : {0, 1})
+      result.by_position(row, axis) = counted.d[static_cast<std::size_t>(axis)] * scale;
+    if (!all) continue;
+    result.by_parameter(row, kPinSpacing) = counted.d[2] * scale;
+    result.by_parameter(row, kPinRise) = counted.d[3] * scale;
+    result.by_parameter(row, kZeroLeft + row) = 1.0;
+    result.by_parameter(row, kScaleLeft + row) = 1e-3 * counted.value;
+  }
+  return result;
+}
+
+tl::expected<ToolPosition, MechanismFailure> PlotterMechanism::straight_place(
+    ChainLengths lengths) const {
+  const double narrower = 0.5 * machine_.gondola.spacing_mm;
+  const double half = 0.5 * machine_.pin_spacing_mm - narrower;
+  PerSide<double> level{};
+  for (const Side side : kSides) {
+    const double own =
+        (lengths[side] - machine_.zero_mm[side]) / (1.0 + 1e-3 * machine_.scale_mm_per_m[side]);
+    // On a pulley there is a quarter turn at most.
+    level[side] = std::max(own - (machine_.motors == MotorPlace::wall
+                                      ? 0.25 * std::numbers::pi * machine_.pulley_radius_mm
+                                      : 0.0),
+                           std::abs(machine_.gondola.standoff_mm));
+  }
+  // Circles about the pins, moved together by the gondola's width.
+  const double x = (level.left * level.left - level.right * level.right) / (4.0 * half);
+  const double square = level.left * level.left - (x + half) * (x + half);
+  if (!(square > 0.0)) return tl::unexpected(mechanism_failure(PlotterReason::cords_do_not_meet));
+  const double low = -0.5 * std::abs(machine_.pin_rise_mm) - 1e-3 * half;
+  return ToolPosition{std::clamp(x, -0.99 * half, 0.99 * half),
+                      std::min(low, -std::sqrt(square) - machine_.gondola.pen_below_mm)};
+}
+
+tl::expected<ToolPosition, MechanismFailure> PlotterMechanism::locate(
+    const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const {
+  if (lengths_mm.size() != 2)
+    throw std::invalid_argument(fmt::format("{} lengths of two cords", lengths_mm.size()));
+  const auto start = straight_place({lengths_mm[0], lengths_mm[1]});
+  if (!start) return tl::unexpected(start.error());
+  return locate_by_newton(*this, lengths_mm, visit, *start);
+}
+
+tl::expected<ToolPosition, MechanismFailure> PlotterMechanism::locate_by_first(
+    ChainLengths lengths) const {
+  return locate(Eigen::Vector2d(lengths.left_mm, lengths.right_mm), {});
+}
+
+}  // namespace chaintrue::model

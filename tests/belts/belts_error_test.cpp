@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// By how much a router on four belts misses, today and with fitted anchors, against machines whose
+// truth is known.
+#include "grid/belts/belts_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "grid/belts/belts_fit.hpp"
+#include "grid/synthetic/simulated_belts.hpp"
+#include "tests/belts/frame.hpp"
+
+namespace chaintrue::grid {
+namespace {
+namespace belts_error_tests {
+
+constexpr double kShare = 0.5;
+
+MeasuredBelts measured(double noise_mm, std::uint64_t seed) {
+  synthetic::BeltsSpec spec;
+  spec.columns = 6;
+  spec.rows = 6;
+  spec.width_share = spec.height_share = kShare;
+  spec.noise_mm = noise_mm;
+  spec.seed = seed;
+  return synthetic::simulate_belts(testing_support::stated(), testing_support::truth(), spec)
+      .value();
+}
+
+/// Over the part of the frame that was measured: where the tool is for commands of a controller that
+/// believes `believed`, the shift and turn that lay the sheet taken out.
+double true_error_mm(const model::BeltMachine& believed) {
+  constexpr int kColumns = 20;
+  constexpr int kRows = 12;
+  const model::BeltMachine truth = testing_support::truth();
+  const auto& a = testing_support::stated().anchors;
+  const double width = kShare * 0.5 * (a.br.x_mm + a.tr.x_mm - a.tl.x_mm);
+  const double height = kShare * 0.5 * (a.tl.y_mm + a.tr.y_mm);
+  Eigen::Matrix2Xd commands(2, kColumns * kRows);
+  Eigen::Matrix2Xd tools(2, kColumns * kRows);
+  for (int i = 0; i < kColumns * kRows; ++i) {
+    const model::BedPoint command{width * ((i % kColumns + 0.5) / kColumns - 0.5),
+                                  height * ((i / kColumns + 0.5) / kRows - 0.5)};
+    const auto paid_out = lengths_at(believed, model::to_frame(believed, command)).value();
+    const model::FramePoint tool = place_of_upper(truth, paid_out.tl, paid_out.tr).value();
+    commands.col(i) << command.x_mm, command.y_mm;
+    tools.col(i) << tool.x_mm, tool.y_mm;
+  }
+  const Eigen::Matrix3d laid = Eigen::umeyama(tools, commands, false);
+  const Eigen::Matrix2Xd off =
+      (laid.topLeftCorner<2, 2>() * tools).colwise() + laid.topRightCorner<2, 1>() - commands;
+  return std::sqrt(off.squaredNorm() / static_cast<double>(off.cols()));
+}
+
+TEST(BeltsError, TodayIsWhatTheTrueMachineMissesBy) {
+  const auto fit = fit_belts(measured(0.001, 1)).value();
+  const auto error = error_of_belts(fit);
+  ASSERT_TRUE(error);
+  ASSERT_TRUE(error->today);
+  const double true_mm = true_error_mm(testing_support::stated());
+  EXPECT_GT(true_mm, 1.0) << "12 and 9 mm at two anchors";
+  // Two rasters over one area, whose outer rows lie up to a tenth of it apart; what wrong anchors do grows at most with
+  // the square of the distance from the middle: 1 - 0.9^2.
+  EXPECT_NEAR(error->today->rms_mm, true_mm, 0.19 * true_mm);
+  EXPECT_GE(error->today->maximum_mm, error->today->rms_mm);
+}
+
+TEST(BeltsError, ExpectedIsWhatFittedAnchorsMissByOnAverage) {
+  constexpr int kSeeds = 20;
+  double found_mm2 = 0.0;
+  double expected_mm2 = 0.0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const auto fit = fit_belts(measured(0.5, seed)).value();
+    const auto error = error_of_belts(fit);
+    ASSERT_TRUE(error) << "seed " << seed;
+    found_mm2 += std::pow(true_error_mm(fit.machine), 2) / kSeeds;
+    expected_mm2 += std::pow(error->expected.rms_mm, 2) / kSeeds;
+    EXPECT_GE(error->expected.maximum_mm, error->expected.rms_mm) << "seed " << seed;
+  }
+  // Some three directions of error in each of twenty frames: a mean square of 60 draws has one sigma of
+  // sqrt(2/60) = 18 %, three of them 55 %.
+  EXPECT_GT(found_mm2, 0.45 * expected_mm2);
+  EXPECT_LT(found_mm2, 1.55 * expected_mm2);
+}
+
+TEST(BeltsError, WithoutAnchorsInForceTodayIsNotKnown) {
+  MeasuredBelts belts = measured(0.5, 3);
+  const auto known = error_of_belts(fit_belts(belts).value());
+  belts.machine.anchors_known = false;
+  const auto error = error_of_belts(fit_belts(belts).value());
+  ASSERT_TRUE(known && error);
+  EXPECT_TRUE(known->today);
+  EXPECT_FALSE(error->today);
+  // The sheet is laid by other anchors, 12 mm away of 2000: a per cent of what is uncertain.
+  EXPECT_NEAR(error->expected.rms_mm, known->expected.rms_mm, 0.05 * known->expected.rms_mm);
+}
+
+TEST(BeltsError, OfTooFewPlacesNothingIsSaid) {
+  BeltsFit fit = fit_belts(measured(0.5, 4)).value();
+  fit.places.resize(2);
+  EXPECT_FALSE(error_of_belts(fit));
+}
+
+}  // namespace belts_error_tests
+}  // namespace
+}  // namespace chaintrue::grid

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Belts that stretch when they are pulled, and holes, in one fit: the stretch is found with the
+// anchors, and what it would bend of them is gone.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "grid/diagnosis/anchors_with_causes.hpp"
+#include "grid/files/belts_file.hpp"
+#include "grid/files/holes_file.hpp"
+#include "grid/statistics.hpp"
+#include "tests/belts/holes_simulation.hpp"
+#include "tests/cli/command_fixture.hpp"
+
+namespace chaintrue::grid::stretch_with_holes {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::Outcome;
+
+constexpr double kStretch = 0.004;
+
+/// The lower belts are pulled, and read short by that share of themselves.
+SimulatedHoles stretched(std::uint64_t seed) {
+  SimulatedHoles made = simulate_with_holes({.seed = seed});
+  int visit = 0;
+  for (BeltPoint& point : made.belts.points) {
+    point.order = visit++;
+    for (const model::Belt belt : {model::Belt::bl, model::Belt::br})
+      point.lengths_mm[belt] -=
+          kStretch * (point.lengths_mm[belt] - model::reach_mm(made.belts.machine));
+  }
+  return made;
+}
+
+/// Rms error of the five coordinates, in true millimetres.
+double off_mm(const SimulatedHoles& truth, const BeltsFit& fit) {
+  const belts::AnchorVector off = fit.scale->factor * belts::anchors_of(fit.machine) -
+                                  truth.scale * belts::anchors_of(truth.truth);
+  return std::sqrt(off.squaredNorm() / static_cast<double>(off.size()));
+}
+
+TEST(StretchWithHoles, AnchorsAreThoseOfTheUnstretchedFrame) {
+  std::vector<double> alone_mm, counted_mm, deviates;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const SimulatedHoles truth = stretched(seed);
+    const auto alone = fit_belts_and_holes(truth.belts, {truth.holes});
+    const auto counted = diagnosis::fit_with_causes_and_holes(truth.belts, {truth.holes});
+    ASSERT_TRUE(alone && counted) << "seed " << seed;
+    alone_mm.push_back(off_mm(truth, alone->belts));
+    counted_mm.push_back(off_mm(truth, counted->belts));
+    ASSERT_FALSE(counted->belts.causes.empty()) << "seed " << seed;
+    const CauseBesideAnchors& found = counted->belts.causes.front();
+    EXPECT_EQ(found.effect, "belt_stretch");
+    // Four sigmas, of eight machines.
+    EXPECT_NEAR(found.parameters.at("elongation"), kStretch, 4.0 * found.sigma) << "seed " << seed;
+    for (std::size_t i = 0; i < counted->belts.coordinates.size(); ++i) {
+      const AnchorCoordinate& own = counted->belts.coordinates[i];
+      const double true_mm = belts::anchors_of(truth.truth)[static_cast<Eigen::Index>(i)];
+      deviates.push_back((own.fitted_mm - true_mm) / own.sigma_mm);
+    }
+  }
+  std::cout << "anchors, mm: " << rms(alone_mm) << " alone, " << rms(counted_mm)
+            << " with the stretch; " << rms(deviates) << " sigmas\n";
+  EXPECT_LT(rms(counted_mm), 0.7 * rms(alone_mm));
+  // Sigmas hold what else may act as well, so that they are larger than stretch alone makes errors.
+  EXPECT_LT(rms(deviates), 1.3);
+}
+
+class StretchCommands : public testing_support::CommandFixture {};
+
+TEST_F(StretchCommands, FitWithHolesSaysTheStretch) {
+  const SimulatedHoles truth = stretched(3);
+  write("belts.json", files::write_belts(truth.belts));
+  write("holes.json", files::write_holes(truth.holes.set, truth.holes.machine));
+  const Outcome fit = run("fit belts.json --with holes.json -o anchors.json");
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_THAT(fit.err, HasSubstr(" % longer than they count, and these anchors go with that."));
+  const std::string anchors = testing_support::content_of(folder_ / "anchors.json");
+  EXPECT_THAT(anchors, HasSubstr("\"effect\": \"belt_stretch\""));
+  EXPECT_THAT(anchors, HasSubstr("\"holes\""));
+  // Its own readings agree with it.
+  EXPECT_EQ(run("check anchors.json belts.json").code, 0);
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::stretch_with_holes

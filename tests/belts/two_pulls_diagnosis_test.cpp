@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sessions in which belts were pulled to two forces: what gives with the pull parts from what does not.
+#include <gmock/gmock.h>
+
+#include <optional>
+
+#include "grid/diagnosis/diagnose.hpp"
+#include "grid/files/belts_file.hpp"
+#include "grid/synthetic/simulated_belts.hpp"
+#include "tests/belts/frame.hpp"
+#include "tests/cli/command_fixture.hpp"
+
+namespace chaintrue::grid::two_pulls_diagnosed {
+namespace {
+
+using diagnosis::Diagnosis;
+using diagnosis::Verdict;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing_support::Outcome;
+
+constexpr double kHarder = 1.6;
+
+MeasuredBelts measured(std::vector<model::AppliedEffect> hidden,
+                       std::vector<double> pulls,
+                       double noise_mm,
+                       std::uint64_t seed) {
+  synthetic::BeltsSpec spec;
+  spec.columns = 7;
+  spec.rows = 6;
+  spec.noise_mm = noise_mm;
+  spec.hidden = std::move(hidden);
+  spec.pulls = std::move(pulls);
+  spec.seed = seed;
+  return synthetic::simulate_belts(testing_support::stated(), testing_support::truth(), spec).value();
+}
+
+TEST(TwoPulls, WhatOnePullLeavesOpenTwoName) {
+  // Weak enough that other anchors, a belt's scale or the stretch do nearly the same.
+  const std::vector<model::AppliedEffect> flex = {{"anchor_flex", "", {{"give_mm", 2.0}}}};
+  const Diagnosis one = diagnosis::diagnose(measured(flex, {}, 0.5, 3)).value();
+  EXPECT_NE(one.verdict, Verdict::named) << one.sentence;
+  const Diagnosis two = diagnosis::diagnose(measured(flex, {1.0, kHarder}, 0.5, 3)).value();
+  ASSERT_EQ(two.verdict, Verdict::named) << two.sentence;
+  EXPECT_EQ(two.causes.front().cause.effect->id, "anchor_flex") << two.sentence;
+  // It is at the least pull that sizes are said, to three of its sigmas.
+  EXPECT_NEAR(two.causes.front().parameters.front().value,
+              2.0,
+              3.0 * two.causes.front().parameters.front().sigma);
+}
+
+/// Pulled belts that stretch, and one belt that counts 0.2 % too much: of one pull the first session of these seeds in
+/// which a second pass is worth its while.
+std::optional<MeasuredBelts> left_open() {
+  const std::vector<model::AppliedEffect> hidden = {{"belt_stretch", "", {{"elongation", 0.0034}}},
+                                                    {"belt_scale", "tl", {{"scale", 0.002}}}};
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    MeasuredBelts belts = measured(hidden, {}, 0.5, seed);
+    if (diagnosis::diagnose(belts).value().belts->second_pass) return belts;
+  }
+  return std::nullopt;
+}
+
+class TwoPullPlans : public testing_support::CommandFixture {};
+
+TEST_F(TwoPullPlans, ASecondPassIsProposedWhereItPartsWhatOnePullLeavesOpen) {
+  const auto belts = left_open();
+  ASSERT_TRUE(belts);
+  const Diagnosis one = diagnosis::diagnose(*belts).value();
+  EXPECT_EQ(one.belts->second_pass->times, kHarder);
+  EXPECT_LE(one.belts->second_pass->raises_probability_to, 1.0);
+  write("one.json", files::write_belts(*belts));
+  const Outcome found = run("diagnose one.json -o diagnosis.json");
+  ASSERT_EQ(found.code, 0) << found.err;
+  const Outcome plan = run("plan one.json --after diagnosis.json");
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  EXPECT_THAT(plan.err,
+              AllOf(HasSubstr("A second pass: let the machine find its anchors once more"),
+                    HasSubstr("--pulls 1,1.6")));
+}
+
+TEST(TwoPulls, OnceTheSecondPassWasMadeThereIsNoneToPropose) {
+  const Diagnosis two = diagnosis::diagnose(
+      measured({{"anchor_flex", "", {{"give_mm", 0.2}}}}, {1.0, kHarder}, 0.5, 3)).value();
+  EXPECT_FALSE(two.belts->second_pass);
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::two_pulls_diagnosed

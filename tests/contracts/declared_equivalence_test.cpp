@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The effects of the catalogue that act on paper, chain and reading, written as files, do to a
+/// session what the built-in ones do.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/effects/catalogue.hpp"
+#include "model/reading_model.hpp"
+#include "tests/contracts/declared_examples.hpp"
+
+namespace chaintrue::model::effects::equivalence {
+namespace {
+
+std::vector<double> session(const Machine& machine) {
+  std::vector<Visit> visits;
+  int order = 0;
+  for (int row = 0; row < 5; ++row) {
+    for (int k = 0; k < 7; ++k) {
+      const int column = row % 2 == 0 ? k : 6 - k;
+      visits.push_back({{-1219.2 + column * 406.4, -609.6 + row * 304.8}, order++});
+    }
+  }
+  const auto lengths = readings(ReadingModel(machine), visits);
+  const MarkFrame frame(machine);
+  std::vector<double> numbers;
+  for (std::size_t i = 0; lengths && i < visits.size(); ++i) {
+    const MarkPoint mark = frame.written(identity_placement(visits[i].position));
+    numbers.insert(numbers.end(),
+                   {mark.x_mm, mark.y_mm, (*lengths)[i].left_mm, (*lengths)[i].right_mm});
+  }
+  return numbers;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.empty() || a.size() != b.size()) return INFINITY;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+const Effect* built_in_of(const Effect& own) {
+  return find_effect(declaration_of(own)->instead_of);
+}
+
+/// Rounding of lengths of 3000 mm, a few times.
+constexpr double kRoundingMm = 1e-11;
+
+TEST(DeclaredEquivalence, EveryEffectThatFormulasCanWriteIsThere) {
+  std::size_t written = 0;
+  for (const Effect* effect : catalogue()) written += effect->station != Station::machine ? 1 : 0;
+  EXPECT_EQ(catalogue_in_files().size(), written);
+}
+
+TEST(DeclaredEquivalence, HasTheNumbersOfTheCatalogue) {
+  for (const Effect* own : catalogue_in_files()) {
+    const Effect& built_in = *built_in_of(*own);
+    SCOPED_TRACE(std::string(built_in.id));
+    EXPECT_EQ(own->station, built_in.station);
+    EXPECT_EQ(own->needs, built_in.needs);
+    EXPECT_EQ(own->at_one_visit, built_in.at_one_visit);
+    EXPECT_EQ(own->remedy_kind, built_in.remedy_kind);
+    EXPECT_TRUE(std::equal(
+        own->sides.begin(), own->sides.end(), built_in.sides.begin(), built_in.sides.end()));
+    ASSERT_EQ(own->parameters.size(), built_in.parameters.size());
+    for (std::size_t i = 0; i < own->parameters.size(); ++i) {
+      const EffectParameter& a = own->parameters[i];
+      const EffectParameter& b = built_in.parameters[i];
+      EXPECT_EQ(a.name, b.name);
+      EXPECT_EQ(a.role, b.role);
+      EXPECT_EQ(a.nominal, b.nominal);
+      EXPECT_EQ(a.lower, b.lower);
+      EXPECT_EQ(a.upper, b.upper);
+      EXPECT_EQ(a.prior_sigma, b.prior_sigma);
+      EXPECT_EQ(a.integer, b.integer);
+    }
+  }
+}
+
+TEST(DeclaredEquivalence, ReadsAsTheBuiltInOneDoes) {
+  for (const Effect* own : catalogue_in_files()) {
+    const Effect& built_in = *built_in_of(*own);
+    for (const EffectSide side : built_in.sides) {
+      for (const double share : {0.0, 0.5, 1.0, 2.0}) {
+        SCOPED_TRACE(testing::Message() << built_in.id << " " << name(side) << " times " << share);
+        std::vector<double> values = nominal_values(built_in);
+        values.front() *= built_in.parameters.front().integer ? std::ceil(share) : share;
+        if (values.size() > 1) values.back() = built_in.parameters.back().integer ? 7.0 : 0.4;
+        Machine with_file;
+        with_file.declared = {own};
+        with_file.effects = {applied(*own, side, values)};
+        Machine with_built_in;
+        with_built_in.effects = {applied(built_in, side, values)};
+        EXPECT_LE(largest_difference(session(with_file), session(with_built_in)), kRoundingMm);
+      }
+    }
+  }
+}
+
+TEST(DeclaredEquivalence, ReadsAsTheBuiltInOnesTogetherDo) {
+  Machine with_files;
+  Machine with_built_in;
+  with_files.declared = catalogue_in_files();
+  for (const Effect* own : with_files.declared) {
+    const Effect& built_in = *built_in_of(*own);
+    const std::vector<double> values = nominal_values(built_in);
+    with_files.effects.push_back(applied(*own, built_in.sides.front(), values));
+    with_built_in.effects.push_back(applied(built_in, built_in.sides.front(), values));
+  }
+  EXPECT_LE(largest_difference(session(with_files), session(with_built_in)), kRoundingMm);
+}
+
+TEST(DeclaredExamples, AreThoseOfThePage) {
+  const std::string fixtures = CHAINTRUE_FIXTURES;
+  const std::string page = grid::files::read_whole_file(fixtures + "/../docs/effects.md");
+  for (const char* file :
+       {"second_harmonic.json", "creep_that_saturates.json", "chain_rubs.json"}) {
+    EXPECT_NE(page.find(declaration_of(declared_by(file))->adds_mm), std::string::npos) << file;
+    EXPECT_NE(page.find(std::string("`") + file + "`"), std::string::npos) << file;
+  }
+  EXPECT_NE(
+      page.find(grid::files::read_whole_file(fixtures + "/effects/second_harmonic.json") + "```"),
+      std::string::npos)
+      << "the first one whole";
+}
+
+}  // namespace
+}  // namespace chaintrue::model::effects::equivalence

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tables as people and their spreadsheets keep them: the same readings, however they were written.
+#include "grid/files/csv_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "grid/files/length_text.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::vector<CsvColumn> kColumns = {{"x_mm", {"mm", -5000.0, 5000.0}},
+                                         {"y_mm", {"mm", -5000.0, 5000.0}, true, true},
+                                         {"order", {"", 0.0, 1e9}, false}};
+
+struct Read {
+  std::vector<std::vector<std::optional<double>>> rows;
+  std::vector<std::string> warnings;
+  std::vector<std::string> refusals;
+};
+
+Read read(const std::string& text) {
+  Problems problems("t.csv");
+  Read result;
+  result.rows = read_csv(text, kColumns, problems).rows;
+  for (const Warning& warning : problems.warnings()) result.warnings.push_back(warning.message());
+  for (const InputProblem& problem : problems.list()) result.refusals.push_back(problem.message());
+  return result;
+}
+
+class SameTable : public testing::TestWithParam<const char*> {};
+
+TEST_P(SameTable, IsReadTheSame) {
+  const Read found = read(GetParam());
+  EXPECT_THAT(found.refusals, IsEmpty());
+  ASSERT_EQ(found.rows.size(), 2U);
+  for (std::size_t row = 0; row < 2; ++row) {
+    ASSERT_TRUE(found.rows[row][0] && found.rows[row][1]);
+    // An inch rule's sixteenths are exact in binary; 25.4 is not.
+    EXPECT_NEAR(*found.rows[row][0], row == 0 ? -1112.8375 : 635.0, 1e-9);
+    EXPECT_NEAR(*found.rows[row][1], row == 0 ? 508.0 : -12.7, 1e-9);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ways,
+    SameTable,
+    testing::Values("x_mm,y_mm\n-1112.8375,508\n635,-12.7\n",
+                    "\xEF\xBB\xBFx_mm;y_mm\r\n-1112,8375;508\r\n635;-12,7\r\n;\r\n;;;;\r\n,,\r\n",
+                    "sep=;\nx_mm;y_mm\n-1112.8375;508\n635;-12.7\n",
+                    "Y (mm)\tX [mm]\n508\t-1112.8375\n-12.7\t635\n",
+                    "note,x_mm,y_mm\nfirst,-1112.8375,508\nsecond,635,-12.7\n",
+                    "x_mm,y_mm\n-1112.8375,508\n635,-12.7\n\"read by two people, on Sunday\"\n",
+                    "x_mm,y_mm\n-1112.8375 mm,50.8 cm\n0.635 m,-12.7mm\n",
+                    "x_mm,y_mm\n\"-43 13/16\"\"\",20 in\n25 inches,-1/2\n",
+                    "x_in,y_in\n-43 13/16,20\n25,-1/2\n",
+                    "x_mm,y_mm\n\xE2\x88\x92"
+                    "1112.8375,508\n635,\xE2\x88\x92"
+                    "12.7\n"));
+
+TEST(CsvTable, SaysWhatItDidNotUse) {
+  EXPECT_THAT(read("x_mm,y_mm,note\n1,2,ok\n").warnings,
+              ElementsAre("t.csv: line 1, column 11: the column \"note\" is not used"));
+  EXPECT_THAT(read("x_mm,y_mm\n1,2\nmeasured with the steel rule,\n").warnings,
+              ElementsAre(HasSubstr("line 3, column 1: a note, no reading: left out")));
+}
+
+// A column that is nearly one that is asked for is a slip, not a column of the owner's own.
+TEST(CsvTable, RefusesWhatMayBeAReading) {
+  EXPECT_THAT(read("x_mm,y_mm,ordr\n1,2,1\n").refusals,
+              ElementsAre(HasSubstr("\"ordr\" is probably order")));
+  EXPECT_THAT(read("x_mm,note\n1,ok\n").refusals, ElementsAre(HasSubstr("\"note\" is unknown")));
+  EXPECT_THAT(read("x_mm,y_mm\n1,2\nabout 12,3\n").refusals,
+              ElementsAre(HasSubstr("found about 12")));
+  EXPECT_THAT(read("x_mm,y_mm\na note above,\n1,2\n").refusals,
+              ElementsAre(HasSubstr("found a note above")));
+}
+
+TEST(LengthText, OfOtherUnitsAndOfAnInchRule) {
+  EXPECT_DOUBLE_EQ(length_with_unit_mm("43 13/16").value(), 43.8125 * 25.4);
+  EXPECT_DOUBLE_EQ(length_with_unit_mm("-43-13/16\"").value(), -43.8125 * 25.4);
+  EXPECT_DOUBLE_EQ(length_with_unit_mm("5/8 in").value(), 0.625 * 25.4);
+  EXPECT_DOUBLE_EQ(length_with_unit_mm("1.5 m").value(), 1500.0);
+  for (const char* none : {"",
+                           "12",
+                           "mm",
+                           "13/8",
+                           "1/0",
+                           "1/2 mm",
+                           "--1 mm",
+                           "1e999 mm",
+                           "a/b",
+                           "1 2/3/4",
+                           "12 parsecs",
+                           "nan mm",
+                           "-"}) {
+    EXPECT_FALSE(length_with_unit_mm(none)) << none;
+  }
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where a result comes from: the hash against published digests, which files count as read, and what
+// has changed since.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "grid/files/diagnosis_file.hpp"
+#include "grid/files/sha256.hpp"
+#include "grid/files/sources.hpp"
+#include "grid/files/whole_file.hpp"
+
+namespace chaintrue::grid::files {
+namespace provenance_test {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+std::string digest_of(std::string_view bytes) {
+  Sha256 hash;
+  hash.add(bytes);
+  return hash.text();
+}
+
+// NIST, Cryptographic Standards and Guidelines, examples with intermediate values: SHA-256; the empty
+// message and a million letters a are those of the NESSIE test vectors, sets 1 and 8.
+TEST(Sha256, GivesThePublishedDigests) {
+  EXPECT_EQ(digest_of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(digest_of("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  EXPECT_EQ(digest_of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(digest_of(std::string(1000000, 'a')),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+TEST(Sha256, DoesNotDependOnThePieces) {
+  std::string text;
+  for (int i = 0; i < 300; ++i) text += static_cast<char>(i * 7 % 256);
+  for (std::size_t piece = 1; piece < 130; ++piece) {
+    Sha256 hash;
+    for (std::size_t at = 0; at < text.size(); at += piece)
+      hash.add(std::string_view(text).substr(at, piece));
+    EXPECT_EQ(hash.text(), digest_of(text)) << piece;
+    EXPECT_EQ(hash.text(), digest_of(text)) << "asked twice, " << piece;
+  }
+}
+
+class Sources : public testing::Test {
+ protected:
+  void SetUp() override {
+    forget_sources();
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  [[nodiscard]] std::string path(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return (folder_ / name).string();
+  }
+
+  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "chaintrue_sources";
+};
+
+TEST_F(Sources, AreNamedWithoutFoldersAndHashedByTheirBytes) {
+  // UTF-16 is read as UTF-8; the hash is of what lies on the disk.
+  const std::string bytes(
+      "\xFF\xFE"
+      "a\0",
+      4);
+  (void)read_whole_file(path("wide.csv", bytes));
+  EXPECT_THAT(sources_read(), ElementsAre(SourceFile{"wide.csv", digest_of(bytes)}));
+}
+
+TEST_F(Sources, AreKeptOnceForEachContentAndInOrder) {
+  const std::string second = path("b.csv", "second");
+  (void)read_whole_file(second);
+  (void)read_whole_file(path("a.csv", "first"));
+  (void)read_whole_file(second);
+  (void)read_whole_file(path("b.csv", "changed"));
+  EXPECT_THAT(sources_read(),
+              ElementsAre(SourceFile{"b.csv", digest_of("second")},
+                          SourceFile{"a.csv", digest_of("first")},
+                          SourceFile{"b.csv", digest_of("changed")}));
+  forget_sources();
+  EXPECT_THAT(sources_read(), IsEmpty());
+}
+
+TEST_F(Sources, AreThoseOfTheThread) {
+  const std::string file = path("a.csv", "text");
+  std::thread([&] { (void)read_whole_file(file); }).join();
+  EXPECT_THAT(sources_read(), IsEmpty());
+}
+
+TEST(ChangedSince, NamesFilesOfTheSameNameAndAnotherContentAlone) {
+  const Provenance then{"1.0", "fit", {}, {{"a.csv", "1"}, {"b.csv", "2"}}};
+  EXPECT_THAT(changed_since(then, {{"a.csv", "1"}, {"b.csv", "3"}, {"c.csv", "4"}}),
+              ElementsAre("b.csv"));
+  EXPECT_THAT(changed_since(then, then.inputs), IsEmpty());
+}
+
+TEST(MadeBy, IsHeldToItsFormatWithTheRestOfTheFile) {
+  const std::string text =
+      read_whole_file(std::filesystem::path(CHAINTRUE_FIXTURES) / "good/diagnosis_every_key.json");
+  ASSERT_TRUE(made_by_of(text, "d.json"));
+  EXPECT_EQ(made_by_of(text, "d.json")->options, std::vector<std::string>{"--seed 7"});
+  EXPECT_FALSE(made_by_of("{\"file_type\": \"chaintrue_map\"}", "map.json"));
+  std::string wrong = text;
+  wrong.replace(wrong.find("\"sha256\": \""), 11, "\"sha265\": \"");
+  try {
+    (void)parse_diagnosis(wrong, "d.json");
+    FAIL() << "an unknown key was taken";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("/made_by/inputs/0/sha265"));
+  }
+}
+
+TEST(MadeBy, ComesBackAsItWasWritten) {
+  const Provenance made_by{"1.2.3", "fit", {"--surface direct"}, {{"a \"b\".csv", digest_of("")}}};
+  const diagnosis::Diagnosis found = parse_diagnosis(
+      read_whole_file(std::filesystem::path(CHAINTRUE_FIXTURES) / "good/diagnosis_every_key.json"),
+      "d.json");
+  EXPECT_EQ(made_by_of(write_diagnosis(found, made_by), "d.json"), made_by);
+  EXPECT_EQ(made_by_of(write_diagnosis(found), "d.json"), std::nullopt);
+}
+
+TEST(Version, HasThreeNumbers) {
+  EXPECT_EQ(std::count(version().begin(), version().end(), '.'), 2) << version();
+}
+
+}  // namespace provenance_test
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sealed/judge/anchor_coverage.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "grid/belts/anchor_fit.hpp"
+#include "grid/diagnosis/anchors_with_causes.hpp"
+#include "grid/synthetic/random.hpp"
+#include "grid/synthetic/simulated_belts.hpp"
+#include "model/belts/effects/belt_effect.hpp"
+
+namespace chaintrue::sealed {
+namespace {
+
+constexpr std::array kUsual = {UsualCause{},
+                               UsualCause{"belt_stretch", "elongation", 0.003, 0.005},
+                               UsualCause{"anchor_flex", "give_mm", 0.5, 2.0},
+                               UsualCause{"anchor_height", "offset_mm", 10.0, 40.0, true},
+                               UsualCause{"belt_scale", "scale", 0.001, 0.003, true},
+                               UsualCause{"belt_zero", "offset_mm", 1.0, 5.0, true},
+                               UsualCause{"drift", "rate_mm_per_visit", 0.01, 0.05, true},
+                               UsualCause{"tooth_skip", "teeth", 1.0, 1.0, true},
+                               UsualCause{"zero_shift", "shift_mm", 1.0, 10.0, true},
+                               UsualCause{"anchor_moved", "distance_mm", 1.0, 10.0}};
+
+model::BeltMachine frame() {
+  model::BeltMachine machine;
+  machine.anchors_known = true;
+  machine.anchors = {
+      {-27.6, 2064.9, 100.0}, {2924.3, 2066.5, 56.0}, {0.0, 0.0, 34.0}, {2953.2, 0.0, 78.0}};
+  return machine;
+}
+
+/// All four belts together change the scale, which no belt shows, and a frame as a whole no length.
+bool shows(const UsualCause& cause, model::belts::BeltSide side) {
+  return side != model::belts::BeltSide::all ||
+         (cause.effect != "belt_scale" && cause.effect != "anchor_moved");
+}
+
+model::AppliedEffect drawn(const UsualCause& cause, int places, grid::synthetic::Random& random) {
+  const model::belts::BeltEffect& effect = *model::belts::find_belt_effect(cause.effect);
+  std::vector<model::belts::BeltSide> sides;
+  for (const auto side : effect.sides) {
+    if (shows(cause, side)) sides.push_back(side);
+  }
+  model::AppliedEffect applied;
+  applied.effect = cause.effect;
+  applied.side = name(sides.at(random.below(sides.size())));
+  const double size = random.uniform(cause.least, cause.most);
+  const bool negative = cause.either_sign && random.uniform() < 0.5;
+  applied.parameters[std::string(cause.parameter)] = negative ? -size : size;
+  for (const auto& parameter : effect.parameters) {
+    // Not among the first or last two: such a step is no other than two bad readings.
+    if (parameter.name == "first_visit")
+      applied.parameters["first_visit"] = std::floor(random.uniform(2.0, places - 2.0));
+    if (parameter.name == "direction_rad")
+      applied.parameters["direction_rad"] = random.uniform(-std::numbers::pi, std::numbers::pi);
+  }
+  return applied;
+}
+
+}  // namespace
+
+std::span<const UsualCause> usual_causes() { return kUsual; }
+
+Coverage coverage_of(const UsualCause& cause, std::uint64_t first_seed, int sessions, int side) {
+  constexpr double kWithin = 1.96;
+  const model::BeltMachine truth = frame();
+  const grid::belts::AnchorVector true_anchors = grid::belts::anchors_of(truth);
+  Coverage result;
+  for (int k = 0; k < sessions; ++k) {
+    const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(k);
+    grid::synthetic::BeltsSpec spec;
+    spec.columns = spec.rows = side;
+    spec.seed = seed;
+    grid::synthetic::Random random(seed, cause.effect.size());
+    if (!cause.effect.empty()) spec.hidden.push_back(drawn(cause, side * side, random));
+    const auto belts = grid::synthetic::simulate_belts(truth, truth, spec);
+    if (!belts) throw std::logic_error("a session that cannot be simulated");
+    const auto fit = grid::diagnosis::fit_with_causes(*belts);
+    const auto alone = grid::fit_belts(*belts);
+    if (!fit || !alone) throw std::logic_error("a session that cannot be fitted");
+    for (std::size_t i = 0; i < fit->coordinates.size(); ++i) {
+      const double true_mm = true_anchors[static_cast<Eigen::Index>(i)];
+      const auto sigmas = [true_mm](const grid::AnchorCoordinate& c) {
+        return std::abs(c.fitted_mm - true_mm) / c.sigma_mm;
+      };
+      const double off = sigmas(fit->coordinates[i]);
+      ++result.of;
+      result.held += off < kWithin;
+      result.held_alone += sigmas(alone->coordinates[i]) < kWithin;
+      result.square += off * off;
+    }
+  }
+  return result;
+}
+
+}  // namespace chaintrue::sealed

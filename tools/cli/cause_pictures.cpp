@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/cause_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "grid/diagnosis/causes_fit.hpp"
+#include "grid/synthetic/strength.hpp"
+#include "model/reading_model.hpp"
+#include "tools/cli/diagnosis_charts.hpp"
+#include "tools/cli/diagnosis_words.hpp"
+#include "tools/report/bed_chart.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::diagnosis::Cause;
+using grid::diagnosis::Diagnosis;
+using report::Arrow;
+
+/// The measured places, without a shift.
+struct Places {
+  std::vector<model::Visit> visits;
+  std::vector<Arrow> arrows;
+};
+
+/// Of several sessions that whose order of visits is known; of holes alone where they were to be.
+Places places_of(const Diagnosis& found) {
+  Places places;
+  const auto add = [&places](const std::string& name, const model::MarkPoint& mark, int order) {
+    places.visits.push_back({{mark.x_mm, mark.y_mm}, order});
+    places.arrows.push_back({.name = name, .x_mm = mark.x_mm, .y_mm = mark.y_mm});
+  };
+  const bool ordered = has_order(found);
+  for (const auto& point : found.points) {
+    if (ordered && !point.order) continue;
+    add(point_name(point.index),
+        point.mark,
+        point.order.value_or(static_cast<int>(places.visits.size())));
+  }
+  if (!found.points.empty()) return places;
+  for (const auto& hole : found.holes)
+    add("hole " + hole.name, hole.commanded, static_cast<int>(places.visits.size()));
+  return places;
+}
+
+/// The machine as found, but for this cause.
+model::Machine machine_without(const Diagnosis& found, const model::AppliedEffect& cause) {
+  model::Machine machine = found.extended_machine;
+  std::erase_if(machine.effects, [&](const model::AppliedEffect& effect) {
+    return effect.effect == cause.effect && effect.side == cause.side;
+  });
+  return machine;
+}
+
+/// Of the tool at each place; nothing where a place is out of reach, with the cause or without it, or
+/// where a file's numbers are no machine's: two visits of one number, a size beyond its range.
+std::optional<std::vector<Eigen::Vector2d>> shifts_by(const Diagnosis& found,
+                                                      const Cause& cause,
+                                                      const std::vector<model::Visit>& visits) {
+  try {
+    const model::AppliedEffect applied = grid::diagnosis::applied(cause);
+    const auto shifts =
+        grid::synthetic::signature(machine_without(found, applied), {applied}, visits)
+            .tool_shift_mm();
+    const bool finite = std::all_of(
+        shifts.begin(), shifts.end(), [](const auto& shift) { return shift.allFinite(); });
+    return finite ? std::optional(shifts) : std::nullopt;
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
+report::Chart chart_of(const Diagnosis& found,
+                       const Cause& cause,
+                       const Places& places,
+                       const std::vector<Eigen::Vector2d>& shifts) {
+  std::vector<Arrow> arrows = places.arrows;
+  double largest_mm = 0.0;
+  for (std::size_t i = 0; i < arrows.size(); ++i) {
+    arrows[i].dx_mm = shifts[i].x();
+    arrows[i].dy_mm = shifts[i].y();
+    largest_mm = std::max(largest_mm, shifts[i].norm());
+  }
+  const model::Bed& bed = found.extended_machine.bed;
+  const report::Outline sheet{
+      -0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
+  report::Chart chart = report::arrows_chart(
+      sheet, arrows, report::magnification_of(sheet, arrows), report::kBeforeColor);
+  chart.title = fmt::format(
+      "{}: {}", cause_title(cause.cause), sizes_in_words(cause.cause, cause.parameters));
+  chart.caption = fmt::format(
+      "Where this alone puts the tool, seen from where it was sent: {:.1f} mm at most. Computed "
+      "for "
+      "the size that was found, without new settings.",
+      largest_mm);
+  return chart;
+}
+
+}  // namespace
+
+std::vector<report::Chart> cause_charts(const Diagnosis& found) {
+  const Places places = places_of(found);
+  if (found.belts || places.visits.empty()) return {};
+  std::vector<report::Chart> charts;
+  for (const Cause& cause : found.causes) {
+    if (const auto shifts = shifts_by(found, cause, places.visits))
+      charts.push_back(chart_of(found, cause, places, *shifts));
+  }
+  return charts;
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/export_plotter.hpp"
+
+#include <memory>
+#include <string>
+
+#include "grid/files/plotter_file.hpp"
+#include "grid/plotter/settings_to_paste.hpp"
+#include "tools/cli/input_file.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/talk.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+
+struct ExportPlotterCommand {
+  std::string input;
+  std::string output = "-";
+};
+
+int export_plotter(const ExportPlotterCommand& command) {
+  const InputFile file = open_input(command.input);
+  require_kind(file, {FileKind::plotter});
+  const grid::KnownPlotter plotter = files::parse_plotter(file.text, file.name);
+  if (!plotter.found) {
+    throw files::InputError({{file.name,
+                              "/found",
+                              "",
+                              "what a test drawing found; chaintrue fit drawing.json -o found.json "
+                              "writes a plotter with it"}});
+  }
+  std::string text;
+  for (const std::string& line :
+       grid::settings_to_paste(plotter.set, grid::machine_found(plotter.set, *plotter.found)))
+    text += line + "\n";
+  write_output(command.output, text);
+  say_next({"start", file.path, "second-drawing"});
+  return kDone;
+}
+
+}  // namespace
+
+void add_export_plotter(Verb export_verb, Run& run) {
+  auto command = std::make_shared<ExportPlotterCommand>();
+  Verb verb = export_verb.add_verb(
+      "plotter", "The numbers to type into a V-plotter's controller after a test drawing");
+  add_input(verb, "file", command->input, "A chaintrue_plotter file as fit makes it of a drawing")
+      .required();
+  add_output(
+      verb, "-o,--output", command->output, {Origin::list}, "Where they go; - is standard output")
+      .shows_default();
+  verb.footer(
+      "Example:\n"
+      "  build/chaintrue fit fixtures/plotter/mural_drawing.json -o found.json\n"
+      "  build/chaintrue export plotter found.json");
+  verb.when_chosen([command, &run] { run = [command] { return export_plotter(*command); }; });
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/fit_the_drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include "grid/files/drawing_file.hpp"
+#include "grid/files/plotter_file.hpp"
+#include "grid/plotter/drawing_fit.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/talk.hpp"
+#include "tools/report/document.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+using grid::DrawingFit;
+using grid::FittedMeasure;
+using grid::PlotterSetting;
+using grid::TestDrawing;
+using report::Detail;
+
+struct PlotterSettingWords {
+  std::string_view noun;
+  std::string_view unit;
+};
+
+/// Of a parameter of the mechanism, as its owner would say it.
+PlotterSettingWords plotter_setting_words(std::size_t parameter) {
+  constexpr PlotterSettingWords kWords[] = {
+      {"distance between the pins", "mm"},
+      {"height of the right pin over the left", "mm"},
+      {"zero of the left cord", "mm"},
+      {"zero of the right cord", "mm"},
+      {"left cord, counted too long", "mm per metre"},
+      {"right cord, counted too long", "mm per metre"},
+  };
+  return kWords[parameter];
+}
+
+double largest_bow(const TestDrawing& drawing,
+                   const DrawingFit& fit,
+                   double FittedMeasure::*value) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < fit.measures.size(); ++i) {
+    if (drawing.measures[i].kind == grid::observation::DrawnMeasure::Kind::bow &&
+        !fit.measures[i].rejected)
+      most = std::max(most, std::abs(fit.measures[i].*value));
+  }
+  return most;
+}
+
+std::string sentence_of_settings(const DrawingFit& fit) {
+  std::string named;
+  for (std::size_t k = 0; k < fit.settings.size(); ++k) {
+    const PlotterSetting& own = fit.settings[k];
+    if (!own.is_off) continue;
+    named += fmt::format("{}the {}, by {:+.2f} +- {:.2f} {}",
+                         named.empty() ? "" : "; ",
+                         plotter_setting_words(k).noun,
+                         own.found - own.stated,
+                         own.sigma,
+                         plotter_setting_words(k).unit);
+  }
+  if (named.empty()) return "No setting is off by more than chance would make it.";
+  return fmt::format("Off by more than chance: {}.", named);
+}
+
+report::Table table_of_settings(const DrawingFit& fit) {
+  report::Table table{.columns = {{.heading = "setting", .width = 46},
+                                  {.heading = "as set", .is_number = true, .width = 10},
+                                  {.heading = "found", .is_number = true, .width = 10},
+                                  {.heading = "+-", .is_number = true, .width = 8},
+                                  {.heading = "", .gap = 2}}};
+  for (std::size_t k = 0; k < fit.settings.size(); ++k) {
+    const PlotterSetting& own = fit.settings[k];
+    const PlotterSettingWords words = plotter_setting_words(k);
+    report::Row row{
+        {fmt::format("{}, {}", words.noun, words.unit), own.stated, own.found, own.sigma},
+        own.is_off};
+    if (own.is_off) row.cells.emplace_back("off");
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+report::Table table_of_measures(const TestDrawing& drawing, const DrawingFit& fit) {
+  report::Table table{.columns = {{.heading = "measure, mm", .width = 22},
+                                  {.heading = "measured", .is_number = true, .width = 10},
+                                  {.heading = "fitted", .is_number = true, .width = 10},
+                                  {.heading = "next page", .is_number = true, .width = 11},
+                                  {.heading = "", .gap = 2}}};
+  for (std::size_t i = 0; i < fit.measures.size(); ++i) {
+    const FittedMeasure& own = fit.measures[i];
+    report::Row row{{grid::words_of(drawing, i), own.measured_mm, own.found_mm, own.after_mm},
+                    own.rejected};
+    if (own.rejected) row.cells.emplace_back("set aside");
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+report::Document drawing_document(const TestDrawing& drawing, const DrawingFit& fit) {
+  report::Document document;
+  document.title = fmt::format("Test drawing: {}", drawing.name);
+  document.verdict = {
+      fmt::format("The lines bow by up to {:.1f} mm. With the numbers found typed in, those of the "
+                  "next page bow by up to {:.1f} mm.",
+                  largest_bow(drawing, fit, &FittedMeasure::measured_mm),
+                  largest_bow(drawing, fit, &FittedMeasure::after_mm))};
+  document.remarks.blocks.emplace_back(report::Paragraph{sentence_of_settings(fit)});
+  for (std::size_t i = 0; i < fit.measures.size(); ++i) {
+    if (!fit.measures[i].rejected) continue;
+    document.remarks.blocks.emplace_back(report::Paragraph{
+        fmt::format("{} was set aside: {:.1f} mm was read, and the rest says {:.1f} mm. Measure it "
+                    "again.",
+                    grid::words_of(drawing, i),
+                    fit.measures[i].measured_mm,
+                    fit.measures[i].found_mm),
+        Detail::always,
+        true});
+  }
+  document.sections.push_back({"Settings", {table_of_settings(fit)}});
+  report::Section measures{"Measures", {table_of_measures(drawing, fit)}};
+  measures.detail = Detail::verbose;
+  document.sections.push_back(std::move(measures));
+  return document;
+}
+
+}  // namespace
+
+int fit_the_drawing(const DrawingFitCommand& command) {
+  const TestDrawing drawing = files::parse_drawing(command.file.text, command.file.name);
+  const auto fit = grid::fit_drawing(drawing);
+  if (!fit) {
+    fmt::print(stderr, "{}: {}\n", command.file.name, fit.error().sentence());
+    return kBadInput;
+  }
+  const std::string text = files::write_plotter({drawing, grid::found_by(*fit)});
+  std::vector<files::OutputFile> outputs = {{command.output, text}};
+  if (command.json) outputs.push_back({"-", text});
+  write_outputs(outputs);
+  const Detail detail = command.verbose ? Detail::verbose : Detail::always;
+  fmt::print(stderr, "{}", report::render_text(drawing_document(drawing, *fit), detail));
+  say_next({"export", "plotter", command.output});
+  return kDone;
+}
+
+}  // namespace chaintrue::cli

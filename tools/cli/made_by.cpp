@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/made_by.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string_view>
+
+#include "grid/files/sources.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/progress.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+
+/// These change nothing of what is made: what is printed, what may be replaced, the default.
+constexpr std::array<std::string_view, 6> kWithoutTrace = {
+    "--force", "--json", "--plain", "--quiet", "--verbose", "--wish-mm"};
+
+std::string in_words(Verb verb, const GivenOption& option) {
+  const bool is_file = use_of(verb, option.name) == PlaceUse::input;
+  std::string text = option.name;
+  for (const std::string& word : option.words)
+    text += " " + (is_file ? files::name_without_folders(word) : word);
+  return text;
+}
+
+}  // namespace
+
+grid::Provenance made_by(Verb verb) {
+  grid::Provenance made_by{std::string(files::version()), verb.path(), {}, files::sources_read()};
+  for (const GivenOption& option : verb.given_options()) {
+    const bool is_without_trace =
+        std::find(kWithoutTrace.begin(), kWithoutTrace.end(), option.name) != kWithoutTrace.end();
+    if (is_without_trace || use_of(verb, option.name) == PlaceUse::output) continue;
+    made_by.options.push_back(in_words(verb, option));
+  }
+  return made_by;
+}
+
+void add_made_by(const std::optional<grid::Provenance>& made_by,
+                 std::vector<report::Section>& sections) {
+  if (!made_by) return;
+  std::string command = "chaintrue " + made_by->verb;
+  for (const std::string& option : made_by->options) command += " " + option;
+  report::Table table{.columns = {{"file"}, {"SHA-256"}}};
+  for (const grid::SourceFile& file : made_by->inputs)
+    table.rows.push_back({{file.name, file.sha256}});
+  report::Section section{"Where this comes from", {}};
+  section.blocks.push_back(
+      report::Paragraph{fmt::format("Made by version {} with \"{}\".", made_by->version, command)});
+  if (!table.rows.empty()) {
+    table.caption = "sha256sum prints the same for a file that has not changed since.";
+    section.blocks.push_back(std::move(table));
+  }
+  section.is_folded = true;
+  section.detail = report::Detail::page;
+  sections.push_back(std::move(section));
+}
+
+void say_what_changed(const InputFile& result) {
+  const auto made_by = files::made_by_of(result.text, result.name);
+  if (!made_by) return;
+  for (const std::string& name : files::changed_since(*made_by, files::sources_read())) {
+    end_progress();
+    fmt::print(stderr,
+               "{} is not as it was when {} was made from it: make {} again if what you measured "
+               "has changed.\n",
+               name,
+               result.name,
+               result.name);
+  }
+}
+
+}  // namespace chaintrue::cli

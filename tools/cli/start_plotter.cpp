@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/start_plotter.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "grid/files/drawing_file.hpp"
+#include "grid/files/plotter_file.hpp"
+#include "grid/plotter/drawing_page.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/talk.hpp"
+#include "tools/cli/warnings.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+namespace fs = std::filesystem;
+using model::PlotterFirmware;
+
+/// A mural and a Polargraph are sent a picture, the others a program.
+FolderFile drawn_page_of(const grid::TestDrawing& drawing) {
+  if (drawing.firmware == PlotterFirmware::mural || drawing.firmware == PlotterFirmware::polargraph)
+    return {"page.svg", grid::drawing_svg(drawing), Origin::drawing};
+  return {"page.gcode",
+          "; chaintrue start: the test drawing of a V-plotter\n" +
+              grid::drawing_gcode(drawing, drawing.pen, drawing.feed_mm_per_min),
+          Origin::program};
+}
+
+/// \throws files::InputError for a cross that the controller does not reach.
+void require_reach(const grid::TestDrawing& drawing, const std::string& file) {
+  const auto drawn = grid::drawn_measures_of(drawing);
+  if (drawn) return;
+  const grid::DrawnCross& cross = drawing.crosses[drawn.error().place];
+  throw files::InputError({{file,
+                            "/set/machine/area",
+                            fmt::format("a cross at ({:.1f}, {:.1f}) mm, {}",
+                                        cross.commanded.x_mm,
+                                        cross.commanded.y_mm,
+                                        drawn.error().sentence()),
+                            "an area that the pen reaches"}});
+}
+
+}  // namespace
+
+bool is_of_a_plotter(const InputFile& file) {
+  return file.kind == FileKind::plotter ||
+         (!files::is_json(file.text) && files::is_of_a_plotter_alone(file.text));
+}
+
+files::ReadPlotter load_plotter(const InputFile& file) {
+  if (files::is_json(file.text)) {
+    require_kind(file, {FileKind::plotter});
+    return {files::parse_plotter(file.text, file.name), {}};
+  }
+  return files::parse_plotter_settings(file.text, file.name);
+}
+
+int start_plotter(Verb verb, const InputFile& file, std::string folder) {
+  const files::ReadPlotter read = load_plotter(file);
+  print_warnings(read.warnings);
+  grid::SetPlotter set = read.plotter.set;
+  const bool is_ours = file.kind == FileKind::plotter;
+  if (folder.empty() && is_ours) folder = fs::path(file.path).parent_path().string();
+  if (folder.empty()) folder = ".";
+  if (read.plotter.found) {
+    set = grid::once_typed_in(set, grid::machine_found(set, *read.plotter.found));
+    fmt::print(stderr,
+               "This page is for the plotter with the numbers of export plotter typed in.\n");
+  }
+  const grid::TestDrawing drawing = grid::planned_drawing(set);
+  require_reach(drawing, file.name);
+  const FolderFile page = drawn_page_of(drawing);
+  std::vector<FolderFile> contents = {
+      page,
+      {"sheet.txt", grid::measuring_list(drawing), Origin::list},
+      {"drawing.json", files::write_blank_drawing(drawing), Origin::measured}};
+  if (!is_ours) {
+    std::vector<std::string> comments;
+    for (const files::Warning& warning : read.warnings) comments.push_back(warning.sentence);
+    contents.push_back(
+        {"plotter.json", files::write_plotter(read.plotter, comments), Origin::machine});
+  }
+  write_folder(verb, folder, contents);
+  const auto in_folder = [&](const char* name) { return (fs::path(folder) / name).string(); };
+  fmt::print(stderr,
+             "{0} holds the test page: draw {1}, print sheet.txt, measure with a ruler and a "
+             "string, and write what you read into drawing.json in place of each null.\n",
+             folder,
+             page.name);
+  say_next({"fit", in_folder("drawing.json"), "-o", in_folder("found.json")});
+  return kDone;
+}
+
+}  // namespace chaintrue::cli

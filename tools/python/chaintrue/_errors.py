@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What goes wrong, with fields for a program and a sentence for a person."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Problem(NamedTuple):
+    """One thing that is wrong in an input."""
+
+    file: str
+    """Its name, or "arrays"."""
+    place: str
+    """/points/3/x_mm, "line 4, column 12", or empty for the whole file."""
+    value: str
+    """As found; empty where something is missing."""
+    expected: str
+    """What was expected."""
+    message: str
+    """All of it in a sentence, with the likely mistake where one is recognised."""
+
+
+class GcodeProblem(NamedTuple):
+    """One line of a program that is refused."""
+
+    line: int
+    """From 1; 0 is the file."""
+    column: int
+    """From 1; 0 is the whole line."""
+    name: str
+    """A stable name, such as bad_arc."""
+    sentence: str
+
+
+class InputError(ValueError):
+    """Bad input, with everything that is wrong in it.
+
+    problems  a Problem each
+    """
+
+    problems: list[Problem]
+
+    def __init__(self, message: str, problems: list[tuple[str, str, str, str, str]] = ()):
+        super().__init__(message, list(problems))
+        self.problems = [Problem(*problem) for problem in problems]
+
+    def __str__(self) -> str:
+        return self.args[0]
+
+
+class Failure(RuntimeError):
+    """What cannot be done with sound input.
+
+    sentence  what happened, and what to do
+    reason    a stable name: no_machine, not_converged, unreachable ...; empty where there is none
+    """
+
+    sentence: str
+    reason: str
+
+    def __init__(self, sentence: str, reason: str = ""):
+        super().__init__(sentence, reason)
+        self.sentence = sentence
+        self.reason = reason
+
+    def __str__(self) -> str:
+        return self.sentence
+
+
+class GcodeError(Failure):
+    """A program that is refused: nothing of it is written.
+
+    problems  a GcodeProblem each
+    """
+
+    problems: list[GcodeProblem]
+
+    def __init__(self, sentence: str, problems: list[tuple[int, int, str, str]] = ()):
+        super().__init__(sentence, "bad_program")
+        self.args = (sentence, list(problems))
+        self.problems = [GcodeProblem(*problem) for problem in problems]
+
+
+class MissingPackage(ImportError):
+    """Another Python package is needed for this; its field `name` says which."""
+
+    def __init__(self, package: str, purpose: str):
+        super().__init__(
+            f"{purpose} needs the Python package {package}, which is not installed. On Debian: "
+            f"apt install python3-{package}",
+            name=package,
+        )
+        self._given = (package, purpose)
+
+    def __reduce__(self):
+        return type(self), self._given

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a map says of places."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
+
+from . import _plots
+from ._records import frame, table
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Lengths:
+    """What a map says of places. A single place has no first axis: lengths are (2,), status is a word.
+
+    points      (..., 2) array, mm: x and y as they were asked for
+    names       what the lengths are of: left and right chain; of belts tl, tr, bl and br
+    lengths     (..., 2) masked array, mm, or (..., 4) of belts
+    sigma       (..., 2) masked array, mm: one sigma of the first two
+    tool_sigma  (...) masked array, mm: one sigma of the tool's place
+    status      (...) array of inside, edge, extrapolated, outside
+    why         (...) array of sentences: why there is no answer; empty where there is one
+
+    Each of names is an attribute as well: answer.left is answer.lengths[..., 0].
+    """
+
+    points: NDArray[numpy.float64]
+    names: tuple[str, ...]
+    lengths: numpy.ma.MaskedArray
+    sigma: numpy.ma.MaskedArray
+    tool_sigma: numpy.ma.MaskedArray
+    status: Any
+    why: Any
+
+    @property
+    def left(self) -> numpy.ma.MaskedArray:
+        """(...) masked array, mm: the left chain, or the top left belt."""
+        return self.lengths[..., 0]
+
+    @property
+    def right(self) -> numpy.ma.MaskedArray:
+        """(...) masked array, mm: the right chain, or the top right belt."""
+        return self.lengths[..., 1]
+
+    @property
+    def left_sigma(self) -> numpy.ma.MaskedArray:
+        """(...) masked array, mm: one sigma of left."""
+        return self.sigma[..., 0]
+
+    @property
+    def right_sigma(self) -> numpy.ma.MaskedArray:
+        """(...) masked array, mm: one sigma of right."""
+        return self.sigma[..., 1]
+
+    def __getattr__(self, name: str) -> numpy.ma.MaskedArray:
+        names = self.__dict__.get("names", ())
+        if name not in names:
+            raise AttributeError(f"there is no {name} here, but {', '.join(names)}")
+        return self.lengths[..., names.index(name)]
+
+    def __repr__(self) -> str:
+        if self.points.ndim == 1:
+            words = [f"{name} {length:.3f} mm" for name, length in zip(self.names, self.lengths)]
+            told = f"{self.status}: {self.why}" if self.why else ", ".join([*words, self.status])
+            return f"<chaintrue.Lengths: {told}>"
+        answered = int((numpy.asarray(self.status) != "outside").sum())
+        count = self.points.size // 2
+        return f"<chaintrue.Lengths: {count} places, {answered} answered; {', '.join(self.names)}>"
+
+    def __len__(self) -> int:
+        return len(self.status) if isinstance(self.status, numpy.ndarray) else 1
+
+    def columns(self) -> dict[str, list[Any]]:
+        """A list for each column of to_frame(), None where there is no answer."""
+        count = len(self.names)
+        lengths, sigma = self.lengths.reshape(-1, count), self.sigma.reshape(-1, 2)
+        places = self.points.reshape(-1, 2)
+        columns = {"x_mm": places[:, 0].tolist(), "y_mm": places[:, 1].tolist()}
+        columns |= {f"{name}_mm": lengths[:, i].tolist() for i, name in enumerate(self.names)}
+        columns |= {f"{self.names[i]}_sigma_mm": sigma[:, i].tolist() for i in (0, 1)}
+        columns["tool_sigma_mm"] = self.tool_sigma.reshape(-1).tolist()
+        columns["status"] = numpy.reshape(self.status, -1).tolist()
+        return columns
+
+    def to_frame(self) -> Any:
+        """A pandas.DataFrame with a row for each place. Raises MissingPackage without pandas."""
+        return frame(self.columns())
+
+    def plot(self, ax: Any = None) -> Any:
+        """The places, coloured by the tool's sigma; the axes are given back."""
+        return _plots.lengths(self, ax)
+
+    def _repr_html_(self) -> str:
+        return table(self.columns())
+
+
+def places_of(numbers: Any, name: str) -> NDArray[numpy.float64]:
+    """A (..., 2) float64 array of finite numbers, or ValueError."""
+    array = numpy.asarray(numbers, dtype=numpy.float64)
+    if array.ndim == 0 or array.shape[-1] != 2:
+        raise ValueError(f"{name} must have the shape (n, 2) or (2,), not {array.shape}")
+    bad = numpy.argwhere(~numpy.isfinite(array))
+    if bad.size:
+        raise ValueError(
+            f"{name}: row {bad[0][0] if array.ndim > 1 else 0} holds a number that is none, or infinite"
+        )
+    return array
+
+
+def answered(places: NDArray[numpy.float64], found: dict[str, Any]) -> Lengths:
+    """The core's answer to places.reshape(-1, 2), in the shape of places."""
+    shape = places.shape[:-1]
+    outside = found["outside"].reshape(shape)
+    both = numpy.stack([outside, outside], axis=-1)
+    lengths = found["lengths"].reshape(*shape, len(found["names"]))
+    status = numpy.array(found["status"]).reshape(shape)
+    why = numpy.array(found["why"], dtype=object).reshape(shape)
+    return Lengths(
+        points=places,
+        names=tuple(found["names"]),
+        lengths=numpy.ma.array(lengths, mask=numpy.repeat(outside[..., None], lengths.shape[-1], -1)),
+        sigma=numpy.ma.array(found["sigma"].reshape(*shape, 2), mask=both),
+        tool_sigma=numpy.ma.array(
+            found["tool_sigma"].reshape(shape), mask=~found["tool_known"].reshape(shape)
+        ),
+        status=status if shape else str(status[()]),
+        why=why if shape else str(why[()]),
+    )

@@ -1,0 +1,258 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Maps of two chains and anchors of four belts: fitted, and asked."""
+
+from __future__ import annotations
+
+from typing import Any, Iterable, Optional, Union, overload
+
+import numpy
+from numpy.typing import ArrayLike
+
+from . import _core, _plots
+from ._base import Made, PathLike, one_of, read_made, sources_of, told
+from ._lengths import Lengths, answered, places_of
+from ._measured import Grid, Machine
+from ._records import Record, Records, records
+from ._taped import Belts, Holes
+
+Measured = Union[Grid, Holes, Belts]
+
+
+class Accuracy(Record):
+    """What a map says of its own error. Errors of the tool and of the chains have rms_mm and
+    maximum_mm; those of points left out contain the readings' noise."""
+
+    expected_tool: Record
+    """Over the measured part, one sigma, against the true machine."""
+    expected_worst_at: Record
+    """x_mm and y_mm of its largest."""
+    leave_one_out: Record
+    """Of each point by the others: chain, tool, tool_x_rms_mm, tool_y_rms_mm."""
+    blocked: Record
+    """The same for whole parts of the bed."""
+
+
+class AnchorsAccuracy(Record):
+    """What a fit of anchors says of its own error, mm."""
+
+    spread_mm: float
+    """One reading of a belt, one sigma."""
+    rms_mm: float
+    """The same as the machine counts it."""
+    foretold: Record
+    """Readings that were left out, as the others foretell them."""
+
+
+class Map(Made):
+    """A compensation map: what the chains must be for every place of the bed."""
+
+    _parse = staticmethod(_core.parse_map)
+
+    @property
+    def notes(self) -> list[str]:
+        """What its reader should know, in sentences."""
+        return self._core.notes
+
+    @property
+    def sentence(self) -> str:
+        """How far the tool is off, and what is left with this map."""
+        return self._core.sentence
+
+    @property
+    def machine(self) -> Optional[Machine]:
+        """The Machine with its settings as fitted; None of a direct surface."""
+        return None if self._core.machine is None else Machine(self._core.machine)
+
+    @property
+    def accuracy(self) -> Accuracy:
+        """What it says of its own error: accuracy.expected_tool.rms_mm and more."""
+        return Accuracy.of(self.to_dict()["accuracy"])
+
+    @property
+    def settings(self) -> Records:
+        """The settings as stated and as fitted, with their sigmas."""
+        return records(self.to_dict().get("settings", []))
+
+    @property
+    def points(self) -> Records:
+        """The measured points: how far the tool was off as stated, with the map, and left out."""
+        return records(self.to_dict().get("points", []))
+
+    def query(self, xy: ArrayLike, frame: str = "marks") -> Lengths:
+        """What the chains must be at places, an array (..., 2) of x and y in mm; (2,) is one place.
+
+        frame  marks: as the grid's points were given; bed: as the machine file has it
+        """
+        places = places_of(xy, "points")
+        return answered(places, self._core.query(places.reshape(-1, 2), _is_bed(frame)))
+
+    def inverse(self, lengths: Union[ArrayLike, Lengths], frame: str = "marks") -> numpy.ma.MaskedArray:
+        """Where the tool is, a masked array (..., 2) of x and y in mm, for lengths: an array (..., 2)
+        of left and right chain in mm, or what query gave."""
+        return _placed(lengths, lambda pairs: self._core.inverse(pairs, _is_bed(frame)))
+
+    def plot(self, ax: Any = None) -> Any:
+        """The expected error of the tool over the bed, and the points; the axes are given back."""
+        return _plots.calibration(self, ax)
+
+    def _page(self, source: str, certificate: bool = False) -> str:
+        return self._core.page(source, certificate, self._made_by)
+
+    def _facts(self) -> dict[str, Any]:
+        return {
+            "points": len(self.points),
+            "mm expected error of the tool, rms": f"{self.accuracy.expected_tool.rms_mm:.2f}",
+        }
+
+
+class Anchors(Made):
+    """The anchors of four belts as fitted: the map of such a machine."""
+
+    _parse = staticmethod(_core.parse_anchors)
+
+    @property
+    def accuracy(self) -> AnchorsAccuracy:
+        """What the fit says of its own error."""
+        fit = self.to_dict()["fit"]
+        return AnchorsAccuracy.of(
+            {key: fit[key] for key in ("spread_mm", "rms_mm", "rms_of_mm", "foretold") if key in fit}
+        )
+
+    @property
+    def coordinates(self) -> Records:
+        """Each coordinate of an anchor: coordinate, stated_mm, fitted_mm, sigma_mm, rests_on."""
+        return records(self.to_dict()["fit"]["coordinates"])
+
+    @property
+    def settings(self) -> str:
+        """Lines to paste into the machine's terminal."""
+        return self._core.settings()
+
+    def query(self, xy: ArrayLike) -> Lengths:
+        """What the belts must be at places, an array (..., 2) of x and y in mm; (2,) is one place."""
+        places = places_of(xy, "points")
+        return answered(places, self._core.query(places.reshape(-1, 2)))
+
+    def inverse(self, lengths: Union[ArrayLike, Lengths]) -> numpy.ma.MaskedArray:
+        """Where the tool is, a masked array (..., 2) of x and y in mm, for lengths: an array (..., 2)
+        of the upper two belts in mm, or what query gave."""
+        return _placed(lengths, self._core.inverse)
+
+    def plot(self, ax: Any = None) -> Any:
+        """The anchors and the places; the axes are given back."""
+        return _plots.belts(self.to_dict()["fit"], ax)
+
+    def _facts(self) -> dict[str, Any]:
+        return {
+            "places": len(self.to_dict()["fit"].get("places", [])),
+            "mm a reading is off": f"{self.accuracy.spread_mm:.2f}",
+        }
+
+
+def _placed(lengths: Any, ask: Any) -> numpy.ma.MaskedArray:
+    if isinstance(lengths, Lengths):
+        lengths = lengths.lengths[..., :2]
+    unknown = numpy.ma.getmaskarray(numpy.ma.asarray(lengths)).any(axis=-1)
+    pairs = places_of(numpy.ma.filled(lengths, 0.0), "lengths")
+    points, outside = ask(pairs.reshape(-1, 2))
+    outside = outside.reshape(pairs.shape[:-1]) | unknown
+    return numpy.ma.array(
+        points.reshape(pairs.shape), mask=numpy.stack([outside, outside], axis=-1)
+    )
+
+
+def _is_bed(frame: str) -> bool:
+    return one_of(frame, "frame", ("marks", "bed")) == "bed"
+
+
+def sorted_out(measured: Iterable[Measured], who: str) -> tuple[list[Any], list[Any], list[Any]]:
+    """The grids, the holes and the belts among them, or TypeError."""
+    found: dict[type, list[Any]] = {Grid: [], Holes: [], Belts: []}
+    for thing in measured:
+        if type(thing) not in found:
+            raise TypeError(f"{who} takes Grids, Holes and Belts, not {type(thing).__name__}")
+        found[type(thing)].append(thing._core)
+    if not any(found.values()):
+        raise TypeError(f"{who} takes Grids, Holes and Belts, one at least")
+    return found[Grid], found[Holes], found[Belts]
+
+
+@overload
+def fit(
+    measured: Grid, surface: str = ..., causes: bool = ..., accept_class: bool = ...
+) -> Map: ...
+@overload
+def fit(
+    measured: Belts, surface: str = ..., causes: bool = ..., accept_class: bool = ...
+) -> Anchors: ...
+@overload
+def fit(
+    measured: Union[Measured, Iterable[Measured]],
+    surface: str = ...,
+    causes: bool = ...,
+    accept_class: bool = ...,
+) -> Any: ...
+def fit(
+    measured: Union[Measured, Iterable[Measured]],
+    surface: str = "residual",
+    causes: bool = False,
+    accept_class: bool = False,
+) -> Any:
+    """The Map of a Grid, of Holes, or of several of one machine; of Belts, and of holes that such a
+    machine drilled, the Anchors.
+
+    surface  residual: the machine, calibrated, and a smooth correction of what it leaves
+             direct: splines through the lengths themselves, for points on full rows and columns; needs
+             no machine
+    causes   look for causes as diagnose does, and build the map on those that make it better on points
+             left out; its notes say which
+    accept_class  with causes: where links and tape cannot be told apart, it is the links
+    """
+    one = isinstance(measured, (Grid, Holes, Belts))
+    things = [measured] if one else list(measured)
+    grids, holes, belts = sorted_out(things, "fit")
+    sources = sources_of(*things)
+    if accept_class and not causes:
+        raise ValueError("accept_class says which of two causes acts: give causes=True")
+    if causes and surface == "direct":
+        raise ValueError("a direct surface has no machine that could err")
+    one_of(surface, "surface", ("residual", "direct"))
+    if belts or any(read.of_belts for read in holes):
+        return _fit_belts(grids, holes, belts, surface, causes, sources)
+    if surface == "direct" and (holes or len(grids) != 1):
+        raise ValueError("a direct surface is of the lengths of one Grid")
+    direct = surface == "direct"
+    options = {"--surface direct": direct, "--causes": causes, "--accept-class": accept_class}
+    return Map._made(_core.fit(grids, holes, direct, causes, accept_class), "fit", options, sources)
+
+
+def _fit_belts(
+    grids: list, holes: list, belts: list, surface: str, causes: bool, sources: list
+) -> Anchors:
+    if grids or len(belts) > 1:
+        raise ValueError("anchors are fitted to one Belts and any number of Holes")
+    if surface != "residual" or causes:
+        raise ValueError("surface and causes are of two chains: leave them out with Belts")
+    return Anchors._made(_core.fit_belts(belts[0] if belts else None, holes), "fit", {}, sources)
+
+
+def read_map(path: PathLike) -> Map:
+    """The Map of a chaintrue_map file."""
+    return told(read_made(path, Map), Map)
+
+
+def read_anchors(path: PathLike) -> Anchors:
+    """The Anchors of a chaintrue_anchors file."""
+    return told(read_made(path, Anchors), Anchors)
+
+
+def query(map: Union[Map, Anchors], points: ArrayLike, frame: str = "marks") -> Lengths:
+    """What Map.query gives; the same as calibration.query(points)."""
+    return map.query(points) if isinstance(map, Anchors) else map.query(points, frame)
+
+
+def inverse(
+    map: Union[Map, Anchors], lengths: Union[ArrayLike, Lengths], frame: str = "marks"
+) -> numpy.ma.MaskedArray:
+    """What Map.inverse gives; the same as calibration.inverse(lengths)."""
+    return map.inverse(lengths) if isinstance(map, Anchors) else map.inverse(lengths, frame)

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Accuracy against the simulator over any product of factors."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import pathlib
+import tempfile
+import warnings
+from typing import Any, Optional, Union
+
+from . import _core, _plots
+from ._base import PathLike, framed, text_of
+from ._measured import Machine
+from ._records import Records, records
+
+
+class Sweep:
+    """The results of a sweep.
+
+    name, question  as its specification has them
+    errors     records: factor, level, points, cells, tool_rms_mm, tool_max_mm; what one level of one
+               factor comes to at one number of points, over all else
+    results    records: each cell with its levels and its errors, as results.csv has them
+    summary    what summary.json holds
+    """
+
+    def __init__(self, found: dict[str, Any], folder: pathlib.Path):
+        self.name: str = found["name"]
+        self.question: str = found["question"]
+        self.errors: Records = records(found["errors"])
+        with open(folder / "results.csv", newline="", encoding="utf-8") as lines:
+            self.results: Records = records(
+                {key: _number(value) for key, value in line.items()} for line in csv.DictReader(lines)
+            )
+        self.summary: dict[str, Any] = json.loads((folder / "summary.json").read_text("utf-8"))
+        self._page_text: str = found["page"]
+
+    def to_frame(self) -> Any:
+        """results.to_frame(): a pandas.DataFrame. Raises MissingPackage without pandas."""
+        return self.results.to_frame()
+
+    def plot(self, ax: Any = None) -> Any:
+        """The tool's error over the number of points, a line for each level; the axes are given back."""
+        return _plots.sweep(self.errors, ax)
+
+    def __len__(self) -> int:
+        return len(self.results)
+
+    def __repr__(self) -> str:
+        return f"<chaintrue.Sweep {self.name!r}: {len(self)} cells>"
+
+    def _page(self, source: str) -> str:
+        return self._page_text
+
+    def _repr_html_(self) -> str:
+        return framed(self._page_text)
+
+
+def sweep(
+    specification: Union[PathLike, dict[str, Any]],
+    folder: Optional[PathLike] = None,
+    threads: int = 0,
+) -> Sweep:
+    """Runs a sweep and gives its results.
+
+    specification  a chaintrue_sweep file, or its contents as a dictionary, in which a machine may be a
+                   Machine: {"machines": [{"name": "mine", "machine": machine}], "grids": ["4x3"]}
+    folder         keeps the finished cells: the same sweep goes on there; results.csv, summary.json
+                   and a specification that was a dictionary are in it; None: nothing is kept
+    threads        0: all cores
+    """
+    with tempfile.TemporaryDirectory(prefix="chaintrue-") as scratch:
+        place = pathlib.Path(scratch) if folder is None else pathlib.Path(folder)
+        place.mkdir(parents=True, exist_ok=True)
+        path = specification
+        if isinstance(specification, dict):
+            path = _written(specification, place)
+        found = _core.sweep(os.fspath(path), str(place), threads)
+        for sentence in found["warnings"]:
+            warnings.warn(sentence, stacklevel=2)
+        return Sweep(found, place)
+
+
+def _written(contents: dict[str, Any], folder: pathlib.Path) -> pathlib.Path:
+    """The specification as a file in the folder, and the machines that it holds beside it: the same
+    names each time, since they are part of what a sweep is."""
+    contents = {"name": "a sweep", **contents}
+    machines = [dict(level) for level in contents.get("machines", [])]
+    files: dict[str, str] = {}
+    for number, level in enumerate(machines):
+        for key, file_key in (("machine", "machine_file"), ("stated", "stated_file")):
+            if isinstance(level.get(key), Machine):
+                level[file_key] = f"{key}{number}.json"
+                files[level[file_key]] = json.dumps(level.pop(key).to_dict())
+            elif file_key in level:
+                level[file_key] = str(pathlib.Path(level[file_key]).resolve())
+    kept = {k: v for k, v in contents.items() if k not in ("file_type", "format_version")}
+    files["sweep.json"] = text_of({**kept, "machines": machines}, "chaintrue_sweep")
+    for name, text in files.items():
+        path = folder / name
+        if path.exists() and path.read_text(encoding="utf-8") != text:
+            raise ValueError(f"{folder} holds another sweep: its {name} differs; take a new folder")
+        path.write_text(text, encoding="utf-8")
+    return folder / "sweep.json"
+
+
+def _number(text: str) -> Any:
+    """A number where it is one; None of an empty cell."""
+    try:
+        return float(text) if text else None
+    except ValueError:
+        return text

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What was measured with a tape or by four belts: from files, and from arrays."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Iterable, Optional
+
+import numpy
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core, _plots
+from ._base import Filed, PathLike, rows, same_count, sources_of, text_of, told
+from ._contents import Readings, add_visits, distance_of
+from ._measured import Machine, core_of
+
+
+class Belts(Filed):
+    """What a router on four belts measured by itself (docs/formats/belts.md).
+
+    lengths    (n, 4) array, mm: top left, top right, bottom left, bottom right belt as printed
+    anchors    (4, 2) or (4, 3) array, mm: where these leave the frame, and how high; None: unknown
+    commanded  (n, 2) array, mm: where the controller was told to go; or None
+    order      n whole numbers, all different: which visit each was; or None
+    distances  (from, to, distance in mm[, sigma in mm]) of a tape, between places by their number, the
+               anchors tl, tr, bl and br, and holes by their commanded (x, y)
+    machine    what else its file says of the machine, {"arm_mm": 123.4, ...}; or other Belts
+    """
+
+    _parse = staticmethod(_core.parse_belts)
+
+    def __init__(
+        self,
+        lengths: ArrayLike,
+        anchors: Optional[ArrayLike] = None,
+        commanded: Optional[ArrayLike] = None,
+        order: Optional[Iterable[int]] = None,
+        distances: Iterable[tuple[Any, ...]] = (),
+        machine: Any = None,
+        name: str = "",
+    ):
+        belts = ("tl", "tr", "bl", "br")
+        points = [
+            {f"{belt}_mm": length for belt, length in zip(belts, row)}
+            for row in rows(lengths, "lengths", 4).tolist()
+        ]
+        add_visits(points, commanded, order, "lengths")
+        stated = dict(machine.to_dict()["machine"] if isinstance(machine, Belts) else machine or {})
+        if anchors is not None:
+            wide = 3 if numpy.ndim(anchors) == 2 and numpy.shape(anchors)[1] == 3 else 2
+            placed = rows(anchors, "anchors", wide).tolist()
+            same_count({"belts": 4, "anchors": len(placed)})
+            keys = ("x_mm", "y_mm", "z_mm")
+            stated["anchors"] = {belt: dict(zip(keys, at)) for belt, at in zip(belts, placed)}
+        contents = {
+            "name": name,
+            "machine": stated or None,
+            "points": points,
+            "distances": [distance_of(one) for one in distances] or None,
+        }
+        found, _ = _core.parse_belts(text_of(contents, "chaintrue_belts"), "arrays")
+        super().__init__(found, sources_of(machine if isinstance(machine, Belts) else None))
+
+    @property
+    def lengths(self) -> NDArray[numpy.float64]:
+        """(n, 4) array, mm: top left, top right, bottom left, bottom right belt as printed."""
+        return self._core.lengths
+
+    def __len__(self) -> int:
+        return len(self._core.lengths)
+
+    def _facts(self) -> dict[str, Any]:
+        return {"places": len(self), "taped distances": len(self.to_dict().get("distances", []))}
+
+    def plot(self, ax: Any = None) -> Any:
+        """The anchors, and where the machine was sent; the axes are given back."""
+        return _plots.belts(self.to_dict(), ax)
+
+
+class Holes(Filed):
+    """Holes that the machine drilled, and a tape's distances (docs/formats/holes.md).
+
+    commanded  (n, 2) array, mm: where the controller was told to drill
+    distances  (from, to, distance in mm), or with the reading's own sigma in mm as a fourth: from and
+               to name holes or count them from 0, to may be left, right, top or bottom edge
+    names      n words; None: the holes are numbered from 0
+    machine    the Machine that drilled them, or the Belts of a machine on four belts
+    tape_sigma_mm, hole_sigma_mm, noise_dof
+               one sigma of a reading, of a hole on each axis, and how well these are known
+    hook_offset_mm
+               by how much each reading is longer than the distance
+    sheet      {"width_mm": ..., "height_mm": ..., "size_sigma_mm": ...}, for edges
+    readings   what was measured besides, dictionaries as in a file
+    few        a few distances, which only check a map
+    """
+
+    _parse = staticmethod(lambda text, file: _core.parse_holes(text, file, True))
+
+    def __init__(
+        self,
+        commanded: ArrayLike,
+        distances: Iterable[tuple[Any, ...]],
+        names: Optional[Iterable[str]] = None,
+        machine: Optional[Filed] = None,
+        tape_sigma_mm: float = 0.5,
+        hole_sigma_mm: float = 0.3,
+        noise_dof: float = 15.0,
+        hook_offset_mm: float = 0.0,
+        sheet: Optional[dict[str, float]] = None,
+        name: str = "",
+        readings: Readings = (),
+        few: bool = False,
+    ):
+        places = rows(commanded, "commanded")
+        named = None if names is None else list(names)
+        same_count({"holes": len(places), "names": None if named is None else len(named)})
+        holes = [{"x_mm": x, "y_mm": y} for x, y in places.tolist()]
+        for number, hole in enumerate(holes if named is not None else ()):
+            hole["name"] = named[number]
+        contents = {
+            "name": name,
+            "machine": _machine_of(machine),
+            "tape": {"sigma_mm": tape_sigma_mm, "hook_offset_mm": hook_offset_mm},
+            "hole_sigma_mm": hole_sigma_mm,
+            "noise_dof": noise_dof,
+            "sheet": sheet,
+            "readings": list(readings) or None,
+            "holes": holes,
+            "distances": [distance_of(one) for one in distances],
+        }
+        found, _ = _core.parse_holes(text_of(contents, "chaintrue_holes"), "arrays", few)
+        super().__init__(found, sources_of(machine))
+
+    @property
+    def machine(self) -> Optional[Machine]:
+        """The Machine on two chains that drilled them, or None."""
+        return None if self._core.machine is None else Machine(self._core.machine)
+
+    @property
+    def commanded(self) -> NDArray[numpy.float64]:
+        """(n, 2) array, mm: where the controller was told to drill."""
+        return numpy.array([(hole["x_mm"], hole["y_mm"]) for hole in self.to_dict()["holes"]])
+
+    def __len__(self) -> int:
+        return len(self.to_dict()["holes"])
+
+    def _facts(self) -> dict[str, Any]:
+        return {"holes": len(self), "distances": len(self.to_dict()["distances"])}
+
+    def plot(self, ax: Any = None) -> Any:
+        """The holes and the distances between them; the axes are given back."""
+        return _plots.holes(self.to_dict(), ax)
+
+
+def _machine_of(machine: Optional[Filed]) -> Optional[dict[str, Any]]:
+    if machine is None:
+        return None
+    return machine.to_dict()["machine"] if isinstance(machine, Belts) else machine.to_dict()
+
+
+def read_holes(path: PathLike, machine: Optional[Machine] = None, few: bool = False) -> Holes:
+    """The Holes of a chaintrue_holes file, JSON or CSV; machine in place of the one that it names.
+
+    few  a few distances, which only check a map
+    """
+    return told(_core.read_holes(os.fspath(path), core_of(machine), few), Holes, machine)
+
+
+def read_belts(path: PathLike) -> Belts:
+    """The Belts of a chaintrue_belts file."""
+    return told(_core.read_belts(os.fspath(path)), Belts)

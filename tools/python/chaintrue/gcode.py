@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""G-code: programs compensated with a map, and run on a simulated machine.
+
+    program = pathlib.Path("part.nc")
+    done = chaintrue.gcode.compensate(program, calibration)
+    done.write("part.true.nc")
+    chaintrue.gcode.verify(program, done, calibration).holds
+
+A program is a path, or its text where that has more than one line. Options that both functions take:
+
+    tolerance_mm           how far the tool may stray from the path
+    decimals               of the output's coordinates
+    largest_correction_mm, steepest_correction
+                           larger corrections are refused, and changes above this in mm per mm
+    frame                  marks or bed: what the program's X and Y count in
+    home                   (x, y), mm: added to them
+    controller             maslow_classic, holey, fluidnc_wallplotter, ideal or maslow4; empty: the map's
+    machine, settings      paths: the machine that the controller believes in, or what it holds now
+    keep_rapids_whole, home_is_zero, skip_deletable, tools_have_no_diameter
+                           as `chaintrue gcode compensate --help` says
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import os
+import pathlib
+from typing import Any, Optional, Union
+
+import numpy
+from numpy.typing import NDArray
+
+from . import _core, _plots
+from ._base import PathLike, facts_table, one_of
+from ._errors import GcodeError, GcodeProblem
+from ._maps import Anchors, Map
+
+__all__ = ["Compensated", "GcodeError", "GcodeProblem", "Verification", "compensate", "verify"]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Compensated:
+    """A program whose commands move the tool along the path that another one means.
+
+    text         the program
+    moves, commands, path_mm
+                 how many it had and has, and how long its path is
+    largest_correction_mm, largest_correction_line
+                 how far a command is moved at most, and on which line
+    strays_mm    how far the tool leaves the path on a simulated machine; None: not run
+    expected_mm  error of the tool to expect along the cuts, one sigma; None: the map does not know
+    notes        (line, name, sentence) of what is odd and goes through
+    pieces       (n, 10) array: line, 1 for a rapid, start x and y, end x and y, correction at the start
+                 x and y, at the end x and y; mm. Of a long program every second, fourth ... piece
+    """
+
+    text: str
+    moves: int
+    commands: int
+    path_mm: float
+    largest_correction_mm: float
+    largest_correction_line: int
+    strays_mm: Optional[float]
+    expected_mm: Optional[float]
+    notes: list[tuple[int, str, str]]
+    pieces: NDArray[numpy.float64]
+
+    def write(self, path: PathLike) -> None:
+        """Writes the program, whole or not at all."""
+        _core.write(os.fspath(path), self.text)
+
+    def plot(self, ax: Any = None) -> Any:
+        """The path, and arrows of the correction; the axes are given back."""
+        return _plots.path(self.pieces, ax)
+
+    def _facts(self) -> dict[str, Any]:
+        facts = {
+            "moves": self.moves,
+            "commands": self.commands,
+            "mm largest correction": f"{self.largest_correction_mm:.2f}",
+        }
+        if self.strays_mm is not None:
+            facts["mm from the path on the simulated machine"] = f"{self.strays_mm:.3f}"
+        if self.expected_mm is not None:
+            facts["mm error of the tool to expect"] = f"{self.expected_mm:.2f}"
+        return facts
+
+    def __repr__(self) -> str:
+        facts = ", ".join(f"{value} {key}" for key, value in self._facts().items())
+        return f"<chaintrue.gcode.Compensated: {facts}>"
+
+    def _repr_html_(self) -> str:
+        return facts_table("Compensated program", self._facts())
+
+
+@dataclasses.dataclass(frozen=True)
+class Verification:
+    """What a program does on a simulated machine, against the path that another one means.
+
+    holds             the tool stays on the path, at the intended feeds, with every word at its place
+    largest_mm, line  how far it strays at most, and on which line of the original
+    feeds_mm, rapids_mm
+                      the same of cuts and of rapids
+    uncompensated_mm  how far the original itself would stray; None: it cannot be run
+    expected_mm       error of the tool to expect along the cuts, one sigma; None: not known
+    tick_overshoot_mm by how much the controller overshoots every move, as in every file
+    commands          how many were run
+    fault             the first fault, a sentence; empty where it holds
+    """
+
+    holds: bool
+    largest_mm: float
+    line: int
+    feeds_mm: float
+    rapids_mm: float
+    uncompensated_mm: Optional[float]
+    expected_mm: Optional[float]
+    tick_overshoot_mm: float
+    commands: int
+    fault: str
+
+    def __bool__(self) -> bool:
+        return self.holds
+
+    def _repr_html_(self) -> str:
+        return facts_table("Verification", dataclasses.asdict(self))
+
+
+def compensate(
+    program: Union[str, PathLike],
+    calibration: Union[Map, Anchors],
+    *,
+    verified: bool = True,
+    force: bool = False,
+    **options: Any,
+) -> Compensated:
+    """The program whose commands move the tool along the given program's path.
+
+    verified  run it on the simulated machine, and fail where it does not hold its tolerance
+    force     even with a map that is not to be cut with
+
+    Raises GcodeError with every line that cannot be compensated, Failure where the result would not
+    hold.
+    """
+    asked = _options(options)
+    asked.no_verify = not verified
+    asked.forced = force
+    given = [_as_typed(name, value) for name, value in options.items() if value is not False]
+    target = _target(calibration)
+    sources = [*_sources_of(program), *(calibration._sources or _as_written(calibration))]
+    return Compensated(
+        **_core.compensate(_text(program), *target, asked, given, sources)
+    )
+
+
+def verify(
+    program: Union[str, PathLike],
+    compensated: Union[str, PathLike, Compensated],
+    calibration: Union[Map, Anchors],
+    **options: Any,
+) -> Verification:
+    """What the compensated program does on a simulated machine, against what the program means."""
+    run = compensated.text if isinstance(compensated, Compensated) else _text(compensated)
+    return Verification(**_core.verify(_text(program), run, *_target(calibration), _options(options)))
+
+
+def _options(given: dict[str, Any]) -> Any:
+    options = _core.GcodeOptions()
+    known = [name for name in dir(options) if name[0] != "_" and name not in ("forced", "no_verify")]
+    for name, value in given.items():
+        if name not in known:
+            raise TypeError(f"there is no option {name}, but {', '.join(known)}")
+        if name == "home":
+            x, y = value
+            value = f"{float(x)!r},{float(y)!r}"
+        elif name in ("machine", "settings"):
+            value = os.fspath(value)
+        elif name == "frame":
+            one_of(value, "frame", ("marks", "bed"))
+        elif name == "controller":
+            kinds = ("maslow_classic", "holey", "fluidnc_wallplotter", "ideal", "maslow4")
+            one_of(value, "controller", kinds)
+        setattr(options, name, value)
+    return options
+
+
+def _text(program: Union[str, PathLike]) -> str:
+    if isinstance(program, str) and "\n" in program:
+        return program
+    return pathlib.Path(program).read_bytes().decode("utf-8", "surrogateescape")
+
+
+def _as_typed(name: str, value: Any) -> str:
+    """The option of the command: --tolerance-mm 0.1."""
+    word = "--" + name.replace("_", "-")
+    if value is True:
+        return word
+    if name in ("machine", "settings"):
+        return f"{word} {pathlib.Path(value).name}"
+    return f"{word} {','.join(map(str, value)) if name == 'home' else value}"
+
+
+def _sources_of(program: Union[str, PathLike]) -> list[tuple[str, str]]:
+    """The program's file; none of a text."""
+    if isinstance(program, str) and "\n" in program:
+        return []
+    path = pathlib.Path(program)
+    return [(path.name, hashlib.sha256(path.read_bytes()).hexdigest())]
+
+
+def _as_written(calibration: Union[Map, Anchors]) -> list[tuple[str, str]]:
+    """The file that write() would make of it."""
+    name = "anchors" if isinstance(calibration, Anchors) else "map"
+    return [(name, hashlib.sha256(calibration._text().encode()).hexdigest())]
+
+
+def _target(calibration: Union[Map, Anchors]) -> tuple[str, bool]:
+    if not isinstance(calibration, (Map, Anchors)):
+        raise TypeError(f"programs are compensated with a Map or Anchors, not {calibration!r}")
+    return calibration._text(), isinstance(calibration, Anchors)

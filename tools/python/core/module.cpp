@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue._core: the libraries for Python. The user interface and its documentation are in the
+/// package's Python.
+#include "tools/python/core/bind.hpp"
+#include "tools/python/core/failures.hpp"
+
+PYBIND11_MODULE(_core, module) {
+  module.attr("__version__") = CHAINTRUE_VERSION;
+  chaintrue::python::translate_failures();
+  chaintrue::python::add_measured(module);
+  chaintrue::python::add_maps(module);
+  chaintrue::python::add_diagnoses(module);
+  chaintrue::python::add_checks(module);
+  chaintrue::python::add_plans(module);
+  chaintrue::python::add_gcode(module);
+  chaintrue::python::add_sweeps(module);
+}

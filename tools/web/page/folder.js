@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the folder holds: which machine, which lists, which results are of them.
+import {textOf} from "./dom.js";
+import {Sheet} from "./sheet.js";
+
+export const MARKS = "marks.csv";
+export const HOLES = "holes.csv";
+/** New points for checking the map, once there is one; they are not fitted. */
+export const NEW_POINTS = "five.csv";
+
+/** Four belts: what they are read from, and the places that are left out by hand. */
+export const LOG = "log.txt";
+export const MASLOW_SETTINGS = "maslow.yaml";
+export const BELTS = "belts.json";
+export const ANCHORS = "anchors.json";
+export const WITHOUT = "without.txt";
+/** What the machine believes once the lines are pasted. */
+export const PASTED = "pasted.json";
+
+/** Of files that other readings make stale; an undo brings them back with the readings that they are of. */
+export const NO_DIAGNOSIS = {"diagnosis.json": null, "diagnosis.html": null};
+
+export const isBelts = (folder) => Boolean(folder[BELTS] || folder[MASLOW_SETTINGS]);
+export const mapOf = (folder) => (isBelts(folder) ? ANCHORS : "map.json");
+export const programOf = (sheet) => sheet.replace(/\.csv$/, ".nc");
+
+/** The list of readings for the map: the one shown, or the one shown last. */
+export const fittedList = ({sheet, fitted}) => (sheet === NEW_POINTS ? fitted ?? MARKS : sheet);
+
+/** Files are never changed in place: the same object is the same file. */
+const parsed = new WeakMap();
+
+/** A file's content; null for no file and for one that is no JSON: the command says what is wrong with that. */
+export function jsonOf(bytes) {
+  if (!bytes) return null;
+  if (!parsed.has(bytes)) {
+    let content = null;
+    try {
+      content = JSON.parse(textOf(bytes));
+    } catch {
+      // null
+    }
+    parsed.set(bytes, content);
+  }
+  return parsed.get(bytes);
+}
+
+export function bedOf(folder) {
+  const bed = jsonOf(folder["machine.json"])?.bed;
+  return bed && Number(bed.width_mm) > 0 && Number(bed.height_mm) > 0 ? bed : null;
+}
+
+/** Rows of a list that are filled in. */
+export const filledIn = (bytes) => (bytes ? Sheet.of(textOf(bytes))?.filled ?? 0 : 0);
+
+/** True if readings were typed into a list: they are not discarded without a question. */
+export function hasReadings(folder) {
+  return Object.entries(folder).some(([path, bytes]) => path.endsWith(".csv") && filledIn(bytes) > 0);
+}
