@@ -144,5 +144,42 @@ TEST_F(Command, EffectsRefusesWhatIsNotCatalogued) {
   EXPECT_EQ(say("effects drift --machine " + kClassic + " --set rate_mm_per_visit=7").code, 3);
 }
 
+TEST_F(Command, EffectsDrawsAnAtlasOfEachKindOfMachine) {
+  const std::string fixtures = CHAINTRUE_FIXTURES;
+  const std::string page = out_.string() + ".html";
+  std::string before;
+  for (const char* machine : {"/machines/classic.json",
+                              "/good/anchors_every_key.json",
+                              "/good/plotter_every_key.json",
+                              "/good/drawing_every_key.json",
+                              "/plotter/mural.txt"}) {
+    SCOPED_TRACE(machine);
+    const std::string line = "effects --atlas " + fixtures + machine + " -o " + page;
+    const Outcome outcome = say(line);
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    EXPECT_THAT(outcome.said, HasSubstr("pictures of what may be wrong"));
+    const std::string text = grid::files::read_whole_file(page);
+    EXPECT_THAT(text, AllOf(HasSubstr("<svg"), HasSubstr("type=\"range\"")));
+    EXPECT_NE(text, before);
+    EXPECT_EQ(say(line).code, 0);
+    EXPECT_EQ(grid::files::read_whole_file(page), text);
+    before = text;
+  }
+  std::filesystem::remove(page);
+}
+
+TEST_F(Command, AnAtlasIsRefusedOfWhatIsNoMachineAndOfEffectsOfTwoChainsOnBelts) {
+  const std::string fixtures = CHAINTRUE_FIXTURES;
+  const std::string output = " -o " + out_.string();
+  const Outcome grid = say("effects --atlas " + fixtures + "/good/grid_every_key.json" + output);
+  EXPECT_EQ(grid.code, 3);
+  EXPECT_THAT(grid.said, HasSubstr("\"chaintrue_machine\""));
+  const Outcome belts = say("effects --atlas " + fixtures + "/good/anchors_every_key.json" + output +
+                            " --effects " + kClassic);
+  EXPECT_EQ(belts.code, 3);
+  EXPECT_THAT(belts.said, HasSubstr("declared effects are of two chains"));
+  EXPECT_FALSE(std::filesystem::exists(out_));
+}
+
 }  // namespace
 }  // namespace chaintrue

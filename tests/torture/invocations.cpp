@@ -68,6 +68,7 @@ const std::vector<Reading>& readings() {
       {"machine.json", 1, {"plan", "--machine", "IN", "--holes", "5"}},
       {"machine.json", 1, {"passes", "--machine", "IN", "--passes", "2"}},
       {"machine.json", 2, {"effects", "chain_stretch", "--machine", "IN"}},
+      {"machine.json", 1, {"effects", "--atlas", "IN", "-o", "OUT"}},
       {"machine.json", 6, {"export", "groundcontrol", "IN"}},
       {"machine.json", 4, {"square", "--machine", "IN", "--controller-machine", "machine.json"}},
       {"machine_every_key.json", 4, {"simulate", "--machine", "IN", "--grid", "3x3"}},

@@ -20,6 +20,7 @@
 #include "model/reading_model.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/effect_drawing.hpp"
+#include "tools/cli/effects_atlas.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
@@ -45,6 +46,9 @@ struct EffectsOptions {
   double length_noise_mm = grid::StatedNoise{}.length_mm;
   double position_noise_mm = grid::StatedNoise{}.position_mm;
   std::string drawing;
+  /// A machine to draw every cause on, and the page.
+  std::string atlas;
+  std::string output;
   bool json = false;
   bool markdown = false;
   /// Files of declared effects.
@@ -322,6 +326,7 @@ int run_effects(const EffectsOptions& options) {
     fmt::print("{}", model::effects::catalogue_document());
     return kDone;
   }
+  if (!options.atlas.empty()) return write_atlas(options.atlas, options.declared, options.output);
   if (options.id.empty()) {
     if (!options.json) {
       list_catalogue(machine_of(options));
@@ -353,19 +358,21 @@ void add_effects(Verb app, Run& run) {
   auto options = std::make_shared<EffectsOptions>();
   Verb verb = app.add_verb(
       "effects", "List the catalogue of effects, or show what one of them does to a machine");
-  verb.add_option("id", options->id, "Effect; without it the catalogue is listed");
+  auto id = verb.add_option("id", options->id, "Effect; without it the catalogue is listed");
   auto machine =
       add_input(verb, "--machine", options->machine, "chaintrue_machine file to show it on");
   verb.add_option("--side", options->side, "left, right, both, x or y; default: the effect's first")
       .needs(machine);
   verb.add_option("--set", options->values, "parameter=number instead of the usual size")
       .needs(machine);
-  add_number(verb, "--length-noise-mm", options->length_noise_mm, {"mm", 1e-6, 100.0}, "One sigma");
+  add_number(verb, "--length-noise-mm", options->length_noise_mm, {"mm", 1e-6, 100.0}, "One sigma")
+      .needs(machine);
   add_number(
-      verb, "--position-noise-mm", options->position_noise_mm, grid::files::kNoiseMm, "One sigma");
+      verb, "--position-noise-mm", options->position_noise_mm, grid::files::kNoiseMm, "One sigma")
+      .needs(machine);
   add_output(verb, "--draw", options->drawing, {Origin::drawing}, "Also draw it into this SVG file")
       .needs(machine);
-  verb.add_flag("--json", options->json, "For programs");
+  auto json = verb.add_flag("--json", options->json, "For programs");
   auto markdown =
       verb.add_flag("--markdown", options->markdown, "The catalogue as docs/effects.md");
   add_input(verb,
@@ -373,9 +380,23 @@ void add_effects(Verb app, Run& run) {
             options->declared,
             "chaintrue_effect files: your own effects, besides the catalogue's")
       .excludes(markdown);
+  auto atlas = add_input(verb,
+                         "--atlas",
+                         options->atlas,
+                         "A machine on two chains or four belts, or a V-plotter: a page with a "
+                         "picture of what each cause draws")
+                   .excludes(id)
+                   .excludes(machine)
+                   .excludes(json)
+                   .excludes(markdown);
+  auto output = add_output(
+      verb, "-o,--output", options->output, {Origin::page}, "The page (HTML) of --atlas");
+  output.needs(atlas);
+  atlas.needs(output);
   verb.footer(
       "Examples:\n"
       "  build/chaintrue effects\n"
+      "  build/chaintrue effects --atlas fixtures/plotter/mural.txt -o atlas.html\n"
       "  build/chaintrue effects chain_stretch --machine fixtures/machines/classic.json --draw "
       "stretch.svg");
   add_option_check(verb,

@@ -115,7 +115,10 @@ model::Machine read_machine_input(const std::string& path) {
 }
 
 model::BeltMachine read_belt_machine_input(const std::string& path) {
-  const InputFile file = open_input(path);
+  return load_belt_machine(open_input(path));
+}
+
+model::BeltMachine load_belt_machine(const InputFile& file) {
   require_kind(file, {FileKind::belts, FileKind::anchors});
   if (file.kind == FileKind::anchors) return files::machine_as_pasted(load_anchors(file).fit);
   model::BeltMachine machine = load_belts(file, "a machine").belts.machine;

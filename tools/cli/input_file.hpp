@@ -49,6 +49,8 @@ void require_kind(const InputFile& file,
 [[nodiscard]] grid::files::FittedAnchors load_anchors(const InputFile& file);
 [[nodiscard]] grid::diagnosis::Diagnosis load_diagnosis(const InputFile& file);
 [[nodiscard]] model::Machine load_machine(const InputFile& file);
+/// As read_belt_machine_input().
+[[nodiscard]] model::BeltMachine load_belt_machine(const InputFile& file);
 /// At most kMostBeltPoints places; `work` is what they are read for: "a fit".
 [[nodiscard]] grid::files::ReadBelts load_belts(const InputFile& file, const std::string& work);
 /// The same without points, counted from 1.

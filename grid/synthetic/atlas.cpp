@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/synthetic/atlas.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+
+#include "grid/belts/anchor_estimate.hpp"
+#include "grid/synthetic/simulated_belts.hpp"
+#include "model/belts/belt_mechanism.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::synthetic {
+namespace {
+
+using model::Mechanism;
+using model::MechanismExtent;
+using model::MechanismVisit;
+using model::ToolPosition;
+using model::effects::Effect;
+using model::effects::EffectParameter;
+using model::effects::EffectSide;
+using MechanismPointer = std::shared_ptr<const Mechanism>;
+
+/// The machine as its controller has it and as it is.
+struct SetAndActual {
+  MechanismPointer set;
+  MechanismPointer actual;
+  /// What commands and results are relative to.
+  ToolPosition set_origin{};
+  ToolPosition actual_origin{};
+  int first_visit = 0;
+};
+
+/// Makes the machine with a cause at a size; empty where there is none.
+using WithSize = std::function<std::optional<SetAndActual>(double)>;
+
+// The lattice stays so far inside the area that a cause may shift it.
+constexpr double kMargin = 0.04;
+constexpr int kLatticeColumns = 7;
+constexpr int kLatticeRows = 5;
+// Enough for a bow to look like one.
+constexpr int kPointsOfLine = 13;
+constexpr int kPointsOfSide = 5;
+
+std::vector<ToolPosition> straight(ToolPosition from, ToolPosition to, int count) {
+  std::vector<ToolPosition> points;
+  for (int i = 0; i < count; ++i) {
+    const double part = static_cast<double>(i) / (count - 1);
+    points.push_back({from.x_mm + part * (to.x_mm - from.x_mm),
+                      from.y_mm + part * (to.y_mm - from.y_mm)});
+  }
+  return points;
+}
+
+std::vector<AtlasLine> lattice_over(const MechanismExtent& extent) {
+  const double width = extent.x_max_mm - extent.x_min_mm;
+  const double height = extent.y_max_mm - extent.y_min_mm;
+  const double left = extent.x_min_mm + kMargin * width;
+  const double right = extent.x_max_mm - kMargin * width;
+  const double bottom = extent.y_min_mm + kMargin * height;
+  const double top = extent.y_max_mm - kMargin * height;
+  std::vector<AtlasLine> lines;
+  for (int row = 0; row < kLatticeRows; ++row) {
+    const double y = bottom + row * (top - bottom) / (kLatticeRows - 1);
+    lines.push_back({straight({left, y}, {right, y}, kPointsOfLine)});
+  }
+  for (int column = 0; column < kLatticeColumns; ++column) {
+    const double x = left + column * (right - left) / (kLatticeColumns - 1);
+    lines.push_back({straight({x, bottom}, {x, top}, kPointsOfLine)});
+  }
+  const ToolPosition centre = extent.centre();
+  const double half = 0.15 * std::min(width, height);
+  const std::array<ToolPosition, 4> corners = {
+      ToolPosition{centre.x_mm - half, centre.y_mm - half},
+      ToolPosition{centre.x_mm + half, centre.y_mm - half},
+      ToolPosition{centre.x_mm + half, centre.y_mm + half},
+      ToolPosition{centre.x_mm - half, centre.y_mm + half}};
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    lines.push_back({straight(corners[i], corners[(i + 1) % corners.size()], kPointsOfSide), true});
+  return lines;
+}
+
+ToolPosition plus(ToolPosition a, ToolPosition b) { return {a.x_mm + b.x_mm, a.y_mm + b.y_mm}; }
+ToolPosition minus(ToolPosition a, ToolPosition b) { return {a.x_mm - b.x_mm, a.y_mm - b.y_mm}; }
+
+/// The numbers of the mark at a true place: the inverse of place_of_mark(). Effects of the paper are
+/// some parts in a thousand, so that each step gains two digits at least.
+ToolPosition numbers_of_mark(const Mechanism& mechanism, ToolPosition place) {
+  constexpr int kSteps = 12;
+  ToolPosition written = place;
+  for (int step = 0; step < kSteps; ++step)
+    written = plus(written, minus(place, mechanism.place_of_mark(written)));
+  return written;
+}
+
+/// (1). The first two lengths place the tool.
+std::optional<ToolPosition> drawn_at(const SetAndActual& machine,
+                                     ToolPosition command,
+                                     const MechanismVisit& visit) {
+  const auto paid_out = machine.set->predict(
+      plus(machine.set_origin, command), {}, model::Derivatives::by_position);
+  if (!paid_out) return std::nullopt;
+  const Eigen::VectorXd& lengths = paid_out->lengths_mm;
+  std::vector<bool> counting(static_cast<std::size_t>(lengths.size()), false);
+  counting[0] = counting[1] = true;
+  const auto place =
+      lengths.size() == 2
+          ? machine.actual->locate(lengths, visit)
+          : locate_by_newton(*machine.actual,
+                             lengths,
+                             visit,
+                             plus(machine.actual_origin, command),
+                             counting);
+  if (!place) return std::nullopt;
+  return minus(numbers_of_mark(*machine.actual, *place), machine.actual_origin);
+}
+
+/// Which way each length went from one point to the next.
+std::vector<double> directions(const SetAndActual& machine, ToolPosition from, ToolPosition to) {
+  const auto before =
+      machine.set->predict(plus(machine.set_origin, from), {}, model::Derivatives::by_position);
+  const auto after =
+      machine.set->predict(plus(machine.set_origin, to), {}, model::Derivatives::by_position);
+  if (!before || !after) return {};
+  std::vector<double> ways;
+  for (Eigen::Index i = 0; i < after->lengths_mm.size(); ++i)
+    ways.push_back(after->lengths_mm[i] < before->lengths_mm[i] ? -1.0 : 1.0);
+  return ways;
+}
+
+AtlasFrame frame_of(const std::vector<AtlasLine>& lines, const SetAndActual& machine, double size) {
+  AtlasFrame frame{size, {}};
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const std::vector<ToolPosition>& points = lines[k].points;
+    std::vector<std::optional<ToolPosition>> drawn;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      MechanismVisit visit{.order = machine.first_visit + static_cast<int>(k)};
+      // The first point is reached the way the line goes on.
+      const std::size_t to = std::max<std::size_t>(i, 1);
+      visit.direction = directions(machine, points[to - 1], points[to]);
+      drawn.push_back(drawn_at(machine, points[i], visit));
+    }
+    frame.lines.push_back(std::move(drawn));
+  }
+  return frame;
+}
+
+double largest_shift(const std::vector<AtlasLine>& lines, const AtlasFrame& frame) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    for (std::size_t i = 0; i < lines[k].points.size(); ++i) {
+      if (!frame.lines[k][i]) continue;
+      const ToolPosition shift = minus(*frame.lines[k][i], lines[k].points[i]);
+      largest = std::max(largest, std::hypot(shift.x_mm, shift.y_mm));
+    }
+  }
+  return largest;
+}
+
+/// Sizes of which the usual one is one, that the parameter may have, without that of no effect.
+std::vector<double> sizes_of(double null, double usual, double lower, double upper, bool integer) {
+  std::vector<double> sizes;
+  for (const double times : {-2.0, -1.0, -0.5, 0.5, 1.0, 1.5, 2.0}) {
+    const double size = times == 1.0 ? usual : null + times * (usual - null);
+    if (size < lower || size > upper || (integer && size != std::round(size))) continue;
+    sizes.push_back(size);
+  }
+  std::sort(sizes.begin(), sizes.end());
+  return sizes;
+}
+
+void add_picture(AtlasPicture picture,
+                 const std::vector<double>& sizes,
+                 double usual,
+                 const WithSize& with_size,
+                 Atlas& atlas) {
+  for (const double size : sizes) {
+    const auto machine = with_size(size);
+    if (!machine) continue;
+    picture.frames.push_back(frame_of(atlas.lines, *machine, size));
+    if (size == usual) picture.usual = picture.frames.size() - 1;
+  }
+  if (picture.frames.empty() || picture.frames[picture.usual].size != usual) return;
+  picture.largest_shift_mm = largest_shift(atlas.lines, picture.frames[picture.usual]);
+  atlas.pictures.push_back(std::move(picture));
+}
+
+model::AppliedEffect of_size(const Effect& effect, EffectSide side, std::size_t at, double size) {
+  std::vector<double> values = nominal_values(effect);
+  values[at] = size;
+  return model::effects::applied(effect, side, values);
+}
+
+std::size_t first_size(const Effect& effect) {
+  std::size_t at = 0;
+  while (effect.parameters[at].role != model::effects::ParameterRole::size) ++at;
+  return at;
+}
+
+void add_settings(const Mechanism& mechanism,
+                  const std::function<std::optional<SetAndActual>(Eigen::Index, double)>& with_size,
+                  Atlas& atlas) {
+  const auto parameters = mechanism.parameters();
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const double usual = parameters[k].prior_sigma.value_or(model::kParameterShiftSigma);
+    const double most = 2.0 * usual;
+    add_picture({.parameter = parameters[k].name},
+                sizes_of(0.0, usual, -most, most, false),
+                usual,
+                [&](double size) { return with_size(static_cast<Eigen::Index>(k), size); },
+                atlas);
+  }
+}
+
+void add_effects(
+    const Mechanism& mechanism,
+    const std::function<std::optional<SetAndActual>(const model::AppliedEffect&)>& with_effect,
+    Atlas& atlas) {
+  for (const Effect* effect : mechanism.effects()) {
+    const std::size_t at = first_size(*effect);
+    const EffectParameter& size_of = effect->parameters[at];
+    for (const EffectSide side : effect->sides) {
+      if (!mechanism.problems_of_effects({of_size(*effect, side, at, size_of.nominal)}).empty())
+        continue;
+      add_picture(
+          {.effect = effect, .side = side, .parameter = size_of.name, .null = size_of.null},
+          sizes_of(size_of.null, size_of.nominal, size_of.lower, size_of.upper, size_of.integer),
+          size_of.nominal,
+          [&](double size) { return with_effect(of_size(*effect, side, at, size)); },
+          atlas);
+    }
+  }
+}
+
+MechanismPointer with_parameter(const Mechanism& mechanism, Eigen::Index k, double more) {
+  Eigen::VectorXd values = mechanism.values();
+  values[k] += more;
+  return mechanism.with_values(values);
+}
+
+/// The anchors that fit a session with the effect best, every reading at full weight: those that the
+/// machine finds by itself.
+std::optional<model::BeltMachine> calibrated(const model::BeltMachine& machine,
+                                             const model::AppliedEffect& effect) {
+  BeltsSpec spec;
+  spec.columns = spec.rows = 6;
+  static_assert(kAtlasPlaces == 6 * 6);
+  spec.noise_mm = 0.0;
+  spec.hidden = {effect};
+  const auto session = simulate_belts(machine, machine, spec);
+  if (!session) return std::nullopt;
+  const belts::Counting all(session->points.size(), {true, true, true, true});
+  const auto found = belts::estimate_anchors(*session, all, belts::anchors_of(machine));
+  if (!found) return std::nullopt;
+  return belts::with_anchors(machine, found->mechanism->values().head<belts::kAnchorUnknowns>());
+}
+
+ToolPosition origin_of(const model::BeltMachine& machine) {
+  const model::FramePoint centre = model::to_frame(machine, {0.0, 0.0});
+  return {centre.x_mm, centre.y_mm};
+}
+
+}  // namespace
+
+Atlas atlas_of(const Mechanism& mechanism) {
+  const MechanismPointer set = mechanism.with_values(mechanism.values());
+  Atlas atlas;
+  atlas.lines = lattice_over(mechanism.extent());
+  add_settings(
+      mechanism,
+      [&](Eigen::Index k, double more) -> std::optional<SetAndActual> {
+        try {
+          return SetAndActual{set, with_parameter(mechanism, k, more)};
+        } catch (const std::invalid_argument&) {
+          return std::nullopt;
+        }
+      },
+      atlas);
+  add_effects(
+      mechanism,
+      [&](const model::AppliedEffect& effect) -> std::optional<SetAndActual> {
+        return SetAndActual{set, mechanism.with_effects({effect})};
+      },
+      atlas);
+  return atlas;
+}
+
+Atlas atlas_of(const model::BeltMachine& machine) {
+  if (!machine.anchors_known) throw std::invalid_argument("an atlas of anchors that are not known");
+  const auto actual = model::make_belt_mechanism(machine);
+  const ToolPosition origin = origin_of(machine);
+  MechanismExtent area = actual->extent();
+  area = {area.x_min_mm - origin.x_mm,
+          area.x_max_mm - origin.x_mm,
+          area.y_min_mm - origin.y_mm,
+          area.y_max_mm - origin.y_mm};
+  Atlas atlas;
+  atlas.calibrates_first = true;
+  atlas.lines = lattice_over(area);
+  add_settings(
+      *actual,
+      [&](Eigen::Index k, double more) -> std::optional<SetAndActual> {
+        const auto as_is = model::make_belt_mechanism(
+            belts::with_anchors(machine, with_parameter(*actual, k, more)->values()));
+        return SetAndActual{actual, as_is, origin, origin_of(as_is->machine())};
+      },
+      atlas);
+  add_effects(
+      *actual,
+      [&](const model::AppliedEffect& effect) -> std::optional<SetAndActual> {
+        const auto found = calibrated(machine, effect);
+        if (!found) return std::nullopt;
+        return SetAndActual{model::make_belt_mechanism(*found),
+                            actual->with_effects({effect}),
+                            origin_of(*found),
+                            origin,
+                            kAtlasPlaces};
+      },
+      atlas);
+  return atlas;
+}
+
+}  // namespace chaintrue::grid::synthetic

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What each cause makes of a drawing: a lattice of lines over the machine's area and a square in its
+/// middle, as the tool draws them when the controller knows nothing of the cause. Causes are the
+/// settings of the mechanism and the effects of its catalogue, at their usual size and at multiples
+/// of it.
+///
+/// For a command q the controller pays out f(q) of the machine as it is set; the tool comes to rest
+/// where the machine as it is reads the same,
+///
+///   f_is(p, visit) = f_set(q)                                                              (1)
+///
+/// and a person reads on a sheet with effects of the paper the numbers whose mark is at p. A visit is
+/// a line of the drawing; with belts it counts on from the places of the calibration. Two chains and two cords are drawn as they are set. Four belts find their
+/// anchors first: an effect acts on kAtlasPlaces places, the anchors that fit best are taken, and the two upper
+/// belts place the tool with them; an anchor that is wrong is drawn as it is set.
+///
+/// \code
+///   const Atlas atlas = atlas_of(*model::make_plotter_mechanism(machine));
+///   for (const AtlasPicture& picture : atlas.pictures) draw(atlas.lines, picture);
+/// \endcode
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/belts/belt_machine.hpp"
+#include "model/effects/effect.hpp"
+#include "model/mechanism.hpp"
+
+namespace chaintrue::grid::synthetic {
+
+inline constexpr int kAtlasPlaces = 36;
+
+/// A polyline as commanded, in the mechanism's frame; of belts about the middle between the anchors.
+struct AtlasLine {
+  std::vector<model::ToolPosition> points;
+  bool is_of_square = false;
+};
+
+/// The drawing with the cause at one size.
+struct AtlasFrame {
+  double size = 0.0;  ///< of the cause's first size, in its own unit; of a setting, true less set
+  /// As AtlasLine::points; empty where the machine cannot hold the tool.
+  std::vector<std::vector<std::optional<model::ToolPosition>>> lines;
+};
+
+struct AtlasPicture {
+  /// Null for a setting.
+  const model::effects::Effect* effect = nullptr;
+  model::effects::EffectSide side = model::effects::EffectSide::none;
+  std::string_view parameter;  ///< its size's name, or the setting
+  double null = 0.0;           ///< the size without effect
+  /// Sizes rise; the usual one is among them.
+  std::vector<AtlasFrame> frames{};
+  std::size_t usual = 0;  ///< of the frames
+  /// Of the usual frame.
+  double largest_shift_mm = 0.0;
+};
+
+struct Atlas {
+  std::vector<AtlasLine> lines;
+  bool calibrates_first = false;  ///< four belts
+  /// Settings in the order of the mechanism, then effects in that of its catalogue. Those that cannot
+  /// act on the machine are left out.
+  std::vector<AtlasPicture> pictures;
+};
+
+/// Of two chains or a V-plotter.
+[[nodiscard]] Atlas atlas_of(const model::Mechanism& mechanism);
+/// Of four belts. \throws std::invalid_argument for anchors that are not known.
+[[nodiscard]] Atlas atlas_of(const model::BeltMachine& machine);
+
+}  // namespace chaintrue::grid::synthetic

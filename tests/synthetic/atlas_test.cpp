@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every picture of the atlas: where a line is drawn, the machine with the cause reads what the
+// controller paid out for the command. Anchors that belts find come from an adjustment of the test's
+// own, with planar geometry and differences for derivatives.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "grid/files/machine_file.hpp"
+#include "grid/synthetic/atlas.hpp"
+#include "grid/synthetic/simulated_belts.hpp"
+#include "model/belts/belt_mechanism.hpp"
+#include "model/chains/chain_mechanism.hpp"
+#include "model/effects/catalogue.hpp"
+#include "model/plotter/plotter_mechanism.hpp"
+
+namespace chaintrue::grid::synthetic::atlas_tests {
+namespace {
+
+using model::Mechanism;
+using model::MechanismVisit;
+using model::ToolPosition;
+using MechanismPointer = std::shared_ptr<const Mechanism>;
+
+MechanismPointer classic() {
+  return model::make_chain_mechanism(
+      files::read_machine(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json"));
+}
+
+/// A pen on two cords from spools, so that what needs a pulley acts too; cords that have weight and
+/// give, so that forces move the pen.
+MechanismPointer point_plotter() {
+  model::PlotterMachine machine;
+  machine.pulley_radius_mm = 10.0;
+  machine.cord = {.mass_kg_per_m = 0.01, .compliance_per_n = 1e-4};
+  return model::make_plotter_mechanism(machine);
+}
+
+MechanismPointer mural() { return model::make_plotter_mechanism(model::mural(1500.0)); }
+
+model::BeltMachine belt_frame() {
+  model::BeltMachine machine;
+  machine.anchors.tl = {-20.0, 2150.0, 100.0};
+  machine.anchors.tr = {3010.0, 2140.0, 56.0};
+  machine.anchors.br = {2990.0, 0.0, 78.0};
+  machine.anchors_known = true;
+  return machine;
+}
+
+const Atlas& atlas_of_kind(const std::string& kind) {
+  static const Atlas chains = atlas_of(*classic());
+  static const Atlas point = atlas_of(*point_plotter());
+  static const Atlas body = atlas_of(*mural());
+  static const Atlas belts = atlas_of(belt_frame());
+  if (kind == "chains") return chains;
+  if (kind == "point") return point;
+  return kind == "mural" ? body : belts;
+}
+
+MechanismPointer mechanism_of_kind(const std::string& kind) {
+  if (kind == "chains") return classic();
+  if (kind == "point") return point_plotter();
+  return kind == "mural" ? mural() : model::make_belt_mechanism(belt_frame());
+}
+
+model::AppliedEffect effect_of(const AtlasPicture& picture, double size) {
+  std::vector<double> values = nominal_values(*picture.effect);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (picture.effect->parameters[i].name == picture.parameter) values[i] = size;
+  }
+  return model::effects::applied(*picture.effect, picture.side, values);
+}
+
+MechanismPointer with_cause(const Mechanism& mechanism, const AtlasPicture& picture, double size) {
+  if (picture.effect != nullptr) return mechanism.with_effects({effect_of(picture, size)});
+  Eigen::VectorXd values = mechanism.values();
+  for (std::size_t k = 0; k < mechanism.parameters().size(); ++k) {
+    if (mechanism.parameters()[k].name == picture.parameter)
+      values[static_cast<Eigen::Index>(k)] += size;
+  }
+  return mechanism.with_values(values);
+}
+
+struct Shown {
+  std::string kind;
+  std::size_t number;
+};
+
+std::vector<Shown> all_pictures() {
+  std::vector<Shown> all;
+  for (const char* kind : {"chains", "point", "mural", "belts"}) {
+    for (std::size_t i = 0; i < atlas_of_kind(kind).pictures.size(); ++i) all.push_back({kind, i});
+  }
+  return all;
+}
+
+std::string name_of(const Shown& shown) {
+  const AtlasPicture& picture = atlas_of_kind(shown.kind).pictures[shown.number];
+  std::string text = shown.kind + "_";
+  text += picture.effect == nullptr ? picture.parameter : picture.effect->id;
+  text += "_" + std::string(name(picture.side));
+  return text;
+}
+
+class EveryPicture : public ::testing::TestWithParam<Shown> {};
+
+/// The planar distance of an anchor, the length that a Maslow 4 prints.
+double span(const model::Anchor& anchor, double x, double y) {
+  return std::hypot(x - anchor.x_mm, y - anchor.y_mm);
+}
+
+/// Residuals of a session at anchors (5) and places (2 each).
+Eigen::VectorXd residuals(const MeasuredBelts& session, const Eigen::VectorXd& u) {
+  Eigen::VectorXd r(4 * std::ssize(session.points));
+  for (std::size_t i = 0; i < session.points.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const double x = u[5 + 2 * at], y = u[6 + 2 * at];
+    const auto& read = session.points[i].lengths_mm;
+    r.segment<4>(4 * at) << read.tl - std::hypot(x - u[0], y - u[1]),
+        read.tr - std::hypot(x - u[2], y - u[3]), read.bl - std::hypot(x, y),
+        read.br - std::hypot(x - u[4], y);
+  }
+  return r;
+}
+
+/// Gauss-Newton with central differences from the true frame.
+model::BeltMachine adjusted(const MeasuredBelts& session) {
+  model::BeltMachine frame = belt_frame();
+  const auto count = std::ssize(session.points);
+  Eigen::VectorXd u(5 + 2 * count);
+  u.head<5>() << frame.anchors.tl.x_mm, frame.anchors.tl.y_mm, frame.anchors.tr.x_mm,
+      frame.anchors.tr.y_mm, frame.anchors.br.x_mm;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto place = model::to_frame(frame, *session.points[static_cast<std::size_t>(i)].commanded);
+    u.segment<2>(5 + 2 * i) << place.x_mm, place.y_mm;
+  }
+  for (int step = 0; step < 30; ++step) {
+    Eigen::MatrixXd jacobian(4 * count, u.size());
+    for (Eigen::Index k = 0; k < u.size(); ++k) {
+      constexpr double kStepMm = 1e-2;
+      Eigen::VectorXd more = u, less = u;
+      more[k] += kStepMm;
+      less[k] -= kStepMm;
+      jacobian.col(k) = (residuals(session, more) - residuals(session, less)) / (2.0 * kStepMm);
+    }
+    u -= jacobian.householderQr().solve(residuals(session, u));
+  }
+  frame.anchors.tl.x_mm = u[0];
+  frame.anchors.tl.y_mm = u[1];
+  frame.anchors.tr.x_mm = u[2];
+  frame.anchors.tr.y_mm = u[3];
+  frame.anchors.br.x_mm = u[4];
+  return frame;
+}
+
+/// What the controller of belts believes while it draws: the anchors set, or those that it found.
+model::BeltMachine believed(const AtlasPicture& picture, double size) {
+  if (picture.effect == nullptr) return belt_frame();
+  BeltsSpec spec;
+  spec.columns = spec.rows = 6;
+  spec.noise_mm = 0.0;
+  spec.hidden = {effect_of(picture, size)};
+  return adjusted(*simulate_belts(belt_frame(), belt_frame(), spec));
+}
+
+/// Which way each length goes along a line; its first point is reached the way the line goes on.
+std::vector<double> ways(const Mechanism& set, const AtlasLine& line, std::size_t i) {
+  const std::size_t to = std::max<std::size_t>(i, 1);
+  const auto from = set.predict(line.points[to - 1], {});
+  const auto at = set.predict(line.points[to], {});
+  return {at->lengths_mm[0] < from->lengths_mm[0] ? -1.0 : 1.0,
+          at->lengths_mm[1] < from->lengths_mm[1] ? -1.0 : 1.0};
+}
+
+/// The largest difference of what is read where a frame was drawn to what was paid out, mm.
+double worst_of_two(const Mechanism& set, const Mechanism& actual, const Atlas& atlas, const AtlasFrame& frame) {
+  double worst = 0.0;
+  for (std::size_t k = 0; k < atlas.lines.size(); ++k) {
+    for (std::size_t i = 0; i < atlas.lines[k].points.size(); ++i) {
+      if (!frame.lines[k][i]) continue;
+      const MechanismVisit visit{.order = static_cast<int>(k),
+                                 .direction = ways(set, atlas.lines[k], i)};
+      const auto paid_out = set.predict(atlas.lines[k].points[i], {});
+      const auto read = actual.predict(actual.place_of_mark(*frame.lines[k][i]), visit);
+      worst = std::max(worst, (read->lengths_mm - paid_out->lengths_mm).cwiseAbs().maxCoeff());
+    }
+  }
+  return worst;
+}
+
+double worst_of_belts(const model::BeltMachine& set,
+                      const model::BeltMechanism& actual,
+                      const Atlas& atlas,
+                      const AtlasFrame& frame) {
+  const auto set_centre = model::centre_of(set);
+  const auto centre = model::centre_of(actual.machine());
+  double worst = 0.0;
+  for (std::size_t k = 0; k < atlas.lines.size(); ++k) {
+    for (std::size_t i = 0; i < atlas.lines[k].points.size(); ++i) {
+      if (!frame.lines[k][i]) continue;
+      const ToolPosition& command = atlas.lines[k].points[i];
+      const double x = set_centre.x_mm + command.x_mm, y = set_centre.y_mm + command.y_mm;
+      const ToolPosition drawn{centre.x_mm + frame.lines[k][i]->x_mm,
+                               centre.y_mm + frame.lines[k][i]->y_mm};
+      const auto read = actual.predict(drawn, {.order = kAtlasPlaces + static_cast<int>(k)});
+      worst = std::max({worst,
+                        std::abs(read->lengths_mm[0] - span(set.anchors.tl, x, y)),
+                        std::abs(read->lengths_mm[1] - span(set.anchors.tr, x, y))});
+    }
+  }
+  return worst;
+}
+
+TEST_P(EveryPicture, IsDrawnWhereTheMachineWithTheCauseReadsWhatWasPaidOut) {
+  const Atlas& atlas = atlas_of_kind(GetParam().kind);
+  const AtlasPicture& picture = atlas.pictures[GetParam().number];
+  const MechanismPointer set = mechanism_of_kind(GetParam().kind);
+  ASSERT_FALSE(picture.frames.empty());
+  // All frames are made alike; the first and the usual one show the sign and the size.
+  for (const std::size_t at : {std::size_t{0}, picture.usual}) {
+    const AtlasFrame& frame = picture.frames[at];
+    SCOPED_TRACE(frame.size);
+    ASSERT_EQ(frame.lines.size(), atlas.lines.size());
+    const MechanismPointer actual = with_cause(*set, picture, frame.size);
+    if (GetParam().kind != "belts") {
+      // Newton's method ends at 1e-9 mm; numbers on the paper are inverted to as much.
+      EXPECT_LT(worst_of_two(*set, *actual, atlas, frame), 1e-6);
+    } else {
+      // Anchors of the estimator are within 1e-6 of their sigmas, of some millimetres here.
+      EXPECT_LT(worst_of_belts(believed(picture, frame.size),
+                               dynamic_cast<const model::BeltMechanism&>(*actual),
+                               atlas,
+                               frame),
+                1e-3);
+    }
+  }
+}
+
+TEST_P(EveryPicture, ShowsTheUsualSizeAndMovesSomeLine) {
+  const AtlasPicture& picture = atlas_of_kind(GetParam().kind).pictures[GetParam().number];
+  ASSERT_LT(picture.usual, picture.frames.size());
+  for (std::size_t i = 1; i < picture.frames.size(); ++i)
+    EXPECT_LT(picture.frames[i - 1].size, picture.frames[i].size);
+  if (picture.effect != nullptr) {
+    for (const auto& parameter : picture.effect->parameters) {
+      if (parameter.name != picture.parameter) continue;
+      EXPECT_EQ(picture.frames[picture.usual].size, parameter.nominal);
+    }
+  }
+  // A line of a pen is half a millimetre wide; what moves it by less than a hundredth is not drawn.
+  EXPECT_GT(picture.largest_shift_mm, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Atlas,
+                         EveryPicture,
+                         ::testing::ValuesIn(all_pictures()),
+                         [](const auto& tested) { return name_of(tested.param); });
+
+/// Every effect of the catalogue that can act has a picture of each of its sides.
+TEST(AtlasOf, EachMechanismHasItsSettingsAndItsCatalogue) {
+  for (const char* kind : {"chains", "point", "mural", "belts"}) {
+    SCOPED_TRACE(kind);
+    const MechanismPointer mechanism = mechanism_of_kind(kind);
+    std::size_t expected = mechanism->parameters().size();
+    for (const model::effects::Effect* effect : mechanism->effects()) {
+      for (const auto side : effect->sides) {
+        const auto applied = model::effects::applied(*effect, side, nominal_values(*effect));
+        expected += mechanism->problems_of_effects({applied}).empty() ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(atlas_of_kind(kind).pictures.size(), expected);
+  }
+}
+
+TEST(AtlasOf, AnchorsThatAreNotKnownAreRefused) {
+  EXPECT_THROW((void)atlas_of(model::BeltMachine{}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::synthetic::atlas_tests

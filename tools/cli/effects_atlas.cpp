@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/effects_atlas.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "grid/files/drawing_file.hpp"
+#include "grid/files/effect_file.hpp"
+#include "grid/synthetic/atlas.hpp"
+#include "model/chains/chain_mechanism.hpp"
+#include "model/plotter/plotter_mechanism.hpp"
+#include "tools/cli/atlas_page.hpp"
+#include "tools/cli/input_file.hpp"
+#include "tools/cli/option_checks.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/progress.hpp"
+#include "tools/cli/start_plotter.hpp"
+#include "tools/cli/warnings.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+namespace synthetic = grid::synthetic;
+
+struct NamedAtlas {
+  synthetic::Atlas atlas;
+  std::string machine;
+};
+
+NamedAtlas of_plotter(const model::PlotterMachine& machine) {
+  return {synthetic::atlas_of(*model::make_plotter_mechanism(machine)), machine.name};
+}
+
+void refuse_declared(const InputFile& file, const std::vector<std::string>& declared) {
+  if (declared.empty()) return;
+  OptionProblems problems;
+  problems.add("--effects",
+               declared.front(),
+               fmt::format("to be left out: declared effects are of two chains, and {} is not", file.name));
+  problems.throw_if_any();
+}
+
+NamedAtlas atlas_of_file(const InputFile& file, const std::vector<std::string>& declared) {
+  if (is_of_a_plotter(file)) {
+    refuse_declared(file, declared);
+    const files::ReadPlotter read = load_plotter(file);
+    print_warnings(read.warnings);
+    return of_plotter(read.plotter.set.machine);
+  }
+  require_kind(file,
+               {FileKind::machine,
+                FileKind::belts,
+                FileKind::anchors,
+                FileKind::plotter,
+                FileKind::drawing});
+  if (file.kind == FileKind::machine) {
+    model::Machine machine = load_machine(file);
+    files::declare_effects(declared, machine);
+    return {synthetic::atlas_of(*model::make_chain_mechanism(machine)), machine.name};
+  }
+  refuse_declared(file, declared);
+  if (file.kind == FileKind::drawing)
+    return of_plotter(files::parse_drawing(file.text, file.name).machine);
+  const model::BeltMachine machine = load_belt_machine(file);
+  return {synthetic::atlas_of(machine), machine.name};
+}
+
+}  // namespace
+
+int write_atlas(const std::string& machine,
+                const std::vector<std::string>& declared,
+                const std::string& output) {
+  const NamedAtlas named = atlas_of_file(open_input(machine), declared);
+  end_progress();
+  write_output(output, atlas_page(named.atlas, named.machine));
+  fmt::print(stderr,
+             "{}: {} pictures of what may be wrong; find the one that looks like your sheet\n",
+             output,
+             named.atlas.pictures.size());
+  return kDone;
+}
+
+}  // namespace chaintrue::cli
