@@ -47,10 +47,10 @@ DiagnosisFailure impossible(const ObservationSet& session, const model::MachineP
 double move_mm(const ObservationSet& session, const Eigen::VectorXd& change) {
   const double to_edge_mm = 0.5 * session.stated.bed.width_mm;
   double most = 0.0;
-  for (std::size_t k = 0; k < session.settings.size(); ++k) {
-    const bool turn = session.settings[k] == model::Setting::sheet_rotation_rad;
-    most =
-        std::max(most, (turn ? to_edge_mm : 1.0) * std::abs(change(static_cast<Eigen::Index>(k))));
+  for (Eigen::Index k = 0; k < session.setting_columns(); ++k) {
+    const bool turn = session.is_of_chains() && session.settings[static_cast<std::size_t>(k)] ==
+                                                    model::Setting::sheet_rotation_rad;
+    most = std::max(most, (turn ? to_edge_mm : 1.0) * std::abs(change(k)));
   }
   return most;
 }
@@ -70,14 +70,18 @@ tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
     const auto outliers = outlier_sets(*system, none, {{}}, projected).front();
     const MarginalisedSystem marginalised = marginalise(*system, outliers, projected);
     const Eigen::VectorXd change = estimate(*system, marginalised, {}, -1).setting_change;
-    state = with_settings(session, state, system->setting + change);
-    const auto problems = model::problems_of(state.machine);
-    if (!problems.empty()) return tl::unexpected(impossible(session, problems.front()));
+    auto moved = moved_to(session, std::move(state), system->setting + change);
+    if (!moved) return tl::unexpected(impossible(session, moved.error()));
+    state = *std::move(moved);
     a.converged = move_mm(session, change) < kConvergedMm;
   }
   a.state = std::move(state);
   return {};
 }
+
+/// Whether lengths of the mechanism were read, or taped between places: a smooth pattern is one of
+/// lengths over the bed.
+bool has_lengths(const ObservationSet& session) { return session.is_of_chains(); }
 
 /// Takes effects out that could not show at any size that they may have.
 void drop_invisible(const MarginalisedSystem& marginalised, Analysis& a) {
@@ -225,6 +229,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
   if (auto done = calibrate(a); !done) return tl::unexpected(done.error());
   a.candidates = candidates(a.session);
   ComparisonOptions compared{.steps = options.steps, .given_cause = options.given_cause};
+  compared.discrepancies = has_lengths(a.session);
   const std::vector<bool> none(a.session.units.size(), false);
   constexpr int kCalibrationRounds = 2;
   std::vector<Refinement> known;

@@ -48,6 +48,8 @@ std::string_view name(Observations observations) {
       return "distances";
     case Observations::belts:
       return "belts";
+    case Observations::drawing:
+      return "drawing";
     case Observations::both:
       break;
   }

@@ -20,6 +20,7 @@
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/options.hpp"
 #include "grid/observation/measured.hpp"
+#include "grid/plotter/test_drawing.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -36,6 +37,12 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
                                                                  const PointIndices& indices,
                                                                  const DiagnosisOptions& options);
+
+/// A V-plotter, from what was measured on its test drawing. The order of the lines is not known.
+/// Held-out errors and what to measure next stay empty: `drawing` holds the settings and the measures.
+/// Fails in words where fit_drawing() refuses the drawing for a slip.
+[[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
+    const TestDrawing& drawing, const DiagnosisOptions& options = {});
 
 /// How well what was found on one grid predicts another of the same machine. Fails in words where
 /// either has no machine or the machine found cannot reach the other's points.

@@ -24,6 +24,7 @@
 
 #include "grid/diagnosis/belts_findings.hpp"
 #include "grid/diagnosis/cause_id.hpp"
+#include "grid/diagnosis/drawing_findings.hpp"
 #include "grid/diagnosis/pictures.hpp"
 #include "grid/diagnosis/visiting_order_found.hpp"
 #include "grid/map/compensation_map.hpp"
@@ -43,9 +44,9 @@ enum class Verdict {
 };
 [[nodiscard]] std::string_view name(Verdict verdict);
 
-/// What was read: chains at points, a tape between holes, both, or four belts.
-enum class Observations { points, distances, both, belts };
-/// "points", "distances", "readings", "belts".
+/// What was read: chains at points, a tape between holes, both, four belts, or a test drawing.
+enum class Observations { points, distances, both, belts, drawing };
+/// "points", "distances", "readings", "belts", "drawing".
 [[nodiscard]] std::string_view name(Observations observations);
 
 struct ParameterEstimate {
@@ -365,6 +366,7 @@ struct Diagnosis {
   std::vector<HolePicture> holes;          ///< of distances
   std::vector<DistancePicture> distances;  ///< in the order of the set
   std::optional<BeltsFindings> belts;      ///< of belts alone
+  std::optional<DrawingFindings> drawing;  ///< of a test drawing alone
   std::uint64_t seed = 1;
   std::string grid_name;
   std::optional<StatedNoise> stated_noise;

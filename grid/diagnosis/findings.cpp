@@ -55,16 +55,16 @@ Eigen::MatrixXd slope_by_settings(const Analysis& a, const Regressor& own) {
   constexpr double kStep = 1e-3;
   Eigen::MatrixXd slope =
       Eigen::MatrixXd::Zero(a.system.by_setting.rows(), a.system.setting.size());
-  for (std::size_t k = 0; k < a.session.settings.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
+  for (Eigen::Index column = 0; column < a.session.setting_columns(); ++column) {
     const double step = kStep * a.system.sigma(column);
     const auto at = [&](double change) -> std::optional<Eigen::VectorXd> {
       Eigen::VectorXd settings = a.system.setting;
       settings(column) += change;
-      const State state = with_settings(a.session, a.state, settings);
-      const auto there = linearise(a.session, state, a.options.steps);
+      const auto state = moved_to(a.session, a.state, settings);
+      if (!state) return std::nullopt;
+      const auto there = linearise(a.session, *state, a.options.steps);
       if (!there) return std::nullopt;
-      return signature(a.session, state, *there, own.cause, own.values);
+      return signature(a.session, *state, *there, own.cause, own.values);
     };
     const auto above = at(step);
     const auto below = at(-step);
@@ -408,6 +408,7 @@ std::vector<Outlier> outliers_found(const Analysis& a) {
     const SystemUnit& unit = a.system.units[u];
     result.push_back(unit.reads_chains ? outlying_point(a, a.session.units[u], unit)
                                        : outlying_distance(a, a.session.units[u], unit));
+    if (!a.session.is_of_chains()) result.back().of = Observations::drawing;
   }
   std::sort(result.begin(), result.end(), [](const Outlier& x, const Outlier& y) {
     return std::pair(x.of, x.index) < std::pair(y.of, y.index);

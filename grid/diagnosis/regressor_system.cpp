@@ -55,7 +55,9 @@ tl::expected<RegressorSystem, observation::Unreachable> linearise(const Observat
   system.expected_change = set.stated_value - system.setting;
   system.sigma = set.stated_sigma;
   // Of each effect the shares of its sides, places and numbers add up to one.
-  system.prior.shares = static_cast<double>(model::effects::effects_of(state.machine).size());
+  system.prior.shares = static_cast<double>(
+      state.mechanism ? state.mechanism->effects().size()
+                      : model::effects::effects_of(state.machine).size());
   system.noise_dof = set.noise_dof;
   system.limits.fewest_groups = set.fewest_units;
   if (!steps.whiten) {

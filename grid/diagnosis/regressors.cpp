@@ -22,21 +22,38 @@ using model::effects::PlaceVariable;
 constexpr int kPlaces = 24;    // of a knee or a phase: neighbours have a collinearity of 0.99
 constexpr int kMostLinks = 3;  // more than that shows to the bare eye
 
-model::Machine with_effect(model::Machine machine,
-                           CauseId cause,
-                           const std::vector<double>& values) {
-  machine.effects.push_back(model::effects::applied(*cause.effect, cause.side, values));
-  return machine;
+std::vector<const Effect*> effects_of(const State& state) {
+  if (!state.mechanism) return model::effects::effects_of(state.machine);
+  const auto own = state.mechanism->effects();
+  return {own.begin(), own.end()};
+}
+
+/// The state with an effect more. \pre problems_with_effect() has none.
+State with_effect(State state, CauseId cause, const std::vector<double>& values) {
+  const model::AppliedEffect own = model::effects::applied(*cause.effect, cause.side, values);
+  if (state.mechanism) {
+    state.mechanism = state.mechanism->with_effects({own});
+  } else {
+    state.machine.effects.push_back(own);
+  }
+  return state;
+}
+
+std::vector<model::MachineProblem> problems_with_effect(const State& state,
+                                                        CauseId cause,
+                                                        const std::vector<double>& values) {
+  const model::AppliedEffect own = model::effects::applied(*cause.effect, cause.side, values);
+  if (state.mechanism) return state.mechanism->problems_of_effects({own});
+  model::Machine machine = state.machine;
+  machine.effects.push_back(own);
+  return model::effects::problems_of_effects(machine);
 }
 
 /// What such a machine would give to be read, all rows.
-std::optional<Eigen::VectorXd> predicted(const ObservationSet& session,
-                                         const State& state,
-                                         const model::Machine& machine) {
-  const model::ReadingModel model(machine);
+std::optional<Eigen::VectorXd> predicted(const ObservationSet& session, const State& state) {
   Eigen::VectorXd all(session.rows);
   for (const ObservationPart& part : session.parts) {
-    const auto own = part.observation->predicted({model, state.sheet_of(part)});
+    const auto own = part.observation->predicted(state.view(part));
     if (!own) return std::nullopt;
     all.segment(part.first_row, own->size()) = *own;
   }
@@ -293,12 +310,12 @@ std::string untestable(const ObservationSet& session, CauseId cause) {
 
 Candidates candidates(const ObservationSet& session) {
   Candidates result;
-  for (const Effect* effect : model::effects::effects_of(session.stated)) {
+  const State stated = stated_state(session);
+  for (const Effect* effect : effects_of(stated)) {
     for (const EffectSide side : effect->sides) {
       const CauseId cause{effect, side};
-      model::Machine machine =
-          with_effect(session.stated, cause, model::effects::nominal_values(*effect));
-      const auto problems = model::effects::problems_of_effects(machine);
+      const auto problems =
+          problems_with_effect(stated, cause, model::effects::nominal_values(*effect));
       const std::string reason = untestable(session, cause);
       if (!reason.empty()) {
         result.not_testable.push_back({cause, reason});
@@ -320,10 +337,9 @@ std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
   if (cause.effect->add != nullptr || cause.effect->misread != nullptr) {
     return added(system, state.machine.sprocket, cause, values);
   }
-  const model::Machine machine = with_effect(state.machine, cause, values);
-  if (!model::effects::problems_of_effects(machine).empty()) return std::nullopt;
-  const auto with = predicted(session, state, machine);
-  const auto without = predicted(session, state, state.machine);
+  if (!problems_with_effect(state, cause, values).empty()) return std::nullopt;
+  const auto with = predicted(session, with_effect(state, cause, values));
+  const auto without = predicted(session, state);
   if (!with || !without) return std::nullopt;
   return whitened(system, *with - *without);
 }

@@ -191,7 +191,7 @@ Relinearised relinearise(const Analysis& a) {
     there.discrepancy_trace =
         marginalised.discrepancy_trace;  // the discrepancy stays as strong as it was found
     const Round here(session, result.state, *about, std::move(there), discrepancy);
-    const auto settings = static_cast<Eigen::Index>(session.settings.size());
+    const Eigen::Index settings = session.setting_columns();
     bool converged =
         here.estimate().setting_change.head(settings).cwiseAbs().maxCoeff() < kConvergedSettingMm;
     std::vector<Regressor> moved = own;
@@ -204,10 +204,9 @@ Relinearised relinearise(const Analysis& a) {
       if (has_continuous_place(own[k]) && discrepancy < 0)
         moved[k].values.back() = here.place(k, reaches[k]);
     }
-    State next =
-        with_settings(session, result.state, about->setting + here.estimate().setting_change);
-    if (!model::problems_of(next.machine).empty()) break;
-    result.state = std::move(next);
+    auto next = moved_to(session, result.state, about->setting + here.estimate().setting_change);
+    if (!next) break;
+    result.state = *std::move(next);
     own = std::move(moved);
     if (converged) break;
   }

@@ -51,6 +51,11 @@ std::string assumed_words(const Diagnosis& d) {
   return assumed ? " This assumes the order of the visits." : "";
 }
 
+/// "points", "distances", "readings", "measures".
+std::string_view units_of(const Diagnosis& d) {
+  return d.observations == Observations::drawing ? "measures" : name(d.observations);
+}
+
 /// An outlier by its ends and by how much it is off.
 std::string distance_words(const Diagnosis& d, const Outlier& bad) {
   return fmt::format("{} (read {:.1f} mm too {})",
@@ -63,7 +68,8 @@ std::string distance_words(const Diagnosis& d, const Outlier& bad) {
 std::vector<std::string> bad_ones(const Diagnosis& d) {
   std::vector<std::string> result;
   for (const Outlier& b : d.outliers) {
-    result.push_back(b.of == Observations::distances        ? distance_words(d, b)
+    result.push_back(b.of == Observations::drawing          ? d.drawing->measures.at(b.index).name
+                     : b.of == Observations::distances      ? distance_words(d, b)
                      : d.observations == Observations::both ? fmt::format("point {}", b.index + 1)
                                                             : fmt::format("{}", b.index + 1));
   }
@@ -90,7 +96,7 @@ std::string named_words(const Diagnosis& d) {
                                  percent(cause.probability));
   for (const SameCause& other : cause.same_as) {
     text += fmt::format(" These {} cannot tell it from this: {}.",
-                        name(d.observations),
+                        units_of(d),
                         sized(other.cause, other.parameters));
   }
   return text + alongside_words(d) + assumed_words(d) + improvement_words(d);
@@ -103,7 +109,7 @@ std::string set_words(const Diagnosis& d) {
   }
   return fmt::format("One of {} causes, which these {} do not tell apart: {}.",
                      d.causes.size(),
-                     name(d.observations),
+                     units_of(d),
                      joined(parts, "or")) +
          alongside_words(d) + assumed_words(d) + improvement_words(d);
 }
@@ -123,7 +129,7 @@ std::string unknown_words(const Diagnosis& d) {
           ? fmt::format(
                 "The {} show a pattern that repeats over the bed and that no cause in the "
                 "catalogue explains",
-                name(d.observations))
+                units_of(d))
           : "The holes lie off where their chain lengths put them, neighbours by about the same "
             "and by more than the readings can err, and no known cause explains it";
   if (!d.left_over.follows.empty()) {
@@ -138,19 +144,41 @@ std::string bad_words(const Diagnosis& d) {
   const std::vector<std::string> bad = bad_ones(d);
   return fmt::format("Nothing is wrong but {} of the {}: {}{}. Without {} the machine fits.",
                      bad.size(),
-                     name(d.observations),
+                     units_of(d),
                      d.observations == Observations::points ? "number " : "",
                      joined(bad, "and"),
                      bad.size() == 1 ? "it" : "them");
 }
 
+/// "zero_left_mm (0.00 set, 23.08 +- 1.99 found)", of each that is off.
+std::vector<std::string> settings_off(const Diagnosis& d) {
+  std::vector<std::string> off;
+  if (!d.drawing) return off;
+  for (const DrawnSetting& own : d.drawing->settings) {
+    if (own.off) {
+      off.push_back(fmt::format(
+          "{} ({:.2f} set, {:.2f} +- {:.2f} found)", own.name, own.set, own.found, own.sigma));
+    }
+  }
+  return off;
+}
+
 std::string nothing_words(const Diagnosis& d, std::size_t units) {
+  if (const std::vector<std::string> off = settings_off(d); !off.empty()) {
+    return fmt::format(
+        "{} off, and nothing else is wrong: {}. With the numbers found, what is left of the {} {} is "
+        "as large as the readings can err.",
+        off.size() == 1 ? "A setting is" : "Settings are",
+        joined(off, "and"),
+        units,
+        units_of(d));
+  }
   std::string text = fmt::format(
       "Nothing is found beyond the settings: what is left {} the {} {} is as large as the readings "
       "can err.",
       d.observations == Observations::points ? "at" : "of",
       units,
-      name(d.observations));
+      units_of(d));
   if (d.family_wise_p < 0.05) {
     text += fmt::format(
         " The strongest effect would look as strong by chance in {:.0f} of 100 "
@@ -174,7 +202,7 @@ std::string sentence(const Diagnosis& d, std::size_t units) {
       return fmt::format(
           "The {} scatter {:.1f} times as much as you said, and without a pattern: look at the "
           "tape, at the {} and at play in the sled.",
-          name(d.observations),
+          units_of(d),
           d.noise_factor,
           speaks_of_distances(d) ? "drill" : "marking");
     case Verdict::outliers:
@@ -195,6 +223,16 @@ void say_what_to_read_again(Diagnosis& d) {
   if (is_bad) return;
   d.what_to_do.push_back(
       fmt::format("Measure point {} again first: the answer depends on it.", points.front() + 1));
+}
+
+/// Settings of a plotter that are off.
+void say_what_to_type(Diagnosis& d) {
+  if (settings_off(d).empty() || d.what_to_do.size() >= 3) return;
+  d.what_to_do.emplace_back(
+      d.causes.empty()
+          ? "Type the numbers in: chaintrue fit finds them, and export plotter prints the lines."
+          : "Then draw the page once more: chaintrue fit finds the settings that are off, and export "
+            "plotter prints the lines to type in.");
 }
 
 void say_what_to_do(Diagnosis& d) {
@@ -234,7 +272,7 @@ void say_what_to_do(Diagnosis& d) {
                     model::name(s.setting),
                     s.stated,
                     s.calibrated,
-                    name(d.observations)));
+                    units_of(d)));
   }
   if (d.verdict == Verdict::model_discrepancy && d.what_to_do.size() < 3) {
     d.what_to_do.emplace_back(
@@ -246,9 +284,10 @@ void say_what_to_do(Diagnosis& d) {
         "turns with it is the sheet's or the tape's; one that stays is the machine's; one that is "
         "gone was that day's.");
   }
+  say_what_to_type(d);
   if (d.what_to_do.empty()) {
     d.what_to_do.push_back(fmt::format(
-        "Type in the calibrated settings; these {} can give no more.", name(d.observations)));
+        "Type in the calibrated settings; these {} can give no more.", units_of(d)));
   }
 }
 
@@ -280,6 +319,8 @@ std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
     text +=
         " Distances do not show in which order the holes were cut, nor where the machine stands as "
         "a whole: drift, skipped teeth and play cannot be seen, nor how high the motors are.";
+  } else if (d.drawing) {
+    text += " A drawing does not show in which order it was drawn: drift and skipped teeth cannot be seen.";
   } else if (!session.ordered()) {
     text += " The order of visits is not known: drift, skipped teeth and play cannot be seen.";
   }

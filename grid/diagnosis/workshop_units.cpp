@@ -7,8 +7,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "model/belts/effects/belt_effect.hpp"
+#include "model/plotter/effects/plotter_effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -49,21 +51,36 @@ constexpr std::array kUnits = {
     Unit{"distance_mm", 1.0, "{} mm"},
 };
 
-/// What belts have words of their own for; `effect` empty: of any.
-struct BeltUnit {
+/// What belts or cords have words of their own for; `effect` empty: of any.
+struct UnitOfEffect {
   std::string_view effect;
   Unit unit;
 };
 
 constexpr std::array kBeltUnits = {
-    BeltUnit{"belt_stretch",
+    UnitOfEffect{"belt_stretch",
              {"elongation", 100.0, "{} % longer when pulled", "{} % shorter when pulled"}},
-    BeltUnit{"belt_scale", {"scale", 100.0, "{} % more belt a turn", "{} % less belt a turn"}},
-    BeltUnit{"belt_zero", {"offset_mm", 1.0, "{} mm too much read", "{} mm too little read"}},
-    BeltUnit{"anchor_height", {"offset_mm", 1.0, "{} mm higher", "{} mm lower"}},
-    BeltUnit{"", {"give_mm", 1.0, "{} mm when pulled"}},
-    BeltUnit{"", {"teeth", 1.0, "{} teeth", "", "{} tooth"}},
-    BeltUnit{"", {"direction_rad", kDegrees, "{} degrees from x towards y"}},
+    UnitOfEffect{"belt_scale", {"scale", 100.0, "{} % more belt a turn", "{} % less belt a turn"}},
+    UnitOfEffect{"belt_zero", {"offset_mm", 1.0, "{} mm too much read", "{} mm too little read"}},
+    UnitOfEffect{"anchor_height", {"offset_mm", 1.0, "{} mm higher", "{} mm lower"}},
+    UnitOfEffect{"", {"give_mm", 1.0, "{} mm when pulled"}},
+    UnitOfEffect{"", {"teeth", 1.0, "{} teeth", "", "{} tooth"}},
+    UnitOfEffect{"", {"direction_rad", kDegrees, "{} degrees from x towards y"}},
+};
+
+constexpr std::array kCordUnits = {
+    UnitOfEffect{"pen_off_centre",
+                 {"offset_mm", 1.0, "{} mm to the right", "{} mm to the left"}},
+    UnitOfEffect{"servo_arm", {"offset_mm", 1.0, "{} mm to the right", "{} mm to the left"}},
+    UnitOfEffect{"gondola_width", {"offset_mm", 1.0, "{} mm wider", "{} mm narrower"}},
+    UnitOfEffect{"standoff",
+                 {"offset_mm", 1.0, "{} mm farther off the wall", "{} mm nearer to the wall"}},
+    UnitOfEffect{"gondola_mass", {"relative", 100.0, "{} % heavier", "{} % lighter"}},
+    UnitOfEffect{"cord_weight",
+                 {"more_g_per_m", 1.0, "{} g a metre heavier", "{} g a metre lighter"}},
+    UnitOfEffect{"pen_friction", {"force_n", 1.0, "{} N"}},
+    UnitOfEffect{"spool_layers", {"growth_mm_per_m2", 1.0, "growth {} mm per square metre"}},
+    UnitOfEffect{"", {"teeth", 1.0, "{} teeth", "", "{} tooth"}},
 };
 
 /// To its first two digits.
@@ -100,6 +117,15 @@ std::string worded(const Unit& unit, const ParameterEstimate& estimate) {
 
 }  // namespace
 
+namespace {
+
+bool is_of_cords(const model::effects::Effect& effect) {
+  const auto cords = model::plotter::described_plotter_effects();
+  return std::find(cords.begin(), cords.end(), &effect) != cords.end();
+}
+
+}  // namespace
+
 std::string in_workshop_units(const ParameterEstimate& estimate) {
   for (const Unit& unit : kUnits) {
     if (unit.parameter == estimate.parameter) return worded(unit, estimate);
@@ -111,11 +137,12 @@ std::string in_workshop_units(const CauseId& cause, const ParameterEstimate& est
   // What the name of a declared effect's parameter means, only its owner knows.
   if (cause.effect->law != nullptr)
     return fmt::format("{} = {}", estimate.parameter, with_sigma(estimate.value, estimate.sigma));
-  if (model::belts::belt_effect_of(*cause.effect) != nullptr) {
-    for (const BeltUnit& own : kBeltUnits) {
-      const bool fits = own.effect.empty() || own.effect == cause.effect->id;
-      if (fits && own.unit.parameter == estimate.parameter) return worded(own.unit, estimate);
-    }
+  std::span<const UnitOfEffect> of_mechanism;
+  if (model::belts::belt_effect_of(*cause.effect) != nullptr) of_mechanism = kBeltUnits;
+  if (is_of_cords(*cause.effect)) of_mechanism = kCordUnits;
+  for (const UnitOfEffect& own : of_mechanism) {
+    const bool fits = own.effect.empty() || own.effect == cause.effect->id;
+    if (fits && own.unit.parameter == estimate.parameter) return worded(own.unit, estimate);
   }
   return in_workshop_units(estimate);
 }

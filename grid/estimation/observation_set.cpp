@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 #include "grid/precondition.hpp"
 #include "model/calibration/setting.hpp"
@@ -184,11 +185,17 @@ std::string_view ObservationSet::units_word() const {
 }
 
 MachineState stated_state(const ObservationSet& set) {
-  return {set.stated, std::vector<model::SheetPlacement>(set.sheets)};
+  return {set.stated,
+          std::vector<model::SheetPlacement>(set.sheets),
+          set.is_of_chains() ? nullptr : set.mechanism};
 }
 
 Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& state) {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(set.stated_value.size());
+  if (state.mechanism) {
+    values.head(set.parameters()) = state.mechanism->values();
+    return values;
+  }
   for (Eigen::Index k = 0; k < kMachineSettingCount; ++k) {
     values(k) = model::stated_value(state.machine, set.settings[static_cast<std::size_t>(k)]);
   }
@@ -203,6 +210,10 @@ Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& st
 MachineState with_settings(const ObservationSet& set,
                            MachineState state,
                            const Eigen::VectorXd& values) {
+  if (state.mechanism) {
+    state.mechanism = state.mechanism->with_values(values.head(set.parameters()));
+    return state;
+  }
   for (Eigen::Index k = 0; k < kMachineSettingCount; ++k) {
     state.machine = model::with_setting(
         std::move(state.machine), set.settings[static_cast<std::size_t>(k)], values(k));
@@ -211,6 +222,21 @@ MachineState with_settings(const ObservationSet& set,
     const Eigen::Index at = ObservationSet::sheet_column(i);
     state.sheets[i] = {values(at), values(at + 1), values(at + 2)};
   }
+  return state;
+}
+
+tl::expected<MachineState, model::MachineProblem> moved_to(const ObservationSet& set,
+                                                          MachineState state,
+                                                          const Eigen::VectorXd& values) {
+  const std::string kind(set.mechanism->kind());
+  try {
+    state = with_settings(set, std::move(state), values);
+  } catch (const std::invalid_argument& failure) {
+    return tl::unexpected(model::MachineProblem{kind, "settings that cannot be", failure.what()});
+  }
+  if (state.mechanism) return state;
+  auto problems = model::problems_of(state.machine);
+  if (!problems.empty()) return tl::unexpected(std::move(problems.front()));
   return state;
 }
 

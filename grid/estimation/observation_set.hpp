@@ -94,10 +94,15 @@ struct ObservationSet {
 
   /// Of the mechanism: the first columns.
   [[nodiscard]] Eigen::Index parameters() const { return mechanism->values().size(); }
-  [[nodiscard]] Eigen::Index nuisances() const {
-    return stated_value.size() - parameters() - 3 * static_cast<Eigen::Index>(sheets) -
-           2 * static_cast<Eigen::Index>(own_zeros);
+  /// Of the mechanism's parameters and the sheets: the first columns.
+  [[nodiscard]] Eigen::Index setting_columns() const {
+    return parameters() + 3 * static_cast<Eigen::Index>(sheets);
   }
+  [[nodiscard]] Eigen::Index nuisances() const {
+    return stated_value.size() - setting_columns() - 2 * static_cast<Eigen::Index>(own_zeros);
+  }
+  /// Whether two chains hang, of which `stated` says all.
+  [[nodiscard]] bool is_of_chains() const { return !settings.empty(); }
   [[nodiscard]] bool reads_chains() const;
   [[nodiscard]] bool has_distances() const;
   /// Chains were read, and the visits' order is known.
@@ -151,19 +156,26 @@ template <class What>
 struct MachineState {
   model::Machine machine;
   std::vector<model::SheetPlacement> sheets;
+  /// Of another mechanism than two chains; then `machine` says nothing.
+  std::shared_ptr<const model::Mechanism> mechanism = nullptr;
   [[nodiscard]] model::SheetPlacement sheet_of(const ObservationPart& part) const {
     return part.sheet ? sheets.at(*part.sheet) : model::SheetPlacement{};
   }
   [[nodiscard]] observation::View view(const ObservationPart& part) const {
+    if (mechanism) return {mechanism, sheet_of(part)};
     return {model::ReadingModel(machine), sheet_of(part)};
   }
 };
 [[nodiscard]] MachineState stated_state(const ObservationSet& set);
 /// Zeros of other sessions and nuisances are nothing in every state: what they do is linear.
 [[nodiscard]] Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& state);
+/// \throws std::invalid_argument for another mechanism than two chains that cannot have these values.
 [[nodiscard]] MachineState with_settings(const ObservationSet& set,
                                          MachineState state,
                                          const Eigen::VectorXd& values);
+/// The same, or why there is no such machine.
+[[nodiscard]] tl::expected<MachineState, model::MachineProblem> moved_to(
+    const ObservationSet& set, MachineState state, const Eigen::VectorXd& values);
 
 /// A unit in a workshop's words.
 [[nodiscard]] std::string name_of(const ObservationSet& set, std::size_t unit);

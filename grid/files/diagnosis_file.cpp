@@ -177,7 +177,8 @@ void distance_keys(Record<Diagnosis>& record) {
       choice<Observations>({{"points", Observations::points},
                             {"distances", Observations::distances},
                             {"points_and_distances", Observations::both},
-                            {"belts", Observations::belts}});
+                            {"belts", Observations::belts},
+                            {"drawing", Observations::drawing}});
   record
       .custom(
           "observations",
@@ -194,18 +195,21 @@ void distance_keys(Record<Diagnosis>& record) {
       .sparse("holes", &Diagnosis::holes, list(object(hole_picture_record())))
       .sparse("distances", &Diagnosis::distances, list(object(distance_picture_record())))
       .optional("stated_tape", &Diagnosis::stated_tape, object(stated_tape_record()))
-      .optional("belts", &Diagnosis::belts, object(belts_findings_record()));
+      .optional("belts", &Diagnosis::belts, object(belts_findings_record()))
+      .optional("drawing", &Diagnosis::drawing, object(drawing_findings_record()));
 }
 
 void check_diagnosis(const Cursor& at, Diagnosis& object) {
-  if (object.observations == Observations::distances ||
-      object.observations == Observations::belts) {
+  const bool of_belts = object.observations == Observations::belts;
+  const bool of_drawing = object.observations == Observations::drawing;
+  if (object.observations == Observations::distances || of_belts || of_drawing) {
     for (Outlier& bad : object.outliers) bad.of = object.observations;
   }
-  const bool of_belts = object.observations == Observations::belts;
-  if (!of_belts && !at.has("extended_machine"))
+  if (of_drawing) take_causes_of_cords(object);
+  if (!of_belts && !of_drawing && !at.has("extended_machine"))
     at.child("extended_machine").missing("a chaintrue_machine");
   if (of_belts && !object.belts) at.child("belts").missing("what belts tell");
+  if (of_drawing && !object.drawing) at.child("drawing").missing("what a drawing tells");
   if (!at.child("verdict").clean() || !at.child("causes").clean()) return;
   const bool names_one = object.verdict == Verdict::named || object.verdict == Verdict::named_set ||
                          object.verdict == Verdict::several_causes;
@@ -248,7 +252,9 @@ Record<Diagnosis> make_diagnosis_record() {
               object.extended_machine = *std::move(machine);
           },
           [](const Diagnosis& object) {
-            return object.observations == Observations::belts
+            const bool of_chains = object.observations != Observations::belts &&
+                                   object.observations != Observations::drawing;
+            return !of_chains
                        ? std::nullopt
                        : std::optional<Json>(machine_record().write(object.extended_machine));
           })

@@ -11,6 +11,7 @@
 #include "grid/files/effect_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "model/belts/effects/belt_effect.hpp"
+#include "model/plotter/effects/plotter_effect.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -42,13 +43,16 @@ constexpr EffectSide kSides[] = {EffectSide::left,
                                  EffectSide::br,
                                  EffectSide::all};
 
-/// An effect of chains, or of belts if chains have none of that name.
+/// An effect of chains, or of belts or cords if chains have none of that name.
 Value<const Effect*> effect_word() {
   std::vector<std::pair<std::string, const Effect*>> names;
   for (const Effect* effect : model::effects::catalogue()) names.emplace_back(effect->id, effect);
   for (const model::belts::BeltEffect* effect : model::belts::belt_effects()) {
     if (model::effects::find_effect(effect->id) == nullptr)
       names.emplace_back(effect->id, &model::belts::described(*effect));
+  }
+  for (const Effect* effect : model::plotter::described_plotter_effects()) {
+    if (model::effects::find_effect(effect->id) == nullptr) names.emplace_back(effect->id, effect);
   }
   return choice<const Effect*>(std::move(names));
 }

@@ -23,6 +23,11 @@ namespace chaintrue::grid::files {
 [[nodiscard]] const Record<diagnosis::DistancePicture>& distance_picture_record();
 [[nodiscard]] const Record<diagnosis::Term>& term_record();
 [[nodiscard]] const Record<diagnosis::Separation>& separation_record();
+/// diagnosis_drawing_record.cpp.
+[[nodiscard]] const Record<diagnosis::DrawingFindings>& drawing_findings_record();
+/// Causes that chains have under the same name become those of cords: a diagnosis of a drawing names
+/// no others.
+void take_causes_of_cords(diagnosis::Diagnosis& diagnosis);
 /// diagnosis_belts_record.cpp.
 [[nodiscard]] const Record<diagnosis::BeltsFindings>& belts_findings_record();
 /// diagnosis_stability_record.cpp.

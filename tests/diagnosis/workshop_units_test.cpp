@@ -9,6 +9,7 @@
 
 #include "model/belts/effects/belt_effect.hpp"
 #include "model/effects/catalogue.hpp"
+#include "model/plotter/effects/plotter_effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -21,6 +22,8 @@ std::vector<const model::effects::Effect*> all_effects() {
                                                  model::effects::catalogue().end());
   for (const model::belts::BeltEffect* effect : model::belts::belt_effects())
     all.push_back(&model::belts::described(*effect));
+  for (const model::effects::Effect* effect : model::plotter::described_plotter_effects())
+    all.push_back(effect);
   return all;
 }
 

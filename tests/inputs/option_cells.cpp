@@ -61,6 +61,7 @@ const std::vector<Use>& uses() {
       {"mix", "diagnose", facts::grid | facts::holes,
        "diagnose @grid.json --with @holes.json -o d.json"},
       {"belts", "diagnose", facts::belts, "diagnose @belts.json -o d.json"},
+      {"drawing", "diagnose", facts::drawing, "diagnose @drawing.json -o d.json"},
       {"grid", "check", facts::map | facts::grid, "check @map.json @few.json"},
       {"csv", "check", facts::map | facts::grid | facts::table, "check @map.json @few.csv"},
       {"holes", "check", facts::map | facts::holes, "check @map.json @holes.json"},

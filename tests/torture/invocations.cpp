@@ -94,6 +94,7 @@ const std::vector<Reading>& readings() {
       {"plotter.json", 6, {"export", "plotter", "IN"}},
       {"plotter.json", 4, {"start", "IN", "OUT"}},
       {"drawing.json", 6, {"fit", "IN", "-o", "OUT"}},
+      {"drawing.json", 2, {"diagnose", "IN", "-o", "OUT"}},
       {"scan.csv", 6, {"import", "optical", "IN", "--machine", "controller.json", "-o", "OUT"}},
       {"points.csv", 8, {"query", "map.json", "--points", "IN"}},
       {"points.csv", 3, {"query", "anchors.json", "--points", "IN"}},

@@ -18,6 +18,7 @@
 #include "grid/diagnosis/trend.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
+#include "grid/files/drawing_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
@@ -227,6 +228,8 @@ void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   if (found.belts && (command.output.empty() || !parts_causes || !command.without.empty())) {
     words = {"fit", command.input.grid, "-o", "anchors.json"};
     if (!command.without.empty()) words.insert(words.end(), {"--without", command.without});
+  } else if (found.drawing) {
+    words = {"fit", command.input.grid, "-o", "found.json"};
   } else if (!command.output.empty() && !found.next_measurements.empty()) {
     words = {"plan", command.input.grid, "--after", command.output};
   } else {
@@ -268,8 +271,19 @@ Outcome diagnosed_belts(const DiagnoseCommand& command, const InputFile& file) {
   return *std::move(found);
 }
 
-/// Belts are diagnosed by themselves, whatever is given with them.
+/// A test drawing is diagnosed by itself, on the plotter in its own file.
+Outcome diagnosed_drawing(const DiagnoseCommand& command, const InputFile& file) {
+  grid::diagnosis::DiagnosisOptions options;
+  options.seed = command.seed;
+  options.progress = shown_progress();
+  auto found = grid::diagnosis::diagnose(files::parse_drawing(file.text, file.name), options);
+  if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
+  return *std::move(found);
+}
+
+/// Belts and drawings are diagnosed by themselves, whatever is given with them.
 Facts facts_of(const std::vector<InputFile>& files) {
+  if (files.front().kind == FileKind::drawing) return facts::drawing;
   if (files.front().kind == FileKind::belts) return facts::belts;
   Facts facts = 0;
   for (const InputFile& file : files) {
@@ -287,13 +301,17 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   const std::vector<InputFile> opened = open_inputs(command.input.grid, command.with);
   const InputFile& file = opened.front();
   require_kind(file,
-               {FileKind::grid, FileKind::holes, FileKind::belts},
+               {FileKind::grid, FileKind::holes, FileKind::belts, FileKind::drawing},
                file.kind == FileKind::belt_holes ? kBeltHolesAreFitted : "");
   refuse_what_does_nothing(verb, facts_of(opened));
   const bool of_belts = file.kind == FileKind::belts;
+  const bool of_drawing = file.kind == FileKind::drawing;
   grid::Measured input;
-  if (!of_belts) input = load_measured(opened, command.input, command.tape, MeasuredUse::fit);
-  auto found = of_belts ? diagnosed_belts(command, file) : diagnosed(command, input);
+  if (!of_belts && !of_drawing)
+    input = load_measured(opened, command.input, command.tape, MeasuredUse::fit);
+  auto found = of_belts     ? diagnosed_belts(command, file)
+               : of_drawing ? diagnosed_drawing(command, file)
+                            : diagnosed(command, input);
   if (!found) {
     fmt::print(stderr, "{}\n", found.error());
     return kBadInput;
@@ -403,7 +421,8 @@ void add_diagnose(Verb app, Run& run) {
       "--extended-machine worn_machine.json\n  build/chaintrue fit worn.json --machine "
       "worn_machine.json -o map.json\n  build/chaintrue diagnose fixtures/holes/nine_holes.json "
       "--report holes.html\n  build/chaintrue diagnose fixtures/belts/thirty_one_places.json -o "
-      "belts_diagnosis.json\n  build/chaintrue diagnose worn.json --before diagnosis.json");
+      "belts_diagnosis.json\n  build/chaintrue diagnose fixtures/plotter/mural_drawing.json\n  build/chaintrue diagnose "
+      "worn.json --before diagnosis.json");
   verb.when_chosen(
       [command, verb, &run] { run = [command, verb] { return run_diagnose(verb, *command); }; });
 }

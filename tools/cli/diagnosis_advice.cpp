@@ -29,6 +29,8 @@ std::string_view where_it_goes(const Diagnosis& found) {
       return "Holes and distances go into the holes' file, readings into its \"readings\"";
     case grid::diagnosis::Observations::belts:
       return "Points and distances go into the belts' file";
+    case grid::diagnosis::Observations::drawing:
+      return "Measures go into the drawing's file";
     case grid::diagnosis::Observations::both:
       break;
   }
@@ -59,6 +61,12 @@ std::string noise_in_words(const Diagnosis& found) {
 
 std::string outlier_in_words(const Diagnosis& found, const grid::diagnosis::Outlier& bad) {
   if (bad.of == grid::diagnosis::Observations::belts) return capitalised(bad_belt_in_words(bad));
+  if (bad.of == grid::diagnosis::Observations::drawing) {
+    return fmt::format("{}: read {} ({:.1f} sigmas)",
+                       found.drawing->measures.at(bad.index).name,
+                       off_in_words(bad.residual_mm),
+                       bad.distance);
+  }
   if (is_distance(found, bad)) {
     return fmt::format("{}: read {} ({:.1f} sigmas)",
                        distance_name(found, bad.index),

@@ -261,6 +261,8 @@ std::string_view what_is_plotted(const Diagnosis& found) {
       return "Every good distance";
     case grid::diagnosis::Observations::belts:
       return "Every good reading of a belt";
+    case grid::diagnosis::Observations::drawing:
+      return "Every good measure";
     case grid::diagnosis::Observations::both:
       break;
   }

@@ -7,6 +7,7 @@
 
 #include "tools/cli/diagnosis_belts.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
+#include "tools/cli/diagnosis_drawing.hpp"
 #include "tools/cli/diagnosis_checks.hpp"
 #include "tools/cli/diagnosis_improvement.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
@@ -98,7 +99,9 @@ void put_the_verdict(const Diagnosis& found, report::Document& document) {
        "Named?",
        fmt::format("{}{}", lights.named, left && !found.causes.empty() ? "; not all of it" : "")},
       data_light(found),
-      found.belts ? scale_light(found) : corrected_light(found)};
+      found.belts     ? scale_light(found)
+      : found.drawing ? drawn_settings_light(found)
+                      : corrected_light(found)};
   document.figures = found.belts ? figures_of_belts(found) : figures_of_improvement(found);
   for (const std::string& line : found.what_to_do) document.advice.push_back({capitalised(line)});
   if (!found.not_proved.empty())
@@ -144,6 +147,7 @@ void add_sections(const Diagnosis& found, Detail detail, std::vector<Section>& a
   sections.add_open(named, causes_section, found);
   sections.add_open_to_page(found.belts.has_value(), frame_section, found);
   sections.add(found.belts.has_value(), anchors_section, found);
+  sections.add_open(found.drawing.has_value(), drawn_settings_section, found);
   sections.add(found.belts.has_value(), belts_improvement_section, found);
   // Where there is no cause to draw, the errors themselves are the picture.
   if (named) {
@@ -162,6 +166,7 @@ void add_sections(const Diagnosis& found, Detail detail, std::vector<Section>& a
   sections.add_to_page(found.normal_plot.has_value(), normal_section, found);
   sections.add_to_page(!found.terms.empty(), terms_section, found);
   sections.add_to_page(!found.separations.empty(), separation_section, found);
+  sections.add(found.drawing.has_value(), drawn_measures_section, found);
   sections.add(!found.settings.empty(), settings_section, found);
   sections.add(!found.outliers.empty(), outliers_section, found);
   sections.add(!found.bounds.empty(), bounds_section, found);
@@ -176,9 +181,10 @@ report::Document diagnosis_document(const Diagnosis& found,
   report::Document document;
   document.title = fmt::format("Diagnosis: {}", found.grid_name);
   document.subtitle =
-      fmt::format("{}, {}",
-                  found.belts ? found.belts->machine.name : found.extended_machine.name,
-                  readings_counted(found));
+      found.drawing ? readings_counted(found)
+                    : fmt::format("{}, {}",
+                                  found.belts ? found.belts->machine.name : found.extended_machine.name,
+                                  readings_counted(found));
   put_the_verdict(found, document);
   add_sections(found, detail, document.sections);
   document.remarks = remarks_section(found);

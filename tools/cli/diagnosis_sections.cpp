@@ -166,7 +166,8 @@ Section probabilities_section(const Diagnosis& found) {
   report::Chart chart = probability_chart(found);
   chart.alternative = std::move(table);
   Section section{"Probabilities, each for itself: causes can act together", {std::move(chart)}};
-  if (!found.belts) section.blocks.emplace_back(Paragraph{left_over_sentence(found.left_over)});
+  if (!found.belts && !found.drawing)
+    section.blocks.emplace_back(Paragraph{left_over_sentence(found.left_over)});
   return section;
 }
 

@@ -114,6 +114,8 @@ std::string_view files_in_words(const grid::diagnosis::Diagnosis& found) {
       return "HOLES";
     case grid::diagnosis::Observations::belts:
       return "BELTS";
+    case grid::diagnosis::Observations::drawing:
+      return "DRAWING";
     case grid::diagnosis::Observations::both:
       break;
   }
@@ -130,6 +132,8 @@ std::string readings_counted(const grid::diagnosis::Diagnosis& found) {
       return distances;
     case grid::diagnosis::Observations::belts:
       return fmt::format("{} places", found.belts ? found.belts->places.size() : 0);
+    case grid::diagnosis::Observations::drawing:
+      return fmt::format("{} measures", found.drawing ? found.drawing->measures.size() : 0);
     case grid::diagnosis::Observations::both:
       break;
   }

@@ -217,6 +217,14 @@ Exported export_of(const InputFile& file, const ExportCommand& command, bool for
   }
   if (file.kind == FileKind::diagnosis) {
     const grid::diagnosis::Diagnosis found = load_diagnosis(file);
+    if (found.drawing) {
+      throw files::InputError(
+          {{file.name,
+            "/observations",
+            "a diagnosis of a test drawing",
+            "one of a machine on chains; of a V-plotter export plotter has the lines, from what "
+            "fit makes of the drawing"}});
+    }
     if (found.belts) {
       throw files::InputError(
           {{file.name,

@@ -140,6 +140,8 @@ int fit_the_drawing(const DrawingFitCommand& command) {
   const auto fit = grid::fit_drawing(drawing);
   if (!fit) {
     fmt::print(stderr, "{}: {}\n", command.file.name, fit.error().sentence());
+    if (fit.error().reason == grid::DrawingReason::no_settings_fit)
+      say_next({"diagnose", command.file.path});
     return kBadInput;
   }
   const std::string text = files::write_plotter({drawing, grid::found_by(*fit)});

@@ -62,9 +62,9 @@ inline constexpr Facts connected = 1U << 26;
 inline constexpr Facts replayed = 1U << 27;
 /// A table (CSV) is among the files.
 inline constexpr Facts table = 1U << 28;
-/// fit: a V-plotter's test drawing, alone.
+/// fit and diagnose: a V-plotter's test drawing, alone.
 inline constexpr Facts drawing = 1U << 29;
-/// Everything that fit takes but that.
+/// Everything that these take but that.
 inline constexpr Facts no_drawing = grid | holes | belts | belt_holes;
 /// Of an option that other verbs have of the same file.
 inline constexpr Facts nothing = 0;

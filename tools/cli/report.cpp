@@ -52,6 +52,7 @@ Reported of_map(const InputFile& file, bool as_certificate, std::string_view sou
 
 Reported of_diagnosis(const InputFile& file, std::string_view source) {
   const grid::diagnosis::Diagnosis found = load_diagnosis(file);
+  if (found.drawing) return {diagnosis_document(found, source), {"fit", "--help"}};
   return {
       diagnosis_document(found, source),
       found.causes.empty()

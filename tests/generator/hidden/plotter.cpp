@@ -112,8 +112,8 @@ PenAtRest lowest_pose(const HiddenPlotter& p, double left_mm, double right_mm) {
   Real tilt = 0.0L;
   if (p.spacing_mm > 0.0) {
     constexpr Real kGolden = 0.6180339887498948482L;
-    constexpr int kSections = 45;  // of 1 rad: to 4e-10
-    Real low = -0.5L, high = 0.5L;
+    constexpr int kSections = 47;  // of 2 rad: to 4e-10
+    Real low = -1.0L, high = 1.0L;
     const auto height = [&](Real t) { return mass_height(p, hung(p, left_mm, right_mm, t)); };
     Real inner_low = high - kGolden * (high - low), inner_high = low + kGolden * (high - low);
     Real at_low = height(inner_low), at_high = height(inner_high);

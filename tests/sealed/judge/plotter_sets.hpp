@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Test drawings of V-plotters with a hidden cause, hung by the second implementation
+/// (generator/hidden/plotter.hpp), and what the diagnosis makes of them.
+///
+/// The controller counts K for a cross; the cord that is out is the L with
+///
+///   (L + added(L)) (1 + scale / 1000) + zero = K                                           (1)
+///
+/// where what a cause adds is written here anew. Settings are off by a draw of their uncertainty.
+/// Causes that bend or weigh down the cords are not among them: the lowest pose is of stiff cords.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "grid/plotter/test_drawing.hpp"
+
+namespace chaintrue::sealed {
+
+/// A mural; a body on motors on the wall; a pen on two spools.
+enum class PlotterKind { mural, body, pen };
+[[nodiscard]] std::string_view name(PlotterKind kind);
+inline constexpr PlotterKind kPlotterKinds[] = {PlotterKind::mural, PlotterKind::body, PlotterKind::pen};
+
+struct HiddenCause {
+  std::string effect;  ///< of the product's catalogue; empty: nothing is wrong
+  std::string side;
+};
+/// Those that such a plotter can have.
+[[nodiscard]] std::vector<HiddenCause> causes_of(PlotterKind kind);
+
+struct PlotterSet {
+  HiddenCause cause;
+  /// Length of the cause's signature in units of noise, the settings' share taken out.
+  double strength = 0.0;
+  grid::TestDrawing drawing;
+};
+/// With 24 readings of 0.5 mm. Sizes are drawn until the strength is in the range.
+[[nodiscard]] PlotterSet plotter_set(PlotterKind kind,
+                                     const HiddenCause& cause,
+                                     double least_strength,
+                                     double most_strength,
+                                     std::uint64_t seed);
+
+enum class PlotterOutcome { named, in_set, wrong, nothing, refused };
+/// `in_set`: among at most three. Of a sound one anything but a name is `nothing`.
+[[nodiscard]] PlotterOutcome outcome_of(const PlotterSet& set);
+
+}  // namespace chaintrue::sealed
