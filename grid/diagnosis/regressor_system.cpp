@@ -8,6 +8,9 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
+/// Where nothing is stated of a parameter, in its own unit: a metre is as good as nothing.
+constexpr double kOpenSigma = 1000.0;
+
 /// For each observation one whitening in place of its units' own, of the mean variance of a row.
 std::vector<double> common_sigmas(const RegressorSystem& system, std::size_t parts) {
   std::vector<double> variance(parts, 0.0);
@@ -53,7 +56,8 @@ tl::expected<RegressorSystem, observation::Unreachable> linearise(const Observat
   static_cast<estimation::LinearisedSystem&>(system) = *std::move(line);
   system.setting = setting_values(set, state);
   system.expected_change = set.stated_value - system.setting;
-  system.sigma = set.stated_sigma;
+  system.sigma = set.stated_sigma.unaryExpr(
+      [](double sigma) { return std::isfinite(sigma) ? sigma : kOpenSigma; });
   // Of each effect the shares of its sides, places and numbers add up to one.
   system.prior.shares = static_cast<double>(
       state.mechanism ? state.mechanism->effects().size()
