@@ -175,8 +175,8 @@ std::string left_out_arms(const MeasuredBelts& belts, const Diagnosis& d) {
     if (std::abs(offset + reach) < kAlike * reach &&
         belts.machine.lengths != model::BeltLengths::belt) {
       return fmt::format(
-          "The lengths leave arm and extension out ({:.0f} mm are stated, all are {:.0f} mm too "
-          "short): state \"lengths\": \"belt\", or import with --lengths belt, and diagnose again.",
+          "The lengths leave arm and extension out ({:.0f} mm by the settings, all are {:.0f} mm too "
+          "short): say \"lengths\": \"belt\", or import with --lengths belt, and diagnose again.",
           reach,
           -offset);
     }

@@ -279,9 +279,9 @@ std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
   if (speaks_of_distances(d)) {
     text +=
         " Distances do not show in which order the holes were cut, nor where the machine stands as "
-        "a whole: drift, skipped teeth and play cannot be seen, nor how high the motors are.";
+        "a whole: drift, skipped teeth and play do not show, nor how high the motors are.";
   } else if (!session.ordered()) {
-    text += " The order of visits is not known: drift, skipped teeth and play cannot be seen.";
+    text += " The order of visits is not known: drift, skipped teeth and play do not show.";
   }
   return text;
 }

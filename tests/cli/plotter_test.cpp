@@ -238,7 +238,7 @@ TEST_F(Plotter, AMeasureThatFitsNothingIsSetAside) {
   drawing["measures"][9]["value_mm"] = drawing["measures"][9]["value_mm"].get<double>() + 12.0;
   const Outcome fitted = fit(drawing);
   ASSERT_EQ(fitted.code, 0) << fitted.err;
-  EXPECT_THAT(fitted.err, HasSubstr("the length E-F was set aside"));
+  EXPECT_THAT(fitted.err, HasSubstr("the length E-F was left out"));
 }
 
 TEST_F(Plotter, SettingsOfEachControllerBecomeAPlotter) {

@@ -140,7 +140,7 @@ TEST_F(HolesCommands, ThePlannedProgramDrillsEveryHole) {
               AllOf(HasSubstr("9 holes, 20 distances"),
                     HasSubstr("motor spacing"),
                     HasSubstr("It tells little of"),
-                    HasSubstr("Not seen")));
+                    HasSubstr("Not shown")));
   const Outcome check = run("gcode check holes.nc");
   EXPECT_EQ(check.code, 0) << check.err;
   EXPECT_THAT(check.out, HasSubstr("9 straight cuts"));

@@ -10,6 +10,7 @@ import {report} from "./frame.js";
 import {explained} from "./glossary.js";
 import {inPage} from "./in_page.js";
 import {millimetresOf} from "./sheet.js";
+import {wishSaid} from "./wish.js";
 
 const DISTANCES = [["tl", "br"], ["tr", "bl"], ["bl", "br"]];
 const DIAGNOSIS = "diagnosis.json";
@@ -90,6 +91,7 @@ function headlines(page, diagnosis) {
   const isSizeKnown = Boolean(jsonOf(folder[ANCHORS])?.fit.scale);
   return [
     h("p", {class: "headline", role: "status"}, explained(twoNumbers(folder, diagnosis) ?? "The anchors are found.")),
+    wishSaid(fitted) && h("p", {class: "wish"}, inPage(wishSaid(fitted))),
     !isSizeKnown && h("p", {}, "How large everything comes out is not known yet: tape one long distance, below."),
     h("p", {class: "verdict"}, explained(inPage(diagnosis.sentence), 2)),
   ].filter(Boolean);

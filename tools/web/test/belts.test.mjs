@@ -74,6 +74,29 @@ for (const browser of browsers) {
 }
 
 describe("in Chromium", () => {
+  test("a wish is held against the lines to paste", async () => {
+    const visit = await Visit.to("chrome");
+    try {
+      await visit.paste("#paste", YAML + LOG);
+      await verdict(visit);
+      await visit.click("Measure");
+      await visit.page.type("#belts-wish", "0,5");
+      await visit.page.keyboard.press("Tab");
+      await visit.click("Result");
+      await visit.text("#step-result .wish", "You wish for 0.5 mm: reached, apart from the scale.");
+      await visit.click("Measure");
+      await visit.page.$eval("#belts-wish", (input) => input.select());
+      await visit.page.type("#belts-wish", "0.1");
+      await visit.page.keyboard.press("Tab");
+      await visit.click("Result");
+      await visit.text("#step-result .wish", "You wish for 0.1 mm: not reached");
+      await assertNoOptions(visit);
+      assert.deepEqual(visit.problems, []);
+    } finally {
+      await visit.close();
+    }
+  });
+
   test("maslow.yaml alone waits for the log, and a log alone for maslow.yaml", async () => {
     const visit = await Visit.to("chrome");
     try {
