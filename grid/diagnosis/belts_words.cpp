@@ -268,10 +268,9 @@ std::string not_proved(const Diagnosis& d) {
     const Cause& lead = d.causes.front();
     text += fmt::format(
         " A cause that the catalogue lacks, and that looks the same, would carry the same name. "
-        "The nearest one that it has: {}{} (likeness {:.3f}).",
+        "The nearest one that it has: {}{}.",
         lead.rival->effect->cause,
-        side_words(*lead.rival),
-        lead.rival_collinearity);
+        side_words(*lead.rival));
   }
   return text;
 }

@@ -263,10 +263,9 @@ std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
     if (lead.rival) {
       text += fmt::format(
           " An unlisted cause that looks the same would get the same name. The most similar listed "
-          "one: {}{} (likeness {:.3f}).",
+          "one: {}{}.",
           lead.rival->effect->cause,
-          side_words(*lead.rival),
-          lead.rival_collinearity);
+          side_words(*lead.rival));
     }
   } else if (d.verdict == Verdict::model_discrepancy) {
     text = "No cause in the catalogue explains it, but one may still act as well.";
