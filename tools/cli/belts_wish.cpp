@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 
 #include "grid/diagnosis/anchors_with_causes.hpp"
+#include "grid/synthetic/random.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -15,14 +18,24 @@ constexpr std::size_t kMostTimes = 4;
 /// A fit of so many places takes a second (docs/reliability.md).
 constexpr std::size_t kMostTried = 400;
 
-/// Each place `times` times over, one visit behind the other. Points keep their indices, which
-/// distances refer to; further visits of them follow.
-grid::MeasuredBelts measured_again(const grid::MeasuredBelts& belts, std::size_t times) {
+/// A session as the fit has it, each place `times` times over, one visit behind the other, with noise of
+/// the size that was found. Points keep their indices, which distances refer to; further visits of
+/// them follow. Its noise is the same in every run.
+grid::MeasuredBelts measured_again(const grid::MeasuredBelts& belts,
+                                   const grid::BeltsFit& fit,
+                                   std::size_t times) {
+  constexpr std::uint64_t kSeed = 31;
+  grid::synthetic::Random random(kSeed, times);
   grid::MeasuredBelts result = belts;
   result.points.clear();
   const int factor = static_cast<int>(times);
   for (int visit = 0; visit < factor; ++visit) {
-    for (grid::BeltPoint point : belts.points) {
+    for (std::size_t k = 0; k < belts.points.size(); ++k) {
+      grid::BeltPoint point = belts.points[k];
+      for (const model::Belt belt : model::kBelts) {
+        point.lengths_mm[belt] +=
+            fit.residual_sigma_mm * random.normal() - fit.places[k].belts[belt].residual_mm;
+      }
       if (point.order) point.order = factor * *point.order + visit;
       result.points.push_back(std::move(point));
     }
@@ -30,17 +43,33 @@ grid::MeasuredBelts measured_again(const grid::MeasuredBelts& belts, std::size_t
   return result;
 }
 
-/// Of a fit with so many places; nothing where there is none.
-std::optional<double> expected_with(const grid::MeasuredBelts& belts,
-                                    const std::vector<grid::BeltHoles>& cut) {
+struct AnchorsAndError {
+  grid::BeltsFit fit;
+  std::optional<grid::BeltsError> error;
+};
+
+std::optional<AnchorsAndError> fit_again(const grid::MeasuredBelts& belts,
+                                         const std::vector<grid::BeltHoles>& cut) {
   if (cut.empty()) {
-    const auto fit = grid::diagnosis::fit_with_causes(belts);
-    const auto error = fit ? grid::error_of_belts(*fit) : std::nullopt;
-    return error ? std::optional(error->expected.rms_mm) : std::nullopt;
+    auto fit = grid::diagnosis::fit_with_causes(belts);
+    if (!fit) return std::nullopt;
+    const auto error = grid::error_of_belts(*fit);
+    return AnchorsAndError{*std::move(fit), error};
   }
-  const auto fit = grid::diagnosis::fit_with_causes_and_holes(belts, cut);
-  const auto error = fit ? grid::error_of_belts(fit->belts, &fit->holes) : std::nullopt;
-  return error ? std::optional(error->expected.rms_mm) : std::nullopt;
+  auto fit = grid::diagnosis::fit_with_causes_and_holes(belts, cut);
+  if (!fit) return std::nullopt;
+  const auto error = grid::error_of_belts(fit->belts, &fit->holes);
+  return AnchorsAndError{std::move(fit->belts), error};
+}
+
+/// The error to expect of such a session. The noise that a fit finds in it is a sample of what was put
+/// in, and the error goes with it: that chance is taken out. Nothing where there is no fit.
+std::optional<double> expected_with(const grid::MeasuredBelts& belts,
+                                    const std::vector<grid::BeltHoles>& cut,
+                                    double noise_mm) {
+  const auto again = fit_again(belts, cut);
+  if (!again || !again->error || !(again->fit.residual_sigma_mm > 0.0)) return std::nullopt;
+  return again->error->expected.rms_mm * noise_mm / again->fit.residual_sigma_mm;
 }
 
 /// With the displacement that the holes show taken out, as compensated programs do; nothing where
@@ -69,11 +98,13 @@ std::string belts_wish_sentence(const grid::MeasuredBelts& belts,
     return wish + "not reached by anchors alone. Programs that are compensated (gcode compensate) reach it.";
   const std::size_t places = belts.points.size();
   if (places == 0) return wish + "not reached. More distances, or a better tape, would bring it down.";
+  const double noise_mm = found.fit.residual_sigma_mm;
+  const auto once = expected_with(measured_again(belts, found.fit, 1), cut, noise_mm);
   std::size_t tried = 0;
-  for (std::size_t times = 2; times <= kMostTimes && times * places <= kMostTried; ++times) {
+  for (std::size_t times = 2; once && times <= kMostTimes && times * places <= kMostTried; ++times) {
     tried = times * places;
-    const auto then = expected_with(measured_again(belts, times), cut);
-    if (then && *then <= wish_mm) {
+    const auto then = expected_with(measured_again(belts, found.fit, times), cut, noise_mm);
+    if (then && error->expected.rms_mm * *then <= wish_mm * *once) {
       return wish + fmt::format("not reached. About {} places measured as well as these would reach it.", tried);
     }
   }

@@ -2,7 +2,7 @@
 /// \file
 /// The error of the tool that an owner of four belts wishes for, held against the one to expect with
 /// the fitted anchors. What would reach it is tried: the bend that compensated programs take out, and
-/// the same places measured two to four times over.
+/// the same places measured two to four times over, in a session simulated by the fit.
 ///
 /// \code
 ///   say(belts_wish_sentence(belts, holes, found, error_of_belts(found.fit), 0.5));
