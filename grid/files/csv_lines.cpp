@@ -11,13 +11,13 @@
 namespace chaintrue::grid::files {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view kCsvByteOrderMark = "\xEF\xBB\xBF";
 /// Nobody writes more lines of words above a table.
 constexpr std::size_t kMostAboveHeader = 8;
 
 std::string_view without_byte_order_mark(std::string_view text) {
   // Some programs write a second byte order mark.
-  while (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  while (text.starts_with(kCsvByteOrderMark)) text.remove_prefix(kCsvByteOrderMark.size());
   return text;
 }
 
@@ -73,7 +73,7 @@ CsvCell take_cell(std::string_view line,
   return cell;
 }
 
-CsvRow cells_of(std::string_view line, char separator, bool& quote_left_open) {
+CsvRow csv_cells_of(std::string_view line, char separator, bool& quote_left_open) {
   CsvRow row;
   for (std::size_t begin = 0; begin <= line.size();)
     row.push_back(take_cell(line, separator, begin, quote_left_open));
@@ -103,12 +103,12 @@ struct LineOfWords {
 
 /// Where the table begins: of the lines above the first numbers the one with most cells. Without such
 /// a line, or without numbers, the first line.
-LineOfWords header_of(std::string_view text) {
+LineOfWords line_of_header(std::string_view text) {
   std::vector<LineOfWords> above;
   bool found_numbers = false;
   for_each_line(text, [&](std::string_view line, std::size_t number) {
     bool ignored = false;
-    const CsvRow row = cells_of(line, separator_of_line(line), ignored);
+    const CsvRow row = csv_cells_of(line, separator_of_line(line), ignored);
     const auto numbers = std::count_if(
         row.begin(), row.end(), [](const CsvCell& cell) { return is_like_a_number(cell.text); });
     const auto filled = std::count_if(
@@ -130,7 +130,7 @@ LineOfWords header_of(std::string_view text) {
 
 std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& problems) {
   std::vector<CsvRow> rows;
-  const std::size_t first = header_of(text).number;
+  const std::size_t first = line_of_header(text).number;
   for_each_line(text, [&](std::string_view line, std::size_t number) {
     if (number < first) {
       problems.warn(line_and_column(number, 1),
@@ -138,7 +138,7 @@ std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& p
       return true;
     }
     bool quote_left_open = false;
-    CsvRow row = cells_of(line, separator, quote_left_open);
+    CsvRow row = csv_cells_of(line, separator, quote_left_open);
     for (CsvCell& cell : row) cell.line = number;
     if (quote_left_open) {
       problems.add(line_and_column(number, 1), line, "a closing quote on the same line");
@@ -150,6 +150,6 @@ std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& p
   return rows;
 }
 
-char separator_of(std::string_view text) { return separator_of_line(header_of(text).text); }
+char separator_of(std::string_view text) { return separator_of_line(line_of_header(text).text); }
 
 }  // namespace chaintrue::grid::files

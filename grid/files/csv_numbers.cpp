@@ -38,7 +38,7 @@ std::string_view figures_of(std::string_view text) {
   const std::string_view unit = text.substr(end);
   const bool is_number = digits_at(text) > 0 && is_a_digit(text[end - 1]);
   return is_number && std::none_of(unit.begin(), unit.end(), is_a_digit) ? text.substr(0, end)
-                                                                          : std::string_view{};
+                                                                         : std::string_view{};
 }
 
 /// `1,113` and `1,113,000.5` for a comma.
@@ -79,22 +79,22 @@ void add_figures(std::string_view figures, WayOfWriting& way) {
 }
 
 /// What stands between thousands, and what before decimals, where the file leaves no doubt of it.
-struct Marks {
+struct NumberMarks {
   std::optional<char> thousands;
   char decimal = '.';
 };
-std::optional<Marks> marks_of(const WayOfWriting& way, char separator) {
+std::optional<NumberMarks> number_marks_of(const WayOfWriting& way, char separator) {
   if (way.decimal_point && way.decimal_comma) return std::nullopt;
   if (way.decimal_point)
-    return way.thousands_by_comma ? std::optional(Marks{',', '.'}) : std::nullopt;
+    return way.thousands_by_comma ? std::optional(NumberMarks{',', '.'}) : std::nullopt;
   const bool between_others = separator != ',' && way.doubtful_comma && !way.doubtful_point;
   if (!way.decimal_comma && !between_others) return std::nullopt;
-  if (way.thousands_by_point) return Marks{'.', ','};
-  return way.doubtful_point ? std::nullopt : std::optional(Marks{std::nullopt, ','});
+  if (way.thousands_by_point) return NumberMarks{'.', ','};
+  return way.doubtful_point ? std::nullopt : std::optional(NumberMarks{std::nullopt, ','});
 }
 
 /// The cell with its figures written anew.
-std::string rewritten(const std::string& text, const Marks& marks) {
+std::string rewritten(const std::string& text, const NumberMarks& marks) {
   const std::string_view figures = figures_of(text);
   if (figures.empty()) return text;
   const auto commas = std::count(figures.begin(), figures.end(), ',');
@@ -144,7 +144,7 @@ void write_decimal_points(char separator, std::vector<CsvRow>& rows) {
   for (const CsvRow& row : rows) {
     for (const CsvCell& cell : row) add_figures(figures_of(cell.text), way);
   }
-  const auto marks = marks_of(way, separator);
+  const auto marks = number_marks_of(way, separator);
   if (!marks) return;
   for (CsvRow& row : rows) {
     for (CsvCell& cell : row) cell.text = rewritten(cell.text, *marks);

@@ -64,9 +64,9 @@ std::optional<AnchorsAndError> fit_again(const grid::MeasuredBelts& belts,
 
 /// The error to expect of such a session. The noise that a fit finds in it is a sample of what was put
 /// in, and the error goes with it: that chance is taken out. Nothing where there is no fit.
-std::optional<double> expected_with(const grid::MeasuredBelts& belts,
-                                    const std::vector<grid::BeltHoles>& cut,
-                                    double noise_mm) {
+std::optional<double> expected_of_places(const grid::MeasuredBelts& belts,
+                                         const std::vector<grid::BeltHoles>& cut,
+                                         double noise_mm) {
   const auto again = fit_again(belts, cut);
   if (!again || !again->error || !(again->fit.residual_sigma_mm > 0.0)) return std::nullopt;
   return again->error->expected.rms_mm * noise_mm / again->fit.residual_sigma_mm;
@@ -95,22 +95,30 @@ std::string belts_wish_sentence(const grid::MeasuredBelts& belts,
     return wish + (found.fit.scale ? "reached." : "reached, apart from the scale.");
   const auto compensated = expected_when_compensated(found);
   if (compensated && *compensated <= wish_mm)
-    return wish + "not reached by anchors alone. Programs that are compensated (gcode compensate) reach it.";
+    return wish +
+           "not reached by anchors alone. Programs that are compensated (gcode compensate) reach "
+           "it.";
   const std::size_t places = belts.points.size();
-  if (places == 0) return wish + "not reached. More distances, or a better tape, would bring it down.";
+  if (places == 0)
+    return wish + "not reached. More distances, or a better tape, would bring it down.";
   const double noise_mm = found.fit.residual_sigma_mm;
-  const auto once = expected_with(measured_again(belts, found.fit, 1), cut, noise_mm);
+  const auto once = expected_of_places(measured_again(belts, found.fit, 1), cut, noise_mm);
   std::size_t tried = 0;
-  for (std::size_t times = 2; once && times <= kMostTimes && times * places <= kMostTried; ++times) {
+  for (std::size_t times = 2; once && times <= kMostTimes && times * places <= kMostTried;
+       ++times) {
     tried = times * places;
-    const auto then = expected_with(measured_again(belts, found.fit, times), cut, noise_mm);
+    const auto then = expected_of_places(measured_again(belts, found.fit, times), cut, noise_mm);
     if (then && error->expected.rms_mm * *then <= wish_mm * *once) {
-      return wish + fmt::format("not reached. About {} places measured as well as these would reach it.", tried);
+      return wish +
+             fmt::format("not reached. About {} places measured as well as these would reach it.",
+                         tried);
     }
   }
-  return wish + fmt::format("not reached{}. Look for what else is wrong: chaintrue diagnose of the same belts.",
-                            tried == 0 ? std::string{}
-                                       : fmt::format(", and not by {} places measured as well as these", tried));
+  return wish +
+         fmt::format(
+             "not reached{}. Look for what else is wrong: chaintrue diagnose of the same belts.",
+             tried == 0 ? std::string{}
+                        : fmt::format(", and not by {} places measured as well as these", tried));
 }
 
 }  // namespace chaintrue::cli
