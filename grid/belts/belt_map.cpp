@@ -256,7 +256,7 @@ model::BeltMachine machine_in_force(const BeltsFit& fit) {
   belts::AnchorVector stated;
   for (Eigen::Index i = 0; i < kAnchorUnknowns; ++i) {
     const auto& one = fit.coordinates[static_cast<std::size_t>(i)].stated_mm;
-    if (!one) throw precondition("anchors in force that nobody stated");
+    if (!one) throw precondition("anchors in force that nobody gave");
     stated[i] = *one;
   }
   return belts::with_anchors(fit.machine, stated);

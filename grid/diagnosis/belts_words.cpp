@@ -175,8 +175,8 @@ std::string left_out_arms(const MeasuredBelts& belts, const Diagnosis& d) {
     if (std::abs(offset + reach) < kAlike * reach &&
         belts.machine.lengths != model::BeltLengths::belt) {
       return fmt::format(
-          "The lengths leave arm and extension out ({:.0f} mm are stated, all are {:.0f} mm too "
-          "short): state \"lengths\": \"belt\", or import with --lengths belt, and diagnose again.",
+          "The lengths leave arm and extension out ({:.0f} mm by the settings, all are {:.0f} mm too "
+          "short): say \"lengths\": \"belt\", or import with --lengths belt, and diagnose again.",
           reach,
           -offset);
     }
@@ -268,10 +268,9 @@ std::string not_proved(const Diagnosis& d) {
     const Cause& lead = d.causes.front();
     text += fmt::format(
         " A cause that the catalogue lacks, and that looks the same, would carry the same name. "
-        "The nearest one that it has: {}{} (likeness {:.3f}).",
+        "The nearest one that it has: {}{}.",
         lead.rival->effect->cause,
-        side_words(*lead.rival),
-        lead.rival_collinearity);
+        side_words(*lead.rival));
   }
   return text;
 }

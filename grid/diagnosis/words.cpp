@@ -302,10 +302,9 @@ std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
     if (lead.rival) {
       text += fmt::format(
           " An unlisted cause that looks the same would get the same name. The most similar listed "
-          "one: {}{} (likeness {:.3f}).",
+          "one: {}{}.",
           lead.rival->effect->cause,
-          side_words(*lead.rival),
-          lead.rival_collinearity);
+          side_words(*lead.rival));
     }
   } else if (d.verdict == Verdict::model_discrepancy) {
     text = "No cause in the catalogue explains it, but one may still act as well.";
@@ -318,11 +317,11 @@ std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
   if (speaks_of_distances(d)) {
     text +=
         " Distances do not show in which order the holes were cut, nor where the machine stands as "
-        "a whole: drift, skipped teeth and play cannot be seen, nor how high the motors are.";
+        "a whole: drift, skipped teeth and play do not show, nor how high the motors are.";
   } else if (d.drawing) {
-    text += " A drawing does not show in which order it was drawn: drift and skipped teeth cannot be seen.";
+    text += " A drawing does not show in which order it was drawn: drift and skipped teeth do not show.";
   } else if (!session.ordered()) {
-    text += " The order of visits is not known: drift, skipped teeth and play cannot be seen.";
+    text += " The order of visits is not known: drift, skipped teeth and play do not show.";
   }
   return text;
 }

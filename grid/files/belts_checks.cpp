@@ -173,7 +173,7 @@ void check_settings(const MeasuredBelts& belts,
           other->fitted_mm,
           other->upper_mm > 0.0
               ? fmt::format(", and where the machine was sent its upper belts read {:.0f} mm "
-                            "besides what these anchors have",
+                            "off what these anchors have",
                             other->upper_mm)
               : ""));
 }

@@ -5,71 +5,11 @@
 
 #include <algorithm>
 
-#include "grid/files/blanks.hpp"
+#include "grid/files/csv_numbers.hpp"
 #include "grid/files/length_text.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
-
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-std::string_view without_byte_order_mark(std::string_view text) {
-  // Some programs write a second byte order mark.
-  while (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  return text;
-}
-
-bool is_skipped(std::string_view line) {
-  const auto first = std::find_if_not(line.begin(), line.end(), is_blank);
-  return first == line.end() || *first == '#';
-}
-
-/// Calls `visit(line, number)` for every line that holds cells. A lone CR ends a line as well.
-template <class Visit>
-void for_each_line(std::string_view text, const Visit& visit) {
-  text = without_byte_order_mark(text);
-  std::size_t number = 0;
-  bool is_first = true;
-  while (!text.empty()) {
-    const std::size_t end = text.find_first_of("\r\n");
-    const std::string_view line = text.substr(0, end);
-    ++number;
-    // Excel's own way to say what separates cells.
-    const bool says_separator = is_first && line.starts_with("sep=");
-    is_first = false;
-    if (!is_skipped(line) && !says_separator && !visit(line, number)) return;
-    if (end == std::string_view::npos) return;
-    const bool both = text[end] == '\r' && end + 1 < text.size() && text[end + 1] == '\n';
-    text.remove_prefix(end + (both ? 2 : 1));
-  }
-}
-
-/// The cell at the line's `begin`; `begin` moves past its separator, or past the line's end at the
-/// last cell.
-CsvCell take_cell(std::string_view line,
-                  char separator,
-                  std::size_t& begin,
-                  bool& quote_left_open) {
-  while (begin < line.size() && line[begin] != separator && is_blank(line[begin])) ++begin;
-  CsvCell cell;
-  cell.column = begin + 1;
-  std::size_t i = begin;
-  if (i < line.size() && line[i] == '"') {
-    for (++i; i < line.size(); ++i) {
-      if (line[i] == '"') {
-        if (i + 1 >= line.size() || line[i + 1] != '"') break;
-        ++i;
-      }
-      cell.text += line[i];
-    }
-    quote_left_open = quote_left_open || i >= line.size();
-    i = std::min(i + 1, line.size());
-  }
-  const std::size_t end = std::min(line.find(separator, i), line.size());
-  cell.text = trimmed(cell.text + std::string(line.substr(i, end - i)));
-  begin = end + 1;
-  return cell;
-}
 
 bool is_number(std::string_view text) { return number_of(text).has_value(); }
 
@@ -197,6 +137,7 @@ std::vector<std::optional<double>> read_row(const CsvRow& row,
     if (index[c].index == kNoCell) continue;
     const CsvColumn& column = columns[c];
     cells[c] = row[index[c].index];
+    if (stands_for_nothing(cells[c].text)) cells[c].text.clear();
     if (!cells[c].text.empty()) {
       values[c] = number_in_unit(cells[c], index[c].factor, column.name, column.range, problems);
     } else if (column.is_required && !column.may_be_blank) {
@@ -205,23 +146,6 @@ std::vector<std::optional<double>> read_row(const CsvRow& row,
     }
   }
   return values;
-}
-
-/// Many countries' spreadsheets write 1493,63 and separate by semicolons. If any number of the file
-/// has a point, the meaning of the commas is ambiguous and nothing is changed.
-void take_decimal_commas(char separator, std::vector<CsvRow>& rows) {
-  if (separator == ',') return;
-  for (const CsvRow& row : rows) {
-    for (const CsvCell& cell : row) {
-      if (is_number(cell.text) && cell.text.find('.') != std::string::npos) return;
-      if (looks_like_decimal_comma(cell.text) && cell.text.find('.') != std::string::npos) return;
-    }
-  }
-  for (CsvRow& row : rows) {
-    for (CsvCell& cell : row) {
-      if (looks_like_decimal_comma(cell.text)) cell.text[cell.text.find(',')] = '.';
-    }
-  }
 }
 
 /// Lines that end in a separator have one empty cell too many.
@@ -246,7 +170,8 @@ void drop_what_is_no_row(std::vector<CsvRow>& rows, Problems& problems) {
     const auto filled = std::count_if(
         last.begin(), last.end(), [](const CsvCell& cell) { return !is_empty(cell); });
     const std::string& text = last.front().text;
-    const bool is_words = text.find(' ') != std::string::npos && !length_with_unit_mm(text);
+    const bool is_words = last.size() > 1 ? !is_like_a_number(text) && !is_empty(last.front())
+                                          : text.find(' ') != std::string::npos && !length_with_unit_mm(text);
     if (filled != 1 || !is_words || rows[0].size() < 2) return;
     problems.warn(last.front().place(),
                   fmt::format("a note, no reading: left out ({})", shortened(text)));
@@ -256,54 +181,13 @@ void drop_what_is_no_row(std::vector<CsvRow>& rows, Problems& problems) {
 
 }  // namespace
 
-std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& problems) {
-  std::vector<CsvRow> rows;
-  for_each_line(text, [&](std::string_view line, std::size_t number) {
-    CsvRow row;
-    bool quote_left_open = false;
-    for (std::size_t begin = 0; begin <= line.size();) {
-      row.push_back(take_cell(line, separator, begin, quote_left_open));
-      row.back().line = number;
-    }
-    if (quote_left_open) {
-      problems.add(line_and_column(number, 1), line, "a closing quote on the same line");
-    }
-    rows.push_back(std::move(row));
-    return true;
-  });
-  take_decimal_commas(separator, rows);
-  return rows;
-}
-
 std::vector<std::string> csv_header(std::string_view text) {
   Problems ignored("");
   std::vector<std::string> names;
-  const char separator = separator_of(text);
-  for_each_line(text, [&](std::string_view line, std::size_t) {
-    for (const CsvRow& row : split_csv(line, separator, ignored)) {
-      for (const CsvCell& cell : row) names.push_back(column_name(cell.text).name);
-    }
-    return false;
-  });
+  const std::vector<CsvRow> rows = split_csv(text, separator_of(text), ignored);
+  if (rows.empty()) return names;
+  for (const CsvCell& cell : rows.front()) names.push_back(column_name(cell.text).name);
   return names;
-}
-
-char separator_of(std::string_view text) {
-  char best = ',';
-  for_each_line(text, [&best](std::string_view line, std::size_t) {
-    std::ptrdiff_t most = 0;
-    for (const char candidate : {',', ';', '\t'}) {
-      const auto count = std::count(line.begin(), line.end(), candidate);
-      if (count > most) {
-        most = count;
-        best = candidate;
-      }
-    }
-    // Numbers with decimal commas between semicolons have more commas than semicolons.
-    if (best == ',' && line.find(';') != std::string_view::npos) best = ';';
-    return false;
-  });
-  return best;
 }
 
 std::optional<double> number_in_unit(const CsvCell& cell,

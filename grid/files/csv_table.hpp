@@ -2,8 +2,10 @@
 /// \file
 /// A small CSV of numbers under a header line. Private to grid/files. Accepts what spreadsheets
 /// write: a byte order mark, CRLF, semicolons or tabs, quoted cells, blank lines, trailing
-/// separators, a first line `sep=;`, words below the last row, columns that nobody asked for; lines
-/// that begin with # are comments. A column may be headed `X (mm)` or `x in`, in inches. Numbers are read independent of the locale.
+/// separators, a first line `sep=;`, words above the header and below the last row, columns that nobody
+/// asked for, a dash for no reading, decimal commas and groups of thousands; lines that begin with #
+/// are comments. A column may be headed `X (mm)` or `x in`, in inches. Numbers are read independent of
+/// the locale.
 #pragma once
 
 #include <optional>
@@ -11,32 +13,14 @@
 #include <string_view>
 #include <vector>
 
+#include "grid/files/csv_lines.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/files/problems.hpp"
 
 namespace chaintrue::grid::files {
 
-struct CsvCell {
-  std::string text;
-  std::size_t line = 0;
-  std::size_t column = 0;
-  [[nodiscard]] std::string place() const { return line_and_column(line, column); }
-};
-
-using CsvRow = std::vector<CsvCell>;
-
-/// The lines that are neither blank nor comments, cut at `separator`. Blanks around cells and
-/// quotes are removed. Where no comma separates and no number has a point, decimal commas become
-/// points.
-[[nodiscard]] std::vector<CsvRow> split_csv(std::string_view text,
-                                            char separator,
-                                            Problems& problems);
-/// The names of the columns, by the first line that is neither blank nor a comment: in small letters,
-/// `X (mm)` and `x_in` as x_mm.
+/// The names of the columns, by the header: in small letters, `X (mm)` and `x_in` as x_mm.
 [[nodiscard]] std::vector<std::string> csv_header(std::string_view text);
-/// Of comma, semicolon and tab the one that the first line with cells has most of; a comma where
-/// there is none.
-[[nodiscard]] char separator_of(std::string_view text);
 struct CsvColumn {
   std::string name;
   Range range;

@@ -38,7 +38,7 @@ Value<std::uint64_t> seed_value() {
 
 const Record<StatedNoise>& stated_noise_record() {
   static const auto record =
-      Record<StatedNoise>("the noise as stated")
+      Record<StatedNoise>("the noise as it was said")
           .required("length_mm", &StatedNoise::length_mm, number(kNotNegative))
           .required("position_mm", &StatedNoise::position_mm, number(kNotNegative))
           .required("dof", &StatedNoise::dof, number(kNotNegative));
@@ -65,7 +65,7 @@ const Record<diagnosis::VisitingOrderFound>& visiting_order_record() {
 
 const Record<StatedTape>& stated_tape_record() {
   static const auto record =
-      Record<StatedTape>("the noise of holes and a tape as stated")
+      Record<StatedTape>("the noise of holes and a tape as it was said")
           .required("tape_sigma_mm", &StatedTape::tape_sigma_mm, number(kNotNegative))
           .required("hole_sigma_mm", &StatedTape::hole_sigma_mm, number(kNotNegative))
           .required("dof", &StatedTape::dof, number(kNotNegative));

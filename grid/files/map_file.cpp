@@ -63,7 +63,7 @@ const Record<MapNoise>& map_noise_record() {
 
 const Record<HeldOutError>& held_out_record() {
   static const auto record =
-      Record<HeldOutError>("held-out errors")
+      Record<HeldOutError>("errors of points left out")
           .required("chain", &HeldOutError::chain, object(error_summary_record()))
           .required("tool", &HeldOutError::tool, object(error_summary_record()))
           .required("tool_x_rms_mm", &HeldOutError::tool_x_rms_mm, number(kNotNegative))

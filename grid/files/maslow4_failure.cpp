@@ -124,8 +124,8 @@ std::string seen_against_commands(const MeasuredBelts& belts) {
       std::abs(off_mm),
       off_mm > 0.0 ? "longer" : "shorter",
       turns > 0      ? fmt::format("{}, lost or gained,", turns_in_words(turns))
-      : off_mm > 0.0 ? "a slack belt, or an anchor nearer than stated,"
-                     : "an anchor that is farther than stated, or an arm that catches,");
+      : off_mm > 0.0 ? "a slack belt, or an anchor nearer than in the settings,"
+                     : "an anchor that is farther than in the settings, or an arm that catches,");
 }
 
 std::string_view by_kind(StopKind kind) {
@@ -141,9 +141,8 @@ std::string_view by_kind(StopKind kind) {
              "go "
              "by the readings that are there.";
     case StopKind::not_converged:
-      return " The machine's own solver stalled, which says little of the readings: a frame stated "
-             "far "
-             "from its true size makes that, belts at the wrong anchors do, and so does chance. "
+      return " The machine's own solver stalled, which says little of the readings: a frame far "
+             "from the size that was set makes that, belts at the wrong anchors do, and so does chance. "
              "Tape "
              "the frame, put its size into the settings and start again.";
     case StopKind::low_fitness:

@@ -37,7 +37,7 @@ extern constinit const Effect beam_flex{
     .cause = "the top beam or its brackets give under the pull of the chains",
     .signature =
         "the tool hangs low and the bed shrinks towards the top centre, where tension is highest",
-    .equation = "motor axis = stated + k T_i (unit vector along the chain, towards the sled)",
+    .equation = "motor axis = as set + k T_i (unit vector along the chain, towards the sled)",
     .source = "MaslowCNC GroundControl PR 558: motor spacing 2990 mm free, 2980 mm under load",
     .not_modelled =
         "a beam that gives differently along its length, in its plane and across; the other "

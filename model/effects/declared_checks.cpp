@@ -253,7 +253,7 @@ void check_formula(const Declaration& own,
     problems.push_back(
         {place,
          0,
-         "d beside other values of the chain",
+         "d together with other values of the chain",
          "d with parameters alone: play that changes from place to place cannot be declared"});
   }
 }

@@ -55,7 +55,7 @@ std::string row(const Effect& effect) {
 
 std::string paragraph(const Effect& effect) {
   return fmt::format(
-      "**{}** — {}. *Seen as:* {}. *Needs:* {}. *Remedy ({}):* {}. *Not modelled:* {}. *Source:* "
+      "**{}** — {}. *Shows as:* {}. *Needs:* {}. *Remedy ({}):* {}. *Not modelled:* {}. *Source:* "
       "{}.\n\n",
       effect.id,
       effect.cause,

@@ -365,7 +365,7 @@ class FormulaParser {
     } else {
       if (!a.bare && !b.bare && !(a.unit == b.unit)) {
         stop(offset,
-             fmt::format("{} beside {}", words_of(a), words_of(b)),
+             fmt::format("{} together with {}", words_of(a), words_of(b)),
              "two values of one unit to add or to compare");
       }
       result.unit = a.bare ? b.unit : a.unit;

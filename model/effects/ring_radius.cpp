@@ -44,7 +44,7 @@ extern constinit const Effect ring_radius{
     .signature =
         "like both chain zeros off together; only the sag in the lower corners tells them apart",
     .equation = "rho = rho_stated + d",
-    .source = "MaslowCNC forum reports 138.14 and 139.82 mm where 139.1 mm is stated",
+    .source = "MaslowCNC forum reports 138.14 and 139.82 mm where 139.1 mm is set",
     .not_modelled = "a ring that is not round, carriages with play",
     .typical = "1 mm",
     .remedy_kind = RemedyKind::change_the_machine,

@@ -202,7 +202,7 @@ TEST_F(BeltCommands, ABadReadingIsNamedInTurnsOfTheEncoder) {
   set.belts.points[17].lengths_mm.tr += 2.0 * 43.975;
   write("belts.json", grid::files::write_belts(set.belts));
   EXPECT_THAT(run("fit belts.json -o anchors.json").err,
-              AllOf(HasSubstr("Set aside: the top right belt at point 18"),
+              AllOf(HasSubstr("Left out: the top right belt at point 18"),
                     HasSubstr("2 whole turns of the encoder")));
 }
 

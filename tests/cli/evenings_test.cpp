@@ -21,6 +21,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 using testing_support::CommandFixture;
 using testing_support::content_of;
 using testing_support::Outcome;
@@ -127,6 +128,39 @@ TEST_F(Evening, OfAMaslow4EndsWithLinesToPaste) {
   EXPECT_EQ(typed.code, 0) << typed.err;
   EXPECT_THAT(typed.out, HasSubstr("$/kinematics/MaslowKinematics/tlX="));
   expect_short(3);
+}
+
+// What an owner reads before scrolling, of every verb with an answer.
+TEST_F(Evening, FirstScreensAreInTheWordsOfAWorkshop) {
+  ASSERT_EQ(next(kStart).code, 0);
+  for (const char* evening : {"worn_chain", "slipped_tooth", "bent_beam", "long_tape", "nothing_wrong", "marks"}) {
+    measure(evening);
+    const Outcome found = next("diagnose shop/marks.csv --machine shop/machine.json -o shop/diagnosis.json --force");
+    ASSERT_EQ(found.code, 0) << found.err;
+    const std::string screen = first_words(found.out, kWordsBeforeTheFold);
+    expect_plain(screen);
+    EXPECT_THAT(screen, StartsWith("Your machine misses by about ")) << evening;
+    EXPECT_THAT(found.out, HasSubstr("What to do now")) << evening;
+    EXPECT_THAT(found.out, Not(HasSubstr("likeness"))) << evening;
+  }
+  const std::string fixtures = CHAINTRUE_FIXTURES;
+  ASSERT_EQ(next("fit " + fixtures + "/grids/seven_by_four.json -o map.json").code, 0);
+  const Outcome checked = next("check map.json " + fixtures + "/grids/five_new_points.json");
+  EXPECT_THAT(checked.out, StartsWith("The map is still valid"));
+  expect_plain(first_words(checked.out, kWordsBeforeTheFold));
+}
+
+TEST_F(Evening, FirstScreensOfFourBeltsAreInTheWordsOfAWorkshop) {
+  const std::string belts = std::string(CHAINTRUE_FIXTURES) + "/belts/thirty_one_places.json";
+  const Outcome fitted = next("fit " + belts + " -o anchors.json --wish-mm 0.5");
+  EXPECT_THAT(first_words(fitted.err, kWordsBeforeTheFold),
+              AllOf(StartsWith("Your machine misses by about "), HasSubstr("You wish for 0.5 mm: reached")));
+  const Outcome found = next("diagnose " + belts + " -o diagnosis.json");
+  EXPECT_THAT(found.out, AllOf(StartsWith("Most likely "), HasSubstr("What to do now"), Not(HasSubstr("likeness"))));
+  const Outcome checked = next("check anchors.json " + belts);
+  EXPECT_THAT(checked.out, StartsWith("The anchors still hold"));
+  for (const std::string* text : {&fitted.err, &found.out, &checked.out})
+    expect_plain(first_words(*text, kWordsBeforeTheFold));
 }
 
 TEST_F(Evening, WithNothingWrongAsksForNoMap) {

@@ -233,12 +233,12 @@ TEST_F(Plotter, SlipsAreNamedAndNothingIsWritten) {
   EXPECT_EQ(nothing.out, "");
 }
 
-TEST_F(Plotter, AMeasureThatFitsNothingIsSetAside) {
+TEST_F(Plotter, AMeasureThatFitsNothingIsLeftOut) {
   Json drawing = first_drawing(2);
   drawing["measures"][9]["value_mm"] = drawing["measures"][9]["value_mm"].get<double>() + 12.0;
   const Outcome fitted = fit(drawing);
   ASSERT_EQ(fitted.code, 0) << fitted.err;
-  EXPECT_THAT(fitted.err, HasSubstr("the length E-F was set aside"));
+  EXPECT_THAT(fitted.err, HasSubstr("the length E-F was left out"));
 }
 
 TEST_F(Plotter, SettingsOfEachControllerBecomeAPlotter) {

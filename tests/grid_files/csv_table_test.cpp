@@ -64,7 +64,40 @@ INSTANTIATE_TEST_SUITE_P(
                     "x_in,y_in\n-43 13/16,20\n25,-1/2\n",
                     "x_mm,y_mm\n\xE2\x88\x92"
                     "1112.8375,508\n635,\xE2\x88\x92"
-                    "12.7\n"));
+                    "12.7\n",
+                    // Of a spreadsheet with decimal commas, saved with commas between cells.
+                    "x_mm,y_mm\n\"-1112,8375\",508\n635,\"-12,7\"\n",
+                    "x_mm,y_mm\n\"-1,112.8375\",508\n635,-12.7\n",
+                    "x_mm;y_mm\n-1.112,8375;508\n635;-12,7\n",
+                    // A French one: a narrow space between thousands, a long minus, a unit behind a
+                    // space that does not break.
+                    "x_mm;y_mm\n\xE2\x88\x92"
+                    "1\xE2\x80\xAF"
+                    "112,8375;508\xC2\xA0mm\n635;\xE2\x88\x92"
+                    "12,7\n",
+                    "\"My machine, on Sunday\";\n;\nx_mm;y_mm\n-1112,8375;508\n635;-12,7\nMean;\n"));
+
+TEST(CsvTable, ALineAboveTheHeaderIsANote) {
+  EXPECT_THAT(read("My machine\n\nx_mm,y_mm\n1,2\n3,4\n").warnings,
+              ElementsAre("t.csv: line 1, column 1: a note, no reading: left out (My machine)"));
+  // A line of units below the header is a line of the table.
+  EXPECT_THAT(read("x_mm,y_mm\nmm,mm\n1,2\n").refusals, ElementsAre(HasSubstr("found mm"), HasSubstr("found mm")));
+}
+
+TEST(CsvTable, ADashIsNoReading) {
+  const Read found = read("x_mm,y_mm\n1,-\n2,n/a\n3,?\n4,\xE2\x80\x94\n5,6\n");
+  EXPECT_THAT(found.refusals, IsEmpty());
+  ASSERT_EQ(found.rows.size(), 5U);
+  for (std::size_t row = 0; row < 4; ++row) EXPECT_FALSE(found.rows[row][1]) << row;
+}
+
+// 1,113 may be a metre or a millimetre: nothing is made of it where nothing else says which.
+TEST(CsvTable, ACommaOfWhichNobodyKnowsTheMeaningIsRefused) {
+  EXPECT_THAT(read("x_mm,y_mm\n\"1,113\",508\n").refusals, ElementsAre(HasSubstr("found 1,113")));
+  EXPECT_THAT(read("x_mm,y_mm\n\"1,113\",508.5\n").refusals, ElementsAre(HasSubstr("found 1,113")));
+  EXPECT_THAT(read("x_mm;y_mm\n555,5;1.113\n").refusals, ElementsAre(HasSubstr("found 555,5")));
+  EXPECT_THAT(read("x_mm;y_mm\n555,5;1.5\n").refusals, ElementsAre(HasSubstr("found 555,5")));
+}
 
 TEST(CsvTable, SaysWhatItDidNotUse) {
   EXPECT_THAT(read("x_mm,y_mm,note\n1,2,ok\n").warnings,

@@ -120,7 +120,7 @@ TEST(BadEffectFile, AUnitThatDoesNotComeOutInMm) {
       "out as mm");
   EXPECT_EQ(
       only_sentence("amplitude_mm * sin(phase_rad) + T"),
-      "effect_0.json: line 8, column 45: found mm beside N, expected two values of one unit to "
+      "effect_0.json: line 8, column 45: found mm together with N, expected two values of one unit to "
       "add or to compare");
 }
 

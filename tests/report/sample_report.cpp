@@ -63,14 +63,14 @@ MapPictures sample_pictures() {
   MapPictures map;
   map.sheet = {-kBedWidthMm / 2, kBedWidthMm / 2, -kBedHeightMm / 2, kBedHeightMm / 2};
   map.steps = {
-      {ErrorStep::Kind::before, "machine as stated", 3.91, 6.2, "at the 28 points"},
+      {ErrorStep::Kind::before, "machine file as it was", 3.91, 6.2, "at the 28 points"},
       {ErrorStep::Kind::after, "machine calibrated", 0.44, 0.93, "points left out one at a time"},
       {ErrorStep::Kind::after, "with the map", 0.25, 0.52, "points left out one at a time"},
       {ErrorStep::Kind::reference,
        "noise of the readings",
        0.21,
        {},
-       "as stated: 0.2 mm a chain, 0.3 mm a mark"}};
+       "as you said: 0.2 mm a chain, 0.3 mm a mark"}};
   map.points = sample_points();
   map.error_map = sample_error_map();
   map.noise_floor_mm = 0.21;
@@ -82,19 +82,19 @@ Document sample_document(const MapPictures& map) {
                     .subtitle = "classic Maslow, 28 points, sheet as placed"};
   document.verdict = {
       "Inside the measured points the tool will land within 0.25 mm (rms) of where the drawing "
-      "says; as the machine was stated it was 3.9 mm off."};
+      "says; with the machine file as it was it was 3.9 mm off."};
   document.advice = {
       {"Use this map for the whole sheet; near its lower corners expect up to 0.6 mm."},
       {"Measure point 10 again: it disagrees with its neighbours by 1.4 mm."}};
   document.not_proved = {"This says how well new points are predicted, not why the machine erred."};
   document.figures = {{"0.25 mm", "error to expect at the tool, rms, held out"},
                       {"0.52 mm", "worst point, held out"},
-                      {"3.9 mm", "as the machine was stated, rms"},
+                      {"3.9 mm", "with the machine file as it was, rms"},
                       {"0.21 mm", "noise of the readings"}};
   document.sections = picture_sections(map);
   document.sections.push_back(
       {"The machine's settings",
-       {Table{{{"setting"}, {"stated", true}, {"calibrated", true}, {"unit"}, {"remark"}},
+       {Table{{{"setting"}, {"in the file", true}, {"calibrated", true}, {"unit"}, {"remark"}},
               {{{"left motor, x", -1489.2, -1492.31, "mm"}},
                {{"right motor, y", 1072.6, 1061.2, "mm", "off: check it"}, true},
                {{"sheet, turned", 0.0, 1.204, "mrad"}}},

@@ -74,7 +74,7 @@ void say_bad_readings(const FittedBelts& fitted, Section& section) {
     // To within a twentieth of a turn: a bad reading is that by chance one time in ten.
     const bool is_whole = std::abs(turns) > 0.5 && std::abs(turns - std::round(turns)) < 0.05;
     say(section,
-        fmt::format("Set aside: the {} belt at point {}, {:.1f} mm {} than all others make it{}.",
+        fmt::format("Left out: the {} belt at point {}, {:.1f} mm {} than all others make it{}.",
                     model::words(bad.belt),
                     number_of(fitted, bad.point),
                     std::abs(bad.residual_mm),
@@ -151,7 +151,7 @@ void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
   for (const auto& distance : holes.distances) {
     if (!distance.rejected) continue;
     say(section,
-        fmt::format("Set aside: the distance {}, taped {:.1f} mm {} than all others make it; tape "
+        fmt::format("Left out: the distance {}, taped {:.1f} mm {} than all others make it; tape "
                     "it again.",
                     distance.words,
                     std::abs(distance.left_out_mm),
@@ -302,7 +302,7 @@ Section places_section(const FittedBelts& fitted) {
     }
   }
   Section section{"Place by place", {std::move(table)}, true, Detail::verbose};
-  if (!fit.bad.empty()) say(section, "* set aside");
+  if (!fit.bad.empty()) say(section, "* left out");
   return section;
 }
 
@@ -310,10 +310,10 @@ Section taped_section(const grid::HolesWithBelts& holes) {
   Table table{.columns = {{.heading = "Distance", .width = 14},
                           {.heading = "taped", .is_number = true, .digits = 1, .width = 8},
                           {.heading = "off, mm", .is_number = true, .has_sign = true, .width = 10},
-                          {.heading = "left out", .is_number = true, .has_sign = true, .width = 11},
+                          {.heading = "alone", .is_number = true, .has_sign = true, .width = 11},
                           {.heading = "sigma", .is_number = true, .width = 8},
                           {.gap = 1}},
-              .caption = "Left out: taped less what all others make of it. * set aside.",
+              .caption = "Alone: taped less what all others make of it. * left out.",
               .is_headed = true,
               .head_width = 15};
   for (const grid::BeltTapedDistance& distance : holes.distances) {

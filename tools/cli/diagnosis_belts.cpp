@@ -40,7 +40,7 @@ Section anchors_section(const Diagnosis& found) {
                   {.heading = "alone", .is_number = true, .width = 12},
                   {.heading = "with the causes", .is_number = true, .width = 17},
                   {.heading = "sigma", .is_number = true, .width = 8},
-                  {.heading = "stated", .is_number = true, .digits = 1, .width = 10}},
+                  {.heading = "until now", .is_number = true, .digits = 1, .width = 10}},
       .caption = kAnchorsCaption,
       .is_headed = true};
   for (const auto& c : found.belts->coordinates) {

@@ -12,6 +12,7 @@
 #include "tools/cli/diagnosis_improvement.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -89,7 +90,11 @@ Light data_light(const Diagnosis& found) {
 void put_the_verdict(const Diagnosis& found, report::Document& document) {
   const VerdictLights& lights = lights_of(found.verdict);
   const bool left = is_something_left(found);
-  document.verdict = {found.sentence};
+  // How far off it is comes first, and is the number that a fit begins with.
+  document.verdict = {found.tool_today ? fmt::format("Your machine misses by about {} mm. {}",
+                                                     about_mm(found.tool_today->rms_mm),
+                                                     found.sentence)
+                                       : found.sentence};
   // The bar tells how the machine is, not how sure the name: a worn chain is no good news.
   const bool errs = left || !found.causes.empty() || !found.outliers.empty();
   document.tone = errs ? std::max(lights.tone, Tone::caution) : lights.tone;

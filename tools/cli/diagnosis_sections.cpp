@@ -61,7 +61,7 @@ std::string changes_words(const BudgetLine& line) {
 std::string budget_words(const Diagnosis& found) {
   const bool of_distances = is_of_distances(found);
   const std::string today =
-      found.tool_today ? fmt::format("Your machine misses by about {} mm over the measured part. ",
+      found.tool_today ? fmt::format("Over the measured part it is {} mm off. ",
                                      about_mm(found.tool_today->rms_mm))
                        : "";
   return fmt::format(

@@ -159,7 +159,7 @@ std::string draw_effect(const model::Machine& machine, const EffectPicture& pict
          text_at(kMargin, 22.0, title) +
          text_at(kMargin,
                  42.0,
-                 "Where the tool goes, seen from where it was sent: with the machine file as it is "
+                 "Where the tool goes, from where it was sent: with the machine file as it is "
                  "(orange), once motors and zeros are calibrated (blue)") +
          body + "</svg>\n";
 }

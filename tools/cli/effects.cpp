@@ -95,7 +95,7 @@ void list_catalogue(const model::Machine& machine) {
 void describe(const Effect& effect) {
   fmt::print("{} ({}, {})\n", effect.id, name(effect.station), sides_of(effect));
   fmt::print("  cause         {}\n", effect.cause);
-  fmt::print("  seen as       {}\n", effect.signature);
+  fmt::print("  shows as      {}\n", effect.signature);
   fmt::print("  equation      {}\n", effect.equation);
   for (const EffectParameter& p : effect.parameters) {
     fmt::print("  {}  {}{}: {}, {} to {}, usually {}\n",
@@ -169,7 +169,7 @@ void print_strengths(const Effect& effect, const synthetic::EffectPicture& pictu
       short_number(picture.noise.length_mm),
       short_number(picture.noise.position_mm));
   fmt::print(
-      "  {:>6}  {:>10}  {:>14}  {}\n", "points", "to be seen", "to be named", "nearest rival");
+      "  {:>6}  {:>10}  {:>14}  {}\n", "points", "to show", "to be named", "nearest rival");
   for (const synthetic::StrengthAt& at : picture.strengths) {
     const synthetic::EffectStrength& s = at.strength;
     std::string nearest =

@@ -240,7 +240,8 @@ int run_fit(Verb verb, const FitCommand& command) {
                           command.output,
                           command.verbose,
                           command.json,
-                          points_left_out(command.without)});
+                          points_left_out(command.without),
+                          command.wish_mm});
   }
   grid::Measured all;
   for (const InputFile& file : opened)

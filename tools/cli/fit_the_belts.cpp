@@ -14,6 +14,7 @@
 #include "grid/files/holes_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/anchors_document.hpp"
+#include "tools/cli/belts_wish.hpp"
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
@@ -119,10 +120,16 @@ int fit_the_belts(const BeltsFitCommand& command) {
   if (command.json) outputs.push_back({"-", text});
   write_outputs(outputs);
   const grid::MeasuredBelts belts = all.belts.value_or(grid::MeasuredBelts{});
-  const report::Document document =
-      anchors_document({found->fit, found->holes ? &*found->holes : nullptr, &belts, all.indices},
-                       found->name,
-                       command.output);
+  const grid::HolesWithBelts* holes = found->holes ? &*found->holes : nullptr;
+  report::Document document = anchors_document(
+      {found->fit, holes, &belts, all.indices}, found->name, command.output);
+  if (command.wish_mm) {
+    const auto error = grid::error_of_belts(found->fit, holes);
+    auto& remarks = document.remarks.blocks;
+    remarks.insert(remarks.begin(),
+                   report::Paragraph{belts_wish_sentence(
+                       belts, all.holes, *found, error, *command.wish_mm)});
+  }
   fmt::print(stderr,
              "{}",
              report::render_text(

@@ -3,6 +3,7 @@
 /// chaintrue fit of a chaintrue_belts file, of holes that a machine on four belts cut, or of both.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct BeltsFitCommand {
   bool verbose = false;
   bool json = false;
   std::vector<std::size_t> without{};  ///< points left out by hand, from 1
+  std::optional<double> wish_mm{};     ///< the error of the tool that the owner wishes for
 };
 /// True for files of such a machine.
 [[nodiscard]] bool is_of_four_belts(const InputFile& file);

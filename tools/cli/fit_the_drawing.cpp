@@ -100,7 +100,7 @@ report::Table table_of_measures(const TestDrawing& drawing, const DrawingFit& fi
     const FittedMeasure& own = fit.measures[i];
     report::Row row{{grid::words_of(drawing, i), own.measured_mm, own.found_mm, own.after_mm},
                     own.rejected};
-    if (own.rejected) row.cells.emplace_back("set aside");
+    if (own.rejected) row.cells.emplace_back("left out");
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -118,7 +118,7 @@ report::Document drawing_document(const TestDrawing& drawing, const DrawingFit& 
   for (std::size_t i = 0; i < fit.measures.size(); ++i) {
     if (!fit.measures[i].rejected) continue;
     document.remarks.blocks.emplace_back(report::Paragraph{
-        fmt::format("{} was set aside: {:.1f} mm was read, and the rest says {:.1f} mm. Measure it "
+        fmt::format("{} was left out: {:.1f} mm was read, and the rest says {:.1f} mm. Measure it "
                     "again.",
                     grid::words_of(drawing, i),
                     fit.measures[i].measured_mm,

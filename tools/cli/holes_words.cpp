@@ -147,7 +147,7 @@ std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequ
   }
   fmt::format_to(std::back_inserter(text),
                  "Causes of usual size that it shows and no setting can imitate: {}.\nDoubtful: "
-                 "{}.\nNot seen: {}.\nLook the same: {}.\n",
+                 "{}.\nNot shown: {}.\nLook the same: {}.\n",
                  listed(clear),
                  listed(doubtful),
                  listed(unseen),

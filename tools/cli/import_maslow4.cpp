@@ -46,7 +46,7 @@ std::vector<files::Maslow4Import> runs_of(const Maslow4Command& command) {
   const bool are_several = command.inputs.size() > 1;
   if (are_several && (options.run || options.points || !command.runs.empty())) {
     refuse_option("--run, --runs, --points",
-                  fmt::format("beside {} logs", command.inputs.size()),
+                  fmt::format("together with {} logs", command.inputs.size()),
                   "one log: of several the last run of each is taken");
   }
   std::vector<files::Maslow4Import> runs;

@@ -43,8 +43,8 @@ double in_unit(Setting setting, double value) { return words_of(setting).factor 
 report::Table settings_table(const std::vector<SettingRow>& settings) {
   report::Table table{
       .columns = {{.heading = "Settings", .width = 26},
-                  {.heading = "stated", .is_number = true, .width = 14},
-                  {.heading = "+- stated", .is_number = true, .detail = report::Detail::page},
+                  {.heading = "in the file", .is_number = true, .width = 14},
+                  {.heading = "+- in the file", .is_number = true, .detail = report::Detail::page},
                   {.heading = "calibrated", .is_number = true, .width = 12},
                   {.heading = "+- sigma", .is_number = true, .width = 11},
                   {.gap = 1},

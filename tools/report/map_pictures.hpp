@@ -62,8 +62,8 @@ struct MapPictures {
   /// In the order of the work; the last may be the noise.
   std::vector<ErrorStep> steps{};
   std::vector<ReportPoint> points{};
-  /// Description of the points' `before`: "the machine as stated".
-  std::string before_what{"the machine as stated"};
+  /// Description of the points' `before`.
+  std::string before_what{"the machine file as it was"};
   std::optional<ErrorMap> error_map{};
   /// Rms of the held-out errors, drawn as a line and a ring; 0: computed from the points.
   double held_out_rms_mm = 0.0;

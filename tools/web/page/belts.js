@@ -7,6 +7,7 @@ import {ANCHORS, BELTS, filledIn, HOLES, isBelts, jsonOf, LOG, MASLOW_SETTINGS, 
 import {hookOption} from "./hook.js";
 import {inPage} from "./in_page.js";
 import {mayReplace, replaceFolder} from "./machine.js";
+import {wishWords} from "./wish.js";
 
 /** Delay between the last key and a run of the command: the time between two keys. */
 const PAUSE_MS = 350;
@@ -151,7 +152,7 @@ export class Belts {
     }
     this.#drawReading(belts, view);
     const holes = filledIn(folder[HOLES]) > 0 ? folder[HOLES] : null;
-    const made = [folder[BELTS], folder[WITHOUT], holes, hookOption({view}).join(" ")];
+    const made = [folder[BELTS], folder[WITHOUT], holes, [...hookOption({view}), ...wishWords(view)].join(" ")];
     if (this.#analysed?.every((one, index) => one === made[index])) return;
     const isTyping = this.#analysed !== null && this.#analysed[2] !== holes;
     this.#analysed = made;
@@ -177,7 +178,7 @@ export class Belts {
     const without = folder[WITHOUT] ? ["--without", textOf(folder[WITHOUT])] : [];
     const withHoles = made[2] ? ["--with", HOLES, ...hookOption(page.store)] : [];
     const isStale = () => made !== this.#analysed;
-    const fit = await runVerb(page, ["fit", BELTS, ...withHoles, ...without, "-o", ANCHORS, "--force"], {quiet: true, supersede: "belts"});
+    const fit = await runVerb(page, ["fit", BELTS, ...withHoles, ...without, ...wishWords(page.store.view), "-o", ANCHORS, "--force"], {quiet: true, supersede: "belts"});
     if (!fit || isStale()) return;
     this.said = {...this.said, fitted: sentencesOf(fit), isWrong: fit.code !== DONE};
     page.store.derive(fit.code === DONE ? fit.files : NO_RESULTS);

@@ -11,6 +11,7 @@ import {howToMeasure} from "./how.js";
 import {inPage, sheetInPage} from "./in_page.js";
 import {markRow, Readings} from "./readings.js";
 import {Sheet} from "./sheet.js";
+import {WishBox} from "./wish.js";
 
 /** From the outermost place that was measured to the outermost hole's sheet edge, as plan takes it on a small bed. */
 const EDGE_MM = 100;
@@ -18,9 +19,11 @@ const EDGE_MM = 100;
 export function beltsMeasure(page) {
   const places = h("div");
   const holes = new HolesPart(page);
+  const wish = new WishBox(page, "belts-wish");
   const element = h("div", {hidden: true},
     h("section", {}, h("h3", {}, "The readings of the log"),
-      h("p", {}, "One line for each place; what does not fit the others is marked. A place that you do not trust can be left out."), places),
+      h("p", {}, "One line for each place; what does not fit the others is marked. A place that you do not trust can be left out."),
+      h("p", {class: "choices"}, wish.element), places),
     holes.element);
   const remembered = new Map();
   let drawn = [];
@@ -39,6 +42,7 @@ export function beltsMeasure(page) {
       element.hidden = !isBelts(folder) || !folder[BELTS];
       if (element.hidden || view.step !== "measure") return;
       holes.update(page.store);
+      wish.update(page.store);
       const known = frameOf(folder);
       const now = [folder[ANCHORS], folder["diagnosis.json"], folder[BELTS], folder[WITHOUT], page.belts.said];
       if (now.every((one, index) => one === drawn[index]) || !known) return;

@@ -10,6 +10,7 @@ import {report} from "./frame.js";
 import {explained} from "./glossary.js";
 import {inPage} from "./in_page.js";
 import {millimetresOf} from "./sheet.js";
+import {wishSaid} from "./wish.js";
 
 const DISTANCES = [["tl", "br"], ["tr", "bl"], ["bl", "br"]];
 const DIAGNOSIS = "diagnosis.json";
@@ -67,20 +68,14 @@ export function beltsResult(page) {
 function givenBy(page) {
   const {folder, view} = page.store;
   if (!folder[ANCHORS]) return "";
-  return [twoNumbers(folder, jsonOf(folder[DIAGNOSIS])) ?? "The anchors are found.", view.way && `${waysOf(true)[view.way].title}.`].filter(Boolean).join(" ");
+  return [twoNumbers(page.belts.said.fitted) ?? "The anchors are found.", view.way && `${waysOf(true)[view.way].title}.`].filter(Boolean).join(" ");
 }
 
-/** The tool's error today and with the lines, over the places that were measured; null until both are known. */
-function twoNumbers(folder, diagnosis) {
-  const tool = diagnosis?.belts?.tool;
-  if (!tool) return null;
-  const after = about(sourceOfLines(folder) === DIAGNOSIS ? tool.after_mm : tool.before_mm);
-  const isKnown = jsonOf(folder[BELTS]).machine.anchors?.tl.x_mm !== undefined;
-  return !isKnown || tool.stated_mm === undefined ? `With these lines your machine misses by about ${after} mm.`
-    : `Your machine misses by about ${about(tool.stated_mm)} mm. With these lines it misses by about ${after} mm.`;
+/** The tool's error today and with the lines, as the command says them of the anchors; null until it has. */
+function twoNumbers(fitted) {
+  const said = fitted.find((line) => /^(Your machine (misses|needs)|With these anchors)\b/.test(line));
+  return said ? said.replace(/these anchors/g, "these lines").replace(/ The scale, which only a tape can tell, comes on top\.$/, "") : null;
 }
-
-const about = (mm) => (mm < 0.1 ? "0.1" : mm.toFixed(1));
 
 function headlines(page, diagnosis) {
   const {folder} = page.store;
@@ -89,7 +84,8 @@ function headlines(page, diagnosis) {
   if (!diagnosis) return [h("p", {class: "hint", role: "status"}, "Anchors and causes are being found ...")];
   const isSizeKnown = Boolean(jsonOf(folder[ANCHORS])?.fit.scale);
   return [
-    h("p", {class: "headline", role: "status"}, explained(twoNumbers(folder, diagnosis) ?? "The anchors are found.")),
+    h("p", {class: "headline", role: "status"}, explained(twoNumbers(fitted) ?? "The anchors are found.")),
+    wishSaid(fitted) && h("p", {class: "wish"}, inPage(wishSaid(fitted))),
     !isSizeKnown && h("p", {}, "How large everything comes out is not known yet: tape one long distance, below."),
     h("p", {class: "verdict"}, explained(inPage(diagnosis.sentence), 2)),
   ].filter(Boolean);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Why the machine errs: the verdict, the causes by their probability, what to do; and the map built on them.
+// Why the machine errs: the verdict, the causes by their probability with a picture each, what to do; and the map built on them.
+import {causePicture} from "./cause_pictures.js";
 import {DONE, printed, runVerb, sentenceList, sentencesAbout} from "./command.js";
 import {bytesOf, folded, h, textOf} from "./dom.js";
 import {bedOf, fittedList, HOLES, jsonOf, NO_DIAGNOSIS} from "./folder.js";
@@ -65,22 +66,24 @@ function nameOf({effect, side}) {
 
 const NOT_CAUSES = {nothing: "nothing is wrong", unknown: "a pattern that no known cause makes", noise: "readings that are worse than they should be", bad_points: "readings that are wrong"};
 
-/** The hypotheses of a diagnosis as bars, likeliest first. `meanings` has sentences by effect. */
-function causeBars(hypotheses, meanings) {
-  return h("ol", {class: "causes"}, hypotheses.map(({effect, side, probability}) => {
+/** The hypotheses of a diagnosis as bars, likeliest first. `meanings` has sentences by effect, `pictures` figures by rank. */
+function causeBars(hypotheses, meanings, pictures = []) {
+  return h("ol", {class: "causes"}, hypotheses.map(({effect, side, probability}, rank) => {
     const percent = 100 * probability;
     const words = percent > 99.9 ? "above 99.9 %" : percent < 0.1 ? "below 0.1 %" : `${percent.toFixed(percent < 10 ? 1 : 0)} %`;
     return h("li", {}, h("span", {class: "bar"}, h("span", {style: `width: ${Math.max(percent, 0.5).toFixed(1)}%`})),
       h("b", {}, NOT_CAUSES[effect] ?? nameOf({effect, side})), h("span", {class: "percent"}, words),
-      meanings[effect] && h("span", {class: "hint"}, meanings[effect]));
+      meanings[effect] && h("span", {class: "hint"}, meanings[effect]), pictures[rank]);
   }));
 }
 
+const likelyOf = (hypotheses) => hypotheses.filter(({probability}, rank) => rank === 0 || probability >= SHOWN_FROM);
+
 /** The likely ones at once, at least one; the rest folded. */
-export function rankedCauses(hypotheses, meanings = {}) {
-  const likely = hypotheses.filter(({probability}, rank) => rank === 0 || probability >= SHOWN_FROM);
+export function rankedCauses(hypotheses, meanings = {}, pictures = []) {
+  const likely = likelyOf(hypotheses);
   const rest = hypotheses.slice(likely.length);
-  return [h("h4", {}, "Causes, likeliest first"), causeBars(likely, meanings),
+  return [h("h4", {}, "Causes, likeliest first"), causeBars(likely, meanings, pictures),
     rest.length > 0 && h("details", {}, h("summary", {}, `${rest.length} others that were looked at`), causeBars(rest, meanings))].filter(Boolean);
 }
 
@@ -110,6 +113,9 @@ async function drawCauses(page, found, box) {
   box.append(ranked, ...remedies(found));
   const meanings = await meaningsOf(page);
   ranked.replaceChildren(...rankedCauses(found.hypotheses, meanings));
+  const pictures = [];
+  for (const one of likelyOf(found.hypotheses)) pictures.push(await causePicture(page, found, one, NOT_CAUSES[one.effect] ?? nameOf(one)));
+  if (ranked.isConnected) ranked.replaceChildren(...rankedCauses(found.hypotheses, meanings, pictures));
 }
 
 let catalogue = null;

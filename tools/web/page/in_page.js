@@ -21,6 +21,8 @@ const OPTIONS = [
   [/and add it to the file's "distances"/g, "and type it into the box \"A taped distance\""],
   [/, and give it as distances/g, ", and type it into the box \"A taped distance\""],
   [/give it as distances/g, "type it into the box \"A taped distance\""],
+  [/ \(gcode compensate\)/g, ""],
+  [/: chaintrue diagnose of the same belts\./g, ": the causes say it."],
   [/ or say --inches\b/g, " or choose inches above the table"],
   [/ \(chaintrue plan [^)]*\)/g, ""],
 ];

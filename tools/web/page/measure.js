@@ -13,6 +13,7 @@ import {fitParts} from "./measure_words.js";
 import {settingsWords} from "./numbers.js";
 import {markRow, Readings} from "./readings.js";
 import {Sheet} from "./sheet.js";
+import {WishBox, wishWords} from "./wish.js";
 
 const WAYS = [
   [MARKS, "Marks: x and y of each from the sheet's middle lines, with a square"],
@@ -35,8 +36,7 @@ export function measureStep(page) {
   const way = h("select", {id: "way", onchange: () => chooseWay(page, way.value)}, [...WAYS, CHECK].map(([path, label]) => h("option", {value: path}, label)));
   const unit = h("select", {id: "unit", onchange: () => page.store.show({unit: unit.value})},
     h("option", {value: "mm"}, "millimetres"), h("option", {value: "in"}, "inches"));
-  const wish = h("input", {id: "wish", type: "text", inputmode: "decimal", size: 4,
-    onchange: () => page.store.show({wish: wish.value.trim()})});
+  const wish = new WishBox(page, "wish");
   const program = h("button", {type: "button", onclick: () => {
     const name = programOf(page.store.view.sheet);
     download(name, page.store.folder[name]);
@@ -52,8 +52,7 @@ export function measureStep(page) {
       how.element, print),
     h("section", {}, h("h3", {}, "Readings"),
       h("p", {class: "choices"},
-        h("span", {class: "pair"}, h("label", {for: "unit"}, "You read in"), unit), hook.element,
-        h("span", {class: "pair"}, h("label", {for: "wish"}, "Good enough for you, mm"), wish)),
+        h("span", {class: "pair"}, h("label", {for: "unit"}, "You read in"), unit), hook.element, wish.element),
       odd, readings.element));
   const ofBelts = beltsMeasure(page);
   const element = h("div", {}, ofChains, ofBelts.element);
@@ -100,7 +99,7 @@ export function measureStep(page) {
       }
       readings.element.hidden = sheet === null;
       if (sheet) readings.draw(sheet, bed, view.unit);
-      if (document.activeElement !== wish) wish.value = view.wish ?? "";
+      wish.update(page.store);
       const fitWith = [...choiceWords(view), ...hookWords(page.store)].join(" ");
       if (shown === bytes && shown !== null && fittedWith === fitWith) return;
       shown = bytes;
@@ -123,11 +122,8 @@ function given({folder, view}) {
   return `${sheet.filled} of ${sheet.rows.length} ${sheet.isOfPoints ? "marks" : "distances"} typed in`;
 }
 
-/** What the user chose about the fit. A wish that is no number is none. */
-function choiceWords({causes, wish}) {
-  const mm = Number((wish || "").replace(",", "."));
-  return [...(causes ? ["--causes"] : []), ...(mm > 0 ? ["--wish-mm", String(mm)] : [])];
-}
+/** What the user chose about the fit. */
+const choiceWords = (view) => [...(view.causes ? ["--causes"] : []), ...wishWords(view)];
 
 export async function chooseWay(page, path) {
   if (!page.store.folder[path] && page.store.folder["machine.json"]) {

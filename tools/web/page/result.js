@@ -11,6 +11,7 @@ import {explained} from "./glossary.js";
 import {chooseWay} from "./measure.js";
 import {Numbers} from "./numbers.js";
 import {errorPicture} from "./picture.js";
+import {wishSaid} from "./wish.js";
 
 export function resultStep(page) {
   const first = h("div");
@@ -63,16 +64,19 @@ function given(page) {
 function firstLook(page) {
   const {folder} = page.store;
   const {headline, sentences} = page.fit ?? {headline: null, sentences: []};
+  const wish = wishSaid(sentences);
+  const more = sentences.filter((line) => line !== wish);
   const map = jsonOf(folder["map.json"]);
   const bed = bedOf(folder);
   const points = (map?.points ?? []).filter(({as_stated_mm: before, left_out_mm: after}) => before && after);
   return [
     headline && h("p", {class: "headline"}, explained(headline)),
+    wish && h("p", {class: "wish"}, wish),
     bed && points.length > 0 && errorPicture(bed, points, ({as_stated_mm: error}) => error, ({left_out_mm: error}) => error, {
       label: "The bed with an arrow at each mark: how far off the tool is there today, and with the map.",
       before: "as it is today", after: "with the map, each mark by a map made without it",
     }),
-    sentences.length > 0 && h("details", {}, h("summary", {}, "More about these readings"), sentenceList(sentences)),
+    more.length > 0 && h("details", {}, h("summary", {}, "More about these readings"), sentenceList(more)),
   ].filter(Boolean);
 }
 

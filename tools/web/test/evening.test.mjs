@@ -90,6 +90,8 @@ test("example evenings open with a click, and a wish is held against them", asyn
     await wish.type("0,5");
     await visit.page.keyboard.press("Tab");
     await visit.text(".said", "You wish for 0.5 mm: reached.");
+    await visit.click("See the map and the causes");
+    await visit.text("#step-result .wish", "You wish for 0.5 mm: reached.");
     assert.deepEqual(visit.problems, []);
   } finally {
     await visit.close();

@@ -83,10 +83,38 @@ for (const browser of browsers) {
   });
 }
 
+/** What a part of the page shows before anything is unfolded, held to the words of a workshop. */
+async function assertPlain(visit, selector) {
+  const words = (await visit.page.$eval(selector, (part) => part.innerText)).trim().split(/\s+/);
+  const first = words.slice(0, MOST_WORDS_OF_A_RESULT).join(" ");
+  assert.ok(words.length > 3, `nothing stands in ${selector}`);
+  assert.doesNotMatch(first, STATISTICS, selector);
+}
+
 /** The map that was made anew after an undo is there. */
 const settledIn = (visit) => visit.page.waitForFunction(() => /misses by about/.test(document.querySelector("#given-result").textContent));
 
 describe("in Chromium", () => {
+  test("the first words of a diagnosis and of four belts are those of a workshop", async () => {
+    const visit = await Visit.to("chrome");
+    try {
+      await visit.click("A worn chain");
+      await settled(visit);
+      await visit.click("See the map and the causes");
+      await visit.click("Find the cause");
+      await visit.text("#step-result .verdict", "links");
+      await assertPlain(visit, "#step-result .verdict");
+      await assertPlain(visit, "#step-result .causes");
+      await visit.click("Machine");
+      await visit.click("A Maslow 4");
+      await visit.text("#step-result .verdict", "Most likely");
+      await assertPlain(visit, "#belts-first");
+      assert.deepEqual(visit.problems, []);
+    } finally {
+      await visit.close();
+    }
+  });
+
   test("causes are ranked with what to do, and a map that uses them says what changed", async () => {
     const visit = await Visit.to("chrome");
     try {
@@ -97,6 +125,10 @@ describe("in Chromium", () => {
       await visit.text("#step-result .verdict", "jumped over teeth");
       await visit.text("#step-result .causes", "tooth skip, left");
       await visit.text("#step-result", "Look for a slack chain");
+      await visit.page.waitForSelector("#step-result .causes .picture", {visible: true});
+      const arrows = await visit.page.$$eval("#step-result .causes .picture", (pictures) => pictures.map((picture) => picture.querySelectorAll(".before").length));
+      assert.ok(arrows.length >= 1 && arrows.every((count) => count >= 28), `arrows in the pictures of the causes: ${arrows}`);
+      await visit.text("#step-result .causes .picture figcaption", "what this alone does");
       const ranks = await visit.page.$$eval("#step-result .causes .bar span", (bars) => bars.map((bar) => Number.parseFloat(bar.style.width)));
       assert.deepEqual(ranks, [...ranks].sort((one, other) => other - one));
       assert.ok(ranks.length > 10);

@@ -114,6 +114,7 @@ describe("typing", () => {
       await visit.type(row, 1, y);
     }
     const said = await visit.text(".said", "Measured less map");
+    assert.doesNotMatch(said, /\b(rms|sigma|residual|held out|stated|nominal|likeness)\b/i, "words that have to be looked up");
     await visit.click("Download");
     const {folderOf} = await import("../page/zip.js");
     const folder = temporaryFolder();

@@ -51,6 +51,10 @@ test("times of the page", async (context) => {
     await visit.click("See the map and the causes");
     await visit.text("#step-result .headline", "With this map it misses by");
     say("from the example machine to the result, with two clicks", since(begun));
+    begun = performance.now();
+    await visit.click("Find the cause");
+    await visit.text("#step-result .verdict", "probability");
+    say("from there to the verdict", since(begun));
     await visit.unfold("The whole report");
     await visit.report("The map");
     say("from the example machine to the drawn report, with three clicks", since(begun));
@@ -59,6 +63,11 @@ test("times of the page", async (context) => {
     await visit.upload("#program", join(root, "fixtures/gcode/bracket.nc"));
     await visit.report("bracket.nc before and after");
     say("from a program dropped to its report", since(begun));
+    await visit.click("Begin anew");
+    begun = performance.now();
+    await visit.paste("#paste", readFileSync(fixture("machines/maslow.yaml"), "utf8") + readFileSync(fixture("good/maslow4_log.txt"), "utf8"));
+    await visit.text("#step-result .verdict", "Most likely");
+    say("from a Maslow 4's log pasted to its verdict", since(begun));
   } catch (problem) {
     context.diagnostic(`what follows was not reached within ${PATIENCE_MS / 1000} s a step: ${problem.message}`);
   } finally {

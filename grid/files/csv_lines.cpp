@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/csv_lines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "grid/files/blanks.hpp"
+#include "grid/files/csv_numbers.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+constexpr std::string_view kCsvByteOrderMark = "\xEF\xBB\xBF";
+/// Nobody writes more lines of words above a table.
+constexpr std::size_t kMostAboveHeader = 8;
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  // Some programs write a second byte order mark.
+  while (text.starts_with(kCsvByteOrderMark)) text.remove_prefix(kCsvByteOrderMark.size());
+  return text;
+}
+
+bool is_skipped(std::string_view line) {
+  const auto first = std::find_if_not(line.begin(), line.end(), is_blank);
+  return first == line.end() || *first == '#';
+}
+
+/// Calls `visit(line, number)` for every line that holds cells. A lone CR ends a line as well.
+template <class Visit>
+void for_each_line(std::string_view text, const Visit& visit) {
+  text = without_byte_order_mark(text);
+  std::size_t number = 0;
+  bool is_first = true;
+  while (!text.empty()) {
+    const std::size_t end = text.find_first_of("\r\n");
+    const std::string_view line = text.substr(0, end);
+    ++number;
+    // Excel's own way to say what separates cells.
+    const bool says_separator = is_first && line.starts_with("sep=");
+    is_first = false;
+    if (!is_skipped(line) && !says_separator && !visit(line, number)) return;
+    if (end == std::string_view::npos) return;
+    const bool both = text[end] == '\r' && end + 1 < text.size() && text[end + 1] == '\n';
+    text.remove_prefix(end + (both ? 2 : 1));
+  }
+}
+
+/// The cell at the line's `begin`; `begin` moves past its separator, or past the line's end at the
+/// last cell.
+CsvCell take_cell(std::string_view line,
+                  char separator,
+                  std::size_t& begin,
+                  bool& quote_left_open) {
+  while (begin < line.size() && line[begin] != separator && is_blank(line[begin])) ++begin;
+  CsvCell cell;
+  cell.column = begin + 1;
+  std::size_t i = begin;
+  if (i < line.size() && line[i] == '"') {
+    for (++i; i < line.size(); ++i) {
+      if (line[i] == '"') {
+        if (i + 1 >= line.size() || line[i + 1] != '"') break;
+        ++i;
+      }
+      cell.text += line[i];
+    }
+    quote_left_open = quote_left_open || i >= line.size();
+    i = std::min(i + 1, line.size());
+  }
+  const std::size_t end = std::min(line.find(separator, i), line.size());
+  cell.text = with_plain_signs(trimmed(cell.text + std::string(line.substr(i, end - i))));
+  begin = end + 1;
+  return cell;
+}
+
+CsvRow csv_cells_of(std::string_view line, char separator, bool& quote_left_open) {
+  CsvRow row;
+  for (std::size_t begin = 0; begin <= line.size();)
+    row.push_back(take_cell(line, separator, begin, quote_left_open));
+  return row;
+}
+
+char separator_of_line(std::string_view line) {
+  char best = ',';
+  std::ptrdiff_t most = 0;
+  for (const char candidate : {',', ';', '\t'}) {
+    const auto count = std::count(line.begin(), line.end(), candidate);
+    if (count > most) {
+      most = count;
+      best = candidate;
+    }
+  }
+  // Numbers with decimal commas between semicolons have more commas than semicolons.
+  return best == ',' && line.find(';') != std::string_view::npos ? ';' : best;
+}
+
+/// A line above the first one with numbers, and how many of its cells hold something.
+struct LineOfWords {
+  std::string_view text;
+  std::size_t number = 0;
+  std::ptrdiff_t filled = 0;
+};
+
+/// Where the table begins: of the lines above the first numbers the one with most cells. Without such
+/// a line, or without numbers, the first line.
+LineOfWords line_of_header(std::string_view text) {
+  std::vector<LineOfWords> above;
+  bool found_numbers = false;
+  for_each_line(text, [&](std::string_view line, std::size_t number) {
+    bool ignored = false;
+    const CsvRow row = csv_cells_of(line, separator_of_line(line), ignored);
+    const auto numbers = std::count_if(
+        row.begin(), row.end(), [](const CsvCell& cell) { return is_like_a_number(cell.text); });
+    const auto filled = std::count_if(
+        row.begin(), row.end(), [](const CsvCell& cell) { return !cell.text.empty(); });
+    // A hole's name and its two coordinates; an order alone, before readings are typed in, is none.
+    found_numbers = numbers >= 2 && 2 * numbers > filled;
+    if (!found_numbers || above.empty()) above.push_back({line, number, filled});
+    return !found_numbers && above.size() <= kMostAboveHeader;
+  });
+  if (above.empty()) return {};
+  const auto most = std::max_element(
+      above.begin(), above.end(), [](const LineOfWords& one, const LineOfWords& other) {
+        return one.filled < other.filled;
+      });
+  return found_numbers && most->filled > 1 ? *most : above.front();
+}
+
+}  // namespace
+
+std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& problems) {
+  std::vector<CsvRow> rows;
+  const std::size_t first = line_of_header(text).number;
+  for_each_line(text, [&](std::string_view line, std::size_t number) {
+    if (number < first) {
+      problems.warn(line_and_column(number, 1),
+                    fmt::format("a note, no reading: left out ({})", shortened(line)));
+      return true;
+    }
+    bool quote_left_open = false;
+    CsvRow row = csv_cells_of(line, separator, quote_left_open);
+    for (CsvCell& cell : row) cell.line = number;
+    if (quote_left_open) {
+      problems.add(line_and_column(number, 1), line, "a closing quote on the same line");
+    }
+    rows.push_back(std::move(row));
+    return true;
+  });
+  write_decimal_points(separator, rows);
+  return rows;
+}
+
+char separator_of(std::string_view text) { return separator_of_line(line_of_header(text).text); }
+
+}  // namespace chaintrue::grid::files

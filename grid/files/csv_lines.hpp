@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The lines of a CSV that hold cells, cut into these. Private to grid/files. A byte order mark, CRLF,
+/// a first line `sep=;`, blank lines, comments behind # and the words above the header are left out.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grid/files/problems.hpp"
+
+namespace chaintrue::grid::files {
+
+struct CsvCell {
+  std::string text;
+  std::size_t line = 0;
+  std::size_t column = 0;
+  [[nodiscard]] std::string place() const { return line_and_column(line, column); }
+};
+
+using CsvRow = std::vector<CsvCell>;
+
+/// The lines that are neither blank nor comments, cut at `separator`. Blanks around cells and
+/// quotes are removed, and numbers are written with a point where the file leaves no doubt of what
+/// its commas mean (csv_numbers.hpp). A title above the header is a warning.
+[[nodiscard]] std::vector<CsvRow> split_csv(std::string_view text,
+                                            char separator,
+                                            Problems& problems);
+
+/// Of comma, semicolon and tab the one that the header has most of; a comma where there is none.
+[[nodiscard]] char separator_of(std::string_view text);
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/belts_wish.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "grid/diagnosis/anchors_with_causes.hpp"
+#include "grid/synthetic/random.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+/// Nobody measures more than four times as many places as before.
+constexpr std::size_t kMostTimes = 4;
+/// A fit of so many places takes a second (docs/reliability.md).
+constexpr std::size_t kMostTried = 400;
+
+/// A session as the fit has it, each place `times` times over, one visit behind the other, with noise of
+/// the size that was found. Points keep their indices, which distances refer to; further visits of
+/// them follow. Its noise is the same in every run.
+grid::MeasuredBelts measured_again(const grid::MeasuredBelts& belts,
+                                   const grid::BeltsFit& fit,
+                                   std::size_t times) {
+  constexpr std::uint64_t kSeed = 31;
+  grid::synthetic::Random random(kSeed, times);
+  grid::MeasuredBelts result = belts;
+  result.points.clear();
+  const int factor = static_cast<int>(times);
+  for (int visit = 0; visit < factor; ++visit) {
+    for (std::size_t k = 0; k < belts.points.size(); ++k) {
+      grid::BeltPoint point = belts.points[k];
+      for (const model::Belt belt : model::kBelts) {
+        point.lengths_mm[belt] +=
+            fit.residual_sigma_mm * random.normal() - fit.places[k].belts[belt].residual_mm;
+      }
+      if (point.order) point.order = factor * *point.order + visit;
+      result.points.push_back(std::move(point));
+    }
+  }
+  return result;
+}
+
+struct AnchorsAndError {
+  grid::BeltsFit fit;
+  std::optional<grid::BeltsError> error;
+};
+
+std::optional<AnchorsAndError> fit_again(const grid::MeasuredBelts& belts,
+                                         const std::vector<grid::BeltHoles>& cut) {
+  if (cut.empty()) {
+    auto fit = grid::diagnosis::fit_with_causes(belts);
+    if (!fit) return std::nullopt;
+    const auto error = grid::error_of_belts(*fit);
+    return AnchorsAndError{*std::move(fit), error};
+  }
+  auto fit = grid::diagnosis::fit_with_causes_and_holes(belts, cut);
+  if (!fit) return std::nullopt;
+  const auto error = grid::error_of_belts(fit->belts, &fit->holes);
+  return AnchorsAndError{std::move(fit->belts), error};
+}
+
+/// The error to expect of such a session. The noise that a fit finds in it is a sample of what was put
+/// in, and the error goes with it: that chance is taken out. Nothing where there is no fit.
+std::optional<double> expected_of_places(const grid::MeasuredBelts& belts,
+                                         const std::vector<grid::BeltHoles>& cut,
+                                         double noise_mm) {
+  const auto again = fit_again(belts, cut);
+  if (!again || !again->error || !(again->fit.residual_sigma_mm > 0.0)) return std::nullopt;
+  return again->error->expected.rms_mm * noise_mm / again->fit.residual_sigma_mm;
+}
+
+/// With the displacement that the holes show taken out, as compensated programs do; nothing where
+/// none was found.
+std::optional<double> expected_when_compensated(const grid::files::FittedAnchors& found) {
+  if (!found.holes || !found.holes->displacement) return std::nullopt;
+  grid::HolesWithBelts level = *found.holes;
+  level.displacement.reset();
+  const auto error = grid::error_of_belts(found.fit, &level);
+  return error ? std::optional(error->expected.rms_mm) : std::nullopt;
+}
+
+}  // namespace
+
+std::string belts_wish_sentence(const grid::MeasuredBelts& belts,
+                                const std::vector<grid::BeltHoles>& cut,
+                                const grid::files::FittedAnchors& found,
+                                const std::optional<grid::BeltsError>& error,
+                                double wish_mm) {
+  const std::string wish = fmt::format("You wish for {:g} mm: ", wish_mm);
+  if (!error) return wish + "these readings cannot say whether that is reached.";
+  if (error->expected.rms_mm <= wish_mm)
+    return wish + (found.fit.scale ? "reached." : "reached, apart from the scale.");
+  const auto compensated = expected_when_compensated(found);
+  if (compensated && *compensated <= wish_mm)
+    return wish +
+           "not reached by anchors alone. Programs that are compensated (gcode compensate) reach "
+           "it.";
+  const std::size_t places = belts.points.size();
+  if (places == 0)
+    return wish + "not reached. More distances, or a better tape, would bring it down.";
+  const double noise_mm = found.fit.residual_sigma_mm;
+  const auto once = expected_of_places(measured_again(belts, found.fit, 1), cut, noise_mm);
+  std::size_t tried = 0;
+  for (std::size_t times = 2; once && times <= kMostTimes && times * places <= kMostTried;
+       ++times) {
+    tried = times * places;
+    const auto then = expected_of_places(measured_again(belts, found.fit, times), cut, noise_mm);
+    if (then && error->expected.rms_mm * *then <= wish_mm * *once) {
+      return wish +
+             fmt::format("not reached. About {} places measured as well as these would reach it.",
+                         tried);
+    }
+  }
+  return wish +
+         fmt::format(
+             "not reached{}. Look for what else is wrong: chaintrue diagnose of the same belts.",
+             tried == 0 ? std::string{}
+                        : fmt::format(", and not by {} places measured as well as these", tried));
+}
+
+}  // namespace chaintrue::cli
