@@ -23,6 +23,7 @@
 #include "grid/map/controller_error.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/settings_to_type.hpp"
+#include "tools/cli/export_linuxcnc.hpp"
 #include "tools/cli/export_plotter.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/made_by.hpp"
@@ -360,6 +361,7 @@ void add_export(Verb app, Run& run) {
   });
   add_maslow4(verb, run);
   add_export_plotter(verb, run);
+  add_export_linuxcnc(verb, run);
 }
 
 }  // namespace chaintrue::cli

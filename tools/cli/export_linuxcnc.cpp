@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/export_linuxcnc.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "grid/files/linuxcnc_kinematics.hpp"
+#include "grid/map/map_in_frame.hpp"
+#include "tools/cli/input_file.hpp"
+#include "tools/cli/map_words.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/talk.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+
+struct ExportLinuxcncCommand {
+  std::string map;
+  std::string output = "chaintrue_kins.c";
+};
+
+int export_linuxcnc(Verb verb, const ExportLinuxcncCommand& command) {
+  const InputFile file = open_input(command.map);
+  require_kind(file, {FileKind::map});
+  return with_map(file, [&](const grid::CompensationMap& map) {
+    if (!verb.is_given("--force") && refuses_to_cut_with(map)) return int{kCheckFailed};
+    const auto module = files::linuxcnc_kinematics(
+        grid::MapInFrame(map), std::filesystem::path(file.name).filename().string());
+    if (!module) {
+      fmt::print(stderr,
+                 "{}: {}. A table needs lengths all over the map; fit it with --outside model\n",
+                 file.name,
+                 module.error().sentence());
+      return int{kNotSupportedOrOutside};
+    }
+    write_output(command.output, module->source);
+    fmt::print(stderr,
+               "{} x {} lengths of both chains, {:.0f} mm apart; between them the table is within "
+               "{:.4f} mm of the map.\nBuild and install it where LinuxCNC runs: halcompile "
+               "--install {}. In the machine's INI file: [KINS] KINEMATICS = chaintrue_kins, "
+               "JOINTS = 3.\n",
+               module->columns,
+               module->rows,
+               module->spacing_mm,
+               module->largest_error_mm,
+               command.output == "-" ? "chaintrue_kins.c" : command.output);
+    return int{kDone};
+  });
+}
+
+}  // namespace
+
+void add_export_linuxcnc(Verb export_verb, Run& run) {
+  auto command = std::make_shared<ExportLinuxcncCommand>();
+  Verb verb = export_verb.add_verb(
+      "linuxcnc", "The map as a kinematics module for LinuxCNC, which then needs no compensated files");
+  add_input(verb, "map", command->map, "A chaintrue_map file").required();
+  add_output(verb,
+             "-o,--output",
+             command->output,
+             {Origin::table},
+             "The module's source (C); - is standard output")
+      .shows_default();
+  verb.footer(
+      "Example:\n"
+      "  build/chaintrue fit fixtures/start/marks.csv --machine fixtures/machines/groundcontrol.json "
+      "-o map.json\n"
+      "  build/chaintrue export linuxcnc map.json -o chaintrue_kins.c");
+  verb.when_chosen(
+      [command, verb, &run] { run = [command, verb] { return export_linuxcnc(verb, *command); }; });
+}
+
+}  // namespace chaintrue::cli
