@@ -108,7 +108,8 @@ tl::expected<BeltReadingSlopes, BeltFailure> read_belt_with_slope(
     more.*quantity += 0.5;
     return print_slope * (count_of(effects, visit, more) - count_of(effects, visit, less));
   };
-  BeltReadingSlopes result{*length, {}, {}};
+  BeltReadingSlopes result;
+  result.length_mm = *length;
   const double by_tension_mm = loaded ? slope_by(&BeltState::tension) : 0.0;
   for (const Belt anchor : kBelts) {
     Eigen::RowVector2d& own = result.by_anchor[anchor];
