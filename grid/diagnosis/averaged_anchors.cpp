@@ -230,6 +230,7 @@ class Averaging {
       const Regressor& own = system_.regressors[static_cast<std::size_t>(index)];
       if (own.expected) {
         change += std::log(share_of_expected(own.cause.effect->id));
+        if (gives) change += std::log(kWeightBesideOthers);
         gives = true;
         continue;
       }
