@@ -31,6 +31,12 @@ bool is_pulled(const BeltPoint& point, model::Belt belt) {
   return std::find(point.pulled->begin(), point.pulled->end(), belt) != point.pulled->end();
 }
 
+model::PerBelt<bool> pulled_belts(const BeltPoint& point) {
+  model::PerBelt<bool> pulled;
+  for (const model::Belt belt : model::kBelts) pulled[belt] = is_pulled(point, belt);
+  return pulled;
+}
+
 std::optional<BeltPull> reference_pull(const MeasuredBelts& belts) {
   if (belts.reference_pull) return belts.reference_pull;
   std::optional<BeltPull> least;

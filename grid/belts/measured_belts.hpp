@@ -88,6 +88,8 @@ inline constexpr std::size_t kMostBeltPoints = 20000;
                                                     std::size_t visit);
 /// Whether a motor pulled this belt at the reading.
 [[nodiscard]] bool is_pulled(const BeltPoint& point, model::Belt belt);
+/// The same of all four.
+[[nodiscard]] model::PerBelt<bool> pulled_belts(const BeltPoint& point);
 /// The pull that sizes of effects refer to; empty where no point has one.
 [[nodiscard]] std::optional<BeltPull> reference_pull(const MeasuredBelts& belts);
 /// Over `reference`; 1 where either is not known.

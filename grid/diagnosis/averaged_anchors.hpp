@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Anchors of four belts averaged over the models of a comparison: stretch of the pulled belts, every
+/// Anchors of four belts averaged over the models of a comparison: what gives with the pull, every
 /// other cause with it and sets of them, each with and without a smooth pattern, as the readings make
 /// them likely. Private to grid/diagnosis.
 ///
@@ -39,7 +39,7 @@ struct AveragedAnchors {
   belts::AnchorVector anchors = belts::AnchorVector::Zero();
   Eigen::Matrix<double, belts::kAnchorUnknowns, belts::kAnchorUnknowns> covariance_mm2 =
       Eigen::Matrix<double, belts::kAnchorUnknowns, belts::kAnchorUnknowns>::Zero();
-  /// The stretch, and what else is more likely than not; sizes averaged over the models that hold them.
+  /// The likeliest of what gives with the pull, and what else is more likely than not; sizes averaged over the models that hold them.
   std::vector<AveragedCause> causes;
 };
 

@@ -31,8 +31,8 @@ Believed believed(const model::BeltMachine& by,
   for (const FramePoint& at : places) {
     // While it cuts, the upper two hold; what set in at a visit has set in.
     constexpr int kAfterAll = 1000000000;
-    const auto tl = model::belts::read_belt(real, effects, {Belt::tl, false, kAfterAll}, at);
-    const auto tr = model::belts::read_belt(real, effects, {Belt::tr, false, kAfterAll}, at);
+    const auto tl = model::belts::read_belt(real, effects, {Belt::tl, {}, kAfterAll}, at);
+    const auto tr = model::belts::read_belt(real, effects, {Belt::tr, {}, kAfterAll}, at);
     std::optional<FramePoint> one;
     if (tl && tr) {
       if (const auto place = model::place_of_upper(by, *tl, *tr)) one = *place;

@@ -115,7 +115,7 @@ Eigen::VectorXd least_squares(const MeasuredBelts& without_causes,
 model::belts::BeltVisit visit_of(const BeltPoint& point,
                                  Belt belt,
                                  const std::optional<BeltPull>& reference) {
-  return {belt, is_pulled(point, belt), point.order.value_or(0), pull_over(reference, point)};
+  return {belt, pulled_belts(point), point.order.value_or(0), pull_over(reference, point)};
 }
 
 Eigen::VectorXd added_by(const MeasuredBelts& belts,

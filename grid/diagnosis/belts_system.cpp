@@ -14,6 +14,11 @@ using model::Belt;
 using model::kBelts;
 using model::effects::EffectSide;
 
+double share_of_expected(std::string_view effect) {
+  if (effect == "belt_stretch") return 0.8;
+  return effect == "anchor_flex" ? 0.2 : 0.0;
+}
+
 namespace {
 
 /// Nothing is stated of the anchors: a metre is as good as nothing.
@@ -43,8 +48,8 @@ constexpr Teeth kTeeth[] = {{1.0, 0.25},
                             {22.0, 0.1},
                             {-22.0, 0.1}};
 
-/// Belts that are pulled stretch: the four frames whose owners published more than a start all do.
-bool is_expected(std::string_view effect) { return effect == "belt_stretch"; }
+/// Something gives with the pull: the four frames whose owners published more than a start all do.
+bool is_expected(std::string_view effect) { return share_of_expected(effect) > 0.0; }
 
 /// How often an effect acts, against the others. What sets in during a session is rare. An anchor that
 /// slips by just a tooth along its belt is rarer than a belt that skips, and as rare as a belt that
@@ -137,7 +142,7 @@ class Columns {
   /// Of what is expected what makes it alone as likely as nothing (CausePrior).
   [[nodiscard]] double effect_share(std::string_view effect) const {
     if (!is_expected(effect)) return share_of(effect);
-    return system_.prior.shares * kPriorOfNothing / kPriorOfOne;
+    return share_of_expected(effect) * system_.prior.shares * kPriorOfNothing / kPriorOfOne;
   }
 
   void add_ways(BeltCause own, const BeltCause* found, double share) {

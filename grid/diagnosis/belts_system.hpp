@@ -11,6 +11,7 @@
 /// reading of each belt.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "grid/diagnosis/belts_given_causes.hpp"
@@ -23,6 +24,11 @@ struct BeltsState {
   belts::AnchorFit frame;
   std::vector<BeltCause> causes;  ///< secants of these are taken at their values
 };
+
+/// What gives with the pull is expected, its parts by these shares that sum to 1; 0 of every other
+/// effect. Of four published frames three tell the belts' stretch from anchors that give, by factors of
+/// 1000 and more; the fourth does not tell.
+[[nodiscard]] double share_of_expected(std::string_view effect);
 
 /// Causes that these data can show, and the others with what would show them.
 struct BeltsCandidates {

@@ -6,6 +6,7 @@
 
 #include "grid/belts/scale_by_tape.hpp"
 #include "grid/diagnosis/belts_report.hpp"
+#include "grid/diagnosis/belts_system.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 
@@ -105,8 +106,8 @@ std::string short_of_a_name(const Diagnosis& d) {
   std::vector<std::string> parts;
   double most = 0.0;
   for (const Hypothesis& own : d.hypotheses) {
-    // Pulled belts are expected to stretch: where it is not named the readings speak against it.
-    if (own.probability < kInTheSet || own.effect == "belt_stretch") continue;
+    // Something is expected to give with the pull: where it is not named the readings speak against it.
+    if (own.probability < kInTheSet || share_of_expected(own.effect) > 0.0) continue;
     for (const Term& term : d.terms) {
       const CauseId& cause = term.cause;
       if (cause.effect->id != own.effect || model::effects::name(cause.side) != own.side) continue;

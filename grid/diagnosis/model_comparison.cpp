@@ -68,13 +68,14 @@ void sort_by_weight(ModelComparison& comparison) {
 }
 
 double log_prior(const RegressorSystem& system, const std::vector<int>& set, bool discrepancy) {
-  std::size_t lasting = 0;
+  std::size_t lasting = 0, expected = 0;
   double value = discrepancy ? std::log(kDiscrepancyPrior) : 0.0;
   for (const int k : set) {
     const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
     value += d.log_prior - std::log(system.prior.shares);
     if (d.expected) {
       value += std::log(kPriorOfOne / kPriorOfNothing);
+      if (++expected > 1) value += std::log(kPriorOfTwo / kPriorOfOne);
     } else if (!d.slip) {
       ++lasting;
     }

@@ -86,7 +86,8 @@ struct DiscrepancyFamily;
 ///
 /// Each of n causes together has a share of kPriorOfOne, kPriorOfTwo, ... by exp(log_prior) / shares.
 /// What is expected is none of the n: every such set is as likely with it as without it, so that it
-/// alone is as likely as nothing, and all else has the odds that it would have had.
+/// alone is as likely as nothing, and all else has the odds that it would have had. Each further one that
+/// is expected is as much rarer as a second cause is than one.
 struct CausePrior {
   /// Where it is the sum of exp(log_prior) over all that the catalogue holds and is not expected, one
   /// cause together has kPriorOfOne; larger where causes are rarer. No other mechanism's catalogue has a

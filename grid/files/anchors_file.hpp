@@ -3,7 +3,7 @@
 /// chaintrue_anchors files: the result of a fit of four belts. Unknown keys are errors, except
 /// "comment". Same fit, same bytes.
 ///
-///     { "file_type": "chaintrue_anchors", "format_version": "1.3", "name": "...",
+///     { "file_type": "chaintrue_anchors", "format_version": "1.4", "name": "...",
 ///       "fit": {
 ///       "machine": { as in a chaintrue_belts file, with the anchors fitted },
 ///       "coordinates": [ {"coordinate": "tl_x_mm", "stated_mm": -27.6, "fitted_mm": -31.2,

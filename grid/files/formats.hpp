@@ -70,19 +70,25 @@ inline constexpr std::array kOlderHoles = {OlderVersion{
     "written before a machine on four belts could cut holes; taken to be of the machine "
     "that it names"}};
 
+inline constexpr std::array kOlderBelts = {OlderVersion{
+    "1.0", "written before a file said how hard belts were pulled; taken to be of one pull"}};
+
 inline constexpr std::array kOlderAnchors = {
     OlderVersion{"1.0", "written before holes were fitted with belts; taken to be of belts alone"},
     OlderVersion{"1.1",
                  "written before anchors carried a hash of their content; taken to be undamaged"},
     OlderVersion{"1.2",
                  "written before the stretch of pulled belts was fitted with the anchors and before a file said what it was "
-                 "made from; its anchors and sigmas are of belts that do not stretch"}};
+                 "made from; its anchors and sigmas are of belts that do not stretch"},
+    OlderVersion{"1.3",
+                 "written before the belts that hold were taken to give as those that are pulled; what it says of stretch is of "
+                 "pulled belts alone: fit its belts again"}};
 
 inline constexpr Format kMachineFormat{"chaintrue_machine", "1.0"};
 inline constexpr Format kGridFormat{"chaintrue_grid", "1.0"};
 inline constexpr Format kHolesFormat{"chaintrue_holes", "1.1", kOlderHoles};
-inline constexpr Format kBeltsFormat{"chaintrue_belts", "1.0"};
-inline constexpr Format kAnchorsFormat{"chaintrue_anchors", "1.3", kOlderAnchors};
+inline constexpr Format kBeltsFormat{"chaintrue_belts", "1.1", kOlderBelts};
+inline constexpr Format kAnchorsFormat{"chaintrue_anchors", "1.4", kOlderAnchors};
 inline constexpr Format kMapFormat{"chaintrue_map", "1.3", kOlderMaps};
 inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.7", kOlderDiagnoses};
 inline constexpr Format kSweepFormat{"chaintrue_sweep", "1.0"};

@@ -77,7 +77,7 @@ std::optional<BeltsUnreachable> add_pass(const model::BeltMachine& stated,
     if (stated.orientation == model::Orientation::flat) point.pulled = pulled;
     for (const Belt belt : kBelts) {
       const auto length = model::belts::read_belt(
-          truth, effects, {belt, is_pulled(point, belt), *point.order, over_least}, *place);
+          truth, effects, {belt, pulled_belts(point), *point.order, over_least}, *place);
       if (!length) return length.error().at(commands[i]);
       const double off = spec.heavy_tails ? noise.heavy_tailed() : noise.normal();
       double& read = point.lengths_mm[belt];

@@ -188,25 +188,38 @@ tl::expected<LengthsPrediction, MechanismFailure> BeltMechanism::predict(
   LengthsPrediction result;
   result.lengths_mm.resize(4);
   result.by_position.resize(4, 2);
+  PerBelt<bool> pulled;
+  PerBelt<PerBelt<Eigen::RowVector2d>> by_anchor;
+  for (const Belt belt : kBelts) {
+    pulled[belt] = !visit.pulled.empty() && visit.pulled.at(static_cast<std::size_t>(belt));
+    for (const Belt anchor : kBelts) by_anchor[belt][anchor].setZero();
+  }
   for (const Belt belt : kBelts) {
     const auto row = static_cast<Eigen::Index>(belt);
     const FramePoint place{position.x_mm, position.y_mm};
-    const bool pulled = !visit.pulled.empty() && visit.pulled.at(static_cast<std::size_t>(row));
     // The same without effects, in a third of the time; of printed spans but for rounding.
-    const auto reading =
-        resolved_.empty() && machine_.lengths != BeltLengths::span
-            ? reading_at(machine_, belt, place)
-            : belts::read_belt_with_slope(machine_, resolved_, {belt, pulled, visit.order, visit.pull}, place);
+    if (resolved_.empty() && machine_.lengths != BeltLengths::span) {
+      const auto reading = reading_at(machine_, belt, place);
+      if (!reading) return tl::unexpected(mechanism_failure(reading.error()));
+      result.lengths_mm[row] = reading->length_mm;
+      result.by_position.row(row) = reading->by_place;
+      by_anchor[belt][belt] = -reading->by_place;  // (1)
+      continue;
+    }
+    const auto reading = belts::read_belt_with_slope(
+        machine_, resolved_, {belt, pulled, visit.order, visit.pull}, place);
     if (!reading) return tl::unexpected(mechanism_failure(reading.error()));
     result.lengths_mm[row] = reading->length_mm;
     result.by_position.row(row) = reading->by_place;
+    by_anchor[belt] = reading->by_anchor;
   }
   const bool all = wanted == Derivatives::by_position_and_parameter;
   result.by_parameter = Eigen::MatrixXd::Zero(4, all ? values_.size() : 0);
   for (std::size_t i = 0; all && i < kCoordinates.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(kCoordinates[i].belt);
-    result.by_parameter(row, static_cast<Eigen::Index>(i)) =
-        -result.by_position(row, kCoordinates[i].axis);  // (1)
+    for (const Belt belt : kBelts) {
+      result.by_parameter(static_cast<Eigen::Index>(belt), static_cast<Eigen::Index>(i)) =
+          by_anchor[belt][kCoordinates[i].belt][kCoordinates[i].axis];
+    }
   }
   return result;
 }

@@ -3,9 +3,11 @@
 /// Four belts as a Mechanism: belt_readings.hpp with the anchors' coordinates as parameters and the
 /// belts' effects. Positions are in the anchors' frame; lengths are tl, tr, bl, br.
 ///
-/// A printed length depends on the position less the anchor, so that
+/// Without effects a printed length depends on the position less its own anchor, so that
 ///
 ///   d(length)/d(anchor) = -d(length)/d(place)                                               (1)
+///
+/// What goes by tensions depends on all anchors.
 ///
 /// Without effects a printed length equals that of belt_kinematics.hpp to rounding, 1e-12 mm.
 #pragma once

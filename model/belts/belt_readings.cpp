@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/belts/belt_readings.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -39,15 +40,20 @@ tl::expected<BeltReading, BeltFailure> belt_itself(const BeltMachine& machine,
   return reading;
 }
 
-/// K of a belt that is `length_mm` long.
-double count_of(const BeltMachine& machine,
-                const std::vector<ResolvedBeltEffect>& effects,
+bool by_tension(const std::vector<ResolvedBeltEffect>& effects) {
+  return std::any_of(effects.begin(), effects.end(), [](const ResolvedBeltEffect& own) {
+    return own.effect->by_tension;
+  });
+}
+
+/// K of a belt.
+double count_of(const std::vector<ResolvedBeltEffect>& effects,
                 const BeltVisit& visit,
-                double length_mm) {
-  double count_mm = length_mm;
+                const BeltState& belt) {
+  double count_mm = belt.length_mm;
   for (const ResolvedBeltEffect& own : effects) {
     if (own.effect->add != nullptr && acts_on(own.side, visit.belt))
-      count_mm += own.effect->add(length_mm, machine.belt_turn_mm, visit, own.values);
+      count_mm += own.effect->add(belt, visit, own.values);
   }
   return count_mm;
 }
@@ -69,28 +75,50 @@ tl::expected<double, BeltFailure> read_belt(const BeltMachine& machine,
                                             FramePoint place) {
   const auto belt = belt_itself(machine, effects, visit, place);
   if (!belt) return tl::unexpected(belt.error());
-  return printed(machine, visit.belt, count_of(machine, effects, visit, belt->length_mm));
+  BeltState state{belt->length_mm, machine.belt_turn_mm};
+  if (by_tension(effects))
+    state.tension = tensions_of(machine, visit.pulled, visit.pull, place)[visit.belt];
+  return printed(machine, visit.belt, count_of(effects, visit, state));
 }
 
-tl::expected<BeltReading, BeltFailure> read_belt_with_slope(
+tl::expected<BeltReadingSlopes, BeltFailure> read_belt_with_slope(
     const BeltMachine& machine,
     const std::vector<ResolvedBeltEffect>& effects,
     const BeltVisit& visit,
     FramePoint place) {
-  constexpr double kStepMm = 1.0;
   const auto belt = belt_itself(machine, effects, visit, place);
   if (!belt) return tl::unexpected(belt.error());
-  const double count_mm = count_of(machine, effects, visit, belt->length_mm);
+  BeltState state{belt->length_mm, machine.belt_turn_mm};
+  const bool loaded = by_tension(effects);
+  const BeltTensions tensions = loaded
+                                    ? tensions_at(machine, visit.pulled, visit.pull, place)
+                                    : BeltTensions{};
+  if (loaded) state.tension = tensions.tension[visit.belt];
+  const double count_mm = count_of(effects, visit, state);
   const auto length = printed(machine, visit.belt, count_mm);
   if (!length) return tl::unexpected(length.error());
-  double slope = (count_of(machine, effects, visit, belt->length_mm + kStepMm) -
-                  count_of(machine, effects, visit, belt->length_mm - kStepMm)) /
-                 (2.0 * kStepMm);
+  double print_slope = 1.0;
   if (machine.lengths == BeltLengths::span) {
     const double c = height_mm(machine, visit.belt);
-    slope *= count_mm / std::sqrt((count_mm - c) * (count_mm + c));
+    print_slope = count_mm / std::sqrt((count_mm - c) * (count_mm + c));
   }
-  return BeltReading{*length, slope * belt->by_place};
+  const auto slope_by = [&](double BeltState::* quantity) {
+    BeltState less = state, more = state;
+    less.*quantity -= 0.5;
+    more.*quantity += 0.5;
+    return print_slope * (count_of(effects, visit, more) - count_of(effects, visit, less));
+  };
+  BeltReadingSlopes result;
+  result.length_mm = *length;
+  const double by_tension_mm = loaded ? slope_by(&BeltState::tension) : 0.0;
+  for (const Belt anchor : kBelts) {
+    Eigen::RowVector2d& own = result.by_anchor[anchor];
+    own.setZero();
+    if (loaded) own = by_tension_mm * tensions.by_anchor[visit.belt][anchor];
+    if (anchor == visit.belt) own -= slope_by(&BeltState::length_mm) * belt->by_place;
+    result.by_place -= own;
+  }
+  return result;
 }
 
 }  // namespace chaintrue::model::belts

@@ -5,14 +5,19 @@
 ///
 ///   L   the belt from the anchor as it really is: (1) of belt_kinematics.hpp, for machines that print
 ///       belt_and_arm hypot(m, c) - e
-///   K   L and what each effect adds: the count
+///   T   the belt's tension, with the anchors as they are set: belt_statics.hpp
+///   K   L and what each effect adds, by L and T: the count
 ///   print(K)  K, K + e, or sqrt(K^2 - c^2) + e, with the height c that is set in the machine
+///
+/// A print depends on the place less the anchors, so that
+///
+///   d(print)/d(place) = -sum over the anchors of d(print)/d(anchor)                         (1)
 ///
 /// Without effects it equals reading_at().
 ///
 /// \code
 ///   const std::vector<AppliedEffect> wrong = {{"belt_stretch", "", {{"elongation", 0.004}}}};
-///   const auto printed = read_belt(machine, resolve_belt_effects(wrong), {Belt::bl, true, 3}, place);
+///   const auto printed = read_belt(machine, resolve_belt_effects(wrong), {Belt::bl, kLowerBeltsPulled, 3}, place);
 /// \endcode
 #pragma once
 
@@ -20,6 +25,7 @@
 #include <vector>
 
 #include "model/belts/belt_kinematics.hpp"
+#include "model/belts/belt_statics.hpp"
 #include "model/belts/effects/belt_effect.hpp"
 
 namespace chaintrue::model::belts {
@@ -45,9 +51,16 @@ struct ResolvedBeltEffect {
     const BeltVisit& visit,
     FramePoint place);
 
-/// The same with d(print)/d(place). What an effect adds is differentiated by a central difference
-/// over 1 mm of belt: exact to rounding for the effects of the table, which are linear in L.
-[[nodiscard]] tl::expected<BeltReading, BeltFailure> read_belt_with_slope(
+/// A printed length and its derivatives. By each anchor, since tensions depend on all four.
+struct BeltReadingSlopes {
+  double length_mm = 0.0;
+  Eigen::RowVector2d by_place = Eigen::RowVector2d::Zero();
+  PerBelt<Eigen::RowVector2d> by_anchor;  ///< (1): by_place is the negative of their sum
+};
+
+/// What an effect adds is differentiated by central differences over 1 mm of belt and 1 of tension:
+/// exact to rounding for the effects of the table, which are linear in L and in T.
+[[nodiscard]] tl::expected<BeltReadingSlopes, BeltFailure> read_belt_with_slope(
     const BeltMachine& machine,
     const std::vector<ResolvedBeltEffect>& effects,
     const BeltVisit& visit,

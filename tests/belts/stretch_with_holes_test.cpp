@@ -10,6 +10,8 @@
 #include "grid/files/belts_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/statistics.hpp"
+#include "model/belts/belt_kinematics.hpp"
+#include "model/belts/belt_statics.hpp"
 #include "tests/belts/holes_simulation.hpp"
 #include "tests/cli/command_fixture.hpp"
 
@@ -19,17 +21,21 @@ namespace {
 using testing::HasSubstr;
 using testing_support::Outcome;
 
-constexpr double kStretch = 0.004;
+constexpr double kStretch = 0.002;
 
-/// The lower belts are pulled, and read short by that share of themselves.
+/// Belts read short by that share of themselves at the pull of their motors, by their tension.
 SimulatedHoles stretched(std::uint64_t seed) {
   SimulatedHoles made = simulate_with_holes({.seed = seed});
   int visit = 0;
   for (BeltPoint& point : made.belts.points) {
     point.order = visit++;
-    for (const model::Belt belt : {model::Belt::bl, model::Belt::br})
-      point.lengths_mm[belt] -=
-          kStretch * (point.lengths_mm[belt] - model::reach_mm(made.belts.machine));
+    const model::FramePoint place =
+        model::place_of_upper(made.truth, point.lengths_mm.tl, point.lengths_mm.tr).value();
+    const auto tension =
+        model::belts::tensions_of(made.truth, model::belts::kLowerBeltsPulled, 1.0, place);
+    for (const model::Belt belt : model::kBelts)
+      point.lengths_mm[belt] -= kStretch * tension[belt] *
+                                (point.lengths_mm[belt] - model::reach_mm(made.belts.machine));
   }
   return made;
 }

@@ -80,7 +80,7 @@ TEST_P(BeltEffectLaws, NothingHappensAtNullAndWhereItDoesNotAct) {
       for (const FramePoint place : kPlaces) {
         for (const Belt belt : kBelts) {
           for (const int order : kVisits) {
-            const BeltVisit visit{belt, !is_upper(belt), order};
+            const BeltVisit visit{belt, kLowerBeltsPulled, order};
             const double plain = reading_at(machine, belt, place)->length_mm;
             // Rounding of 3 m, there and back.
             EXPECT_NEAR(read(machine, {{&effect(), side, null}}, visit, place), plain, 1e-11);
@@ -100,7 +100,7 @@ TEST_P(BeltEffectLaws, ItIsSeenWhereItActsAndFiniteAtItsBounds) {
     double most = 0.0;
     for (const FramePoint place : kPlaces) {
       for (const Belt belt : kBelts) {
-        const BeltVisit visit{belt, !is_upper(belt), 40};
+        const BeltVisit visit{belt, kLowerBeltsPulled, 40};
         const double plain = reading_at(machine, belt, place)->length_mm;
         most = std::max(
             most,
@@ -128,9 +128,9 @@ TEST(BeltEffects, EachEquationByHand) {
         return read(machine, {{&effect, side, std::move(values)}}, visit, place) -
                reading_at(machine, visit.belt, place)->length_mm;
       };
-  const BeltVisit pulled{Belt::bl, true, 12};
-  const BeltVisit held{Belt::bl, false, 12};
-  const BeltVisit harder{Belt::bl, true, 12, 1.6};
+  const BeltVisit pulled{Belt::bl, kLowerBeltsPulled, 12};
+  const BeltVisit held{Belt::bl, {}, 12};
+  const BeltVisit harder{Belt::bl, kLowerBeltsPulled, 12, 1.6};
   // Rounding of 3 m.
   EXPECT_NEAR(added(belt_stretch, BeltSide::none, {0.004}, pulled), -0.004 * bl, 1e-11);
   EXPECT_EQ(added(belt_stretch, BeltSide::none, {0.004}, held), 0.0);
@@ -158,10 +158,27 @@ TEST(BeltEffects, EachEquationByHand) {
   EXPECT_EQ(added(anchor_moved, BeltSide::bl, {3.0, 0.0, 13.0}, held), 0.0);
 }
 
+TEST(BeltEffects, BeltsThatHoldGiveByWhatTheyCarry) {
+  const BeltMachine machine = frame(BeltLengths::belt);
+  const FramePoint place{900.0, 600.0};
+  const PerBelt<double> tension = tensions_of(machine, kLowerBeltsPulled, 1.6, place);
+  for (const Belt belt : kBelts) {
+    const BeltVisit visit{belt, kLowerBeltsPulled, 12, 1.6};
+    const double plain = reading_at(machine, belt, place)->length_mm;
+    // Rounding of 3 m.
+    EXPECT_NEAR(read(machine, {{&belt_stretch, BeltSide::none, {0.002}}}, visit, place),
+                plain - 0.002 * tension[belt] * plain,
+                1e-11);
+    EXPECT_NEAR(read(machine, {{&anchor_flex, BeltSide::none, {1.5}}}, visit, place),
+                plain - 1.5 * tension[belt],
+                1e-11);
+  }
+}
+
 TEST(BeltEffects, ALevelPrintTakesOutTheHeightsThatTheMachineBelieves) {
   const BeltMachine machine = frame(BeltLengths::span);
   const FramePoint place{900.0, 600.0};
-  const BeltVisit visit{Belt::bl, true, 0};
+  const BeltVisit visit{Belt::bl, kLowerBeltsPulled, 0};
   const double count = std::hypot(std::hypot(900.0, 600.0) - 153.4, 34.0 + 40.0);
   // Rounding of 1 m.
   EXPECT_NEAR(read(machine, {{&anchor_height, BeltSide::bl, {40.0}}}, visit, place),

@@ -98,14 +98,23 @@ std::string aged_diagnosis(std::string text, std::string_view version) {
 std::string unchanged(std::string text, std::string_view) { return text; }
 
 /// Anchors of version 1.0 are of belts alone, those of 1.1 have no hash, those of 1.2 neither causes nor what they were
-/// made from; the hash of 1.2 is taken out, since it is of the version too.
+/// made from; the hash of 1.2 and 1.3 is taken out, since it is of the version too.
 std::string aged_anchors(std::string text, std::string_view version) {
   Problems problems("anchors.json");
   Json json = parse_json(text, problems);
+  json.erase("content_hash");
+  if (version == "1.3") return print_json(json);
   json.erase("made_by");
   json["fit"].erase("causes");
-  json.erase("content_hash");
   if (version == "1.0") json.erase("holes");
+  return print_json(json);
+}
+
+/// Belts of version 1.0 do not say how hard they were pulled.
+std::string aged_belts(std::string text, std::string_view) {
+  Problems problems("belts.json");
+  Json json = parse_json(text, problems);
+  for (Json& point : json["points"]) point.erase("pull_ma");
   return print_json(json);
 }
 
@@ -141,7 +150,8 @@ const std::map<std::string_view, Sample>& samples() {
         unchanged}},
       {kBeltsFormat.file_type,
        {[](const std::string& text) { return parse_belts(text, "belts.json").warnings; },
-        text_of("good/belts_every_key.json")}},
+        text_of("good/belts_every_key.json"),
+        aged_belts}},
       {kAnchorsFormat.file_type,
        {[](const std::string& text) {
           std::vector<Warning> warnings;

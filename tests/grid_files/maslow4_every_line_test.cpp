@@ -9,48 +9,14 @@
 #include "grid/diagnosis/anchors_with_causes.hpp"
 #include "grid/files/maslow4_log.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/synthetic/random.hpp"
+#include "tests/grid_files/damaged_logs.hpp"
 
 namespace chaintrue::grid::files::every_line {
 namespace {
 
-constexpr std::uint64_t kSeed = 4;
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    lines.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return lines;
-}
-
-std::string text_of(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
-}
-
-/// One to three characters become others, are lost, or are printed twice.
-std::string garbled(std::string line, synthetic::Random& random) {
-  const auto any = [&random](std::size_t count) { return random.below(count); };
-  const std::size_t times = 1 + any(3);
-  for (std::size_t i = 0; i < times && !line.empty(); ++i) {
-    const std::size_t at = any(line.size());
-    switch (any(3)) {
-      case 0:
-        line[at] = static_cast<char>(33 + any(94));
-        break;
-      case 1:
-        line.erase(at, 1 + any(4));
-        break;
-      default:
-        line.insert(at, line.substr(at, 1 + any(4)));
-    }
-  }
-  return line;
-}
+using testing_support::damage_every;
+using testing_support::Damage;
+using testing_support::kDamageSeed;
 
 struct Counted {
   int logs = 0;
@@ -87,33 +53,21 @@ void read_one(const std::string& text, const BeltsFit& whole, Counted& counted) 
 void damage(const std::string& text, std::size_t step, Counted& cut, Counted& one_line) {
   const auto whole = diagnosis::fit_with_causes(parse_maslow4(text, "log.txt").belts);
   ASSERT_TRUE(whole);
-  const std::vector<std::string> lines = lines_of(text);
-  synthetic::Random random(kSeed, lines.size());
-  for (std::size_t k = 0; k < lines.size(); k += step) {
-    const auto at = static_cast<std::ptrdiff_t>(k);
-    read_one(text_of({lines.begin(), lines.begin() + at}), *whole, cut);
-    std::vector<std::string> other = lines;
-    other.erase(other.begin() + at);
-    read_one(text_of(other), *whole, one_line);
-    other = lines;
-    other.insert(other.begin() + at, lines[k]);
-    read_one(text_of(other), *whole, one_line);
-    other = lines;
-    other[k] = garbled(lines[k], random);
-    read_one(text_of(other), *whole, one_line);
-  }
+  damage_every(text, step, [&](Damage how, const std::string& damaged) {
+    read_one(damaged, *whole, how == Damage::cut ? cut : one_line);
+  });
 }
 
 void expect_answers(const Counted& cut, const Counted& one_line) {
   fmt::print("seed {}: cut {} of {} answered; one bad line {} of {} answered, {} wrongly\n",
-             kSeed,
+             kDamageSeed,
              cut.answered,
              cut.logs,
              one_line.answered,
              one_line.logs,
              one_line.far);
   // The share that is asked for.
-  EXPECT_GE(one_line.answered, std::ceil(0.85 * one_line.logs)) << "seed " << kSeed;
+  EXPECT_GE(one_line.answered, std::ceil(0.85 * one_line.logs)) << "seed " << kDamageSeed;
 }
 
 TEST(EveryLine, OfTheFixtureCutDeletedDoubledOrGarbledGetsAnAnswerOrARefusal) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// anchor_flex: an anchor, or the frame, yields along the pull of its belt, independent of the belt's
-/// length.
+/// anchor_flex: an anchor, or the frame, yields along its belt in proportion to the belt's tension,
+/// independent of the belt's length.
 ///   g  how far at the pull that sizes refer to, mm
-///   P  pull over that one
+///   T  the belt's tension over that pull (belt_statics.hpp); belts that hold carry the reaction of
+///      those that are pulled
 ///
-///   added = -g P of a belt that is pulled, 0 of one that holds                              (1)
+///   added = -g T                                                                            (1)
 #include "model/belts/effects/belt_effect.hpp"
 
 namespace chaintrue::model::belts {
@@ -16,7 +17,7 @@ using effects::EffectParameter;
 constexpr EffectParameter kParameters[] = {{
     .name = "give_mm",
     .symbol = "g",
-    .meaning = "how far an anchor moves towards the tool when its belt is pulled",
+    .meaning = "how far an anchor moves towards the tool at the pull of the motors",
     .nominal = 1.0,
     .lower = 0.0,
     .upper = 20.0,
@@ -24,8 +25,8 @@ constexpr EffectParameter kParameters[] = {{
 }};
 
 // (1)
-double add(double /*length_mm*/, double /*turn_mm*/, const BeltVisit& visit, Values values) {
-  return visit.pulled ? -values[0] * visit.pull : 0.0;
+double add(const BeltState& belt, const BeltVisit& /*visit*/, Values values) {
+  return -values[0] * belt.tension;
 }
 
 }  // namespace
@@ -34,14 +35,15 @@ extern constinit const BeltEffect anchor_flex{
     .id = "anchor_flex",
     .sides = kNoBelt,
     .parameters = kParameters,
-    .cause = "anchors, arms or the frame give when a belt is pulled",
-    .signature = "the pulled belts read equally short wherever the tool is",
-    .equation = "- g P of a pulled belt, P its pull over that of the first pass",
+    .cause = "anchors, arms or the frame give when belts are pulled",
+    .signature = "belts read short by what they carry, however long they are",
+    .equation = "- g T, T the belt's tension over the pull of the first pass: 1 of a pulled belt, of one that holds what the balance takes",
     .source = "a cantilever gives in proportion to its load; the motors pull to one current",
-    .not_modelled = "anchors giving unequally, and across the pull",
+    .not_modelled = "anchors giving unequally, and across the pull; the sled's friction on the sheet",
     .typical = "0.5 to 2 mm",
     .remedy = "brace the frame and the anchors; pull with less current while the anchors are found",
     .add = add,
+    .by_tension = true,
 };
 
 }  // namespace chaintrue::model::belts

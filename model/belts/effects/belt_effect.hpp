@@ -11,7 +11,8 @@
 ///   print     the counted length in the controller's convention, with the arm, the extension and the
 ///             heights set in it                                        (belt_readings.hpp)
 ///
-/// Symbols: L the belt's own length, slanting, mm; n the number of the visit; P the pull at it.
+/// Symbols: L the belt's own length, slanting, mm; n the number of the visit; T the belt's tension at it,
+/// over the pull that sizes refer to.
 #pragma once
 
 #include <span>
@@ -30,9 +31,17 @@ using BeltSide = effects::EffectSide;
 /// A belt at a visit.
 struct BeltVisit {
   Belt belt = Belt::tl;
-  bool pulled = false;  ///< by its motor at the reading; otherwise it is held
-  int order = 0;        ///< n
-  double pull = 1.0;    ///< P, of a belt that is pulled, over the pull that sizes refer to
+  /// Of all four, by their motors at the reading; the others hold.
+  PerBelt<bool> pulled{};
+  int order = 0;      ///< n
+  double pull = 1.0;  ///< of the belts that are pulled, over the pull that sizes refer to
+};
+
+/// A belt at a reading, as `add` knows it.
+struct BeltState {
+  double length_mm = 0.0;  ///< L
+  double turn_mm = 0.0;    ///< belt for a turn of its encoder
+  double tension = 0.0;    ///< T, of belt_statics.hpp
 };
 
 using effects::Values;
@@ -54,8 +63,10 @@ struct BeltEffect {
 
   /// The anchor of the visit's belt.
   void (*alter)(Anchor&, const BeltVisit&, Values) = nullptr;
-  /// Counted less true, mm, of a belt `length_mm` long whose encoder turns once in `turn_mm`.
-  double (*add)(double length_mm, double turn_mm, const BeltVisit&, Values) = nullptr;
+  /// Counted less true, mm.
+  double (*add)(const BeltState&, const BeltVisit&, Values) = nullptr;
+  /// `add` depends on the tension; it is in proportion to it.
+  bool by_tension = false;
 };
 
 inline constexpr BeltSide kNoBelt[] = {BeltSide::none};

@@ -23,8 +23,8 @@ constexpr EffectParameter kParameters[] = {{
 }};
 
 // (1)
-double add(double length_mm, double /*turn_mm*/, const BeltVisit& /*visit*/, Values values) {
-  return length_mm / (1.0 + values[0]) - length_mm;
+double add(const BeltState& belt, const BeltVisit& /*visit*/, Values values) {
+  return belt.length_mm / (1.0 + values[0]) - belt.length_mm;
 }
 
 }  // namespace

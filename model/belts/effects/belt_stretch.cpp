@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// belt_stretch: a belt that is pulled tight is longer than its encoder counts.
-///   e  elongation at the pull that sizes refer to, T / EA
-///   P  pull over that one
+/// belt_stretch: a belt under tension is longer than its encoder counts.
+///   e  elongation at the pull that sizes refer to: that force over EA
+///   T  the belt's tension over that pull (belt_statics.hpp); belts that hold carry the reaction of
+///      those that are pulled
 ///   L  the belt, mm
 ///
-///   added = -e P L of a belt that is pulled, 0 of one that holds                            (1)
+///   added = -e T L                                                                          (1)
 #include "model/belts/effects/belt_effect.hpp"
 
 namespace chaintrue::model::belts {
@@ -16,16 +17,16 @@ using effects::EffectParameter;
 constexpr EffectParameter kParameters[] = {{
     .name = "elongation",
     .symbol = "e",
-    .meaning = "extra stretch of a pulled belt over one that holds",
-    .nominal = 0.004,
+    .meaning = "stretch of a belt at the pull of the motors",
+    .nominal = 0.002,
     .lower = 0.0,
     .upper = 0.03,
-    .prior_sigma = 0.003,
+    .prior_sigma = 0.002,
 }};
 
 // (1)
-double add(double length_mm, double /*turn_mm*/, const BeltVisit& visit, Values values) {
-  return visit.pulled ? -values[0] * visit.pull * length_mm : 0.0;
+double add(const BeltState& belt, const BeltVisit& /*visit*/, Values values) {
+  return -values[0] * belt.tension * belt.length_mm;
 }
 
 }  // namespace
@@ -36,20 +37,21 @@ extern constinit const BeltEffect belt_stretch{
     .parameters = kParameters,
     .cause = "belts, anchors or arms give with the pull, in proportion to the belt's length",
     .signature =
-        "pulled belts read short against those that hold, the long ones more; with the upper belts "
-        "held, the frame comes out some millimetres too small at the bottom",
-    .equation = "- e P L of a pulled belt, P its pull over that of the first pass",
+        "belts read short by what they carry, the long ones more; with the upper belts held, the "
+        "frame comes out some millimetres too small at the bottom",
+    .equation = "- e T L, T the belt's tension over the pull of the first pass: 1 of a pulled belt, of one that holds what the balance takes",
     .source =
-        "four owners' sets: 0.30 to 0.55 %; a tension test: 0.18 to 0.31 %; MaslowCNC/Maslow_4 "
-        "pull 1060: EA = 178,900 N",
+        "four owners' sets: 0.13 to 0.26 %; a tension test: 0.1 to 0.15 % between two pulls; "
+        "MaslowCNC/Maslow_4 pull 1060: EA = 178,900 N",
     .not_modelled =
-        "the stretch of the belts that hold, under the sled's weight and the other two's pull",
-    .typical = "0.3 to 0.5 %",
+        "the sled's friction on the sheet; a weight other than 0.3 of the pull",
+    .typical = "0.1 to 0.3 %",
     .remedy_kind = effects::RemedyKind::change_the_machine,
     .remedy =
         "pull with less current while the anchors are found "
         "(Maslow_Calibration_Current_Threshold), or fit the stretch together with the anchors",
     .add = add,
+    .by_tension = true,
 };
 
 }  // namespace chaintrue::model::belts

@@ -22,7 +22,7 @@ constexpr EffectParameter kParameters[] = {{
 }};
 
 // (1)
-double add(double /*length_mm*/, double /*turn_mm*/, const BeltVisit& /*visit*/, Values values) {
+double add(const BeltState& /*belt*/, const BeltVisit& /*visit*/, Values values) {
   return values[0];
 }
 

@@ -30,8 +30,8 @@ constexpr EffectParameter kParameters[] = {
 constexpr double kTeethInATurn = 22.0;
 
 // (1)
-double add(double /*length_mm*/, double turn_mm, const BeltVisit& visit, Values values) {
-  return visit.order >= values[1] ? turn_mm / kTeethInATurn * values[0] : 0.0;
+double add(const BeltState& belt, const BeltVisit& visit, Values values) {
+  return visit.order >= values[1] ? belt.turn_mm / kTeethInATurn * values[0] : 0.0;
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ constexpr EffectParameter kParameters[] = {
     kFirstVisit};
 
 // (1)
-double add(double /*length_mm*/, double /*turn_mm*/, const BeltVisit& visit, Values values) {
+double add(const BeltState& /*belt*/, const BeltVisit& visit, Values values) {
   return visit.order >= values[1] ? values[0] : 0.0;
 }
 

@@ -17,7 +17,7 @@ namespace chaintrue::sealed {
 namespace {
 
 constexpr std::array kUsual = {UsualCause{},
-                               UsualCause{"belt_stretch", "elongation", 0.003, 0.005},
+                               UsualCause{"belt_stretch", "elongation", 0.001, 0.003},
                                UsualCause{"anchor_flex", "give_mm", 0.5, 2.0},
                                UsualCause{"anchor_height", "offset_mm", 10.0, 40.0, true},
                                UsualCause{"belt_scale", "scale", 0.001, 0.003, true},
