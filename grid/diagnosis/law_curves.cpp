@@ -281,7 +281,8 @@ std::vector<LawCurve> law_curves(const RegressorSystem& system) {
   }
   for (int k = 1; k < kLawDirections; ++k) {
     if (2 * k == kLawDirections) continue;
-    list.add_all(LawOf::across, std::numbers::pi * k / kLawDirections, 1.0 / (kLawDirections - 2));
+    // A direction is a parameter more.
+    list.add_all(LawOf::across, std::numbers::pi * k / kLawDirections, 0.5 / (kLawDirections - 2));
   }
   std::vector<LawCurve> curves = list.take();
   share_out(curves);

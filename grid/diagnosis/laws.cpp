@@ -161,8 +161,8 @@ void measure(const Analysis& a, const FoundPoint& best, Law& law) {
   law.share = all > 0.0 ? std::min(own / all, 1.0) : 0.0;
 }
 
-/// Those of one variable and one way to enter.
-Law law_of(const Analysis& a, const std::vector<FoundPoint>& points, double log_all) {
+/// Those of one variable and one way to enter; nothing where they are not worth a line.
+std::optional<Law> law_of(const Analysis& a, const std::vector<FoundPoint>& points, double log_all) {
   std::map<LawShape, double> shapes;
   double sum = 0.0;
   for (const FoundPoint& point : points) {
@@ -170,6 +170,7 @@ Law law_of(const Analysis& a, const std::vector<FoundPoint>& points, double log_
     shapes[point.curve().shape] += p;
     sum += p;
   }
+  if (sum < kLeastLaw) return std::nullopt;
   const auto likeliest = std::max_element(
       shapes.begin(), shapes.end(), [](const auto& x, const auto& y) { return x.second < y.second; });
   const FoundPoint* best = nullptr;
@@ -227,12 +228,13 @@ std::vector<Law> laws_of(const Analysis& a, const std::vector<LawEvidence>& evid
     }
   }
   std::vector<Law> laws;
-  for (const auto& [key, points] : answers) laws.push_back(law_of(a, points, log_all));
+  for (const auto& [key, points] : answers) {
+    if (auto law = law_of(a, points, log_all)) laws.push_back(*std::move(law));
+  }
   std::stable_sort(laws.begin(), laws.end(), [](const Law& x, const Law& y) {
     return x.probability > y.probability;
   });
   if (laws.size() > kMostLaws) laws.resize(kMostLaws);
-  std::erase_if(laws, [](const Law& law) { return law.probability < kLeastLaw; });
   return laws;
 }
 
