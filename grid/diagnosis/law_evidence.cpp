@@ -16,7 +16,7 @@ namespace {
 constexpr double kLawsWithin = 9.0;      // below the best: laws that are looked at again
 constexpr double kContextsWithin = 7.0;  // below the best: contexts of the second look
 constexpr std::size_t kMostSets = 7;
-constexpr std::size_t kMostCurves = 24;
+constexpr std::size_t kMostCurves = 60;
 constexpr std::size_t kMostContexts = 32;
 constexpr std::size_t kFirstContexts = 4;
 constexpr Eigen::Index kChunk = 64;  // columns at once, so that their products stay small
@@ -244,7 +244,7 @@ class LawSearch {
     std::stable_sort(chosen.begin(), chosen.end(), [](const Chosen& a, const Chosen& b) {
       return a.first_weight > b.first_weight;
     });
-    constexpr std::size_t kMostPoints = 160;
+    constexpr std::size_t kMostPoints = 240;
     std::size_t count = 0;
     while (count < std::min(chosen.size(), kMostPoints) &&
            chosen[count].first_weight > chosen.front().first_weight - kLawsWithin) {
