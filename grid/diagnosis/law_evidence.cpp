@@ -66,6 +66,10 @@ class LawSearch {
     for (const std::size_t curve : leading_) refine(curve);
     LawEvidence result;
     result.marginalised = number;
+    if (!without_.empty()) {
+      result.without_set = without_.front().set;
+      result.without_discrepancy = without_.front().discrepancy;
+    }
     result.log_without = log_without_ + std::log1p(-kLawPrior);
     result.laws = look_again();
     result.curves = std::move(curves_);

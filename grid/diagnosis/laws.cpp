@@ -10,6 +10,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "grid/diagnosis/law_parts.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -183,7 +184,8 @@ std::optional<Law> law_of(const Analysis& a, const std::vector<FoundPoint>& poin
   law.of = curve.of;
   law.shape = curve.shape;
   law.enters = curve.enters;
-  law.probability = std::min(sum, 1.0);
+  law.probability =
+      averaged_over_parts(a, *best->evidence, *best->law, std::min(sum, 1.0));
   law.shape_probability = std::min(likeliest->second / sum, 1.0);
   law.direction_deg = curve.direction_rad * 180.0 / std::numbers::pi;
   law.towards = curve.towards;
