@@ -9,6 +9,7 @@
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/gross_errors.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
+#include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/diagnosis/normal_plot.hpp"
 #include "grid/diagnosis/order_search.hpp"
@@ -175,6 +176,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   d.distances = distance_pictures(a);
   d.left_over = left_over(a);
   d.unexplained = unexplained(a);
+  d.unexplained->laws = laws_found(a);
   d.budget = error_budget(a);
   d.normal_plot = normal_plot(a);
   const std::vector<std::string> sessions = names_of_sessions(measured);

@@ -25,6 +25,7 @@
 #include "grid/diagnosis/belts_findings.hpp"
 #include "grid/diagnosis/cause_id.hpp"
 #include "grid/diagnosis/drawing_findings.hpp"
+#include "grid/diagnosis/law.hpp"
 #include "grid/diagnosis/pictures.hpp"
 #include "grid/diagnosis/visiting_order_found.hpp"
 #include "grid/map/compensation_map.hpp"
@@ -48,12 +49,6 @@ enum class Verdict {
 enum class Observations { points, distances, both, belts, drawing };
 /// "points", "distances", "readings", "belts", "drawing".
 [[nodiscard]] std::string_view name(Observations observations);
-
-struct ParameterEstimate {
-  std::string parameter;
-  double value = 0.0;
-  double sigma = 0.0;  ///< 0 for an integer that these data leave no choice in
-};
 
 /// A member of the same class, with what its own parameters would be.
 struct SameCause {
@@ -93,11 +88,6 @@ struct LeftOver {
   double p_value = 1.0;
 };
 
-/// Through what a pattern that nobody listed enters: one chain, both equally or opposite to each
-/// other, the tool along an axis of the sheet, or none of these by itself.
-enum class Enters { left, right, equal, opposite, x, y, mixed };
-[[nodiscard]] std::string_view name(Enters enters);
-
 /// What remains besides the causes named, with any verdict: a smooth pattern that no cause of
 /// the catalogue makes.
 struct Unexplained {
@@ -109,6 +99,8 @@ struct Unexplained {
   std::string follows;
   double length_mm = 0.0;  ///< over which it changes; of an angle or a pull what that is on the bed
   Enters enters = Enters::mixed;
+  /// What it may be a function of, likeliest first; empty unless some law is likelier than none.
+  std::vector<Law> laws;
 };
 
 /// One part of the tool's error as delivered.

@@ -12,6 +12,10 @@ using diagnosis::BudgetLine;
 using diagnosis::CauseId;
 using diagnosis::Enters;
 using diagnosis::ErrorBudget;
+using diagnosis::Law;
+using diagnosis::LawOf;
+using diagnosis::LawShape;
+using diagnosis::ParameterEstimate;
 using diagnosis::Unexplained;
 
 template <class Word, std::size_t kCount>
@@ -45,6 +49,61 @@ const Record<BudgetLine>& budget_line_record() {
   return record;
 }
 
+/// A value with its sigma under its parameter's name.
+const Record<ParameterEstimate>& named_estimate_record() {
+  static const auto record =
+      Record<ParameterEstimate>("a size with its sigma")
+          .required("parameter", &ParameterEstimate::parameter, text())
+          .required("value", &ParameterEstimate::value, number(kAnyNumber))
+          .required("sigma", &ParameterEstimate::sigma, number(kNotNegative));
+  return record;
+}
+
+const Record<Law>& law_record() {
+  static const auto record =
+      Record<Law>("a law")
+          .required("of",
+                    &Law::of,
+                    words(std::array{LawOf::x,
+                                     LawOf::y,
+                                     LawOf::across,
+                                     LawOf::border,
+                                     LawOf::length_left,
+                                     LawOf::length_right,
+                                     LawOf::angle_left,
+                                     LawOf::angle_right,
+                                     LawOf::tension_left,
+                                     LawOf::tension_right,
+                                     LawOf::visit}))
+          .required("shape",
+                    &Law::shape,
+                    words(std::array{LawShape::linear,
+                                     LawShape::square,
+                                     LawShape::step,
+                                     LawShape::kink,
+                                     LawShape::exponential,
+                                     LawShape::wave}))
+          .required("enters",
+                    &Law::enters,
+                    words(std::array{Enters::left,
+                                     Enters::right,
+                                     Enters::equal,
+                                     Enters::x,
+                                     Enters::y,
+                                     Enters::along,
+                                     Enters::outwards}))
+          .required("probability", &Law::probability, number(kShare))
+          .required("shape_probability", &Law::shape_probability, number(kShare))
+          .optional("direction_deg", &Law::direction_deg, number({"deg", -360.0, 360.0}))
+          .optional("towards", &Law::towards, integer(-1, 1))
+          .required("from", &Law::from, number(kAnyNumber))
+          .required("to", &Law::to, number(kAnyNumber))
+          .required("rms_mm", &Law::rms_mm, number(kNotNegative))
+          .required("share", &Law::share, number(kShare))
+          .required("parameters", &Law::parameters, list(object(named_estimate_record()), 1));
+  return record;
+}
+
 }  // namespace
 
 const Record<Unexplained>& unexplained_record() {
@@ -64,7 +123,8 @@ const Record<Unexplained>& unexplained_record() {
                                    Enters::opposite,
                                    Enters::x,
                                    Enters::y,
-                                   Enters::mixed}));
+                                   Enters::mixed}))
+        .sparse("laws", &Unexplained::laws, list(object(law_record())));
     return left;
   }();
   return record;
@@ -79,17 +139,6 @@ const Record<ErrorBudget>& error_budget_record() {
 }
 
 namespace {
-
-/// A value with its sigma under its parameter's name.
-const Record<diagnosis::ParameterEstimate>& named_estimate_record() {
-  using diagnosis::ParameterEstimate;
-  static const auto record =
-      Record<ParameterEstimate>("a size with its sigma")
-          .required("parameter", &ParameterEstimate::parameter, text())
-          .required("value", &ParameterEstimate::value, number(kAnyNumber))
-          .required("sigma", &ParameterEstimate::sigma, number(kNotNegative));
-  return record;
-}
 
 const Record<diagnosis::Change>& change_record() {
   using diagnosis::Change;

@@ -176,6 +176,11 @@ std::map<std::string, std::string> made_by_the_command() {
       {"worn_both.json",
        "simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
        "--effect chain_pitch_error:both:elongation=0.003 --seed 5 -o @worn_both.json"},
+      // With a wave that no listed cause makes.
+      {"wave.json",
+       "simulate --machine @classic.json --effects @half_turn.json --grid 9x6 --repeats 6 --order random "
+       "--length-noise-mm 0.05 --position-noise-mm 0.05 "
+       "--effect second_harmonic:left:amplitude_mm=0.2,phase_rad=1.2 --seed 3 -o @wave.json"},
       {"lattice.json",
        "simulate --machine @classic.json --grid 5x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
        "--seed 9 -o @lattice.json"},
@@ -225,6 +230,7 @@ Workshop::Workshop() : folder_(temporary_folder()), lines_(made_by_the_command()
       {"belts.json", "belts/thirty_one_places.json"},
       {"classic.json", "machines/classic.json"},
       {"own.json", "effects/catalogue/own_chain_pitch_error.json"},
+      {"half_turn.json", "effects/second_harmonic.json"},
       {"stated.json", "machines/groundcontrol.json"},
       {"every.json", "good/machine_every_key.json"},
       {"drawing.json", "plotter/mural_drawing.json"},

@@ -231,7 +231,7 @@ const Words& good_texts(const std::string& option) {
 }
 
 bool is_output(std::string_view option) {
-  static constexpr std::array<std::string_view, 10> all = {"--output",
+  static constexpr std::array<std::string_view, 11> all = {"--output",
                                                            "--page",
                                                            "--gcode",
                                                            "--svg",
@@ -239,6 +239,7 @@ bool is_output(std::string_view option) {
                                                            "--report",
                                                            "--extended-machine",
                                                            "--corrected-grid",
+                                                           "--law",
                                                            "--draw",
                                                            "--all"};
   return std::find(all.begin(), all.end(), option) != all.end();

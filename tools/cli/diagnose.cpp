@@ -14,11 +14,13 @@
 #include <vector>
 
 #include "grid/diagnosis/diagnose.hpp"
+#include "grid/diagnosis/law_declaration.hpp"
 #include "grid/diagnosis/order_search.hpp"
 #include "grid/diagnosis/trend.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/drawing_file.hpp"
+#include "grid/files/effect_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
@@ -51,6 +53,7 @@ struct DiagnoseCommand {
   std::string report;
   std::string extended_machine;
   std::string corrected_grid;
+  std::string law;
   std::string held_out;
   std::string before;
   std::string assume_order;
@@ -115,6 +118,15 @@ std::string extended_machine_text(const Diagnosis& found, const std::string& sou
         fmt::format("Not in here, because it belongs to the data: {}.", cause_title(correction)));
   }
   return files::write_machine(found.extended_machine, comments);
+}
+
+/// The likeliest law as a file of a declared effect, or the sentence why there is none.
+tl::expected<std::string, std::string> law_text(const Diagnosis& found) {
+  const std::vector<grid::diagnosis::Law> none;
+  const auto declaration = grid::diagnosis::declaration_of(
+      found.unexplained ? found.unexplained->laws : none, found.extended_machine.bed);
+  if (!declaration) return tl::unexpected(declaration.error());
+  return files::write_effect(*declaration);
 }
 
 using Outcome = tl::expected<Diagnosis, std::string>;
@@ -336,6 +348,14 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
     grid::MeasuredGrid corrected = ordered ? *ordered->grids().front() : *input.first_grid();
     return corrected_grid_text(*found, std::move(corrected), ordered || !command.assume_order.empty());
   });
+  if (!command.law.empty()) {
+    const auto law = law_text(*found);
+    if (!law) {
+      fmt::print(stderr, "{}: {}\n", files::name_in_messages(command.input.grid), law.error());
+      return kBadInput;
+    }
+    outputs.push_back({command.law, *law});
+  }
   const bool is_stdout_taken = std::any_of(
       outputs.begin(), outputs.end(), [](const auto& output) { return output.path == "-"; });
   write_outputs(outputs);
@@ -372,6 +392,11 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
              {Origin::measured},
              "The points on that machine, with marks and readings corrected where they are the "
              "cause: fit these");
+  add_output(verb,
+             "--law",
+             command.law,
+             {},
+             "The likeliest law of what no cause explains, from 90 % on, as a file for --effects");
   verb.add_flag("--json", command.json, "The diagnosis file on standard output, for programs");
 }
 

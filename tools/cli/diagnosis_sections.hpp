@@ -14,6 +14,8 @@ namespace chaintrue::cli {
 [[nodiscard]] report::Section trend_section(const grid::diagnosis::Diagnosis& found);
 /// What is named, with its size, probability and remedy. Precondition: a cause is named.
 [[nodiscard]] report::Section causes_section(const grid::diagnosis::Diagnosis& found);
+/// What the rest may be a function of. Precondition: some law is reported.
+[[nodiscard]] report::Section laws_section(const grid::diagnosis::Diagnosis& found);
 /// The next measurements, numbered. Precondition: there are some.
 [[nodiscard]] report::Section next_section(const grid::diagnosis::Diagnosis& found);
 /// Every hypothesis that is worth a line, and what is left over.

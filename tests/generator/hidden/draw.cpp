@@ -402,9 +402,16 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
         draw_pattern(*yardstick, rules_of(recipe), signatures, pattern_dice);
   }
 
+  if (recipe.law) {
+    Dice law_dice(seed, "law");
+    answer.law = draw_law(
+        *yardstick, *recipe.law, recipe.least_law_delta, recipe.most_law_delta, law_dice);
+  }
+
   HiddenMachine machine(stated, truth, answer.hidden);
   if (answer.unlisted) machine.suffers(*answer.unlisted);
   if (answer.pattern) machine.suffers(answer.pattern->pattern);
+  if (answer.law) machine.suffers(answer.law->law);
   machine.went_to(visits);
   const auto exact = machine.exact(visits);
   if (!exact) throw std::runtime_error("draw_set: the hidden machine cannot reach a mark");
@@ -423,6 +430,30 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
   grid.notes = std::move(notes);
   std::string text = grid_text(grid);
   return {std::move(text), std::move(answer), std::move(machine), noise, std::move(grid.notes)};
+}
+
+std::string other_session(const SealedSet& set, int columns, int rows, std::uint64_t seed) {
+  Dice place_dice(seed, "other places"), noise_dice(seed, "other noise");
+  std::vector<Vec2> marks;
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      marks.push_back({-1200.0 + 2400.0 * (i + place_dice.uniform()) / columns,
+                       -600.0 + 1200.0 * (j + place_dice.uniform()) / rows});
+    }
+  }
+  place_dice.shuffle(marks);
+  const auto count = marks.size();
+  for (std::size_t k = 0; k < 6; ++k) marks.push_back(marks[k * count / 6]);
+  std::vector<Visit> visits;
+  for (const Vec2& mark : marks)
+    visits.push_back({mark, static_cast<int>(visits.size())});
+  const auto exact = set.machine.exact(visits);
+  if (!exact) throw std::runtime_error("other_session: the hidden machine cannot reach a mark");
+  WrittenGrid grid;
+  grid.stated = set.machine.stated();
+  grid.stated_noise = set.noise;
+  grid.notes = written_down({}, visits, *exact, set.answer.hidden, set.noise, noise_dice);
+  return grid_text(grid);
 }
 
 }  // namespace chaintrue::generator

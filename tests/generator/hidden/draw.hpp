@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "generator/hidden/effects.hpp"
+#include "generator/hidden/law.hpp"
 #include "generator/hidden/pattern.hpp"
 #include "generator/hidden/session.hpp"
 #include "generator/hidden/strength.hpp"
@@ -76,6 +77,10 @@ struct Recipe {
   std::optional<double> noise_ratio;
   /// For the mixes with a pattern.
   PatternGroup patterns = PatternGroup::smooth;
+  /// A law or a field as well, of a strength in this range.
+  std::optional<LawFamily> law;
+  double least_law_delta = 12.0;
+  double most_law_delta = 40.0;
 };
 
 /// The truth of a set.
@@ -91,6 +96,7 @@ struct Answer {
   double left_over_delta = 0.0;  ///< of the unlisted, the part that no effect explains
   double whole_delta = 0.0;
   std::optional<SizedPattern> pattern;
+  std::optional<SizedLaw> law;
   std::vector<std::size_t> bad_points;
   Order order = Order::rows;
   double noise_ratio = 1.0;  ///< stated over true
@@ -125,6 +131,7 @@ class HiddenMachine {
   [[nodiscard]] const std::vector<Hidden>& hidden() const { return hidden_; }
   void suffers(Unlisted what) { unlisted_ = what; }
   void suffers(const Pattern& what) { pattern_ = what; }
+  void suffers(const HiddenLaw& what) { law_ = what; }
   /// Noise-free readings of a whole session, unlisted disturbances included.
   [[nodiscard]] std::optional<std::vector<Lengths>> exact(std::span<const Visit> visits) const;
 
@@ -134,6 +141,7 @@ class HiddenMachine {
   std::vector<Hidden> hidden_;
   std::optional<Unlisted> unlisted_;
   std::optional<Pattern> pattern_;
+  std::optional<HiddenLaw> law_;
   std::vector<Visit> visits_;
 };
 
@@ -168,5 +176,10 @@ struct SizedEffect {
                                                Dice& dice);
 /// Positions over the rectangle of the marks, one at random in each cell of a grid.
 [[nodiscard]] std::vector<Visit> area_session(const HiddenMachine& machine, Dice& dice);
+
+/// The text of another session of the same machine at marks of its own, `columns` by `rows` of them, one
+/// at random in each cell, in random order and with six second visits. \throws std::runtime_error if a
+/// mark cannot be reached.
+[[nodiscard]] std::string other_session(const SealedSet& set, int columns, int rows, std::uint64_t seed);
 
 }  // namespace chaintrue::generator

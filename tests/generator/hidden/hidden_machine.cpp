@@ -18,6 +18,15 @@ std::optional<std::vector<Lengths>> HiddenMachine::exact(std::span<const Visit> 
       v.place = {v.place.x + d.x, v.place.y + d.y};
     }
   }
+  if (law_ && law_->moves_tool) {
+    // The law's argument is the place where the mark is.
+    const auto at_marks = rests(with, where);
+    if (!at_marks) return std::nullopt;
+    const std::vector<Vec2> moved = law_at(*law_, where, *at_marks);
+    for (std::size_t i = 0; i < where.size(); ++i) {
+      where[i].place = {where[i].place.x + moved[i].x, where[i].place.y + moved[i].y};
+    }
+  }
   const auto at_rest = rests(with, where);
   if (!at_rest) return std::nullopt;
   std::vector<Lengths> read = readings(with, hidden_, where, *at_rest);
@@ -25,6 +34,13 @@ std::optional<std::vector<Lengths>> HiddenMachine::exact(std::span<const Visit> 
     const auto extra = extra_lengths(*pattern_, where, *at_rest);
     for (std::size_t i = 0; i < read.size(); ++i) {
       for (std::size_t c = 0; c < 2; ++c) read[i][c] += extra[i][c];
+    }
+  }
+  if (law_ && !law_->moves_tool) {
+    const std::vector<Vec2> extra = law_at(*law_, where, *at_rest);
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      read[i][0] += extra[i].x;
+      read[i][1] += extra[i].y;
     }
   }
   return read;

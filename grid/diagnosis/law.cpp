@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "grid/precondition.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+std::string_view name(LawOf of) {
+  constexpr std::string_view kNames[] = {"x",
+                                         "y",
+                                         "across",
+                                         "border",
+                                         "length_left",
+                                         "length_right",
+                                         "angle_left",
+                                         "angle_right",
+                                         "tension_left",
+                                         "tension_right",
+                                         "visit"};
+  return kNames[static_cast<std::size_t>(of)];
+}
+
+std::string_view unit_of(LawOf of) {
+  switch (of) {
+    case LawOf::angle_left:
+    case LawOf::angle_right:
+      return "rad";
+    case LawOf::tension_left:
+    case LawOf::tension_right:
+      return "n";
+    case LawOf::visit:
+      return "visit";
+    default:
+      return "mm";
+  }
+}
+
+std::string_view name(LawShape shape) {
+  constexpr std::string_view kNames[] = {"linear", "square", "step", "kink", "exponential", "wave"};
+  return kNames[static_cast<std::size_t>(shape)];
+}
+
+double value_of(const Law& law, double v) {
+  const std::size_t count = law.shape == LawShape::linear ? 1 : law.shape == LawShape::wave ? 3 : 2;
+  if (law.parameters.size() != count) {
+    throw precondition("a law of shape {} with {} parameters", name(law.shape), law.parameters.size());
+  }
+  const double size = law.parameters.front().value;
+  const double second = count > 1 ? law.parameters[1].value : 0.0;
+  const double span = law.to - law.from;
+  const double middle = 0.5 * (law.from + law.to);
+  switch (law.shape) {
+    case LawShape::linear:
+      return size * (v - middle) / span;
+    case LawShape::square:
+      return size * std::pow((v - second) / (0.5 * span), 2);
+    case LawShape::step:
+      return v >= second ? size : 0.0;
+    case LawShape::kink:
+      return size * std::max(0.0, law.towards * (v - second)) / span;
+    case LawShape::exponential:
+      return size * std::exp(-(law.towards > 0 ? law.to - v : v - law.from) / second);
+    case LawShape::wave:
+      break;
+  }
+  return size * std::sin(2.0 * std::numbers::pi * (v - middle) / second + law.parameters[2].value);
+}
+
+}  // namespace chaintrue::grid::diagnosis

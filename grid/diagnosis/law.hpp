@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A law: what a pattern that no listed cause explains is a function of, with its shape, its place or
+/// period, and where it enters.
+///
+/// With v what it is a function of, from `from` to `to` over the readings, middle and span of these:
+///
+/// | shape       | adds, in mm                                      | parameters               |
+/// |-------------|--------------------------------------------------|--------------------------|
+/// | linear      | size (v - middle) / span                         | size_mm                  |
+/// | square      | size ((v - place) / (span / 2))^2                | size_mm, place           |
+/// | step        | size for v >= place, else 0                      | size_mm, place           |
+/// | kink        | size max(0, towards (v - place)) / span          | size_mm, place           |
+/// | exponential | size exp(-distance of v from the end / scale), the end being `to` where `towards` is 1, `from` where -1 | size_mm, scale |
+/// | wave        | size sin(2 pi (v - middle) / period + phase)     | size_mm, period, phase_rad |
+///
+/// A place, scale or period has the unit of v in its name: mm, rad, n (newtons), visit.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace chaintrue::grid::diagnosis {
+
+/// Through what a pattern that nobody listed enters: one chain, both equally or opposite to each
+/// other, the tool along an axis of the sheet, or none of these by itself. Of a law also: the tool
+/// along the direction that the law runs in, and the tool outwards over every border.
+enum class Enters { left, right, equal, opposite, x, y, mixed, along, outwards };
+[[nodiscard]] std::string_view name(Enters enters);
+
+/// What a law is a function of.
+enum class LawOf {
+  x,              ///< mm
+  y,              ///< mm
+  across,         ///< mm, over the bed in a direction of its own
+  border,         ///< mm, from the nearest border of the bed inwards
+  length_left,    ///< mm
+  length_right,   ///< mm
+  angle_left,     ///< rad
+  angle_right,    ///< rad
+  tension_left,   ///< N, at the sprocket
+  tension_right,  ///< N
+  visit,          ///< number of the visit
+};
+[[nodiscard]] std::string_view name(LawOf of);
+/// "mm", "rad", "n", "visit": what a parameter's name ends in.
+[[nodiscard]] std::string_view unit_of(LawOf of);
+
+enum class LawShape { linear, square, step, kink, exponential, wave };
+[[nodiscard]] std::string_view name(LawShape shape);
+
+struct ParameterEstimate {
+  std::string parameter;
+  double value = 0.0;
+  double sigma = 0.0;  ///< 0 for an integer that these data leave no choice in
+};
+
+struct Law {
+  LawOf of = LawOf::x;
+  LawShape shape = LawShape::linear;
+  Enters enters = Enters::mixed;
+  /// That what is unexplained is a function of this and enters there, whatever its shape.
+  double probability = 0.0;
+  double shape_probability = 0.0;  ///< of this shape, given that
+  double direction_deg = 0.0;      ///< of LawOf::across, from x towards y
+  int towards = 0;                 ///< of a kink or an exponential: 1, -1; else 0
+  double from = 0.0;
+  double to = 0.0;
+  double rms_mm = 0.0;  ///< of the tool, at the points
+  double share = 0.0;   ///< of the mean square of what the settings leave
+  std::vector<ParameterEstimate> parameters;  ///< in the order of the table
+};
+
+/// In mm, at one value of what it is a function of. \throws std::invalid_argument for a law whose
+/// parameters are not those of its shape.
+[[nodiscard]] double value_of(const Law& law, double v);
+
+}  // namespace chaintrue::grid::diagnosis

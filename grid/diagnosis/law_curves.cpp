@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/law_curves.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "grid/diagnosis/discrepancy.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// Directions over half a turn, those of x and y among them: a step or fold bends elsewhere under one
+/// next to its own.
+constexpr int kLawDirections = 16;
+constexpr double kFewestWaves = 0.5;  // over the span; less is a trend
+constexpr double kWaveStep = 0.25;
+constexpr int kStepPlaces = 48;
+constexpr int kKinkPlaces = 16;
+constexpr int kScales = 9;
+constexpr double kShortestScale = 0.03;  // of the span
+constexpr double kScaleFactor = 1.45;
+
+struct Entrance {
+  Enters enters;
+  double weight;
+};
+
+/// A law of a chain mostly acts on that chain.
+std::vector<Entrance> entrances(LawOf of) {
+  switch (of) {
+    case LawOf::x:
+    case LawOf::y:
+      return {{Enters::left, 0.25}, {Enters::right, 0.25}, {Enters::x, 0.25}, {Enters::y, 0.25}};
+    case LawOf::across:
+      return {{Enters::left, 0.2},
+              {Enters::right, 0.2},
+              {Enters::x, 0.2},
+              {Enters::y, 0.2},
+              {Enters::along, 0.2}};
+    case LawOf::border:
+      return {{Enters::outwards, 0.4},
+              {Enters::left, 0.15},
+              {Enters::right, 0.15},
+              {Enters::x, 0.15},
+              {Enters::y, 0.15}};
+    case LawOf::length_left:
+    case LawOf::angle_left:
+    case LawOf::tension_left:
+      return {{Enters::left, 0.55}, {Enters::right, 0.15}, {Enters::x, 0.15}, {Enters::y, 0.15}};
+    case LawOf::length_right:
+    case LawOf::angle_right:
+    case LawOf::tension_right:
+      return {{Enters::left, 0.15}, {Enters::right, 0.55}, {Enters::x, 0.15}, {Enters::y, 0.15}};
+    case LawOf::visit:
+      break;
+  }
+  return {{Enters::left, 0.35}, {Enters::right, 0.35}, {Enters::equal, 0.3}};
+}
+
+/// Where waves end: shorter ones are not of such a thing, or no marks show them.
+double shortest_wave(LawOf of, Enters enters, double span) {
+  switch (of) {
+    case LawOf::x:
+    case LawOf::y:
+      return 100.0;
+    case LawOf::across:
+      return 400.0;
+    case LawOf::length_left:
+      return enters == Enters::left ? 25.0 : 200.0;
+    case LawOf::length_right:
+      return enters == Enters::right ? 25.0 : 200.0;
+    default:
+      return span / 6.0;
+  }
+}
+
+/// From the nearest border inwards.
+double from_border(const SystemPlace& place) {
+  return std::min(0.5 * place.bed.width_mm - std::abs(place.mark.x_mm),
+                  0.5 * place.bed.height_mm - std::abs(place.mark.y_mm));
+}
+
+/// From the border that a component crosses.
+double from_border(const SystemPlace& place, bool along_x) {
+  return along_x ? 0.5 * place.bed.width_mm - std::abs(place.mark.x_mm)
+                 : 0.5 * place.bed.height_mm - std::abs(place.mark.y_mm);
+}
+
+class CurveList {
+ public:
+  explicit CurveList(const RegressorSystem& system) : system_(system) {}
+
+  void add_all(LawOf of, double direction_rad, double weight) {
+    values_.clear();
+    for (const SystemPlace& place : system_.places) {
+      if (of == LawOf::visit && !place.ordered) continue;
+      values_.push_back(variable_at(place, of, direction_rad));
+    }
+    constexpr std::size_t kFewest = 8;  // places: fewer show no shape
+    if (values_.size() < kFewest) return;
+    const auto [low, high] = std::minmax_element(values_.begin(), values_.end());
+    if (!(*high - *low > 1e-6)) return;
+    start_ = {};
+    start_.of = of;
+    start_.direction_rad = direction_rad;
+    start_.from = *low;
+    start_.to = *high;
+    std::sort(values_.begin(), values_.end());
+    for (const Entrance& entrance : entrances(of)) {
+      start_.enters = entrance.enters;
+      add_shapes(weight * entrance.weight);
+    }
+  }
+
+  std::vector<LawCurve> take() { return std::move(curves_); }
+
+ private:
+  /// Half the weight for each parameter more.
+  void add_shapes(double weight) {
+    const bool of_border = start_.of == LawOf::border;
+    const bool of_visit = start_.of == LawOf::visit;
+    // Drift and a zero that moves are in the catalogue.
+    if (!of_border && !of_visit) {
+      add(LawShape::linear, 0, weight, {0.0});
+      add(LawShape::square, 0, 0.5 * weight, {0.0});
+    }
+    if (!of_visit && start_.enters != Enters::outwards) add_steps(0.5 * weight);
+    for (const int towards : {-1, 1}) {
+      // What drops at the border does so from there.
+      if (of_border && towards > 0) continue;
+      const double own = of_border ? 0.5 * weight : 0.25 * weight;
+      if (start_.enters != Enters::outwards) add(LawShape::kink, towards, own, kink_places());
+      add(LawShape::exponential, towards, own, scales());
+    }
+    if (!of_border) add_waves(0.25 * weight);
+  }
+
+  void add(LawShape shape, int towards, double weight, std::vector<double> grid) {
+    LawCurve curve = start_;
+    curve.shape = shape;
+    curve.towards = towards;
+    curve.weight = weight;
+    curve.mass.assign(grid.size(), 1.0 / static_cast<double>(grid.size()));
+    curve.grid = std::move(grid);
+    curves_.push_back(std::move(curve));
+  }
+
+  void add_steps(double weight) {
+    std::vector<double> grid;
+    std::vector<double> mass;
+    std::ptrdiff_t last = 0;
+    std::vector<double> same;
+    const auto close = [&] {
+      if (same.empty()) return;
+      grid.push_back(0.5 * (same.front() + same.back()));
+      mass.push_back(static_cast<double>(same.size()) / kStepPlaces);
+      same.clear();
+    };
+    for (int k = 0; k < kStepPlaces; ++k) {
+      const double at = start_.from + (k + 0.5) / kStepPlaces * start_.span();
+      const auto below = std::lower_bound(values_.begin(), values_.end(), at) - values_.begin();
+      if (below != last) close();
+      last = below;
+      same.push_back(at);
+    }
+    close();
+    add(LawShape::step, 0, weight, std::move(grid));
+    curves_.back().mass = std::move(mass);
+  }
+
+  [[nodiscard]] std::vector<double> kink_places() const {
+    std::vector<double> grid;
+    for (int k = 0; k < kKinkPlaces; ++k)
+      grid.push_back(start_.from + (k + 0.5) / kKinkPlaces * start_.span());
+    return grid;
+  }
+
+  [[nodiscard]] std::vector<double> scales() const {
+    std::vector<double> grid;
+    for (int k = 0; k < kScales; ++k)
+      grid.push_back(kShortestScale * std::pow(kScaleFactor, k) * start_.span());
+    return grid;
+  }
+
+  void add_waves(double weight) {
+    const double most =
+        start_.span() / shortest_wave(start_.of, start_.enters, start_.span());
+    std::vector<double> grid;
+    std::vector<double> mass;
+    double sum = 0.0;
+    for (double waves = kFewestWaves; waves <= most; waves += kWaveStep) {
+      grid.push_back(waves);
+      mass.push_back(1.0 / waves);
+      sum += 1.0 / waves;
+    }
+    if (grid.empty()) return;
+    for (double& own : mass) own /= sum;
+    add(LawShape::wave, 0, weight, std::move(grid));
+    curves_.back().mass = std::move(mass);
+  }
+
+  const RegressorSystem& system_;
+  std::vector<double> values_;
+  LawCurve start_;
+  std::vector<LawCurve> curves_;
+};
+
+/// What one amplitude of a law is of, at one value.
+double basis(const LawCurve& curve, double at, Eigen::Index column, double v) {
+  const double u = (v - curve.middle()) / curve.span();
+  switch (curve.shape) {
+    case LawShape::linear:
+      return u;
+    case LawShape::square:
+      return column == 0 ? 4.0 * u * u : 2.0 * u;
+    case LawShape::step:
+      return v >= at ? 1.0 : 0.0;
+    case LawShape::kink:
+      return std::max(0.0, curve.towards * (v - at)) / curve.span();
+    case LawShape::exponential:
+      return std::exp(-(curve.towards > 0 ? curve.to - v : v - curve.from) / at);
+    case LawShape::wave:
+      break;
+  }
+  const double turn = 2.0 * std::numbers::pi * at * u;
+  return column == 0 ? std::cos(turn) : std::sin(turn);
+}
+
+}  // namespace
+
+Eigen::Index columns_of(LawShape shape) {
+  return shape == LawShape::square || shape == LawShape::wave ? 2 : 1;
+}
+
+bool is_continuous(LawShape shape) {
+  return shape == LawShape::kink || shape == LawShape::exponential || shape == LawShape::wave;
+}
+
+double density_at(const LawCurve& curve, double at) {
+  // Scales are even in their logarithm, as periods are.
+  return curve.shape == LawShape::wave || curve.shape == LawShape::exponential ? 1.0 / at : 1.0;
+}
+
+double variable_at(const SystemPlace& place, LawOf of, double direction_rad) {
+  switch (of) {
+    case LawOf::x:
+      return place.mark.x_mm;
+    case LawOf::y:
+      return place.mark.y_mm;
+    case LawOf::across:
+      return place.mark.x_mm * std::cos(direction_rad) + place.mark.y_mm * std::sin(direction_rad);
+    case LawOf::border:
+      return from_border(place);
+    case LawOf::visit:
+      return place.order;
+    default:
+      break;
+  }
+  const auto first = static_cast<std::size_t>(FieldOf::length_left);
+  const auto own = static_cast<std::size_t>(of) - static_cast<std::size_t>(LawOf::length_left);
+  return discrepancy_place(place).at[first + own];
+}
+
+std::vector<LawCurve> law_curves(const RegressorSystem& system) {
+  CurveList list(system);
+  for (const LawOf of : {LawOf::x,
+                         LawOf::y,
+                         LawOf::border,
+                         LawOf::length_left,
+                         LawOf::length_right,
+                         LawOf::angle_left,
+                         LawOf::angle_right,
+                         LawOf::tension_left,
+                         LawOf::tension_right,
+                         LawOf::visit}) {
+    list.add_all(of, 0.0, 1.0);
+  }
+  for (int k = 1; k < kLawDirections; ++k) {
+    if (2 * k == kLawDirections) continue;
+    // A direction is a parameter more.
+    list.add_all(LawOf::across, std::numbers::pi * k / kLawDirections, 0.5 / (kLawDirections - 2));
+  }
+  std::vector<LawCurve> curves = list.take();
+  share_out(curves);
+  return curves;
+}
+
+void share_out(std::vector<LawCurve>& curves) {
+  double sum = 0.0;
+  for (const LawCurve& curve : curves) sum += curve.weight;
+  for (LawCurve& curve : curves) curve.share = curve.weight / sum;
+}
+
+LawColumns::LawColumns(const RegressorSystem& system) : system_(system) {}
+
+Eigen::MatrixXd LawColumns::of(const LawCurve& curve, double at) const {
+  return of(curve, std::vector<double>{at});
+}
+
+Eigen::MatrixXd LawColumns::of(const LawCurve& curve, const std::vector<double>& at) const {
+  const Eigen::Index each = columns_of(curve.shape);
+  const auto count = static_cast<Eigen::Index>(at.size());
+  const auto places = static_cast<Eigen::Index>(system_.places.size());
+  // Values of each amplitude at every place, of both components where these differ.
+  const bool outwards = curve.enters == Enters::outwards;
+  Eigen::MatrixXd first(places, each * count);
+  Eigen::MatrixXd second(outwards ? places : 0, each * count);
+  for (Eigen::Index p = 0; p < places; ++p) {
+    const SystemPlace& place = system_.places[static_cast<std::size_t>(p)];
+    const bool is_absent = curve.of == LawOf::visit && !place.ordered;
+    const double v = outwards ? from_border(place, true)
+                              : variable_at(place, curve.of, curve.direction_rad);
+    for (Eigen::Index k = 0; k < each * count; ++k) {
+      const double own = at[static_cast<std::size_t>(k / each)];
+      first(p, k) = is_absent ? 0.0 : basis(curve, own, k % each, v);
+      if (outwards) second(p, k) = basis(curve, own, k % each, from_border(place, false));
+    }
+  }
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(system_.e.size(), each * count);
+  for (const SystemUnit& unit : system_.units) {
+    for (const observation::PlaceColumns& own : unit.places) {
+      const SystemPlace& place = system_.places[own.place];
+      const Eigen::Matrix2d& by_mark = place.state.by_mark;
+      const auto p = static_cast<Eigen::Index>(own.place);
+      const auto enter = [&](const Eigen::Vector2d& direction, const Eigen::RowVectorXd& values) {
+        const Eigen::VectorXd in_rows = own.by_chain * direction;
+        columns.middleRows(unit.first_row, unit.rows) += in_rows * values;
+      };
+      switch (curve.enters) {
+        case Enters::left:
+          enter({1.0, 0.0}, first.row(p));
+          break;
+        case Enters::right:
+          enter({0.0, 1.0}, first.row(p));
+          break;
+        case Enters::equal:
+          enter({1.0, 1.0}, first.row(p));
+          break;
+        case Enters::opposite:
+          enter({1.0, -1.0}, first.row(p));
+          break;
+        case Enters::x:
+          enter(by_mark.col(0), first.row(p));
+          break;
+        case Enters::y:
+          enter(by_mark.col(1), first.row(p));
+          break;
+        case Enters::along:
+          enter(by_mark * Eigen::Vector2d(std::cos(curve.direction_rad),
+                                          std::sin(curve.direction_rad)),
+                first.row(p));
+          break;
+        case Enters::outwards:
+          enter(by_mark.col(0) * std::copysign(1.0, place.mark.x_mm), first.row(p));
+          enter(by_mark.col(1) * std::copysign(1.0, place.mark.y_mm), second.row(p));
+          break;
+        case Enters::mixed:
+          break;
+      }
+    }
+  }
+  return columns;
+}
+
+}  // namespace chaintrue::grid::diagnosis

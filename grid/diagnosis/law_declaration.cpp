@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/law_declaration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "grid/diagnosis/constants.hpp"
+#include "grid/diagnosis/law_words.hpp"
+#include "grid/diagnosis/workshop_units.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using model::effects::ActsOn;
+using model::effects::Declaration;
+using model::effects::DeclaredParameter;
+using model::effects::EffectSide;
+using model::effects::ParameterRole;
+
+std::string variable_of(const Law& law, const model::Bed& bed) {
+  switch (law.of) {
+    case LawOf::x:
+      return "x";
+    case LawOf::y:
+      return "y";
+    case LawOf::across: {
+      const double direction = law.direction_deg * std::numbers::pi / 180.0;
+      return fmt::format("({:.6f} * x + {:.6f} * y)", std::cos(direction), std::sin(direction));
+    }
+    case LawOf::border:
+      return fmt::format(
+          "min({} - abs(x), {} - abs(y))", 0.5 * bed.width_mm, 0.5 * bed.height_mm);
+    case LawOf::length_left:
+    case LawOf::length_right:
+      return "L0";
+    case LawOf::angle_left:
+    case LawOf::angle_right:
+      return "phi";
+    case LawOf::tension_left:
+    case LawOf::tension_right:
+      return "T";
+    case LawOf::visit:
+      break;
+  }
+  return "n";
+}
+
+/// The chain whose own value a law is a function of.
+bool is_of_other_chain(const Law& law) {
+  const bool left = law.of == LawOf::length_left || law.of == LawOf::angle_left ||
+                    law.of == LawOf::tension_left;
+  const bool right = law.of == LawOf::length_right || law.of == LawOf::angle_right ||
+                     law.of == LawOf::tension_right;
+  return (left && law.enters != Enters::left) || (right && law.enters != Enters::right);
+}
+
+/// A number with the variable's unit.
+std::string with_unit(const Law& law, double value) {
+  const std::string_view unit = unit_of(law.of);
+  if (unit == "mm") return fmt::format("({:.6g} * mm)", value);
+  if (unit == "n") return fmt::format("({:.6g} * N)", value);
+  return fmt::format("{:.6g}", value);
+}
+
+DeclaredParameter size_of(const Law& law) {
+  const double value = law.parameters.front().value;
+  // Of another session: five times as large, or of the other sign.
+  const double bound = std::max(1.0, 5.0 * std::abs(value));
+  return {.name = "size_mm",
+          .symbol = "a",
+          .meaning = "how large it is",
+          .null = 0.0,
+          .nominal = value,
+          .lower = -bound,
+          .upper = bound,
+          .prior_sigma = std::max(std::abs(value), 0.05)};
+}
+
+DeclaredParameter place_of(const Law& law) {
+  DeclaredParameter place;
+  place.role = ParameterRole::place;
+  if (law.shape == LawShape::wave) {
+    place.name = "phase_rad";
+    place.symbol = "p";
+    place.meaning = "phase of the wave in the middle of its range";
+    place.nominal = law.parameters[2].value;
+    place.prior_sigma = std::numbers::pi;
+    place.lower = -6.3;
+    place.upper = 6.3;
+    return place;
+  }
+  place.name = fmt::format("place_{}", unit_of(law.of));
+  place.symbol = "p";
+  place.meaning = "where it sets in";
+  place.nominal = std::clamp(law.parameters[1].value, law.from, law.to);
+  place.prior_sigma = std::max(law.parameters[1].sigma, 0.01 * (law.to - law.from));
+  place.lower = law.from;
+  place.upper = law.to;
+  return place;
+}
+
+/// Of size_mm, and of the place where there is one.
+std::string formula_of(const Law& law, const model::Bed& bed) {
+  const std::string v = variable_of(law, bed);
+  const double span = law.to - law.from;
+  const std::string over_span = with_unit(law, span);
+  const std::string place = fmt::format("place_{}", unit_of(law.of));
+  switch (law.shape) {
+    case LawShape::linear:
+      return fmt::format(
+          "size_mm * ({} - {:.6g}) / {}", v, 0.5 * (law.from + law.to), over_span);
+    case LawShape::square:
+      return fmt::format(
+          "size_mm * (({} - {:.6g}) / {})^2", v, law.parameters[1].value, with_unit(law, 0.5 * span));
+    case LawShape::step:
+      return fmt::format("size_mm * step({} - {})", v, place);
+    case LawShape::kink:
+      return law.towards > 0 ? fmt::format("size_mm * ramp({} - {}) / {}", v, place, over_span)
+                             : fmt::format("size_mm * ramp({} - {}) / {}", place, v, over_span);
+    case LawShape::exponential: {
+      const std::string scale = with_unit(law, law.parameters[1].value);
+      return law.towards > 0
+                 ? fmt::format("size_mm * exp(({} - {:.6g}) / {})", v, law.to, scale)
+                 : fmt::format("size_mm * exp(({:.6g} - {}) / {})", law.from, v, scale);
+    }
+    case LawShape::wave:
+      break;
+  }
+  return fmt::format("size_mm * sin(2 * pi * ({} - {:.6g}) / {} + phase_rad)",
+                     v,
+                     0.5 * (law.from + law.to),
+                     with_unit(law, law.parameters[1].value));
+}
+
+std::string refusal_of(const Law& law) {
+  if (is_of_other_chain(law) && law.enters != Enters::y)
+    return "a chain's formula knows that chain alone, and this law acts elsewhere";
+  if (is_of_other_chain(law))
+    return "a chain's formula knows that chain alone, and this law moves the tool";
+  if (law.enters == Enters::x || law.enters == Enters::along || law.enters == Enters::outwards ||
+      law.enters == Enters::mixed || law.enters == Enters::opposite) {
+    return "what moves the tool other than up and down adds to one chain and takes from the other, "
+           "which no formula of a chain can say";
+  }
+  return "";
+}
+
+}  // namespace
+
+tl::expected<Declaration, std::string> declaration_of(const Law& law, const model::Bed& bed) {
+  if (const std::string why = refusal_of(law); !why.empty()) {
+    return tl::unexpected(
+        fmt::format("No file is made of the law found ({}): {}.", in_words(law), why));
+  }
+  Declaration own;
+  own.id = fmt::format("{}_of_{}", name(law.shape), name(law.of));
+  own.acts_on = law.of == LawOf::visit ? ActsOn::reading : ActsOn::chain;
+  own.sides = {law.enters == Enters::left    ? EffectSide::left
+               : law.enters == Enters::right ? EffectSide::right
+                                             : EffectSide::both};
+  own.parameters = {size_of(law)};
+  const bool has_place =
+      law.shape == LawShape::step || law.shape == LawShape::kink || law.shape == LawShape::wave;
+  if (has_place) own.parameters.push_back(place_of(law));
+  own.adds_mm = formula_of(law, bed);
+  // Up is less chain on either side.
+  if (law.enters == Enters::y) own.adds_mm = fmt::format("-sin(phi) * {}", own.adds_mm);
+  own.cause = fmt::format("a cause without a name, found as {}", in_words(law));
+  own.signature = in_words(law);
+  own.remedy = "find what has this place or period, and give it a name here";
+  own.not_modelled = "whatever of it is not of this form";
+  own.typical = fmt::format("{:.2g} mm", std::abs(law.parameters.front().value));
+  own.source = fmt::format("a diagnosis: probability {}", percent(law.probability));
+  return own;
+}
+
+tl::expected<Declaration, std::string> declaration_of(const std::vector<Law>& laws,
+                                                      const model::Bed& bed) {
+  if (laws.empty()) {
+    return tl::unexpected(
+        std::string("No file of a law is made: no law is likelier than none with these readings."));
+  }
+  const Law& first = laws.front();
+  if (first.probability < kLawClaimed) {
+    return tl::unexpected(
+        fmt::format("No file of a law is made: the likeliest, {}, has a probability of {}, and {} is "
+                    "asked for. Measure more points.",
+                    in_words(first),
+                    percent(first.probability),
+                    percent(kLawClaimed)));
+  }
+  return declaration_of(first, bed);
+}
+
+}  // namespace chaintrue::grid::diagnosis

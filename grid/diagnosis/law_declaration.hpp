@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A law as a cause of the user's own (model/effects/declared_effect.hpp), so that it can be named, edited
+/// and given to later diagnoses.
+///
+/// A place and a phase are the effect's place; a period, a scale and the range are numbers in the formula,
+/// to be edited there. What moves the tool up or down is written as what that adds to either chain,
+/// -sin(phi) of it. What moves the tool from left to right adds with one sign to one chain and with
+/// the other to the other, which no formula can say: it is refused, as is what moves the tool outwards or
+/// in a direction between.
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+
+#include "grid/diagnosis/law.hpp"
+#include "model/effects/declared_effect.hpp"
+#include "model/machine.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// Or the sentence why there is none.
+[[nodiscard]] tl::expected<model::effects::Declaration, std::string> declaration_of(
+    const Law& law, const model::Bed& bed);
+/// Of the likeliest law of a list, which must be at least kLawClaimed.
+[[nodiscard]] tl::expected<model::effects::Declaration, std::string> declaration_of(
+    const std::vector<Law>& laws, const model::Bed& bed);
+
+}  // namespace chaintrue::grid::diagnosis

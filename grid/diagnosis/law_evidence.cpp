@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/law_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "grid/diagnosis/law_system.hpp"
+#include "grid/statistics.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+// How far is searched; weights are logarithms. No verdict may hang on these.
+constexpr double kLawsWithin = 9.0;      // below the best: laws that are looked at again
+constexpr double kContextsWithin = 7.0;  // below the best: contexts of the second look
+constexpr std::size_t kMostSets = 7;
+constexpr std::size_t kMostCurves = 60;
+constexpr std::size_t kMostContexts = 32;
+constexpr std::size_t kFirstContexts = 4;
+constexpr Eigen::Index kChunk = 64;  // columns at once, so that their products stay small
+constexpr int kFiner = 4;            // points between two of a grid, at each of two refinements
+
+/// Nothing, the sets that lead the comparison, and what is left of these without one of them.
+std::vector<std::vector<int>> leading_sets(const Analysis& a) {
+  std::map<std::vector<int>, double> weight;
+  for (const CandidateModel& model : a.comparison.models)
+    weight[model.regressors] += a.comparison.probability(model);
+  std::vector<std::pair<double, std::vector<int>>> order;
+  for (const auto& [set, own] : weight) order.emplace_back(-own, set);
+  std::sort(order.begin(), order.end());
+  std::vector<std::vector<int>> sets = {{}};
+  const auto add = [&](const std::vector<int>& set) {
+    if (sets.size() < kMostSets && std::find(sets.begin(), sets.end(), set) == sets.end())
+      sets.push_back(set);
+  };
+  constexpr double kHardly = 0.01;
+  for (const auto& [minus, set] : order) {
+    if (-minus < kHardly) break;
+    add(set);
+    for (std::size_t k = 0; set.size() > 1 && k < set.size(); ++k) {
+      std::vector<int> fewer = set;
+      fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+      add(fewer);
+    }
+  }
+  return sets;
+}
+
+/// A point of a curve, and its weight without its prior in the first contexts.
+struct LawPoint {
+  double at = 0.0;
+  double weight = kMinusInfinity;
+};
+
+class LawSearch {
+ public:
+  LawSearch(const Analysis& a, std::size_t number, std::vector<LawCurve> curves)
+      : sets_(leading_sets(a)), system_(a, number, sets_), curves_(std::move(curves)) {
+    look_without_a_law();
+  }
+
+  LawEvidence run(std::size_t number) && {
+    look_at_all();
+    for (const std::size_t curve : leading_) refine(curve);
+    LawEvidence result;
+    result.marginalised = number;
+    if (!without_.empty()) {
+      result.without_set = without_.front().set;
+      result.without_discrepancy = without_.front().discrepancy;
+    }
+    result.log_without = log_without_ + std::log1p(-kLawPrior);
+    result.laws = look_again();
+    result.curves = std::move(curves_);
+    result.sets = std::move(sets_);
+    return result;
+  }
+
+ private:
+  void look_without_a_law() {
+    std::vector<std::pair<double, LawContext>> all;
+    std::vector<double> weights;
+    for (int discrepancy = -1; discrepancy < system_.family().count(); ++discrepancy) {
+      const NormalEquations equations = system_.equations(discrepancy);
+      for (std::size_t set = 0; set < system_.sets(); ++set) {
+        const double own = system_.log_weight(equations, {set, discrepancy}, {});
+        if (!std::isfinite(own)) continue;
+        weights.push_back(own);
+        all.emplace_back(-own, LawContext{set, discrepancy});
+      }
+    }
+    log_without_ = log_sum(weights);
+    std::sort(all.begin(), all.end());
+    for (const auto& [minus, context] : all) {
+      if (without_.size() == kMostContexts / 2 || minus > all.front().first + kContextsWithin) break;
+      without_.push_back(context);
+    }
+    choose_first(all);
+  }
+
+  /// Nothing at all, and what leads; of kernels the best two.
+  void choose_first(const std::vector<std::pair<double, LawContext>>& all) {
+    first_ = {{0, -1}};
+    std::vector<std::size_t> kernels;
+    for (const auto& [minus, context] : all) {
+      if (first_.size() == kFirstContexts) break;
+      if (context == first_.front()) continue;
+      if (context.discrepancy >= 0) {
+        const std::size_t kernel = system_.family().kernel_of(context.discrepancy);
+        const bool known = std::find(kernels.begin(), kernels.end(), kernel) != kernels.end();
+        if (kernels.size() == 2 || known) continue;
+        kernels.push_back(kernel);
+      }
+      first_.push_back(context);
+    }
+  }
+
+  /// Weights of points of one curve in the first contexts, without the curve's prior.
+  std::vector<LawPoint> weighed(const LawCurve& curve, const std::vector<double>& grid) {
+    const Eigen::Index each = columns_of(curve.shape);
+    std::vector<LawPoint> points;
+    const auto step = static_cast<std::size_t>(kChunk / each);
+    for (std::size_t from = 0; from < grid.size(); from += step) {
+      const std::vector<double> own(
+          grid.begin() + static_cast<std::ptrdiff_t>(from),
+          grid.begin() + static_cast<std::ptrdiff_t>(std::min(from + step, grid.size())));
+      Eigen::MatrixXd columns = system_.columns(curve, own);
+      std::vector<LawPoint> some(own.size());
+      std::vector<std::vector<double>> terms(own.size());
+      system_.take(columns);
+      for (const LawContext& context : first_) {
+        const NormalEquations equations = system_.equations(context.discrepancy);
+        for (std::size_t k = 0; k < own.size(); ++k) {
+          const std::vector<Eigen::Index> at = columns_at(k, each);
+          if (!shows(columns, at)) continue;
+          terms[k].push_back(system_.log_weight(equations, context, at));
+        }
+      }
+      for (std::size_t k = 0; k < own.size(); ++k)
+        points.push_back({own[k], terms[k].empty() ? kMinusInfinity : log_sum(terms[k])});
+    }
+    return points;
+  }
+
+  static std::vector<Eigen::Index> columns_at(std::size_t k, Eigen::Index each) {
+    std::vector<Eigen::Index> at;
+    for (Eigen::Index i = 0; i < each; ++i) at.push_back(static_cast<Eigen::Index>(k) * each + i);
+    return at;
+  }
+
+  /// A law that would have to be larger to show at its usual strength would be seen without a
+  /// measurement: the settings take nearly all of it.
+  static bool shows(const Eigen::MatrixXd& columns, const std::vector<Eigen::Index>& at) {
+    constexpr double kLargestMm = 6.0;
+    for (const Eigen::Index k : at) {
+      if (columns.col(k).norm() * kLargestMm < kUsualSignalToNoise) return false;
+    }
+    return true;
+  }
+
+  void look_at_all() {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t c = 0; c < curves_.size(); ++c) {
+      const LawCurve& curve = curves_[c];
+      points_.push_back(weighed(curve, curve.grid));
+      std::vector<double> terms;
+      for (std::size_t k = 0; k < points_[c].size(); ++k)
+        terms.push_back(points_[c][k].weight + std::log(curve.mass[k]));
+      const double own = log_sum(terms) + std::log(kLawPrior * curve.share);
+      if (std::isfinite(own)) order.emplace_back(-own, c);
+    }
+    std::sort(order.begin(), order.end());
+    for (const auto& [minus, c] : order) {
+      if (leading_.size() == kMostCurves || minus > order.front().first + kLawsWithin) break;
+      leading_.push_back(c);
+    }
+  }
+
+  /// Points between those of the grid about the heaviest, twice.
+  void refine(std::size_t c) {
+    LawCurve& curve = curves_[c];
+    if (!is_continuous(curve.shape)) return;
+    std::vector<LawPoint>& points = points_[c];
+    for (int pass = 0; pass < 2; ++pass) {
+      const auto best = std::max_element(
+          points.begin(), points.end(), [](const LawPoint& a, const LawPoint& b) {
+            return a.weight < b.weight;
+          });
+      std::vector<double> finer;
+      const auto between = [&](double from, double to) {
+        for (int k = 1; k < kFiner; ++k) finer.push_back(from + (to - from) * k / kFiner);
+      };
+      // The second time over what the first made of both neighbours.
+      const auto at = best - points.begin();
+      const auto last = static_cast<std::ptrdiff_t>(points.size()) - 1;
+      for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(at - 1 - pass, 0);
+           k < std::min(at + 1 + pass, last);
+           ++k) {
+        between(points[static_cast<std::size_t>(k)].at, points[static_cast<std::size_t>(k) + 1].at);
+      }
+      if (finer.empty()) return;
+      const std::vector<LawPoint> more = weighed(curve, finer);
+      points.insert(points.end(), more.begin(), more.end());
+      std::sort(points.begin(), points.end(), [](const LawPoint& a, const LawPoint& b) {
+        return a.at < b.at;
+      });
+    }
+    curve.grid.clear();
+    for (const LawPoint& point : points) curve.grid.push_back(point.at);
+    curve.mass = trapezoids(curve);
+  }
+
+  /// Prior of each point of a grid, in all one.
+  static std::vector<double> trapezoids(const LawCurve& curve) {
+    const std::vector<double>& at = curve.grid;
+    std::vector<double> mass(at.size(), 0.0);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const double before = k > 0 ? at[k] - at[k - 1] : 0.0;
+      const double behind = k + 1 < at.size() ? at[k + 1] - at[k] : 0.0;
+      mass[k] = density_at(curve, at[k]) * (before + behind);
+      sum += mass[k];
+    }
+    for (double& own : mass) own /= sum;
+    return mass;
+  }
+
+  /// The points of leading curves that hold a share.
+  struct Chosen {
+    std::size_t curve = 0;
+    std::size_t point = 0;
+    std::vector<Eigen::Index> columns;
+    double log_prior = 0.0;
+    double first_weight = 0.0;
+  };
+
+  std::vector<Chosen> choose() {
+    std::vector<Chosen> chosen;
+    for (const std::size_t c : leading_) {
+      const LawCurve& curve = curves_[c];
+      for (std::size_t k = 0; k < points_[c].size(); ++k) {
+        const double prior = std::log(kLawPrior * curve.share * curve.mass[k]);
+        if (std::isfinite(points_[c][k].weight))
+          chosen.push_back({c, k, {}, prior, prior + points_[c][k].weight});
+      }
+    }
+    std::stable_sort(chosen.begin(), chosen.end(), [](const Chosen& a, const Chosen& b) {
+      return a.first_weight > b.first_weight;
+    });
+    constexpr std::size_t kMostPoints = 240;
+    std::size_t count = 0;
+    while (count < std::min(chosen.size(), kMostPoints) &&
+           chosen[count].first_weight > chosen.front().first_weight - kLawsWithin) {
+      ++count;
+    }
+    chosen.resize(count);
+    return chosen;
+  }
+
+  void take(std::vector<Chosen>& chosen) {
+    std::vector<Eigen::MatrixXd> parts;
+    Eigen::Index count = 0;
+    for (Chosen& own : chosen) {
+      const LawCurve& curve = curves_[own.curve];
+      parts.push_back(system_.columns(curve, {points_[own.curve][own.point].at}));
+      own.columns.clear();
+      for (Eigen::Index k = 0; k < parts.back().cols(); ++k) own.columns.push_back(count + k);
+      count += parts.back().cols();
+    }
+    Eigen::MatrixXd all(system_.rows(), count);
+    Eigen::Index at = 0;
+    for (const Eigen::MatrixXd& part : parts) {
+      all.middleCols(at, part.cols()) = part;
+      at += part.cols();
+    }
+    system_.take(all);
+  }
+
+  /// Those that hold a share with one of the best laws, and those that do without any.
+  std::vector<LawContext> contexts_with(const std::vector<Chosen>& chosen) {
+    std::vector<Chosen> best;
+    for (const Chosen& own : chosen) {
+      const bool known = std::any_of(
+          best.begin(), best.end(), [&](const Chosen& other) { return other.curve == own.curve; });
+      if (!known && best.size() < 3) best.push_back(own);
+    }
+    take(best);
+    std::map<LawContext, double> weight;
+    for (int discrepancy = -1; discrepancy < system_.family().count(); ++discrepancy) {
+      const NormalEquations equations = system_.equations(discrepancy);
+      for (std::size_t set = 0; set < system_.sets(); ++set) {
+        for (const Chosen& own : best) {
+          const double w =
+              system_.log_weight(equations, {set, discrepancy}, own.columns) + own.log_prior;
+          auto& known = weight.try_emplace({set, discrepancy}, w).first->second;
+          known = std::max(known, w);
+        }
+      }
+    }
+    std::vector<std::pair<double, LawContext>> order;
+    for (const auto& [context, w] : weight) order.emplace_back(-w, context);
+    std::sort(order.begin(), order.end());
+    std::vector<LawContext> contexts;
+    for (const auto& [minus, context] : order) {
+      if (contexts.size() == kMostContexts || minus > order.front().first + kContextsWithin) break;
+      contexts.push_back(context);
+    }
+    for (const LawContext& context : without_) {
+      if (std::find(contexts.begin(), contexts.end(), context) == contexts.end())
+        contexts.push_back(context);
+    }
+    std::sort(contexts.begin(), contexts.end(), [](const LawContext& a, const LawContext& b) {
+      return std::pair(a.discrepancy, a.set) < std::pair(b.discrepancy, b.set);
+    });
+    return contexts;
+  }
+
+  std::vector<WeighedLaw> look_again() {
+    std::vector<Chosen> chosen = choose();
+    if (chosen.empty()) return {};
+    const std::vector<LawContext> contexts = contexts_with(chosen);
+    take(chosen);
+    std::vector<WeighedLaw> laws(chosen.size());
+    std::vector<std::vector<double>> terms(chosen.size());
+    std::vector<double> best(chosen.size(), kMinusInfinity);
+    std::optional<NormalEquations> equations;
+    int of = std::numeric_limits<int>::min();
+    for (const LawContext& context : contexts) {
+      if (of != context.discrepancy) equations = system_.equations(of = context.discrepancy);
+      for (std::size_t k = 0; k < chosen.size(); ++k) {
+        const double w = system_.log_weight(*equations, context, chosen[k].columns);
+        terms[k].push_back(w);
+        if (!(w > best[k])) continue;
+        best[k] = w;
+        laws[k].set = context.set;
+        laws[k].discrepancy = context.discrepancy;
+        const LawAmplitudes own = system_.amplitudes(*equations, context, chosen[k].columns);
+        laws[k].amplitude = own.value;
+        laws[k].covariance = own.covariance;
+      }
+    }
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      laws[k].curve = chosen[k].curve;
+      laws[k].at = points_[chosen[k].curve][chosen[k].point].at;
+      laws[k].log_weight = log_sum(terms[k]) + chosen[k].log_prior;
+    }
+    std::erase_if(laws, [](const WeighedLaw& law) { return !std::isfinite(law.log_weight); });
+    std::stable_sort(laws.begin(), laws.end(), [](const WeighedLaw& a, const WeighedLaw& b) {
+      return a.log_weight > b.log_weight;
+    });
+    return laws;
+  }
+
+  std::vector<std::vector<int>> sets_;
+  LawSystem system_;
+  std::vector<LawCurve> curves_;
+  double log_without_ = 0.0;
+  std::vector<LawContext> first_;    ///< of the first look
+  std::vector<LawContext> without_;  ///< that lead without a law
+  std::vector<std::vector<LawPoint>> points_;
+  std::vector<std::size_t> leading_;
+};
+
+}  // namespace
+
+double LawEvidence::log_total() const {
+  std::vector<double> terms = {log_without};
+  for (const WeighedLaw& law : laws) terms.push_back(law.log_weight);
+  return log_sum(terms);
+}
+
+LawEvidence weigh_laws(const Analysis& analysis,
+                       std::size_t marginalised,
+                       std::vector<LawCurve> curves) {
+  return LawSearch(analysis, marginalised, std::move(curves)).run(marginalised);
+}
+
+}  // namespace chaintrue::grid::diagnosis

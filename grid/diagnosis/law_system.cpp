@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/law_system.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+
+namespace chaintrue::grid::diagnosis {
+
+LawSystem::LawSystem(const Analysis& a,
+                     std::size_t number,
+                     const std::vector<std::vector<int>>& sets)
+    : from_(a.system),
+      marginalised_(a.comparison.marginalised_systems[number]),
+      noise_(noise_dof(a), marginalised_.kept.size()),
+      columns_(a.system) {
+  std::set<int> used;
+  for (const auto& set : sets) used.insert(set.begin(), set.end());
+  const std::vector<int> all(used.begin(), used.end());
+  causes_ = marginalised_.g.dense(all);
+  for (const auto& set : sets) {
+    std::vector<Eigen::Index> at;
+    for (const int k : set) at.push_back(std::lower_bound(all.begin(), all.end(), k) - all.begin());
+    sets_.push_back(std::move(at));
+    log_prior_.push_back({log_prior(a.system, set, false), log_prior(a.system, set, true)});
+  }
+  for (const int k : all)
+    cause_regressors_.push_back(from_.regressors[static_cast<std::size_t>(k)]);
+  own_.units = from_.units;
+  own_.places = from_.places;
+  own_.discrepancies = from_.discrepancies;
+  own_.unit_of_row = from_.unit_of_row;
+  own_.e = from_.e;
+  std::vector<std::size_t> kernels(own_.discrepancies->kernels.size());
+  std::iota(kernels.begin(), kernels.end(), std::size_t{0});
+  basis_.emplace(own_, marginalised_, kernels);
+  take(Eigen::MatrixXd(rows(), 0));
+}
+
+Eigen::MatrixXd LawSystem::columns(const LawCurve& curve, const std::vector<double>& at) const {
+  return marginalised_.root.solve(marginalised_.kept.of(columns_.of(curve, at)));
+}
+
+void LawSystem::take(const Eigen::MatrixXd& laws) {
+  Eigen::MatrixXd g(rows(), causes_.cols() + laws.cols());
+  g << causes_, laws;
+  marginalised_.g = RegressorColumns(std::move(g));
+  Regressor law;
+  law.lowest = -std::numeric_limits<double>::infinity();
+  law.highest = std::numeric_limits<double>::infinity();
+  own_.regressors = cause_regressors_;
+  own_.regressors.resize(cause_regressors_.size() + static_cast<std::size_t>(laws.cols()), law);
+  std::vector<int> all(own_.regressors.size());
+  std::iota(all.begin(), all.end(), 0);
+  given_.clear();
+  plain_ = &plains_.emplace_back(normal_equations(own_, marginalised_, std::move(all)));
+}
+
+NormalEquations LawSystem::equations(int discrepancy) {
+  if (discrepancy < 0) return *plain_;
+  const std::size_t kernel = family().kernel_of(discrepancy);
+  auto found = given_.find(kernel);
+  if (found == given_.end()) found = given_.emplace(kernel, basis_->given(kernel, *plain_)).first;
+  return found->second.equations(family().strength_of(discrepancy), plain_->columns);
+}
+
+std::vector<Eigen::Index> LawSystem::all_columns(const LawContext& context,
+                                                 const std::vector<Eigen::Index>& laws) const {
+  std::vector<Eigen::Index> all = sets_[context.set];
+  for (const Eigen::Index k : laws) all.push_back(causes_.cols() + k);
+  return all;
+}
+
+double LawSystem::log_weight(const NormalEquations& equations,
+                             const LawContext& context,
+                             const std::vector<Eigen::Index>& laws) const {
+  const Priors& priors = log_prior_[context.set];
+  const bool given = context.discrepancy >= 0;
+  const double prior = given ? priors.given + family().log_share_of(context.discrepancy) : priors.alone;
+  return prior + marginalised_.log_outliers +
+         set_evidence(equations, own_.regressors, all_columns(context, laws), noise_).log_evidence;
+}
+
+LawAmplitudes LawSystem::amplitudes(const NormalEquations& equations,
+                                    const LawContext& context,
+                                    const std::vector<Eigen::Index>& laws) const {
+  const std::vector<Eigen::Index> all = all_columns(context, laws);
+  Eigen::MatrixXd a = equations.gg(all, all);
+  const Eigen::VectorXd prior = equations.prior_square(all);
+  a.diagonal() += prior / (kWideSignalToNoise * kWideSignalToNoise);
+  const Eigen::LLT<Eigen::MatrixXd> llt(a);
+  const Eigen::VectorXd c = equations.ge(all);
+  const Eigen::VectorXd b = llt.solve(c);
+  const double square = noise_.noise_square(std::max(equations.ee - c.dot(b), 0.0));
+  const auto m = static_cast<Eigen::Index>(laws.size());
+  const Eigen::MatrixXd inverse = llt.solve(Eigen::MatrixXd::Identity(a.rows(), a.cols()));
+  return {b.tail(m), square * inverse.bottomRightCorner(m, m)};
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/law_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr double kDegreesOfRadian = 180.0 / std::numbers::pi;
+
+/// Two digits of the sigma.
+std::string number_words(double value, double sigma) {
+  if (!(sigma > 0.0)) return fmt::format("{:.3g}", value);
+  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, 4);
+  return fmt::format("{:.{}f} +- {:.{}f}", value, digits, sigma, digits);
+}
+
+std::string variable_words(const Law& law) {
+  switch (law.of) {
+    case LawOf::x:
+      return "x";
+    case LawOf::y:
+      return "y";
+    case LawOf::across:
+      return fmt::format("the way in the direction {:.0f} degrees from x towards y",
+                         law.direction_deg);
+    case LawOf::border:
+      return "the distance from the border";
+    case LawOf::length_left:
+      return "the left chain's length";
+    case LawOf::length_right:
+      return "the right chain's length";
+    case LawOf::angle_left:
+      return "the left chain's angle below the horizontal";
+    case LawOf::angle_right:
+      return "the right chain's angle below the horizontal";
+    case LawOf::tension_left:
+      return "the pull in the left chain";
+    case LawOf::tension_right:
+      return "the pull in the right chain";
+    case LawOf::visit:
+      break;
+  }
+  return "the number of the visit";
+}
+
+/// A place, scale or period with its unit.
+std::string quantity_words(const Law& law, const ParameterEstimate& estimate) {
+  const std::string_view unit = unit_of(law.of);
+  if (unit == "rad") {
+    return number_words(kDegreesOfRadian * estimate.value, kDegreesOfRadian * estimate.sigma) +
+           " degrees";
+  }
+  const std::string number = number_words(estimate.value, estimate.sigma);
+  return unit == "visit" ? number + " visits" : number + (unit == "n" ? " N" : " mm");
+}
+
+std::string entrance_words(Enters enters) {
+  switch (enters) {
+    case Enters::left:
+      return "in the left chain";
+    case Enters::right:
+      return "in the right chain";
+    case Enters::equal:
+      return "in both chains equally";
+    case Enters::opposite:
+      return "in both chains, with opposite signs";
+    case Enters::x:
+      return "which moves the tool along x";
+    case Enters::y:
+      return "which moves the tool along y";
+    case Enters::along:
+      return "which moves the tool in that direction";
+    case Enters::outwards:
+      return "which moves the tool outwards";
+    case Enters::mixed:
+      break;
+  }
+  return "";
+}
+
+/// What a slope of so much over the whole range is by its natural unit.
+std::string slope_words(const Law& law, const ParameterEstimate& size) {
+  const double span = law.to - law.from;
+  const std::string_view unit = unit_of(law.of);
+  const double per = unit == "mm" ? 1000.0 : unit == "rad" ? 1.0 / kDegreesOfRadian : 1.0;
+  const std::string_view words = unit == "mm"    ? "mm a metre"
+                                 : unit == "rad" ? "mm a degree"
+                                 : unit == "n"   ? "mm a newton"
+                                                 : "mm a visit";
+  return fmt::format(
+      "{} {}", number_words(size.value * per / span, size.sigma * per / span), words);
+}
+
+}  // namespace
+
+std::string in_words(const Law& law) {
+  const std::string variable = variable_words(law);
+  const std::string entrance = entrance_words(law.enters);
+  const ParameterEstimate& size = law.parameters.front();
+  const std::string size_words = number_words(size.value, size.sigma);
+  switch (law.shape) {
+    case LawShape::linear:
+      return fmt::format("{} in proportion to {}, {}", slope_words(law, size), variable, entrance);
+    case LawShape::square:
+      return fmt::format("a bow over {} about {}, {} mm high half a bed away, {}",
+                         variable,
+                         quantity_words(law, law.parameters[1]),
+                         size_words,
+                         entrance);
+    case LawShape::step:
+      return fmt::format("a step of {} mm at {} = {}, {}",
+                         size_words,
+                         variable,
+                         quantity_words(law, law.parameters[1]),
+                         entrance);
+    case LawShape::kink:
+      return fmt::format("{} {} {} = {}, {}",
+                         slope_words(law, size),
+                         law.towards > 0 ? "beyond" : "below",
+                         variable,
+                         quantity_words(law, law.parameters[1]),
+                         entrance);
+    case LawShape::exponential:
+      return fmt::format(
+          "{} mm where {} is {}, a third of it {} further in, {}",
+          size_words,
+          variable,
+          law.towards > 0 ? "largest" : "least",
+          quantity_words(law, law.parameters[1]),
+          entrance);
+    case LawShape::wave:
+      break;
+  }
+  return fmt::format("a wave of {} mm over {} with period {}, {}",
+                     size_words,
+                     variable,
+                     quantity_words(law, law.parameters[1]),
+                     entrance);
+}
+
+std::vector<std::string> hints_of(const Law& law, const model::Machine& machine) {
+  std::vector<std::string> hints;
+  const bool of_length = law.of == LawOf::length_left || law.of == LawOf::length_right;
+  const auto near = [&](double value, double least) {
+    const ParameterEstimate& own = law.parameters[1];
+    return std::abs(own.value - value) < std::max(2.0 * own.sigma, least);
+  };
+  if (law.shape == LawShape::wave && of_length) {
+    const double pitch = machine.sprocket.pitch_mm;
+    const double turn = machine.sprocket.teeth * pitch;
+    // Nearer than that a period is not made: a hundredth.
+    if (near(turn, 0.01 * turn)) {
+      hints.push_back(fmt::format(
+          "Its period is near one turn of the sprocket ({:.1f} mm): does it run out of true?", turn));
+    } else if (near(0.5 * turn, 0.005 * turn)) {
+      hints.push_back(fmt::format(
+          "Its period is near half a turn of the sprocket ({:.1f} mm): is it out of round?",
+          0.5 * turn));
+    } else if (near(pitch, 0.01 * pitch)) {
+      hints.push_back(fmt::format(
+          "Its period is near one link and one tooth ({:.2f} mm): does the chain ride on the teeth?",
+          pitch));
+    }
+  }
+  constexpr double kNearMm = 30.0;  // a hand's breadth to either side is no place of its own
+  const bool has_place = law.shape == LawShape::step || law.shape == LawShape::kink;
+  if (law.of == LawOf::x && has_place && near(0.0, kNearMm))
+    hints.emplace_back("Its place is near the middle of the beam: is something joined there?");
+  for (const auto& [name, motor] : {std::pair{"left", machine.motors.left},
+                                    std::pair{"right", machine.motors.right}}) {
+    if (law.of == LawOf::x && has_place && near(motor.x_mm, kNearMm))
+      hints.push_back(fmt::format("Its place is near the {} motor.", name));
+  }
+  if (law.of == LawOf::tension_left || law.of == LawOf::tension_right)
+    hints.emplace_back("It follows a chain's pull: something gives under load.");
+  return hints;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A law in words for a workshop.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grid/diagnosis/law.hpp"
+#include "model/machine.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// "a wave of 0.40 +- 0.03 mm over the length of the left chain with period 63.6 +- 0.4 mm, in the left
+/// chain". Without its probability.
+[[nodiscard]] std::string in_words(const Law& law);
+
+/// What a period or a place is near to on this machine, as hints: whole sentences.
+[[nodiscard]] std::vector<std::string> hints_of(const Law& law, const model::Machine& machine);
+
+}  // namespace chaintrue::grid::diagnosis

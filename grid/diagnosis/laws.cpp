@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/laws.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+#include "grid/diagnosis/law_parts.hpp"
+#include "grid/statistics.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr std::size_t kMostLaws = 3;
+/// One that is less likely is not worth a line.
+constexpr double kLeastLaw = 0.03;
+
+double log_total(const std::vector<LawEvidence>& evidence) {
+  std::vector<double> terms;
+  for (const LawEvidence& own : evidence) terms.push_back(own.log_total());
+  return log_sum(terms);
+}
+
+/// A point of a curve in one of the systems.
+struct FoundPoint {
+  const LawEvidence* evidence = nullptr;
+  const WeighedLaw* law = nullptr;
+  [[nodiscard]] const LawCurve& curve() const { return evidence->curves[law->curve]; }
+};
+
+/// Size and place (a period, a scale) or size, period and phase of a point, with their variances.
+struct PointParameters {
+  std::vector<double> value;
+  std::vector<double> variance;
+};
+
+PointParameters parameters_of(const LawCurve& curve, const WeighedLaw& law) {
+  const Eigen::VectorXd& a = law.amplitude;
+  const Eigen::MatrixXd& c = law.covariance;
+  switch (curve.shape) {
+    case LawShape::linear:
+      return {{a(0)}, {c(0, 0)}};
+    case LawShape::square: {
+      const double at = -0.5 * a(1) / a(0);
+      const Eigen::Vector2d slope(-at / a(0), -0.5 / a(0));
+      const double half = 0.5 * curve.span();
+      return {{a(0), curve.middle() + half * at}, {c(0, 0), half * half * slope.dot(c * slope)}};
+    }
+    case LawShape::wave: {
+      const double size = a.norm();
+      const Eigen::Vector2d along = a / size;
+      const Eigen::Vector2d turned(along(1), -along(0));
+      return {{size, curve.span() / law.at, std::atan2(a(0), a(1))},
+              {along.dot(c * along), 0.0, turned.dot(c * turned) / (size * size)}};
+    }
+    case LawShape::step: {
+      // Anywhere between two readings.
+      const std::size_t k = static_cast<std::size_t>(
+          std::find(curve.grid.begin(), curve.grid.end(), law.at) - curve.grid.begin());
+      const double gap = k < curve.mass.size() ? curve.mass[k] * curve.span() : 0.0;
+      return {{a(0), law.at}, {c(0, 0), gap * gap / 12.0}};
+    }
+    default:
+      break;
+  }
+  return {{a(0), law.at}, {c(0, 0), 0.0}};
+}
+
+std::vector<std::string> names_of(const LawCurve& curve) {
+  const auto with_unit = [&](std::string_view what) {
+    return fmt::format("{}_{}", what, unit_of(curve.of));
+  };
+  switch (curve.shape) {
+    case LawShape::linear:
+      return {"size_mm"};
+    case LawShape::exponential:
+      return {"size_mm", with_unit("scale")};
+    case LawShape::wave:
+      return {"size_mm", with_unit("period"), "phase_rad"};
+    default:
+      break;
+  }
+  return {"size_mm", with_unit("place")};
+}
+
+/// Values of the heaviest point; sigmas over all points of its curve.
+std::vector<ParameterEstimate> estimates(const FoundPoint& best,
+                                         const std::vector<FoundPoint>& points) {
+  const PointParameters own = parameters_of(best.curve(), *best.law);
+  const std::size_t count = own.value.size();
+  std::vector<double> sum(count, 0.0);
+  std::vector<double> square(count, 0.0);
+  std::vector<double> within(count, 0.0);
+  double weights = 0.0;
+  for (const FoundPoint& point : points) {
+    const bool same = point.evidence == best.evidence && point.law->curve == best.law->curve;
+    if (!same) continue;
+    const double w = std::exp(point.law->log_weight - best.law->log_weight);
+    const PointParameters there = parameters_of(point.curve(), *point.law);
+    for (std::size_t k = 0; k < count; ++k) {
+      double off = there.value[k] - own.value[k];
+      if (k == 2) off = std::remainder(off, 2.0 * std::numbers::pi);
+      sum[k] += w * off;
+      square[k] += w * off * off;
+      within[k] += w * there.variance[k];
+    }
+    weights += w;
+  }
+  const std::vector<std::string> names = names_of(best.curve());
+  std::vector<ParameterEstimate> result;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double mean = sum[k] / weights;
+    const double variance = (square[k] + within[k]) / weights - mean * mean;
+    result.push_back({names[k], own.value[k], std::sqrt(std::max(variance, 0.0))});
+  }
+  return result;
+}
+
+/// What the settings leave of some rows.
+Eigen::VectorXd left_by_settings(const RegressorSystem& system,
+                                 const MarginalisedSystem& marginalised,
+                                 const Eigen::VectorXd& rows) {
+  const Eigen::MatrixXd scaled =
+      marginalised.kept.of(system.by_setting) * system.sigma.asDiagonal();
+  Eigen::MatrixXd normal = scaled.transpose() * scaled;
+  normal.diagonal().array() += 1.0;
+  const Eigen::VectorXd x = normal.llt().solve(scaled.transpose() * marginalised.kept(rows));
+  return rows - system.by_setting * system.sigma.cwiseProduct(x);
+}
+
+double mean_square_of_tool_mm2(const RegressorSystem& system,
+                               const MarginalisedSystem& marginalised,
+                               const Eigen::VectorXd& rows) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t u = 0; u < system.units.size(); ++u) {
+    if (marginalised.outliers[u]) continue;
+    sum += error_of_unit(system, rows, u).squaredNorm();
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+void measure(const Analysis& a, const FoundPoint& best, Law& law) {
+  const RegressorSystem& system = a.system;
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[best.evidence->marginalised];
+  const Eigen::VectorXd rows =
+      LawColumns(system).of(best.curve(), best.law->at) * best.law->amplitude;
+  const double own = mean_square_of_tool_mm2(
+      system, marginalised, left_by_settings(system, marginalised, rows));
+  const double all = mean_square_of_tool_mm2(
+      system,
+      marginalised,
+      left_by_settings(system, marginalised, system.e - system.by_setting * system.expected_change));
+  law.rms_mm = std::sqrt(own);
+  law.share = all > 0.0 ? std::min(own / all, 1.0) : 0.0;
+}
+
+/// Those of one variable and one way to enter; nothing where they are not worth a line.
+std::optional<Law> law_of(const Analysis& a, const std::vector<FoundPoint>& points, double log_all) {
+  std::map<LawShape, double> shapes;
+  double sum = 0.0;
+  for (const FoundPoint& point : points) {
+    const double p = std::exp(point.law->log_weight - log_all);
+    shapes[point.curve().shape] += p;
+    sum += p;
+  }
+  if (sum < kLeastLaw) return std::nullopt;
+  const auto likeliest = std::max_element(
+      shapes.begin(), shapes.end(), [](const auto& x, const auto& y) { return x.second < y.second; });
+  const FoundPoint* best = nullptr;
+  for (const FoundPoint& point : points) {
+    if (point.curve().shape != likeliest->first) continue;
+    if (best == nullptr || point.law->log_weight > best->law->log_weight) best = &point;
+  }
+  const LawCurve& curve = best->curve();
+  Law law;
+  law.of = curve.of;
+  law.shape = curve.shape;
+  law.enters = curve.enters;
+  law.probability =
+      averaged_over_parts(a, *best->evidence, *best->law, std::min(sum, 1.0));
+  law.shape_probability = std::min(likeliest->second / sum, 1.0);
+  law.direction_deg = curve.direction_rad * 180.0 / std::numbers::pi;
+  law.towards = curve.towards;
+  law.from = curve.from;
+  law.to = curve.to;
+  law.parameters = estimates(*best, points);
+  measure(a, *best, law);
+  return law;
+}
+
+/// Of the best model, and of that which rejects least: a law at the border looks like bad points there.
+std::vector<std::size_t> systems_to_weigh(const ModelComparison& comparison) {
+  const auto rejected = [&](std::size_t k) {
+    const std::vector<bool>& outliers = comparison.marginalised_systems[k].outliers;
+    return std::count(outliers.begin(), outliers.end(), true);
+  };
+  std::vector<std::size_t> numbers = {comparison.best().marginalised};
+  std::size_t fewest = numbers.front();
+  for (std::size_t k = 0; k < comparison.marginalised_systems.size(); ++k) {
+    if (rejected(k) < rejected(fewest)) fewest = k;
+  }
+  if (fewest != numbers.front()) numbers.push_back(fewest);
+  return numbers;
+}
+
+}  // namespace
+
+double probability_of_any(const std::vector<LawEvidence>& evidence) {
+  std::vector<double> without;
+  for (const LawEvidence& own : evidence) without.push_back(own.log_without);
+  return std::max(0.0, -std::expm1(log_sum(without) - log_total(evidence)));
+}
+
+std::vector<Law> laws_of(const Analysis& a, const std::vector<LawEvidence>& evidence) {
+  if (probability_of_any(evidence) < kLawLikely) return {};
+  const double log_all = log_total(evidence);
+  std::map<std::tuple<LawOf, Enters>, std::vector<FoundPoint>> answers;
+  for (const LawEvidence& own : evidence) {
+    for (const WeighedLaw& law : own.laws) {
+      const LawCurve& curve = own.curves[law.curve];
+      answers[{curve.of, curve.enters}].push_back({&own, &law});
+    }
+  }
+  std::vector<Law> laws;
+  for (const auto& [key, points] : answers) {
+    if (auto law = law_of(a, points, log_all)) laws.push_back(*std::move(law));
+  }
+  std::stable_sort(laws.begin(), laws.end(), [](const Law& x, const Law& y) {
+    return x.probability > y.probability;
+  });
+  if (laws.size() > kMostLaws) laws.resize(kMostLaws);
+  return laws;
+}
+
+std::vector<Law> laws_found(const Analysis& a) {
+  if (a.options.given_cause || !a.session.reads_chains()) return {};
+  const std::vector<LawCurve> curves = law_curves(a.system);
+  if (curves.empty()) return {};
+  std::vector<LawEvidence> evidence;
+  for (const std::size_t number : systems_to_weigh(a.comparison))
+    evidence.push_back(weigh_laws(a, number, curves));
+  return laws_of(a, evidence);
+}
+
+}  // namespace chaintrue::grid::diagnosis

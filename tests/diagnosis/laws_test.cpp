@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Laws of what no listed cause explains: found with their place and size, shared out so that a longer
+/// list raises no false rate, weaker than a listed cause that does the same, written as a cause that a
+/// second session confirms and a foreign law does not.
+#include "grid/diagnosis/laws.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "grid/diagnosis/law_declaration.hpp"
+#include "grid/diagnosis/law_words.hpp"
+#include "grid/diagnosis/regressors.hpp"
+#include "grid/files/effect_file.hpp"
+#include "model/effects/catalogue.hpp"
+#include "tests/diagnosis/sessions.hpp"
+#include "tests/normal_numbers.hpp"
+
+namespace chaintrue::grid::diagnosis::laws {
+namespace {
+
+using model::effects::Declaration;
+using model::effects::declared_effect;
+using model::effects::EffectSide;
+using model::effects::find_effect;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing_support::session_of;
+
+/// Readings with something more in the left chain, or with the tool moved along y.
+template <class Value>
+MeasuredGrid with_left(MeasuredGrid grid, Value value) {
+  const model::ReadingModel machine(*grid.machine);
+  for (MeasuredPoint& point : grid.points) {
+    const auto reading = machine.at(model::identity_placement(point.mark)).value();
+    point.lengths->left_mm += value(point.mark, reading);
+  }
+  return grid;
+}
+
+/// Half a turn, as a wave of the chain's length.
+MeasuredGrid with_half_turns(std::uint64_t seed, double size_mm = 0.45, double shift_rad = 0.7) {
+  return with_left(session_of({}, seed, 13, 9), [=](const auto&, const auto& reading) {
+    return size_mm * std::sin(2.0 * std::numbers::pi * reading.pose.lengths.left_mm / 31.75 + shift_rad);
+  });
+}
+
+MeasuredGrid with_step_along_x(std::uint64_t seed, double size_mm = 1.0) {
+  return with_left(session_of({}, seed, 9, 6), [=](const model::MarkPoint& mark, const auto&) {
+    return mark.x_mm >= 250.0 ? size_mm : 0.0;
+  });
+}
+
+Analysis analysed(const MeasuredGrid& grid) {
+  DiagnosisOptions options = testing_support::verdict_alone();
+  options.stability = false;
+  return analyse(observations_of(Measured(grid)).value(), options).value();
+}
+
+// 117 marks; no listed cause makes it, and it is too short to be a smooth pattern.
+TEST(Laws, AWaveOfHalfATurnIsFoundWithItsPeriodAndSize) {
+  const std::vector<Law> laws = laws_found(analysed(with_half_turns(11)));
+  ASSERT_FALSE(laws.empty());
+  const Law& law = laws.front();
+  EXPECT_EQ(law.of, LawOf::length_left) << in_words(law);
+  EXPECT_EQ(law.shape, LawShape::wave);
+  EXPECT_EQ(law.enters, Enters::left);
+  EXPECT_GT(law.probability, kLawClaimed);
+  // Three sigmas.
+  EXPECT_NEAR(law.parameters[0].value, 0.45, 3.0 * law.parameters[0].sigma);
+  EXPECT_NEAR(law.parameters[1].value, 31.75, 3.0 * law.parameters[1].sigma);
+  EXPECT_LT(law.parameters[1].sigma, 0.3);
+  EXPECT_THAT(in_words(law), HasSubstr("over the left chain's length with period 31."));
+  const auto hints = hints_of(law, model::Machine{});
+  ASSERT_EQ(hints.size(), 1U);
+  EXPECT_THAT(hints.front(), HasSubstr("half a turn of the sprocket (31.8 mm)"));
+}
+
+TEST(Laws, AStepIsFoundWithItsPlace) {
+  const std::vector<Law> laws = laws_found(analysed(with_step_along_x(12)));
+  ASSERT_FALSE(laws.empty());
+  const Law& law = laws.front();
+  EXPECT_EQ(law.of, LawOf::x) << in_words(law);
+  EXPECT_EQ(law.shape, LawShape::step);
+  EXPECT_EQ(law.enters, Enters::left);
+  EXPECT_NEAR(law.parameters[0].value, 1.0, 3.0 * law.parameters[0].sigma);
+  EXPECT_NEAR(law.parameters[1].value, 250.0, 3.0 * law.parameters[1].sigma);
+}
+
+TEST(Laws, NothingAndListedCausesAreNoLaw) {
+  for (const std::uint64_t seed : {21, 22, 23}) {
+    EXPECT_THAT(laws_found(analysed(session_of({}, seed))), IsEmpty()) << "seed " << seed;
+  }
+  // What these do a law would do as well: a line of the left chain's length, a kink of its angle and a wave
+  // of its length. The listed cause is the likelier one beforehand.
+  for (const auto& [id, values] :
+       {std::pair{"chain_pitch_error", std::vector{0.0012}},
+        std::pair{"angular_kink", std::vector{6.0, 0.5}},
+        std::pair{"sprocket_eccentricity", std::vector{0.6, 1.0}}}) {
+    const auto effect = model::effects::applied(*find_effect(id), EffectSide::left, values);
+    EXPECT_THAT(laws_found(analysed(session_of({effect}, 24))), IsEmpty()) << id;
+  }
+}
+
+// The prior of all laws is fixed and shared out.
+TEST(Laws, AListThatHoldsEachLawTwiceSaysTheSame) {
+  const Analysis a = analysed(with_step_along_x(12, 0.5));
+  const std::vector<LawCurve> once = law_curves(a.system);
+  std::vector<LawCurve> twice;
+  for (const LawCurve& curve : once) twice.insert(twice.end(), 2, curve);
+  share_out(twice);
+  double sum = 0.0;
+  for (const LawCurve& curve : twice) sum += curve.share;
+  EXPECT_NEAR(sum, 1.0, 1e-12);  // rounding of two thousand terms
+  const std::size_t number = a.comparison.best().marginalised;
+  const double of_once = probability_of_any({weigh_laws(a, number, once)});
+  const double of_twice = probability_of_any({weigh_laws(a, number, twice)});
+  // Laws far below the best are not looked at again, of two lists not the same ones.
+  EXPECT_NEAR(of_twice, of_once, 0.01);
+}
+
+TEST(Laws, MoreParametersAndDirectionsHaveLess) {
+  const Analysis a = analysed(session_of({}, 21));
+  std::map<LawShape, double> along_x;
+  double across = 0.0;
+  double of_x = 0.0;
+  for (const LawCurve& curve : law_curves(a.system)) {
+    if (curve.of == LawOf::x && curve.enters == Enters::left) along_x[curve.shape] += curve.share;
+    if (curve.of == LawOf::x) of_x += curve.share;
+    if (curve.of == LawOf::across) across += curve.share;
+  }
+  EXPECT_DOUBLE_EQ(along_x[LawShape::step], 0.5 * along_x[LawShape::linear]);
+  EXPECT_DOUBLE_EQ(along_x[LawShape::wave], 0.5 * along_x[LawShape::step]);
+  EXPECT_NEAR(across, 0.5 * of_x, 1e-12);
+}
+
+/// A law with plain numbers.
+Law law_of(LawOf of, LawShape shape, Enters enters) {
+  Law law;
+  law.of = of;
+  law.shape = shape;
+  law.enters = enters;
+  law.probability = 0.95;
+  law.shape_probability = 0.9;
+  law.direction_deg = of == LawOf::across ? 30.0 : 0.0;
+  const bool is_angle = unit_of(of) == "rad";
+  law.from = is_angle ? 0.2 : unit_of(of) == "n" ? 20.0 : 500.0;
+  law.to = is_angle ? 1.2 : unit_of(of) == "n" ? 90.0 : 2500.0;
+  if (of == LawOf::x || of == LawOf::y || of == LawOf::across) {
+    law.from = -600.0;
+    law.to = 600.0;
+  }
+  if (of == LawOf::border) {
+    law.from = 0.0;
+    law.to = 600.0;
+  }
+  law.towards = shape == LawShape::kink || shape == LawShape::exponential ? 1 : 0;
+  const double span = law.to - law.from;
+  law.parameters = {{"size_mm", 0.7, 0.05}};
+  const std::string unit(unit_of(of));
+  if (shape == LawShape::wave) {
+    law.parameters.push_back({"period_" + unit, 0.4 * span, 0.01 * span});
+    law.parameters.push_back({"phase_rad", 0.6, 0.1});
+  } else if (shape == LawShape::exponential) {
+    law.parameters.push_back({"scale_" + unit, 0.2 * span, 0.02 * span});
+  } else if (shape != LawShape::linear) {
+    law.parameters.push_back({"place_" + unit, law.from + 0.4 * span, 0.02 * span});
+  }
+  return law;
+}
+
+/// Its amplitudes as a curve's columns have them.
+LawCurve curve_of(const Law& law, Eigen::VectorXd& amplitude, double& at) {
+  LawCurve curve;
+  curve.of = law.of;
+  curve.shape = law.shape;
+  curve.enters = law.enters;
+  curve.direction_rad = law.direction_deg * std::numbers::pi / 180.0;
+  curve.towards = law.towards;
+  curve.from = law.from;
+  curve.to = law.to;
+  const double size = law.parameters[0].value;
+  amplitude = Eigen::VectorXd::Constant(1, size);
+  at = law.parameters.size() > 1 ? law.parameters[1].value : 0.0;
+  if (law.shape == LawShape::wave) {
+    at = curve.span() / at;
+    amplitude = size * Eigen::Vector2d(std::sin(law.parameters[2].value),
+                                       std::cos(law.parameters[2].value));
+  } else if (law.shape == LawShape::square) {
+    const double off = (at - curve.middle()) / (0.5 * curve.span());
+    amplitude = size * Eigen::Vector2d(1.0, -2.0 * off);
+  }
+  return curve;
+}
+
+struct Written {
+  LawOf of;
+  LawShape shape;
+  Enters enters;
+};
+
+class EveryLaw : public testing::TestWithParam<Written> {};
+
+// The formula, the columns that were weighed and value_of() are the same function.
+TEST_P(EveryLaw, IsTheSameAsAFileAsColumnsAndAsAFunction) {
+  const Law law = law_of(GetParam().of, GetParam().shape, GetParam().enters);
+  const MeasuredGrid grid = session_of({}, 31);
+  const Analysis a = analysed(grid);
+  const auto written = declaration_of(law, grid.machine->bed);
+  ASSERT_TRUE(written) << written.error();
+  // As it is read again.
+  const Declaration own = files::parse_effect(files::write_effect(*written), "law.json");
+  EXPECT_EQ(files::write_effect(own), files::write_effect(*written));
+  EXPECT_THAT(model::effects::problems_on_bed(own, *grid.machine), IsEmpty());
+  const model::effects::Effect& effect = declared_effect(own);
+  const CauseId cause{&effect, own.sides.front()};
+  std::vector<double> values = model::effects::nominal_values(effect);
+  const auto as_effect = signature(a.session, a.state, a.system, cause, values);
+  ASSERT_TRUE(as_effect);
+  Eigen::VectorXd amplitude;
+  double at = 0.0;
+  const LawCurve curve = curve_of(law, amplitude, at);
+  Eigen::VectorXd as_columns = LawColumns(a.system).of(curve, at) * amplitude;
+  if (law.shape == LawShape::square) {
+    // The columns leave a constant out.
+    const double off = (law.parameters[1].value - curve.middle()) / (0.5 * curve.span());
+    LawCurve constant = curve;
+    constant.shape = LawShape::step;
+    as_columns += LawColumns(a.system).of(constant, -1e9) * Eigen::VectorXd::Constant(
+        1, law.parameters[0].value * off * off);
+  }
+  // What moves the tool is written by the chain's angle, which is its direction but for the ring.
+  const double tolerance = law.enters == Enters::y ? 0.05 : 1e-4;
+  EXPECT_LT((as_columns - *as_effect).norm(), tolerance * as_columns.norm());
+  const SystemPlace& place = a.system.places.front();
+  const double v = variable_at(place, law.of, curve.direction_rad);
+  if (law.enters == Enters::left) {
+    const auto& unit = a.system.units.front();
+    const Eigen::VectorXd rows = unit.places.front().by_chain.col(0) * value_of(law, v);
+    EXPECT_LT((rows - as_columns.segment(unit.first_row, unit.rows)).norm(), 1e-9);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Laws,
+    EveryLaw,
+    testing::Values(Written{LawOf::x, LawShape::step, Enters::left},
+                    Written{LawOf::x, LawShape::kink, Enters::right},
+                    Written{LawOf::x, LawShape::wave, Enters::y},
+                    Written{LawOf::y, LawShape::square, Enters::left},
+                    Written{LawOf::y, LawShape::exponential, Enters::y},
+                    Written{LawOf::across, LawShape::linear, Enters::left},
+                    Written{LawOf::across, LawShape::kink, Enters::y},
+                    Written{LawOf::border, LawShape::exponential, Enters::left},
+                    Written{LawOf::length_left, LawShape::wave, Enters::left},
+                    Written{LawOf::length_right, LawShape::linear, Enters::right},
+                    Written{LawOf::angle_left, LawShape::wave, Enters::left},
+                    Written{LawOf::angle_right, LawShape::kink, Enters::right},
+                    Written{LawOf::tension_left, LawShape::square, Enters::left}));
+
+TEST(LawFiles, WhatNoFormulaCanSayIsRefused) {
+  const model::Bed bed;
+  for (const Law& law : {law_of(LawOf::x, LawShape::step, Enters::x),
+                         law_of(LawOf::length_left, LawShape::wave, Enters::right),
+                         law_of(LawOf::across, LawShape::wave, Enters::along)}) {
+    const auto written = declaration_of(law, bed);
+    ASSERT_FALSE(written);
+    EXPECT_THAT(written.error(), HasSubstr("No file is made of the law found"));
+  }
+  Law unsure = law_of(LawOf::x, LawShape::step, Enters::left);
+  unsure.probability = 0.89;
+  const auto written = declaration_of(std::vector<Law>{unsure}, bed);
+  ASSERT_FALSE(written);
+  EXPECT_THAT(written.error(), HasSubstr("89 %"));
+  EXPECT_FALSE(declaration_of(std::vector<Law>{}, bed));
+}
+
+// From one session to the next: found, written, and then a cause like the others.
+TEST(LawFiles, AreConfirmedByASecondSessionOfTheMachineAndDeniedByAnother) {
+  const std::vector<Law> laws = laws_found(analysed(with_half_turns(11)));
+  const auto written = declaration_of(laws, model::Bed{});
+  ASSERT_TRUE(written) << written.error();
+  const model::effects::Effect& effect = declared_effect(*written);
+  const auto with_law = [&](MeasuredGrid grid) {
+    grid.machine->declared = {&effect};
+    return diagnose(grid, testing_support::verdict_alone()).value();
+  };
+  const auto is_named = [&](const Diagnosis& found) {
+    return std::any_of(found.causes.begin(), found.causes.end(), [&](const Cause& cause) {
+      return cause.cause.effect == &effect && cause.cause.side == EffectSide::left;
+    });
+  };
+  // Other marks, other noise.
+  const Diagnosis second = with_law(with_left(session_of({}, 41, 12, 8), [](const auto&, const auto& reading) {
+    return 0.45 * std::sin(2.0 * std::numbers::pi * reading.pose.lengths.left_mm / 31.75 + 0.7);
+  }));
+  EXPECT_TRUE(is_named(second)) << second.sentence;
+  ASSERT_TRUE(second.unexplained);
+  EXPECT_THAT(second.unexplained->laws, IsEmpty());
+  // A machine with another law: it is not this one.
+  const Diagnosis other = with_law(with_step_along_x(42));
+  EXPECT_FALSE(is_named(other)) << other.sentence;
+  EXPECT_FALSE(is_named(with_law(session_of({}, 43, 8, 7))));
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis::laws

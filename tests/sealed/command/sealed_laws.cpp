@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// sealed_laws: hides a law, a field that is no law, a listed cause or nothing in many sessions, diagnoses
+/// each and prints how often the law that is reported is right. Not part of the test run; its table is in
+/// docs/diagnosis_rates.md.
+///
+///   sealed_laws --sets 300 --only laws --show
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "sealed/judge/laws_trial.hpp"
+#include "sealed/judge/table.hpp"
+
+namespace {
+
+using chaintrue::sealed::LawsKind;
+using chaintrue::sealed::LawsTrial;
+using chaintrue::sealed::Share;
+
+struct Arguments {
+  int sets = 60;
+  std::uint64_t first_seed = 1;
+  std::vector<std::string> only;
+  int threads = 1;
+  bool show = false;
+};
+
+std::vector<LawsTrial> trials(const LawsKind& kind, const Arguments& arguments) {
+  std::vector<LawsTrial> all(static_cast<std::size_t>(arguments.sets));
+  std::atomic<int> next{0};
+  std::mutex printing;
+  const auto work = [&] {
+    for (int k = next++; k < arguments.sets; k = next++) {
+      const std::uint64_t seed = arguments.first_seed + static_cast<std::uint64_t>(k);
+      LawsTrial& own = all[static_cast<std::size_t>(k)];
+      own = chaintrue::sealed::run_laws_trial(kind.word, seed);
+      if (!arguments.show) continue;
+      const std::lock_guard lock(printing);
+      fmt::print("{}\n", line_of(kind.word, own));
+      std::fflush(stdout);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int k = 1; k < arguments.threads; ++k) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  return all;
+}
+
+void print_row(const std::string& hidden, const char* what, const char* goal, const Share& share) {
+  fmt::print("| {} | {} | {} | {} |\n", hidden, what, goal, text(share));
+}
+
+void print_rows(const LawsKind& kind, const std::vector<LawsTrial>& all) {
+  Share claims, leads, in_set, claims_right, near, causes;
+  for (const LawsTrial& t : all) {
+    claims.count(t.claimed);
+    leads.count(t.leads);
+    in_set.count(t.in_set);
+    if (t.claimed) claims_right.count(t.leads);
+    if (t.worst_sigmas) near.count(*t.worst_sigmas <= 3.0);
+    causes.count(t.cause_named);
+  }
+  const std::string hidden(kind.hidden);
+  if (!kind.is_law) {
+    print_row(hidden, "a law claimed", "at most 2 %", claims);
+    return;
+  }
+  print_row(hidden, "variable and entry right, or among the (at most 3) reported", "90 %", in_set);
+  print_row(hidden, "the first is right", "", leads);
+  print_row(hidden, "a law claimed at 90 %", "", claims);
+  print_row(hidden, "a claim is right", "97 %", claims_right);
+  print_row(hidden, "place or period, and size, within three sigmas", "97 %", near);
+  if (kind.word == "both") print_row(hidden, "the cause named", "", causes);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("How often a reported law is right");
+  app.add_option("--sets", arguments.sets, "Of each kind");
+  app.add_option("--first-seed", arguments.first_seed, "Of the first set");
+  app.add_option("--only", arguments.only, "These kinds");
+  app.add_option("--threads", arguments.threads, "Sets at a time");
+  app.add_flag("--show", arguments.show, "A line for each set");
+  CLI11_PARSE(app, argc, argv);
+  fmt::print("| hidden | quantity | asked | reached |\n|---|---|---|---|\n");
+  for (const LawsKind& kind : chaintrue::sealed::laws_kinds()) {
+    const bool asked = arguments.only.empty() ||
+                       std::find(arguments.only.begin(), arguments.only.end(), kind.word) !=
+                           arguments.only.end();
+    if (asked) print_rows(kind, trials(kind, arguments));
+  }
+}

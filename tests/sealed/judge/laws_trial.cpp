@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sealed/judge/laws_trial.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <numbers>
+
+#include "grid/files/grid_file.hpp"
+#include "sealed/judge/trial.hpp"
+
+namespace chaintrue::sealed {
+namespace {
+
+using generator::HiddenLaw;
+using generator::LawFamily;
+using grid::diagnosis::Enters;
+using grid::diagnosis::Law;
+using grid::diagnosis::LawOf;
+using grid::diagnosis::LawShape;
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+generator::Recipe recipe_of(std::string_view kind, std::uint64_t seed) {
+  generator::Recipe recipe;
+  constexpr int kPoints[] = {28, 60, 117};
+  recipe.points = kPoints[seed % 3];
+  recipe.kind = kind == "causes" || kind == "both" ? generator::Mix::single : generator::Mix::nothing;
+  if (kind == "both") recipe.delta = 10.0;
+  if (kind == "laws" || kind == "both") recipe.law = static_cast<LawFamily>((seed / 3) % 9);
+  if (kind == "two") recipe.law = LawFamily::product_of_two;
+  if (kind == "gaussian") recipe.law = LawFamily::gaussian_field;
+  if (kind == "matern") recipe.law = LawFamily::matern_field;
+  if (kind == "stretched") recipe.law = LawFamily::stretched_field;
+  if (kind == "uneven") recipe.law = LawFamily::uneven_field;
+  return recipe;
+}
+
+bool is_variable_of(const HiddenLaw& law, const Law& found) {
+  switch (law.family) {
+    case LawFamily::step_along_x:
+    case LawFamily::slope_from_x:
+    case LawFamily::ripple_along_x:
+      return found.of == LawOf::x;
+    case LawFamily::step_along_y:
+    case LawFamily::slope_from_y:
+      return found.of == LawOf::y;
+    case LawFamily::slope_oblique: {
+      const double off = std::remainder(
+          found.direction_deg - law.direction_rad * 180.0 / std::numbers::pi, 180.0);
+      return found.of == LawOf::across && std::abs(off) < 12.0;
+    }
+    case LawFamily::ripple_of_length:
+      return found.of == (law.chain == 0 ? LawOf::length_left : LawOf::length_right);
+    case LawFamily::ripple_of_angle:
+      return found.of == (law.chain == 0 ? LawOf::angle_left : LawOf::angle_right);
+    case LawFamily::drop_at_edge:
+      return found.of == (law.chain == 0 ? LawOf::x : LawOf::y) || found.of == LawOf::border;
+    default:
+      return false;
+  }
+}
+
+Enters entry_of(const HiddenLaw& law) {
+  if (law.moves_tool) return law.component == 0 ? Enters::x : Enters::y;
+  return law.component == 0 ? Enters::left : Enters::right;
+}
+
+bool is_right(const HiddenLaw& law, const Law& found) {
+  return is_variable_of(law, found) && found.enters == entry_of(law);
+}
+
+double in_sigmas(double off, double sigma) { return std::abs(off) / std::max(sigma, 1e-9); }
+
+std::optional<double> worst_of(const HiddenLaw& law, const Law& found) {
+  const auto& p = found.parameters;
+  const double span = found.to - found.from;
+  switch (law.family) {
+    case LawFamily::step_along_x:
+    case LawFamily::step_along_y:
+      if (found.shape != LawShape::step) return std::nullopt;
+      return std::max(in_sigmas(p[0].value - law.size_mm, p[0].sigma),
+                      in_sigmas(p[1].value - law.place, p[1].sigma));
+    case LawFamily::slope_from_x:
+    case LawFamily::slope_from_y:
+      // A slope the other way differs by what is linear, which the settings and others take.
+      if (found.shape != LawShape::kink || found.towards != law.sign) return std::nullopt;
+      return std::max(in_sigmas(p[0].value - law.size_mm * span / 1000.0, p[0].sigma),
+                      in_sigmas(p[1].value - law.place, p[1].sigma));
+    case LawFamily::ripple_of_length:
+    case LawFamily::ripple_of_angle:
+    case LawFamily::ripple_along_x:
+      if (found.shape != LawShape::wave) return std::nullopt;
+      return std::max(in_sigmas(p[0].value - std::abs(law.size_mm), p[0].sigma),
+                      in_sigmas(p[1].value - law.extent, p[1].sigma));
+    case LawFamily::drop_at_edge:
+      if (found.shape != LawShape::exponential || found.of == LawOf::border) return std::nullopt;
+      return in_sigmas(p[1].value - law.extent, p[1].sigma);
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
+const std::vector<LawsKind>& laws_kinds() {
+  static const std::vector<LawsKind> kKinds = {
+      {"laws", "a law of one variable", true},
+      {"both", "a law and a listed cause of strength 10", true},
+      {"two", "a product of two waves", false},
+      {"gaussian", "a Gaussian field", false},
+      {"matern", "a Matern 3/2 field", false},
+      {"stretched", "a field three times as long one way", false},
+      {"uneven", "a field that is rougher on one side", false},
+      {"causes", "one listed cause", false},
+      {"nothing", "nothing", false},
+  };
+  return kKinds;
+}
+
+LawsTrial run_laws_trial(std::string_view kind, std::uint64_t seed) {
+  const generator::Recipe recipe = recipe_of(kind, seed);
+  const generator::SealedSet set = generator::draw_set(recipe, seed);
+  LawsTrial trial;
+  trial.seed = seed;
+  trial.points = recipe.points;
+  trial.answer = set.answer;
+  grid::diagnosis::DiagnosisOptions how;
+  how.stability = false;
+  how.improvement = false;
+  how.next_measurements = false;
+  const double start = processor_seconds();
+  const auto found =
+      grid::diagnosis::diagnose(grid::files::parse_grid(set.grid_text, "sealed.json").grid, how);
+  trial.seconds = processor_seconds() - start;
+  if (!found) {
+    trial.failed = true;
+    return trial;
+  }
+  trial.sentence = found->sentence;
+  for (const NamedCause& named : named_causes(*found)) {
+    for (const auto& hidden : set.answer.hidden)
+      trial.cause_named = trial.cause_named || means(named, id_of(hidden));
+  }
+  if (found->unexplained) trial.laws = found->unexplained->laws;
+  trial.reported = !trial.laws.empty();
+  trial.claimed =
+      trial.reported && trial.laws.front().probability >= grid::diagnosis::kLawClaimed;
+  if (!set.answer.law || !trial.reported) return trial;
+  const HiddenLaw& law = set.answer.law->law;
+  trial.leads = is_right(law, trial.laws.front());
+  trial.in_set = std::any_of(
+      trial.laws.begin(), trial.laws.end(), [&](const Law& one) { return is_right(law, one); });
+  if (trial.leads) trial.worst_sigmas = worst_of(law, trial.laws.front());
+  return trial;
+}
+
+std::string line_of(std::string_view kind, const LawsTrial& trial) {
+  std::string text = fmt::format("{} {} {}", kind, trial.seed, trial.points);
+  if (trial.answer.law) {
+    const HiddenLaw& law = trial.answer.law->law;
+    text += fmt::format(" {} {:.1f} size {:.2f} {} place {:.0f} extent {:.2f} dir {:.0f}",
+                        word(law.family),
+                        trial.answer.law->delta,
+                        law.size_mm,
+                        name(entry_of(law)),
+                        law.place,
+                        law.extent,
+                        law.direction_rad * 180.0 / std::numbers::pi);
+  }
+  for (const auto& hidden : trial.answer.hidden) text += " " + id_of(hidden);
+  text += fmt::format(" | {}{}{}{}", trial.failed ? "failed " : "", trial.claimed ? "claimed " : "",
+                      trial.leads ? "leads " : "", trial.in_set ? "in_set " : "");
+  if (trial.worst_sigmas) text += fmt::format("{:.1f}s ", *trial.worst_sigmas);
+  for (const Law& law : trial.laws) {
+    text += fmt::format("| {} {} {} {:.2f}/{:.2f}", name(law.of), name(law.shape), name(law.enters),
+                        law.probability, law.shape_probability);
+    if (law.of == LawOf::across) text += fmt::format(" dir {:.0f}", law.direction_deg);
+    for (const auto& p : law.parameters)
+      text += fmt::format(" {}={:.2f}+-{:.2f}", p.parameter, p.value, p.sigma);
+  }
+  return text + fmt::format(" | {:.2f} s", trial.seconds);
+}
+
+}  // namespace chaintrue::sealed

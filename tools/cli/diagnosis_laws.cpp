@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The section of a diagnosis on laws: what the part that no listed cause explains is a function of.
+#include <fmt/format.h>
+
+#include "grid/diagnosis/constants.hpp"
+#include "grid/diagnosis/law_words.hpp"
+#include "grid/diagnosis/workshop_units.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
+#include "tools/cli/diagnosis_words.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::diagnosis::Law;
+using report::Item;
+
+/// Hints are said as hints, and not of a law that is only possible.
+std::vector<Item> details_of(const Law& law, const grid::diagnosis::Diagnosis& found) {
+  std::vector<Item> details;
+  if (law.probability < grid::diagnosis::kLawLikely) return details;
+  details.push_back({fmt::format("it makes {:.0f} % of the square of what the settings leave, {:.2f} mm rms",
+                                 100.0 * law.share,
+                                 law.rms_mm)});
+  if (law.shape_probability < grid::diagnosis::kLawClaimed) {
+    details.push_back({fmt::format("that it has this form and no other: {}",
+                                   grid::diagnosis::percent(law.shape_probability))});
+  }
+  for (const std::string& hint : grid::diagnosis::hints_of(law, found.extended_machine))
+    details.push_back({"a hint: " + hint});
+  return details;
+}
+
+}  // namespace
+
+report::Section laws_section(const grid::diagnosis::Diagnosis& found) {
+  const std::vector<Law>& laws = found.unexplained->laws;
+  report::List list;
+  for (const Law& law : laws) {
+    Item& item = list.items.emplace_back(Item{
+        fmt::format("{}: {}", capitalised(in_words(law)), grid::diagnosis::percent(law.probability))});
+    item.items = details_of(law, found);
+  }
+  report::Section section{"A form of what no listed cause explains", {std::move(list)}};
+  const bool is_claimed = laws.front().probability >= grid::diagnosis::kLawClaimed;
+  section.blocks.emplace_back(report::Paragraph{
+      is_claimed ? "No listed cause makes this. --law writes it as a cause of your own, to be named, "
+                   "edited and given back with --effects."
+                 : fmt::format("These {} cannot tell which of these it is, if it is any.",
+                               name(found.observations))});
+  return section;
+}
+
+}  // namespace chaintrue::cli
