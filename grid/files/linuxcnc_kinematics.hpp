@@ -12,7 +12,7 @@
 /// directions fail, which stops LinuxCNC.
 ///
 /// \code
-///   const auto module = linuxcnc_kinematics(MapInFrame(map), "my map");
+///   const auto module = linuxcnc_kinematics(MapInFrame(map), {"chaintrue_kins", "my map"});
 ///   if (module) write_whole_file("chaintrue_kins.c", module->source);
 /// \endcode
 #pragma once
@@ -27,16 +27,22 @@ namespace chaintrue::grid::files {
 /// What a table may be off by, mm: the hundredth part of what a careful hand reads.
 inline constexpr double kTableErrorMm = 0.005;
 
+struct LinuxcncNames {
+  std::string module;  ///< of the component: an identifier, the source's file without its .c
+  std::string map;     ///< for a comment
+};
+
 struct LinuxcncKinematics {
   std::string source;
   int columns = 0;
   int rows = 0;
   double spacing_mm = 0.0;        ///< the larger of both
-  double largest_error_mm = 0.0;  ///< of a length, as it was looked for
+  /// Of a length, as it was looked for; above kTableErrorMm only where 5 mm from node to node do not do.
+  double largest_error_mm = 0.0;
 };
 
 /// Over the map's domain. Fails where the map has no answer somewhere in it.
 [[nodiscard]] tl::expected<LinuxcncKinematics, MapFailure> linuxcnc_kinematics(
-    const LengthMap& map, const std::string& name);
+    const LengthMap& map, const LinuxcncNames& names);
 
 }  // namespace chaintrue::grid::files

@@ -87,7 +87,7 @@ class Module {
 
 TEST(LinuxcncKinematics, CompiledItsLengthsAreTheMapsThereAndBack) {
   const MapInFrame map(sample_map());
-  const auto written = linuxcnc_kinematics(map, "a map */ int x; /*");
+  const auto written = linuxcnc_kinematics(map, {"chaintrue_kins", "a map */ int x; /*"});
   ASSERT_TRUE(written) << written.error().sentence();
   EXPECT_LE(written->largest_error_mm, kTableErrorMm);
   const Module module(written->source);
@@ -122,7 +122,7 @@ TEST(LinuxcncKinematics, CompiledItsLengthsAreTheMapsThereAndBack) {
 
 TEST(LinuxcncKinematics, OutsideTheTableBothDirectionsFail) {
   const MapInFrame map(sample_map());
-  const Module module(linuxcnc_kinematics(map, "map.json")->source);
+  const Module module(linuxcnc_kinematics(map, {"chaintrue_kins", "map.json"})->source);
   ASSERT_TRUE(module.is_loaded());
   double joints[3] = {};
   EXPECT_EQ(module.inverse(map.domain().x_max + 1.0, 0.0, 0.0, joints), -1);
@@ -134,7 +134,7 @@ TEST(LinuxcncKinematics, OutsideTheTableBothDirectionsFail) {
 
 TEST(LinuxcncKinematics, SameMapSameBytes) {
   const MapInFrame map(sample_map());
-  EXPECT_EQ(linuxcnc_kinematics(map, "map.json")->source, linuxcnc_kinematics(map, "map.json")->source);
+  EXPECT_EQ(linuxcnc_kinematics(map, {"chaintrue_kins", "map.json"})->source, linuxcnc_kinematics(map, {"chaintrue_kins", "map.json"})->source);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -12,6 +14,7 @@
 #include "grid/map/map_in_frame.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/map_words.hpp"
+#include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 
@@ -25,13 +28,35 @@ struct ExportLinuxcncCommand {
   std::string output = "chaintrue_kins.c";
 };
 
+/// The component is called as its file is: halcompile takes the name from there.
+std::string module_name(const std::string& output) {
+  return output == "-" ? "chaintrue_kins" : std::filesystem::path(output).stem().string();
+}
+
+void check_linuxcnc(const ExportLinuxcncCommand& command, OptionProblems& problems) {
+  const std::string name = module_name(command.output);
+  const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
+  const bool is_identifier =
+      !name.empty() && is_letter(static_cast<unsigned char>(name.front())) &&
+      std::all_of(name.begin(), name.end(), [&](char c) {
+        return is_letter(static_cast<unsigned char>(c)) || (c >= '0' && c <= '9');
+      });
+  if (!is_identifier || (command.output != "-" && !command.output.ends_with(".c"))) {
+    problems.add("--output",
+                 command.output,
+                 "a file such as chaintrue_kins.c: LinuxCNC calls the module by its name, of letters, "
+                 "digits and _");
+  }
+}
+
 int export_linuxcnc(Verb verb, const ExportLinuxcncCommand& command) {
   const InputFile file = open_input(command.map);
   require_kind(file, {FileKind::map});
   return with_map(file, [&](const grid::CompensationMap& map) {
     if (!verb.is_given("--force") && refuses_to_cut_with(map)) return int{kCheckFailed};
+    const std::string name = module_name(command.output);
     const auto module = files::linuxcnc_kinematics(
-        grid::MapInFrame(map), std::filesystem::path(file.name).filename().string());
+        grid::MapInFrame(map), {name, std::filesystem::path(file.name).filename().string()});
     if (!module) {
       fmt::print(stderr,
                  "{}: {}. A table needs lengths all over the map; fit it with --outside model\n",
@@ -42,14 +67,18 @@ int export_linuxcnc(Verb verb, const ExportLinuxcncCommand& command) {
     write_output(command.output, module->source);
     fmt::print(stderr,
                "{} x {} lengths of both chains, {:.0f} mm apart; between them the table is within "
-               "{:.4f} mm of the map.\nBuild and install it where LinuxCNC runs: halcompile "
-               "--install {}. In the machine's INI file: [KINS] KINEMATICS = chaintrue_kins, "
-               "JOINTS = 3.\n",
+               "{:.4f} mm of the map{}.\nBuild and install it where LinuxCNC (2.9 or later) runs: "
+               "halcompile --install {}.c. In the machine's INI file: [KINS] KINEMATICS = {} and "
+               "JOINTS = 3, [TRAJ] LINEAR_UNITS = mm.\n",
                module->columns,
                module->rows,
                module->spacing_mm,
                module->largest_error_mm,
-               command.output == "-" ? "chaintrue_kins.c" : command.output);
+               module->largest_error_mm > files::kTableErrorMm
+                   ? ", more than it should be: this map bends within millimetres"
+                   : "",
+               name,
+               name);
     return int{kDone};
   });
 }
@@ -72,6 +101,8 @@ void add_export_linuxcnc(Verb export_verb, Run& run) {
       "  build/chaintrue fit fixtures/start/marks.csv --machine fixtures/machines/groundcontrol.json "
       "-o map.json\n"
       "  build/chaintrue export linuxcnc map.json -o chaintrue_kins.c");
+  add_option_check(verb,
+                   [command](OptionProblems& problems) { check_linuxcnc(*command, problems); });
   verb.when_chosen(
       [command, verb, &run] { run = [command, verb] { return export_linuxcnc(verb, *command); }; });
 }
