@@ -79,10 +79,6 @@ tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
   return {};
 }
 
-/// Whether lengths of the mechanism were read, or taped between places: a smooth pattern is one of
-/// lengths over the bed.
-bool has_lengths(const ObservationSet& session) { return session.is_of_chains(); }
-
 /// Takes effects out that could not show at any size that they may have.
 void drop_invisible(const MarginalisedSystem& marginalised, Analysis& a) {
   std::vector<CauseId> visible;
@@ -229,7 +225,8 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
   if (auto done = calibrate(a); !done) return tl::unexpected(done.error());
   a.candidates = candidates(a.session);
   ComparisonOptions compared{.steps = options.steps, .given_cause = options.given_cause};
-  compared.discrepancies = has_lengths(a.session);
+  // A smooth pattern is one of chain lengths over the bed.
+  compared.discrepancies = a.session.is_of_chains();
   const std::vector<bool> none(a.session.units.size(), false);
   constexpr int kCalibrationRounds = 2;
   std::vector<Refinement> known;

@@ -92,7 +92,8 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const TestDrawing& drawing,
   d.outliers = outliers_found(a);
   d.separations = separations(a);
   d.normal_plot = normal_plot(a);
-  d.drawing = DrawingFindings{drawn_settings(a), drawn_values(a, drawing)};
+  d.drawing = DrawingFindings{
+      drawing.machine.name, drawn_settings(a), drawn_values(a, drawing)};
   put_into_words(a, d);
   return d;
 }

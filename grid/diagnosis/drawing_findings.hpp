@@ -27,6 +27,7 @@ struct DrawnValue {
 };
 
 struct DrawingFindings {
+  std::string plotter;  ///< its name
   std::vector<DrawnSetting> settings;
   /// In the order of the drawing's measures.
   std::vector<DrawnValue> measures;

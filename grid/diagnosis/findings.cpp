@@ -408,7 +408,9 @@ std::vector<Outlier> outliers_found(const Analysis& a) {
     const SystemUnit& unit = a.system.units[u];
     result.push_back(unit.reads_chains ? outlying_point(a, a.session.units[u], unit)
                                        : outlying_distance(a, a.session.units[u], unit));
-    if (!a.session.is_of_chains()) result.back().of = Observations::drawing;
+    const ObservationPart& part = a.session.parts[a.session.units[u].part];
+    if (&part.observation->kind() == &observation::drawn_measures)
+      result.back().of = Observations::drawing;
   }
   std::sort(result.begin(), result.end(), [](const Outlier& x, const Outlier& y) {
     return std::pair(x.of, x.index) < std::pair(y.of, y.index);

@@ -140,27 +140,40 @@ std::string unknown_words(const Diagnosis& d) {
   return text + ".";
 }
 
+/// "zero left (0.00 mm set, 23.08 +- 1.99 found)", of each that is off.
+std::vector<std::string> settings_off(const Diagnosis& d) {
+  std::vector<std::string> off;
+  if (!d.drawing) return off;
+  for (const DrawnSetting& own : d.drawing->settings) {
+    if (!own.off) continue;
+    const NameAndUnit words = parameter_words(own.name);
+    off.push_back(fmt::format("{} ({:.2f} {} set, {:.2f} +- {:.2f} found)",
+                              words.name,
+                              own.set,
+                              words.unit,
+                              own.found,
+                              own.sigma));
+  }
+  return off;
+}
+
 std::string bad_words(const Diagnosis& d) {
   const std::vector<std::string> bad = bad_ones(d);
+  if (const std::vector<std::string> off = settings_off(d); !off.empty()) {
+    return fmt::format("{} of the {} fit nothing: {}. Without {} {} off: {}.",
+                       bad.size(),
+                       units_of(d),
+                       joined(bad, "and"),
+                       bad.size() == 1 ? "it" : "them",
+                       off.size() == 1 ? "a setting is" : "settings are",
+                       joined(off, "and"));
+  }
   return fmt::format("Nothing is wrong but {} of the {}: {}{}. Without {} the machine fits.",
                      bad.size(),
                      units_of(d),
                      d.observations == Observations::points ? "number " : "",
                      joined(bad, "and"),
                      bad.size() == 1 ? "it" : "them");
-}
-
-/// "zero_left_mm (0.00 set, 23.08 +- 1.99 found)", of each that is off.
-std::vector<std::string> settings_off(const Diagnosis& d) {
-  std::vector<std::string> off;
-  if (!d.drawing) return off;
-  for (const DrawnSetting& own : d.drawing->settings) {
-    if (own.off) {
-      off.push_back(fmt::format(
-          "{} ({:.2f} set, {:.2f} +- {:.2f} found)", own.name, own.set, own.found, own.sigma));
-    }
-  }
-  return off;
 }
 
 std::string nothing_words(const Diagnosis& d, std::size_t units) {
@@ -199,6 +212,12 @@ std::string sentence(const Diagnosis& d, std::size_t units) {
     case Verdict::model_discrepancy:
       return unknown_words(d);
     case Verdict::noise_larger_than_stated:
+      if (d.drawing) {
+        return fmt::format(
+            "The measures scatter {:.1f} times as much as a ruler does, and without a pattern: look "
+            "at the ruler, at the paper and at play in the gondola, and draw the page once more.",
+            d.noise_factor);
+      }
       return fmt::format(
           "The {} scatter {:.1f} times as much as you said, and without a pattern: look at the "
           "tape, at the {} and at play in the sled.",

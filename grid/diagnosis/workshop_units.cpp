@@ -101,6 +101,11 @@ std::string with_sigma(double value, double sigma) {
 
 namespace {
 
+bool is_of_cords(const model::effects::Effect& effect) {
+  const auto cords = model::plotter::described_plotter_effects();
+  return std::find(cords.begin(), cords.end(), &effect) != cords.end();
+}
+
 std::string worded(const Unit& unit, const ParameterEstimate& estimate) {
   const bool whole = unit.parameter == "links" || unit.parameter == "teeth" ||
                      (unit.parameter.ends_with("visit") && !unit.parameter.starts_with("rate"));
@@ -117,14 +122,15 @@ std::string worded(const Unit& unit, const ParameterEstimate& estimate) {
 
 }  // namespace
 
-namespace {
-
-bool is_of_cords(const model::effects::Effect& effect) {
-  const auto cords = model::plotter::described_plotter_effects();
-  return std::find(cords.begin(), cords.end(), &effect) != cords.end();
+NameAndUnit parameter_words(std::string_view parameter) {
+  std::size_t at = std::string_view::npos;
+  for (const std::string_view unit : {"_mm", "_rad"}) at = std::min(at, parameter.find(unit));
+  NameAndUnit words{std::string(parameter.substr(0, at)),
+                    at == std::string_view::npos ? "" : std::string(parameter.substr(at + 1))};
+  for (std::string* text : {&words.name, &words.unit})
+    std::replace(text->begin(), text->end(), '_', ' ');
+  return words;
 }
-
-}  // namespace
 
 std::string in_workshop_units(const ParameterEstimate& estimate) {
   for (const Unit& unit : kUnits) {

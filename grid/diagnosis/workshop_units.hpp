@@ -11,6 +11,13 @@
 
 namespace chaintrue::grid::diagnosis {
 
+/// "zero_left_mm" is {"zero left", "mm"}, "scale_left_mm_per_m" {"scale left", "mm per m"}.
+struct NameAndUnit {
+  std::string name;
+  std::string unit;
+};
+[[nodiscard]] NameAndUnit parameter_words(std::string_view parameter);
+
 /// "0.120 +- 0.010 %", "1 link", "sets in at 52.0 degrees": from the parameter's name and its unit.
 [[nodiscard]] std::string in_workshop_units(const ParameterEstimate& estimate);
 /// The same of an effect: an elongation of links, or of a belt.

@@ -192,6 +192,7 @@ MachineState stated_state(const ObservationSet& set) {
 
 Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& state) {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(set.stated_value.size());
+  // Sheets are laid under two chains alone (observation_set()).
   if (state.mechanism) {
     values.head(set.parameters()) = state.mechanism->values();
     return values;

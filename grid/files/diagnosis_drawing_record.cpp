@@ -44,6 +44,7 @@ void take_cause_of_cords(CauseId& cause) {
 const Record<DrawingFindings>& drawing_findings_record() {
   static const auto record =
       Record<DrawingFindings>("what a drawing tells")
+          .required("plotter", &DrawingFindings::plotter, text())
           .required("settings", &DrawingFindings::settings, list(object(drawn_setting_record())))
           .required("measures", &DrawingFindings::measures, list(object(drawn_value_record())));
   return record;

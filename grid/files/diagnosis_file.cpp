@@ -210,6 +210,13 @@ void check_diagnosis(const Cursor& at, Diagnosis& object) {
     at.child("extended_machine").missing("a chaintrue_machine");
   if (of_belts && !object.belts) at.child("belts").missing("what belts tell");
   if (of_drawing && !object.drawing) at.child("drawing").missing("what a drawing tells");
+  if (object.drawing) {
+    const std::size_t measures = object.drawing->measures.size();
+    for (const Outlier& bad : object.outliers) {
+      if (of_drawing && bad.index >= measures)
+        at.child("bad_points").expect(fmt::format("indices of the drawing's {} measures", measures));
+    }
+  }
   if (!at.child("verdict").clean() || !at.child("causes").clean()) return;
   const bool names_one = object.verdict == Verdict::named || object.verdict == Verdict::named_set ||
                          object.verdict == Verdict::several_causes;

@@ -173,18 +173,36 @@ std::vector<double> sizes_of(double null, double usual, double lower, double upp
   return sizes;
 }
 
+std::string id_of(const AtlasPicture& picture) {
+  if (picture.effect == nullptr) return std::string(picture.parameter);
+  const std::string_view side = name(picture.side);
+  return std::string(picture.effect->id) + (side.empty() ? "" : ":") + std::string(side);
+}
+
+/// Empty too where no such machine can be.
+std::optional<SetAndActual> made_with(const WithSize& with_size, double size) {
+  try {
+    return with_size(size);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
 void add_picture(AtlasPicture picture,
                  const std::vector<double>& sizes,
                  double usual,
                  const WithSize& with_size,
                  Atlas& atlas) {
   for (const double size : sizes) {
-    const auto machine = with_size(size);
+    const auto machine = made_with(with_size, size);
     if (!machine) continue;
     picture.frames.push_back(frame_of(atlas.lines, *machine, size));
     if (size == usual) picture.usual = picture.frames.size() - 1;
   }
-  if (picture.frames.empty() || picture.frames[picture.usual].size != usual) return;
+  if (picture.frames.empty() || picture.frames[picture.usual].size != usual) {
+    atlas.not_drawn.push_back(id_of(picture));
+    return;
+  }
   picture.largest_shift_mm = largest_shift(atlas.lines, picture.frames[picture.usual]);
   atlas.pictures.push_back(std::move(picture));
 }
@@ -273,11 +291,7 @@ Atlas atlas_of(const Mechanism& mechanism) {
   add_settings(
       mechanism,
       [&](Eigen::Index k, double more) -> std::optional<SetAndActual> {
-        try {
-          return SetAndActual{set, with_parameter(mechanism, k, more)};
-        } catch (const std::invalid_argument&) {
-          return std::nullopt;
-        }
+        return SetAndActual{set, with_parameter(mechanism, k, more)};
       },
       atlas);
   add_effects(

@@ -66,6 +66,9 @@ struct Atlas {
   /// Settings in the order of the mechanism, then effects in that of its catalogue. Those that cannot
   /// act on the machine are left out.
   std::vector<AtlasPicture> pictures;
+  /// Causes that can act, and that the machine, or its calibration, does not bear at their usual size:
+  /// "anchor_moved:tl".
+  std::vector<std::string> not_drawn;
 };
 
 /// Of two chains or a V-plotter.

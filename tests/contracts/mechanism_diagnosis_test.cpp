@@ -71,7 +71,7 @@ TEST(MechanismDiagnosis, TheEffectOfAToyIsNamedWithItsSize) {
   const std::vector<Cause> causes = causes_found(a);
   ASSERT_THAT(causes, SizeIs(1));
   EXPECT_EQ(causes.front().cause.effect->id, "toy_knot");
-  // The zero beside it is known to 2 mm: four sigmas.
+  // The zero, which does the same, is known to 2 mm: four sigmas.
   EXPECT_NEAR(causes.front().parameters.front().value, 20.0, 8.0) << "seed " << kSeed;
 }
 

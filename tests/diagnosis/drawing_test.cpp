@@ -45,11 +45,12 @@ TEST(DrawingDiagnosis, AZeroThatIsOffIsASettingAndNoCause) {
   const auto found = diagnose(files::parse_drawing(files::read_whole_file(path), "drawing.json"));
   ASSERT_TRUE(found) << found.error().sentence();
   EXPECT_EQ(found->verdict, Verdict::nothing_found);
-  EXPECT_THAT(found->sentence, HasSubstr("Settings are off, and nothing else is wrong: zero_left_mm"));
+  EXPECT_THAT(found->sentence, HasSubstr("Settings are off, and nothing else is wrong: zero left"));
   ASSERT_TRUE(found->drawing);
   const auto zero = std::find_if(found->drawing->settings.begin(),
                                  found->drawing->settings.end(),
                                  [](const DrawnSetting& own) { return own.name == "zero_left_mm"; });
+  ASSERT_NE(zero, found->drawing->settings.end());
   // The fixture was drawn with zeros 23 mm off; three of its sigmas of 2 mm.
   EXPECT_NEAR(zero->found, 23.0, 6.0);
   EXPECT_TRUE(zero->off);

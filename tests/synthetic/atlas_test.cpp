@@ -214,16 +214,27 @@ double worst_of_belts(const model::BeltMachine& set,
   return worst;
 }
 
+double share_drawn(const AtlasFrame& frame) {
+  double drawn = 0.0, all = 0.0;
+  for (const auto& line : frame.lines) {
+    all += static_cast<double>(line.size());
+    for (const auto& point : line) drawn += point ? 1.0 : 0.0;
+  }
+  return drawn / all;
+}
+
 TEST_P(EveryPicture, IsDrawnWhereTheMachineWithTheCauseReadsWhatWasPaidOut) {
   const Atlas& atlas = atlas_of_kind(GetParam().kind);
   const AtlasPicture& picture = atlas.pictures[GetParam().number];
   const MechanismPointer set = mechanism_of_kind(GetParam().kind);
   ASSERT_FALSE(picture.frames.empty());
-  // All frames are made alike; the first and the usual one show the sign and the size.
+  // The first frame and the usual one show the sign and the size.
   for (const std::size_t at : {std::size_t{0}, picture.usual}) {
     const AtlasFrame& frame = picture.frames[at];
     SCOPED_TRACE(frame.size);
     ASSERT_EQ(frame.lines.size(), atlas.lines.size());
+    // Lines end where the machine cannot hold the tool: a tenth of them at most.
+    EXPECT_GT(share_drawn(frame), 0.9);
     const MechanismPointer actual = with_cause(*set, picture, frame.size);
     if (GetParam().kind != "belts") {
       // Newton's method ends at 1e-9 mm; numbers on the paper are inverted to as much.
@@ -272,6 +283,7 @@ TEST(AtlasOf, EachMechanismHasItsSettingsAndItsCatalogue) {
       }
     }
     EXPECT_EQ(atlas_of_kind(kind).pictures.size(), expected);
+    EXPECT_TRUE(atlas_of_kind(kind).not_drawn.empty());
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grid/diagnosis/workshop_units.hpp"
 #include "tools/cli/effect_drawing.hpp"
 #include "tools/report/bed_chart.hpp"
 #include "tools/report/typeset.hpp"
@@ -137,28 +138,16 @@ std::string paths(const View& view,
   return svg;
 }
 
-/// "pin_spacing_mm" is {"pin spacing", "mm"}, "scale_left_mm_per_m" {"scale left", "mm per m"}.
-struct NameAndUnit {
-  std::string name;
-  std::string unit;
-};
-
-NameAndUnit in_words(std::string_view parameter) {
-  const std::size_t at = parameter.find("_mm");
-  NameAndUnit words{std::string(parameter.substr(0, at)),
-                    at == std::string_view::npos ? "" : std::string(parameter.substr(at + 1))};
-  for (std::string* text : {&words.name, &words.unit})
-    std::replace(text->begin(), text->end(), '_', ' ');
-  return words;
-}
-
 std::string words_of_size(const AtlasPicture& picture, double size) {
-  if (picture.effect != nullptr)
-    return fmt::format("{} = {}", picture.parameter, short_number(size));
-  const NameAndUnit words = in_words(picture.parameter);
-  return fmt::format("{} {} {} than set",
+  if (picture.effect != nullptr) {
+    return grid::diagnosis::in_workshop_units({picture.effect, picture.side},
+                                              {std::string(picture.parameter), size});
+  }
+  const std::string unit = grid::diagnosis::parameter_words(picture.parameter).unit;
+  return fmt::format("{} {}{}{} than set",
                      short_number(std::abs(size)),
-                     words.unit,
+                     unit,
+                     unit.empty() ? "" : " ",
                      size > 0.0 ? "more" : "less");
 }
 
@@ -166,7 +155,7 @@ std::string caption_of(const AtlasPicture& picture, double times) {
   std::string title;
   std::string id;
   if (picture.effect == nullptr) {
-    title = report::capitalised(in_words(picture.parameter).name) + " is set wrong";
+    title = report::capitalised(grid::diagnosis::parameter_words(picture.parameter).name) + " is set wrong";
     id = picture.parameter;
   } else {
     const std::string side(name(picture.side));

@@ -290,6 +290,7 @@ Outcome diagnosed_drawing(const DiagnoseCommand& command, const InputFile& file)
   options.progress = shown_progress();
   auto found = grid::diagnosis::diagnose(files::parse_drawing(file.text, file.name), options);
   if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
+  if (found->grid_name.empty()) found->grid_name = file_name(command.input.grid);
   return *std::move(found);
 }
 

@@ -179,6 +179,11 @@ void add_sections(const Diagnosis& found, Detail detail, std::vector<Section>& a
   sections.add(!found.not_testable.empty(), not_testable_section, found);
 }
 
+const std::string& machine_name(const Diagnosis& found) {
+  if (found.belts) return found.belts->machine.name;
+  return found.drawing ? found.drawing->plotter : found.extended_machine.name;
+}
+
 }  // namespace
 
 report::Document diagnosis_document(const Diagnosis& found,
@@ -186,11 +191,7 @@ report::Document diagnosis_document(const Diagnosis& found,
                                     Detail detail) {
   report::Document document;
   document.title = fmt::format("Diagnosis: {}", found.grid_name);
-  document.subtitle =
-      found.drawing ? readings_counted(found)
-                    : fmt::format("{}, {}",
-                                  found.belts ? found.belts->machine.name : found.extended_machine.name,
-                                  readings_counted(found));
+  document.subtitle = fmt::format("{}, {}", machine_name(found), readings_counted(found));
   put_the_verdict(found, document);
   add_sections(found, detail, document.sections);
   document.remarks = remarks_section(found);

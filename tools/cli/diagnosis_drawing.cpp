@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <string>
 
+#include "grid/diagnosis/workshop_units.hpp"
+
 namespace chaintrue::cli {
 
 using grid::diagnosis::Diagnosis;
@@ -19,7 +21,9 @@ report::Section drawn_settings_section(const Diagnosis& found) {
                                   {.heading = "+-", .is_number = true, .width = 8},
                                   {.heading = "", .gap = 2}}};
   for (const DrawnSetting& own : found.drawing->settings) {
-    report::Row row{{own.name, own.set, own.found, own.sigma}, own.off};
+    const auto words = grid::diagnosis::parameter_words(own.name);
+    report::Row row{{fmt::format("{}, {}", words.name, words.unit), own.set, own.found, own.sigma},
+                    own.off};
     if (own.off) row.cells.emplace_back("off");
     table.rows.push_back(std::move(row));
   }
@@ -33,7 +37,7 @@ report::Section drawn_measures_section(const Diagnosis& found) {
                                   {.heading = "", .gap = 2}}};
   for (const DrawnValue& own : found.drawing->measures) {
     report::Row row{{own.name, own.measured_mm, own.explained_mm}, own.rejected};
-    if (own.rejected) row.cells.emplace_back("set aside");
+    if (own.rejected) row.cells.emplace_back("left out");
     table.rows.push_back(std::move(row));
   }
   return {.title = "What was measured", .blocks = {std::move(table)}};

@@ -79,6 +79,8 @@ int write_atlas(const std::string& machine,
              "{}: {} pictures of what may be wrong; find the one that looks like your sheet\n",
              output,
              named.atlas.pictures.size());
+  for (const std::string& cause : named.atlas.not_drawn)
+    fmt::print(stderr, "No picture of {}: this machine does not bear it at its usual size.\n", cause);
   return kDone;
 }
 

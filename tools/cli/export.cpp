@@ -204,6 +204,15 @@ bool is_untyped_json(const InputFile& file) {
          files::file_type_of(file.text, file.name).empty();
 }
 
+[[noreturn]] void refuse_drawing(const InputFile& file) {
+  throw files::InputError(
+      {{file.name,
+        "/observations",
+        "a diagnosis of a test drawing",
+        "one of another machine; of a V-plotter export plotter has the lines, from what fit makes of "
+        "the drawing"}});
+}
+
 Exported export_of(const InputFile& file, const ExportCommand& command, bool forced) {
   if (is_untyped_json(file)) return of_machine(load_machine(file), {});
   require_kind(
@@ -218,14 +227,7 @@ Exported export_of(const InputFile& file, const ExportCommand& command, bool for
   }
   if (file.kind == FileKind::diagnosis) {
     const grid::diagnosis::Diagnosis found = load_diagnosis(file);
-    if (found.drawing) {
-      throw files::InputError(
-          {{file.name,
-            "/observations",
-            "a diagnosis of a test drawing",
-            "one of a machine on chains; of a V-plotter export plotter has the lines, from what "
-            "fit makes of the drawing"}});
-    }
+    if (found.drawing) refuse_drawing(file);
     if (found.belts) {
       throw files::InputError(
           {{file.name,
@@ -277,6 +279,7 @@ files::Maslow4Settings maslow4_settings_of(const InputFile& file) {
   require_kind(file, {FileKind::anchors, FileKind::diagnosis});
   if (file.kind == FileKind::anchors) return files::write_maslow4_settings(load_anchors(file).fit);
   const grid::diagnosis::Diagnosis found = load_diagnosis(file);
+  if (found.drawing) refuse_drawing(file);
   if (!found.belts) {
     throw files::InputError(
         {{file.name,
