@@ -17,9 +17,9 @@ using testing_support::Outcome;
 
 class BeltsWish : public testing_support::CommandFixture {
  protected:
-  /// Places over the same part of the frame, read to 0.8 mm, made by anchors of a real log.
+  /// Places over the same part of the frame, read to 0.8 mm, made by the anchors of a log.
   void simulate(const std::string& grid, const std::string& file) {
-    ASSERT_EQ(run("fit " + kReal + " -o truth.json --force").code, 0);
+    ASSERT_EQ(run("fit " + kLog + " -o truth.json --force").code, 0);
     const Outcome made = run("simulate --belts truth.json --grid " + grid + " --length-noise-mm 0.8 --seed 5 -o " + file);
     ASSERT_EQ(made.code, 0) << made.err;
   }
@@ -30,12 +30,12 @@ class BeltsWish : public testing_support::CommandFixture {
     const bool has = std::regex_search(fitted.err, found, std::regex("You wish for .*"));
     return has ? found.str() : "no word of the wish in:\n" + fitted.err;
   }
-  const std::string kReal = CHAINTRUE_FIXTURES "/belts/thirty_one_places.json";
+  const std::string kLog = CHAINTRUE_FIXTURES "/belts/thirty_one_places.json";
 };
 
 TEST_F(BeltsWish, IsReachedApartFromTheScaleThatNoBeltShows) {
-  EXPECT_EQ(said(kReal, "2"), "You wish for 2 mm: reached, apart from the scale.");
-  std::string taped = content_of(kReal);
+  EXPECT_EQ(said(kLog, "2"), "You wish for 2 mm: reached, apart from the scale.");
+  std::string taped = content_of(kLog);
   const std::string points = "\"points\":";
   taped.insert(taped.find(points), R"("distances": [{"from": "bl", "to": "br", "distance_mm": 2943, "sigma_mm": 1}], )");
   write("taped.json", taped);
@@ -43,7 +43,7 @@ TEST_F(BeltsWish, IsReachedApartFromTheScaleThatNoBeltShows) {
 }
 
 TEST_F(BeltsWish, ThatNoNumberOfPlacesReachesAsksForWhatIsWrong) {
-  EXPECT_EQ(said(kReal, "0.001"),
+  EXPECT_EQ(said(kLog, "0.001"),
             "You wish for 0.001 mm: not reached, and not by 124 places measured as well as these. Look for what else "
             "is wrong: chaintrue diagnose of the same belts.");
 }

@@ -4,7 +4,8 @@
     sentences.py ROOT                  prints the list
     sentences.py ROOT --store FILE     writes it into FILE
     sentences.py ROOT --check FILE     compares it with FILE: exits with 1 and says what is new or gone
-    sentences.py ROOT --words          prints those with a word that an owner has to look up: exits with 1 if there are any
+    sentences.py ROOT --words          prints those, and lines of charts, with a word that an owner has to look up: exits with 1
+                                       if there are any
 
 A sentence is a string with at least two words, adjacent parts joined; `{}` stands for what is put in.
 """
@@ -60,11 +61,19 @@ def all_sentences(root):
     return lines
 
 
+def chart_lines(root):
+    """What a chart shows by itself: its description and the labels of its tips."""
+    for path in sorted((root / "tools/report/charts").glob("*.json")):
+        for line in path.read_text(encoding="utf-8").splitlines():
+            if '"description"' in line or "tip_text" in line:
+                yield f"{path.relative_to(root).as_posix()}: {line.strip()}"
+
+
 def main(arguments):
     root = pathlib.Path(arguments[0])
     lines = all_sentences(root)
     if arguments[1:2] == ["--words"]:
-        odd = [line for line in lines if TO_LOOK_UP.search(line.split(": ", 1)[1])]
+        odd = [line for line in lines + list(chart_lines(root)) if TO_LOOK_UP.search(line.split(": ", 1)[1])]
         print("\n".join(odd) or "no word to look up")
         return 1 if odd else 0
     if arguments[1:2] == ["--store"]:
