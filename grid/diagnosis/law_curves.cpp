@@ -2,10 +2,8 @@
 #include "grid/diagnosis/law_curves.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <span>
 #include <utility>
 
 #include "grid/diagnosis/discrepancy.hpp"
@@ -301,66 +299,64 @@ Eigen::MatrixXd LawColumns::of(const LawCurve& curve, double at) const {
   return of(curve, std::vector<double>{at});
 }
 
-Eigen::MatrixXd LawColumns::of(const LawCurve& curve, const std::vector<double>& at) const {
-  const Eigen::Index each = columns_of(curve.shape);
-  const auto count = static_cast<Eigen::Index>(at.size());
-  const auto places = static_cast<Eigen::Index>(system_.places.size());
-  // Values of each amplitude at every place, of both components where these differ.
-  const bool outwards = curve.enters == Enters::outwards;
-  Eigen::MatrixXd first(places, each * count);
-  Eigen::MatrixXd second(outwards ? places : 0, each * count);
-  for (Eigen::Index p = 0; p < places; ++p) {
-    const SystemPlace& place = system_.places[static_cast<std::size_t>(p)];
-    const bool is_absent = curve.of == LawOf::visit && !place.ordered;
-    const double v = outwards ? from_border(place, true)
-                              : variable_at(place, curve.of, curve.direction_rad);
-    for (Eigen::Index k = 0; k < each * count; ++k) {
-      const double own = at[static_cast<std::size_t>(k / each)];
-      first(p, k) = is_absent ? 0.0 : basis(curve, own, k % each, v);
-      if (outwards) second(p, k) = basis(curve, own, k % each, from_border(place, false));
-    }
+namespace {
+
+/// What an entrance makes of one millimetre: of the chains at a place. Of what moves the tool outwards that
+/// along x.
+Eigen::Vector2d chains_moved(const LawCurve& curve, const SystemPlace& place) {
+  const Eigen::Matrix2d& by_mark = place.state.by_mark;
+  switch (curve.enters) {
+    case Enters::left:
+      return {1.0, 0.0};
+    case Enters::right:
+      return {0.0, 1.0};
+    case Enters::equal:
+      return {1.0, 1.0};
+    case Enters::opposite:
+      return {1.0, -1.0};
+    case Enters::x:
+      return by_mark.col(0);
+    case Enters::y:
+      return by_mark.col(1);
+    case Enters::along:
+      return by_mark *
+             Eigen::Vector2d(std::cos(curve.direction_rad), std::sin(curve.direction_rad));
+    case Enters::outwards:
+      return by_mark.col(0) * std::copysign(1.0, place.mark.x_mm);
+    case Enters::mixed:
+      break;
   }
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(system_.e.size(), each * count);
+  return Eigen::Vector2d::Zero();
+}
+
+/// Values of every amplitude at each of some points of the grid.
+Eigen::RowVectorXd values_at(const LawCurve& curve, const std::vector<double>& at, double v) {
+  const Eigen::Index each = columns_of(curve.shape);
+  Eigen::RowVectorXd values(each * static_cast<Eigen::Index>(at.size()));
+  for (Eigen::Index k = 0; k < values.size(); ++k)
+    values(k) = basis(curve, at[static_cast<std::size_t>(k / each)], k % each, v);
+  return values;
+}
+
+}  // namespace
+
+Eigen::MatrixXd LawColumns::of(const LawCurve& curve, const std::vector<double>& at) const {
+  const Eigen::Index count = columns_of(curve.shape) * static_cast<Eigen::Index>(at.size());
+  const bool outwards = curve.enters == Enters::outwards;
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(system_.e.size(), count);
   for (const SystemUnit& unit : system_.units) {
     for (const observation::PlaceColumns& own : unit.places) {
       const SystemPlace& place = system_.places[own.place];
-      const Eigen::Matrix2d& by_mark = place.state.by_mark;
-      const auto p = static_cast<Eigen::Index>(own.place);
-      const auto enter = [&](const Eigen::Vector2d& direction, const Eigen::RowVectorXd& values) {
-        const Eigen::VectorXd in_rows = own.by_chain * direction;
-        columns.middleRows(unit.first_row, unit.rows) += in_rows * values;
-      };
-      switch (curve.enters) {
-        case Enters::left:
-          enter({1.0, 0.0}, first.row(p));
-          break;
-        case Enters::right:
-          enter({0.0, 1.0}, first.row(p));
-          break;
-        case Enters::equal:
-          enter({1.0, 1.0}, first.row(p));
-          break;
-        case Enters::opposite:
-          enter({1.0, -1.0}, first.row(p));
-          break;
-        case Enters::x:
-          enter(by_mark.col(0), first.row(p));
-          break;
-        case Enters::y:
-          enter(by_mark.col(1), first.row(p));
-          break;
-        case Enters::along:
-          enter(by_mark * Eigen::Vector2d(std::cos(curve.direction_rad),
-                                          std::sin(curve.direction_rad)),
-                first.row(p));
-          break;
-        case Enters::outwards:
-          enter(by_mark.col(0) * std::copysign(1.0, place.mark.x_mm), first.row(p));
-          enter(by_mark.col(1) * std::copysign(1.0, place.mark.y_mm), second.row(p));
-          break;
-        case Enters::mixed:
-          break;
-      }
+      if (curve.of == LawOf::visit && !place.ordered) continue;
+      const double v =
+          outwards ? from_border(place, true) : variable_at(place, curve.of, curve.direction_rad);
+      const Eigen::VectorXd in_rows = own.by_chain * chains_moved(curve, place);
+      columns.middleRows(unit.first_row, unit.rows) += in_rows * values_at(curve, at, v);
+      if (!outwards) continue;
+      const Eigen::VectorXd up =
+          own.by_chain * (place.state.by_mark.col(1) * std::copysign(1.0, place.mark.y_mm));
+      columns.middleRows(unit.first_row, unit.rows) +=
+          up * values_at(curve, at, from_border(place, false));
     }
   }
   return columns;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "grid/diagnosis/law_system.hpp"
 #include "grid/statistics.hpp"

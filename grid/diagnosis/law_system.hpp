@@ -8,10 +8,10 @@
 ///   const double w = system.log_weight(equations, {set, discrepancy}, {0});
 #pragma once
 
+#include <compare>
 #include <deque>
 #include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"

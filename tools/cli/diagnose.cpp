@@ -393,10 +393,11 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
              {Origin::measured},
              "The points on that machine, with marks and readings corrected where they are the "
              "cause: fit these");
+  // A file of an effect is edited by hand, and replaced with --force alone.
   add_output(verb,
              "--law",
              command.law,
-             {},
+             {Origin::list},
              "The likeliest law of what no cause explains, from 90 % on, as a file for --effects");
   verb.add_flag("--json", command.json, "The diagnosis file on standard output, for programs");
 }
