@@ -18,6 +18,8 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr std::size_t kMostLaws = 3;
+/// Below it a wave has no phase.
+constexpr double kSmallestWaveMm = 1e-9;
 /// One that is less likely is not worth a line.
 constexpr double kLeastLaw = 0.03;
 
@@ -47,13 +49,15 @@ PointParameters parameters_of(const LawCurve& curve, const WeighedLaw& law) {
     case LawShape::linear:
       return {{a(0)}, {c(0, 0)}};
     case LawShape::square: {
-      const double at = -0.5 * a(1) / a(0);
-      const Eigen::Vector2d slope(-at / a(0), -0.5 / a(0));
+      // A bow of nothing has its vertex anywhere.
+      const double at = a(0) != 0.0 ? -0.5 * a(1) / a(0) : 0.0;
+      const Eigen::Vector2d slope = a(0) != 0.0 ? Eigen::Vector2d(-at / a(0), -0.5 / a(0))
+                                                : Eigen::Vector2d(0.0, 0.0);
       const double half = 0.5 * curve.span();
       return {{a(0), curve.middle() + half * at}, {c(0, 0), half * half * slope.dot(c * slope)}};
     }
     case LawShape::wave: {
-      const double size = a.norm();
+      const double size = std::max(a.norm(), kSmallestWaveMm);
       const Eigen::Vector2d along = a / size;
       const Eigen::Vector2d turned(along(1), -along(0));
       return {{size, curve.span() / law.at, std::atan2(a(0), a(1))},
@@ -237,13 +241,25 @@ std::vector<Law> laws_of(const Analysis& a, const std::vector<LawEvidence>& evid
   std::stable_sort(laws.begin(), laws.end(), [](const Law& x, const Law& y) {
     return x.probability > y.probability;
   });
+  // Parts of the bed may deny what all of it says.
+  std::erase_if(laws, [](const Law& law) { return law.probability < kLeastLaw; });
+  double any = 0.0;
+  for (const Law& law : laws) any += law.probability;
+  if (any < kLawLikely) return {};
   if (laws.size() > kMostLaws) laws.resize(kMostLaws);
   return laws;
 }
 
 std::vector<Law> laws_found(const Analysis& a) {
   if (a.options.given_cause || !a.session.reads_chains()) return {};
-  const std::vector<LawCurve> curves = law_curves(a.system);
+  std::vector<LawCurve> curves = law_curves(a.system);
+  // Numbers on several sheets are of several frames; chains know one.
+  if (a.session.sheets > 1) {
+    std::erase_if(curves, [](const LawCurve& curve) {
+      return curve.of == LawOf::x || curve.of == LawOf::y || curve.of == LawOf::across ||
+             curve.of == LawOf::border;
+    });
+  }
   if (curves.empty()) return {};
   std::vector<LawEvidence> evidence;
   for (const std::size_t number : systems_to_weigh(a.comparison))

@@ -45,6 +45,8 @@ std::string_view figures_of(std::string_view text) {
 bool is_grouped_by(std::string_view figures, char mark) {
   std::size_t at = digits_at(figures);
   if (at > 3 || at == figures.size() || figures[at] != mark) return false;
+  // Nobody writes 0.125 for 125.
+  if (figures.front() == '0') return false;
   while (at < figures.size() && figures[at] == mark) {
     if (digits_at(figures.substr(at + 1)) != 3) return false;
     at += 4;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <array>
 
 #include "grid/files/diagnosis_keys.hpp"
@@ -100,7 +102,17 @@ const Record<Law>& law_record() {
           .required("to", &Law::to, number(kAnyNumber))
           .required("rms_mm", &Law::rms_mm, number(kNotNegative))
           .required("share", &Law::share, number(kShare))
-          .required("parameters", &Law::parameters, list(object(named_estimate_record()), 1));
+          .required("parameters", &Law::parameters, list(object(named_estimate_record()), 1))
+          .check([](const Cursor& at, Law& law) {
+            if (at.child("from").clean() && at.child("to").clean() && !(law.from < law.to))
+              at.child("to").expect("more than from");
+            if (!at.child("shape").clean() || !at.child("parameters").clean()) return;
+            const std::size_t count = law.shape == LawShape::linear ? 1
+                                      : law.shape == LawShape::wave ? 3
+                                                                    : 2;
+            if (law.parameters.size() != count)
+              at.child("parameters").expect(fmt::format("{} of a law of this shape", count));
+          });
   return record;
 }
 

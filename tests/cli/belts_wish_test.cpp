@@ -34,7 +34,7 @@ class BeltsWish : public testing_support::CommandFixture {
 };
 
 TEST_F(BeltsWish, IsReachedApartFromTheScaleThatNoBeltShows) {
-  EXPECT_EQ(said(kLog, "2"), "You wish for 2 mm: reached, apart from the scale.");
+  EXPECT_EQ(said(kLog, "2"), "You wish for 2 mm: reached. How large everything comes out only a taped distance can say.");
   std::string taped = content_of(kLog);
   const std::string points = "\"points\":";
   taped.insert(taped.find(points), R"("distances": [{"from": "bl", "to": "br", "distance_mm": 2943, "sigma_mm": 1}], )");

@@ -16,6 +16,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 const std::vector<CsvColumn> kColumns = {{"x_mm", {"mm", -5000.0, 5000.0}},
                                          {"y_mm", {"mm", -5000.0, 5000.0}, true, true},
@@ -97,6 +98,12 @@ TEST(CsvTable, ACommaOfWhichNobodyKnowsTheMeaningIsRefused) {
   EXPECT_THAT(read("x_mm,y_mm\n\"1,113\",508.5\n").refusals, ElementsAre(HasSubstr("found 1,113")));
   EXPECT_THAT(read("x_mm;y_mm\n555,5;1.113\n").refusals, ElementsAre(HasSubstr("found 555,5")));
   EXPECT_THAT(read("x_mm;y_mm\n555,5;1.5\n").refusals, ElementsAre(HasSubstr("found 555,5")));
+}
+
+// 0.125 is no group of thousands, whatever another cell says of points.
+TEST(CsvTable, ANumberBelowOneIsNotMultipliedByAThousand) {
+  EXPECT_THAT(read("x_mm;y_mm\n1.113,5;0.125\n").refusals, Not(IsEmpty()));
+  EXPECT_THAT(read("x_mm;y_mm\n1,113.5;0,125\n").refusals, Not(IsEmpty()));
 }
 
 TEST(CsvTable, SaysWhatItDidNotUse) {

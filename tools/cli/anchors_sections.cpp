@@ -35,14 +35,15 @@ std::string share_in_words(double share, double sigma) {
 void say_what_acts(const BeltsFit& fit, Section& section) {
   if (fit.causes.empty()) return;
   for (const grid::CauseBesideAnchors& cause : fit.causes) {
-    if (cause.effect == model::belts::anchor_flex.id)
+    if (cause.effect == model::belts::anchor_flex.id) {
       say(section,
-          fmt::format("Anchors give by {:.2f} +- {:.2f} mm when belts are pulled, and these anchors go with that.",
+          fmt::format("Anchors give by {:.2f} +- {:.2f} mm at the motors' pull, and these anchors go with that.",
                       cause.parameters.at("give_mm"),
                       cause.sigma));
+    }
     if (cause.effect != model::belts::belt_stretch.id) continue;
     say(section,
-        fmt::format("Pulled belts are {} longer than they count, and these anchors go with that.",
+        fmt::format("At the motors' pull belts are {} longer than they count, and these anchors go with that.",
                     share_in_words(cause.parameters.at("elongation"), cause.sigma)));
   }
   say(section,

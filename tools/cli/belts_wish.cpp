@@ -92,7 +92,7 @@ std::string belts_wish_sentence(const grid::MeasuredBelts& belts,
   const std::string wish = fmt::format("You wish for {:g} mm: ", wish_mm);
   if (!error) return wish + "these readings cannot say whether that is reached.";
   if (error->expected.rms_mm <= wish_mm)
-    return wish + (found.fit.scale ? "reached." : "reached, apart from the scale.");
+    return wish + (found.fit.scale ? "reached." : "reached. How large everything comes out only a taped distance can say.");
   const auto compensated = expected_when_compensated(found);
   if (compensated && *compensated <= wish_mm)
     return wish +
@@ -103,8 +103,11 @@ std::string belts_wish_sentence(const grid::MeasuredBelts& belts,
     return wish + "not reached. More distances, or a better tape, would bring it down.";
   const double noise_mm = found.fit.residual_sigma_mm;
   const auto once = expected_of_places(measured_again(belts, found.fit, 1), cut, noise_mm);
+  if (!once || 2 * places > kMostTried)
+    return wish + "not reached. How many more places would reach it was not worked out: there are "
+                  "too many already.";
   std::size_t tried = 0;
-  for (std::size_t times = 2; once && times <= kMostTimes && times * places <= kMostTried;
+  for (std::size_t times = 2; times <= kMostTimes && times * places <= kMostTried;
        ++times) {
     tried = times * places;
     const auto then = expected_of_places(measured_again(belts, found.fit, times), cut, noise_mm);
@@ -116,9 +119,9 @@ std::string belts_wish_sentence(const grid::MeasuredBelts& belts,
   }
   return wish +
          fmt::format(
-             "not reached{}. Look for what else is wrong: chaintrue diagnose of the same belts.",
-             tried == 0 ? std::string{}
-                        : fmt::format(", and not by {} places measured as well as these", tried));
+             "not reached, and not by {} places measured as well as these. Look for what else is "
+             "wrong: chaintrue diagnose of the same belts.",
+             tried);
 }
 
 }  // namespace chaintrue::cli

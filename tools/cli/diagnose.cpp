@@ -349,14 +349,9 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
     grid::MeasuredGrid corrected = ordered ? *ordered->grids().front() : *input.first_grid();
     return corrected_grid_text(*found, std::move(corrected), ordered || !command.assume_order.empty());
   });
-  if (!command.law.empty()) {
-    const auto law = law_text(*found);
-    if (!law) {
-      fmt::print(stderr, "{}: {}\n", files::name_in_messages(command.input.grid), law.error());
-      return kBadInput;
-    }
-    outputs.push_back({command.law, *law});
-  }
+  tl::expected<std::string, std::string> law;
+  if (!command.law.empty()) law = law_text(*found);
+  if (law && !law->empty()) outputs.push_back({command.law, *law});
   const bool is_stdout_taken = std::any_of(
       outputs.begin(), outputs.end(), [](const auto& output) { return output.path == "-"; });
   write_outputs(outputs);
@@ -367,6 +362,10 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   }
   if (!command.report.empty() && command.report != "-")
     fmt::print(stderr, "The report is {}: open it in any browser.\n", command.report);
+  if (!law) {
+    fmt::print(stderr, "{}: {}\n", files::name_in_messages(command.input.grid), law.error());
+    return kNotSupportedOrOutside;
+  }
   say_next_of(command, *found);
   return kDone;
 }

@@ -19,11 +19,9 @@ using report::Item;
 std::vector<Item> details_of(const Law& law, const grid::diagnosis::Diagnosis& found) {
   std::vector<Item> details;
   if (law.probability < grid::diagnosis::kLawLikely) return details;
-  details.push_back({fmt::format("it makes {:.0f} % of the square of what the settings leave, {:.2f} mm rms",
-                                 100.0 * law.share,
-                                 law.rms_mm)});
+  details.push_back({fmt::format("on average it moves the tool by {:.2f} mm", law.rms_mm)});
   if (law.shape_probability < grid::diagnosis::kLawClaimed) {
-    details.push_back({fmt::format("that it has this form and no other: {}",
+    details.push_back({fmt::format("that it looks like this and not otherwise: {}",
                                    grid::diagnosis::percent(law.shape_probability))});
   }
   for (const std::string& hint : grid::diagnosis::hints_of(law, found.extended_machine))
@@ -41,7 +39,7 @@ report::Section laws_section(const grid::diagnosis::Diagnosis& found) {
         fmt::format("{}: {}", capitalised(in_words(law)), grid::diagnosis::percent(law.probability))});
     item.items = details_of(law, found);
   }
-  report::Section section{"A form of what no listed cause explains", {std::move(list)}};
+  report::Section section{"What the rest looks like", {std::move(list)}};
   const bool is_claimed = laws.front().probability >= grid::diagnosis::kLawClaimed;
   section.blocks.emplace_back(report::Paragraph{
       is_claimed ? "No listed cause makes this. --law writes it as a cause of your own, to be named, "

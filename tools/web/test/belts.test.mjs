@@ -83,7 +83,7 @@ describe("in Chromium", () => {
       await visit.page.type("#belts-wish", "0,5");
       await visit.page.keyboard.press("Tab");
       await visit.click("Result");
-      await visit.text("#step-result .wish", "You wish for 0.5 mm: reached, apart from the scale.");
+      await visit.text("#step-result .wish", "You wish for 0.5 mm: reached. How large everything comes out only a taped distance can say.");
       await visit.click("Measure");
       await visit.page.$eval("#belts-wish", (input) => input.select());
       await visit.page.type("#belts-wish", "0.1");
