@@ -118,7 +118,7 @@ TEST(Session, AtTheEndSaysWhatIsMissing) {
   EXPECT_THAT(cut.last_words(), Contains(StartsWith("31 places. ")));
 
   Session few("log.txt", {});
-  few.take("{bl:1785.26, br:1807.90, tr:1790.81, tl:1811.99}\n");
+  few.take("{bl:1788.33, br:1811.01, tr:1787.61, tl:1808.72}\n");
   EXPECT_THAT(few.news(), ElementsAre("1 place: anchors take 5 of them."));
 }
 
