@@ -51,7 +51,7 @@ TEST(Session, ShowsAnchorsAndWhatWouldTellMoreAsPlacesComeIn) {
   session.take(the_log().substr(first_list().size()));
   news = session.news();
   EXPECT_THAT(news,
-              Contains(testing::AllOf(StartsWith("31 places. Anchors: tl x -32.5 +- 1.2, "),
+              Contains(testing::AllOf(StartsWith("31 places. Anchors: tl x -32.5 +- 0.4, "),
                                       HasSubstr(" mm at worst ("))));
   EXPECT_THAT(news, Contains("No further place is expected to tell more."));
   EXPECT_THAT(news, Contains(StartsWith("A tape would tell: The distance from ")));
