@@ -165,13 +165,13 @@ TEST_F(BeltCommands, AnchorsAnswerQueriesHaveAPageAndAreChecked) {
       content_of(folder_ / "anchors.html"),
       AllOf(HasSubstr("With these anchors"), HasSubstr("belt_frame"), HasSubstr("rests on")));
   EXPECT_EQ(run("report anchors.json --certificate -o c.html").code, 3);
-  ASSERT_EQ(run("simulate --belts anchors.json --grid 3x2 --length-noise-mm 0.6 --seed 5 -o new.json")
+  ASSERT_EQ(run("simulate --belts anchors.json --grid 3x2 --length-noise-mm 0.3 --seed 5 -o new.json")
                 .code,
             0);
   const Outcome valid = run("check anchors.json new.json");
   EXPECT_EQ(valid.code, 0) << valid.err;
   EXPECT_THAT(valid.out, StartsWith("The anchors still hold"));
-  ASSERT_EQ(run("simulate --belts anchors.json --grid 3x2 --length-noise-mm 0.6 --seed 5 "
+  ASSERT_EQ(run("simulate --belts anchors.json --grid 3x2 --length-noise-mm 0.3 --seed 5 "
                 "--offset tr_x_mm=12 -o moved.json")
                 .code,
             0);

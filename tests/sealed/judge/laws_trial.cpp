@@ -8,6 +8,7 @@
 #include <ctime>
 #include <numbers>
 
+#include "grid/diagnosis/constants.hpp"
 #include "grid/files/grid_file.hpp"
 #include "sealed/judge/trial.hpp"
 
