@@ -42,10 +42,13 @@ class Module {
     fs::create_directories(folder_);
     const fs::path c = folder_ / "chaintrue_kins.c", library = folder_ / "chaintrue_kins.so";
     write_whole_file(c, source);
-    const std::string line = std::string(CHAINTRUE_COMPILER) +
-                             " -x c -std=c99 -Wall -Wextra -Werror -pedantic -Wno-unused-function -O1 "
-                             "-shared -fPIC -I" CHAINTRUE_LINUXCNC_STUB " -o " +
-                             library.string() + " " + c.string();
+    std::string line = CHAINTRUE_COMPILER;
+    line += " -x c -std=c99 -Wall -Wextra -Werror -pedantic -Wno-unused-function -O1 -shared -fPIC -I";
+    line += CHAINTRUE_LINUXCNC_STUB;
+    line += " -o ";
+    line += library.string();
+    line += " ";
+    line += c.string();
     compiled_ = std::system(line.c_str()) == 0;
     if (compiled_) handle_ = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   }

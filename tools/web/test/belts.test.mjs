@@ -45,7 +45,7 @@ for (const browser of browsers) {
     try {
       await visit.paste("#paste", YAML + LOG);
       await verdict(visit);
-      assert.match(await visit.text("#step-result .headline"), /^Your machine misses by about 2\.2 mm\. With these lines it misses by about 0\.2 mm\./);
+      assert.match(await visit.text("#step-result .headline"), /^Your machine misses by about 2\.3 mm\. With these lines it misses by about 0\.1 mm\./);
       assert.equal((await visit.page.$$("#step-result .frame .spot")).length, PLACES);
       assert.deepEqual([(await visit.page.$$("#step-result .frame .belt")).length, (await visit.page.$$("#step-result .frame .ellipse")).length], [4, 4]);
       await visit.text("#step-result .causes", "belt stretch");
