@@ -93,7 +93,7 @@ describe("in Chromium", () => {
       assert.match(assumed, /Assumed: an arm of 123\.4 mm/);
       await assertNoOptions(visit);
       await visit.paste("#paste", YAML);
-      await visit.text("#step-result .headline", "Your machine misses by about 3.0 mm");
+      await visit.text("#step-result .headline", "Your machine misses by about 2.9 mm");
       assert.deepEqual(visit.problems, []);
     } finally {
       await visit.close();
