@@ -20,6 +20,8 @@ using model::kBelts;
 constexpr double kReadingsAgreeMm = 2.5;
 /// A number of turns of the encoder is taken for whole to within this: a belt's own scatter.
 constexpr double kWholeTurnMm = 3.0;
+/// The same against where the machine was sent: anchors in force are off by a centimetre, and belts that hold stretch.
+constexpr double kWholeTurnOfCommandsMm = 10.0;
 
 bool has(std::string_view line, std::string_view word) {
   return line.find(word) != std::string_view::npos;
@@ -32,9 +34,9 @@ double spread(const std::vector<double>& readings_mm) {
 }
 
 /// Whole turns that a length is off by; 0 where it is none.
-int whole_turns(double off_mm, double turn_mm) {
+int whole_turns(double off_mm, double turn_mm, double within_mm = kWholeTurnMm) {
   const double turns = std::round(std::abs(off_mm) / turn_mm);
-  const bool is_whole = std::abs(std::abs(off_mm) - turns * turn_mm) < kWholeTurnMm;
+  const bool is_whole = std::abs(std::abs(off_mm) - turns * turn_mm) < within_mm;
   return is_whole ? static_cast<int>(turns) : 0;
 }
 
@@ -115,7 +117,7 @@ std::string seen_against_commands(const MeasuredBelts& belts) {
   }
   if (far != 1) return "";
   const double off_mm = found->median_mm[worst];
-  const int turns = whole_turns(off_mm, belts.machine.belt_turn_mm);
+  const int turns = whole_turns(off_mm, belts.machine.belt_turn_mm, kWholeTurnOfCommandsMm);
   return fmt::format(
       " The {} belt reads {:.0f} mm {} than the settings have it where the machine was sent, the "
       "others "

@@ -45,7 +45,7 @@ TEST_F(BeltCommands, FromTheLogToTheLinesToPaste) {
                     HasSubstr("Next: chaintrue export maslow4 anchors.json")));
   const Outcome lines = run("export maslow4 anchors.json");
   ASSERT_EQ(lines.code, 0) << lines.err;
-  EXPECT_THAT(lines.out, StartsWith("$/kinematics/MaslowKinematics/tlX=-32."));
+  EXPECT_THAT(lines.out, StartsWith("$/kinematics/MaslowKinematics/tlX=-31."));
   EXPECT_THAT(
       lines.out,
       AllOf(HasSubstr("\n$/kinematics/MaslowKinematics/brY=0.00\n"), Not(HasSubstr("Scale"))));

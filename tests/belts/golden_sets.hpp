@@ -115,7 +115,7 @@ inline std::vector<GoldenSet> file_golden_sets() {
   std::vector<GoldenSet> sets;
   sets.push_back(
       {"thirty_one",
-       files::read_belts(std::string(CHAINTRUE_FIXTURES) + "/belts/thirty_one_places.json").belts});
+       files::read_belts(std::string(CHAINTRUE_FIXTURES) + "/belts/lower_belts_short.json").belts});
   return sets;
 }
 

@@ -35,13 +35,13 @@ TEST(Maslow4Log, WhatItSaysIsKept) {
   // The list of six is the beginning of the list of 31.
   EXPECT_THAT(read.runs, SizeIs(1));
   const BeltPoint& first = read.belts.points[0];
-  EXPECT_EQ(first.lengths_mm, (model::PerBelt<double>{1808.72, 1787.61, 1788.33, 1811.01}));
+  EXPECT_EQ(first.lengths_mm, (model::PerBelt<double>{1808.61, 1787.50, 1788.94, 1811.62}));
   for (std::size_t i = 0; i < 31; ++i) EXPECT_EQ(read.belts.points[i].order, static_cast<int>(i));
   ASSERT_TRUE(read.belts.points[8].commanded);
   EXPECT_EQ(read.belts.points[8].commanded->x_mm, -370.0);
   EXPECT_EQ(read.belts.points[8].commanded->y_mm, -200.0);
   EXPECT_THAT(read.belts.points[9].thrown_away_mm.br,
-              ElementsAre(2120.242, 2119.96, 2122.868, 2120.203));
+              ElementsAre(2124.562, 2124.279, 2127.188, 2124.523));
   EXPECT_THAT(read.belts.points[8].thrown_away_mm.br, IsEmpty());
   ASSERT_TRUE(read.belts.firmware_fit);
   EXPECT_EQ(read.belts.firmware_fit->rms_mm, 0.61);

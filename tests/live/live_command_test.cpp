@@ -95,7 +95,7 @@ TEST_F(LiveCommand, ShowsAnchorsAndSavesTheLog) {
   const Outcome live = run(line(machine.port(), kSettings));
   EXPECT_EQ(live.code, 0) << live.err;
   EXPECT_THAT(live.out,
-              AllOf(HasSubstr("31 places. Anchors: tl x -32.5 +- 0.4, "),
+              AllOf(HasSubstr("31 places. Anchors: tl x -31.8 +- 0.4, "),
                     HasSubstr("No further place is expected to tell more.")));
   EXPECT_THAT(live.err,
               AllOf(HasSubstr("the machine closed the connection"),
