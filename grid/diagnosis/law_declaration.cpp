@@ -74,7 +74,8 @@ DeclaredParameter size_of(const Law& law) {
           .meaning = "how large it is",
           .null = 0.0,
           .nominal = value,
-          .lower = -bound,
+          // The phase of a wave has its sign.
+          .lower = law.shape == LawShape::wave ? 0.0 : -bound,
           .upper = bound,
           .prior_sigma = std::max(std::abs(value), 0.05)};
 }

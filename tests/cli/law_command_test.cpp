@@ -34,7 +34,7 @@ TEST_F(LawCommand, ALawBecomesACauseThatASecondSessionNames) {
   const Outcome first = run("diagnose first.json" + kClassic + " -o d.json --law law.json");
   ASSERT_EQ(first.code, 0) << first.err;
   EXPECT_THAT(first.out,
-              AllOf(HasSubstr("A wave of 0.2"),
+              AllOf(HasSubstr("A wave of 0.199 +- 0.011 mm"),
                     HasSubstr("over the left chain's length with period 31."),
                     HasSubstr("in the left chain: "),
                     HasSubstr("a hint: Its period is near half a turn of the sprocket (31.8 mm)")));
