@@ -99,6 +99,14 @@ int kinematicsInverse(const EmcPose *world, double *joints,
     return lengths_at(world->tran.x, world->tran.y, joints);
 }
 
+/* The nearest value of the table. */
+static double into(double value, double first, double extent)
+{
+    if (value < first)
+        return first;
+    return value > first + extent ? first + extent : value;
+}
+
 int kinematicsForward(const double *joints, EmcPose *world,
                       const KINEMATICS_FORWARD_FLAGS *fflags, KINEMATICS_INVERSE_FLAGS *iflags)
 {
@@ -112,8 +120,7 @@ int kinematicsForward(const double *joints, EmcPose *world,
         y = first_y + 0.5 * step_y * (ROWS - 1);
     }
     for (step = 0; step < 60; ++step) {
-        double right[2], up[2], next[2], a, b, c, d, det, dl, dr, side_x, side_y, dx, dy;
-        int halving;
+        double right[2], up[2], a, b, c, d, det, dl, dr, side_x, side_y;
         if (lengths_at(x, y, here) != 0)
             return -1;
         dl = joints[0] - here[0];
@@ -136,14 +143,8 @@ int kinematicsForward(const double *joints, EmcPose *world,
         det = a * d - b * c;
         if (det == 0.0)
             return -1;
-        dx = (d * dl - b * dr) / det;
-        dy = (a * dr - c * dl) / det;
-        for (halving = 0; halving < 30 && lengths_at(x + dx, y + dy, next) != 0; ++halving) {
-            dx *= 0.5;
-            dy *= 0.5;
-        }
-        x += dx;
-        y += dy;
+        x = into(x + (d * dl - b * dr) / det, first_x, step_x * (COLUMNS - 1));
+        y = into(y + (a * dr - c * dl) / det, first_y, step_y * (ROWS - 1));
     }
     return -1;
 }

@@ -254,10 +254,6 @@ void check_all(MeasuredBelts& belts,
                             return fmt::format("line {}", lines[index]);
                           },
                           "the settings"};
-  for (const model::MachineProblem& problem : model::problems_of(belts.machine)) {
-    problems.add(
-        fmt::format("the settings' {}", problem.parameter), problem.value, problem.expected);
-  }
   leave_out_copies(belts, lines, problems);
   check_belt_points(belts, places, problems);
   problems.throw_if_any();
@@ -283,6 +279,12 @@ Maslow4Import parse_maslow4(const std::string& text,
   } catch (const InputError& error) {
     problems.add_all(error);
   }
+  for (const model::MachineProblem& problem : model::problems_of(result.belts.machine)) {
+    problems.add(
+        fmt::format("the settings' {}", problem.parameter), problem.value, problem.expected);
+  }
+  // What a run looks like, a machine that cannot be does not say.
+  problems.throw_if_any();
   const std::vector<ScannedRun> runs = runs_of(log, result.belts.machine, problems);
   if (runs.empty()) report_nothing(log, result.belts.machine, problems);
   problems.throw_if_any();

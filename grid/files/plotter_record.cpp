@@ -85,26 +85,26 @@ void check_plotter_machine(const Cursor& at, PlotterMachine& machine) {
 
 const Record<PlotterMachine>& plotter_machine_record() {
   using model::Feed;
-  using Machine = PlotterMachine;
+  using Plotter = PlotterMachine;
   static const auto record =
-      Record<Machine>("a V-plotter's machine")
-          .optional("name", &Machine::name, text())
-          .required("pin_spacing_mm", &Machine::pin_spacing_mm, number_in("mm"))
-          .optional("pin_rise_mm", &Machine::pin_rise_mm, number_in("mm"))
+      Record<Plotter>("a V-plotter's machine")
+          .optional("name", &Plotter::name, text())
+          .required("pin_spacing_mm", &Plotter::pin_spacing_mm, number_in("mm"))
+          .optional("pin_rise_mm", &Plotter::pin_rise_mm, number_in("mm"))
           .required(
               "motors",
-              &Machine::motors,
+              &Plotter::motors,
               choice<MotorPlace>({{"wall", MotorPlace::wall}, {"gondola", MotorPlace::gondola}}))
           .optional("feed",
-                    &Machine::feed,
+                    &Plotter::feed,
                     choice<Feed>({{"over_top", Feed::over_top}, {"off_bottom", Feed::off_bottom}}))
-          .optional("pulley_radius_mm", &Machine::pulley_radius_mm, number_in("mm"))
-          .required("gondola", &Machine::gondola, object(gondola_record()))
-          .optional("cord", &Machine::cord, object(cord_record()))
-          .optional("zero", &Machine::zero_mm, object(cord_zero_record()))
-          .optional("scale", &Machine::scale_mm_per_m, object(cord_scale_record()))
-          .required("area", &Machine::area, object(area_record()))
-          .optional("uncertainty", &Machine::uncertainty, object(uncertainty_of_plotter_record()))
+          .optional("pulley_radius_mm", &Plotter::pulley_radius_mm, number_in("mm"))
+          .required("gondola", &Plotter::gondola, object(gondola_record()))
+          .optional("cord", &Plotter::cord, object(cord_record()))
+          .optional("zero", &Plotter::zero_mm, object(cord_zero_record()))
+          .optional("scale", &Plotter::scale_mm_per_m, object(cord_scale_record()))
+          .required("area", &Plotter::area, object(area_record()))
+          .optional("uncertainty", &Plotter::uncertainty, object(uncertainty_of_plotter_record()))
           .check(check_plotter_machine);
   return record;
 }

@@ -49,12 +49,11 @@ TEST(TwoPulls, WhatOnePullLeavesOpenTwoName) {
               3.0 * two.causes.front().parameters.front().sigma);
 }
 
-/// Pulled belts that stretch, and one belt that counts 0.2 % too much: of one pull the first session of these seeds in
-/// which a second pass is worth its while.
+/// One belt that counts 0.1 % too much, which looks like belts and anchors that give: of one pull the first session of
+/// these seeds in which a second pass is worth its while.
 std::optional<MeasuredBelts> left_open() {
-  const std::vector<model::AppliedEffect> hidden = {{"belt_stretch", "", {{"elongation", 0.0034}}},
-                                                    {"belt_scale", "tl", {{"scale", 0.002}}}};
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  const std::vector<model::AppliedEffect> hidden = {{"belt_scale", "bl", {{"scale", 0.001}}}};
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
     MeasuredBelts belts = measured(hidden, {}, 0.5, seed);
     if (diagnosis::diagnose(belts).value().belts->second_pass) return belts;
   }

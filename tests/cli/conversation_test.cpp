@@ -123,7 +123,7 @@ TEST_F(Conversation, NamesAFileOfTheWrongKind) {
   const Outcome diagnose = run("diagnose map.json");
   EXPECT_EQ(diagnose.code, 3);
   EXPECT_THAT(diagnose.err,
-              HasSubstr("\"chaintrue_belts\"; this is a map; did you mean chaintrue report, "
+              HasSubstr("\"chaintrue_drawing\"; this is a map; did you mean chaintrue report, "
                         "query, gcode or export?"));
   write("marks.xlsx", std::string("PK\x03\x04", 4) + "zip");
   write("marks.pdf", "%PDF-1.7");

@@ -268,5 +268,16 @@ TEST(FailedRun, BeltsAtTheWrongAnchorsAreSeenAtTheFirstPlaces) {
       AllOf(HasSubstr("The top right belt reads"), HasSubstr("a whole turn of its encoder")));
 }
 
+TEST(DamagedLog, SettingsThatNoMachineHasAreRefusedWithTheirName) {
+  Maslow4Options options;
+  options.settings = replaced(fixture("machines/maslow.yaml"), "Maslow_Scale_X: 1.0", "Maslow_Scale_X: -1");
+  try {
+    (void)parse_maslow4(log_text(), "log.txt", options);
+    FAIL() << "it was taken";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the settings' /scale_x: found -1"));
+  }
+}
+
 }  // namespace
 }  // namespace chaintrue::grid::files::damaged_logs

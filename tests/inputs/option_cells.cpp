@@ -222,8 +222,6 @@ std::vector<Telling> tellings() {
        "diagnose @wave.json --machine @classic.json -o d.json"},
       {"diagnose", "--law", "--law law.json", as_file, "csv",
        "diagnose @wave.json --machine @classic.json -o d.json"},
-      {"diagnose", "--law", "--law law.json", as_file, "mix",
-       "diagnose @wave.json --with @holes.json --machine @classic.json -o d.json"},
       {"diagnose", "--law", "--law law.json", as_file},
       {"diagnose", "--held-out", "--held-out @lattice.json"},
       {"diagnose", "--before", "--before @diagnosis.json"},

@@ -175,7 +175,7 @@ TEST(Page, AFlaggedSettingStandsOut) {
               HasSubstr("<tr class=\"flagged\"><td data-heading=\"setting\">right motor, y</td>"));
   EXPECT_THAT(html,
               HasSubstr("<tr><td data-heading=\"setting\">left motor, x</td><td class=\"number\" "
-                        "data-heading=\"stated\">\u22121489.20</td>"));
+                        "data-heading=\"in the file\">\u22121489.20</td>"));
 }
 
 TEST(Page, WithoutChartsThereIsNoScript) {

@@ -41,7 +41,7 @@ void check_linuxcnc(const ExportLinuxcncCommand& command, OptionProblems& proble
       std::all_of(name.begin(), name.end(), [&](char c) {
         return is_letter(static_cast<unsigned char>(c)) || (c >= '0' && c <= '9');
       });
-  if (!is_identifier || (command.output != "-" && !command.output.ends_with(".c"))) {
+  if (!is_identifier) {
     problems.add("--output",
                  command.output,
                  "a file such as chaintrue_kins.c: LinuxCNC calls the module by its name, of letters, "
