@@ -50,7 +50,7 @@ std::string_view name(Observations observations) {
     case Observations::belts:
       return "belts";
     case Observations::drawing:
-      return "drawing";
+      return "measures";
     case Observations::both:
       break;
   }

@@ -47,7 +47,7 @@ enum class Verdict {
 
 /// What was read: chains at points, a tape between holes, both, four belts, or a test drawing.
 enum class Observations { points, distances, both, belts, drawing };
-/// "points", "distances", "readings", "belts", "drawing".
+/// "points", "distances", "readings", "belts", "measures".
 [[nodiscard]] std::string_view name(Observations observations);
 
 /// A member of the same class, with what its own parameters would be.
@@ -331,8 +331,8 @@ struct Diagnosis {
   std::vector<Hypothesis> hypotheses;
   LeftOver left_over;
   /// How far the machine misses as it is used today: error_in_use() of the plain map of these readings,
-  /// the number that a fit begins with. Empty of belts, where the readings make no map, where held-out
-  /// errors were not asked for, and in older files.
+  /// the number that a fit begins with. Empty of drawings, of belts but where chaintrue diagnose adds it,
+  /// where the readings make no map, where held-out errors were not asked for, and in older files.
   std::optional<ErrorSummary> tool_today;
   /// Empty in files written before it was said.
   std::optional<Unexplained> unexplained;

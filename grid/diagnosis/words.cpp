@@ -51,11 +51,6 @@ std::string assumed_words(const Diagnosis& d) {
   return assumed ? " This assumes the order of the visits." : "";
 }
 
-/// "points", "distances", "readings", "measures".
-std::string_view units_of(const Diagnosis& d) {
-  return d.observations == Observations::drawing ? "measures" : name(d.observations);
-}
-
 /// An outlier by its ends and by how much it is off.
 std::string distance_words(const Diagnosis& d, const Outlier& bad) {
   return fmt::format("{} (read {:.1f} mm too {})",
@@ -96,7 +91,7 @@ std::string named_words(const Diagnosis& d) {
                                  percent(cause.probability));
   for (const SameCause& other : cause.same_as) {
     text += fmt::format(" These {} cannot tell it from this: {}.",
-                        units_of(d),
+                        name(d.observations),
                         sized(other.cause, other.parameters));
   }
   return text + alongside_words(d) + assumed_words(d) + improvement_words(d);
@@ -109,7 +104,7 @@ std::string set_words(const Diagnosis& d) {
   }
   return fmt::format("One of {} causes, which these {} do not tell apart: {}.",
                      d.causes.size(),
-                     units_of(d),
+                     name(d.observations),
                      joined(parts, "or")) +
          alongside_words(d) + assumed_words(d) + improvement_words(d);
 }
@@ -129,7 +124,7 @@ std::string unknown_words(const Diagnosis& d) {
           ? fmt::format(
                 "The {} show a pattern that repeats over the bed and that no cause in the "
                 "catalogue explains",
-                units_of(d))
+                name(d.observations))
           : "The holes lie off where their chain lengths put them, neighbours by about the same "
             "and by more than the readings can err, and no known cause explains it";
   if (!d.left_over.follows.empty()) {
@@ -162,7 +157,7 @@ std::string bad_words(const Diagnosis& d) {
   if (const std::vector<std::string> off = settings_off(d); !off.empty()) {
     return fmt::format("{} of the {} fit nothing: {}. Without {} {} off: {}.",
                        bad.size(),
-                       units_of(d),
+                       name(d.observations),
                        joined(bad, "and"),
                        bad.size() == 1 ? "it" : "them",
                        off.size() == 1 ? "a setting is" : "settings are",
@@ -170,7 +165,7 @@ std::string bad_words(const Diagnosis& d) {
   }
   return fmt::format("Nothing is wrong but {} of the {}: {}{}. Without {} the machine fits.",
                      bad.size(),
-                     units_of(d),
+                     name(d.observations),
                      d.observations == Observations::points ? "number " : "",
                      joined(bad, "and"),
                      bad.size() == 1 ? "it" : "them");
@@ -184,14 +179,14 @@ std::string nothing_words(const Diagnosis& d, std::size_t units) {
         off.size() == 1 ? "A setting is" : "Settings are",
         joined(off, "and"),
         units,
-        units_of(d));
+        name(d.observations));
   }
   std::string text = fmt::format(
       "Nothing is found beyond the settings: what is left {} the {} {} is as large as the readings "
       "can err.",
       d.observations == Observations::points ? "at" : "of",
       units,
-      units_of(d));
+      name(d.observations));
   if (d.family_wise_p < 0.05) {
     text += fmt::format(
         " The strongest effect would look as strong by chance in {:.0f} of 100 "
@@ -221,7 +216,7 @@ std::string sentence(const Diagnosis& d, std::size_t units) {
       return fmt::format(
           "The {} scatter {:.1f} times as much as you said, and without a pattern: look at the "
           "tape, at the {} and at play in the sled.",
-          units_of(d),
+          name(d.observations),
           d.noise_factor,
           speaks_of_distances(d) ? "drill" : "marking");
     case Verdict::outliers:
@@ -291,7 +286,7 @@ void say_what_to_do(Diagnosis& d) {
                     model::name(s.setting),
                     s.stated,
                     s.calibrated,
-                    units_of(d)));
+                    name(d.observations)));
   }
   if (d.verdict == Verdict::model_discrepancy && d.what_to_do.size() < 3) {
     d.what_to_do.emplace_back(
@@ -306,7 +301,7 @@ void say_what_to_do(Diagnosis& d) {
   say_what_to_type(d);
   if (d.what_to_do.empty()) {
     d.what_to_do.push_back(fmt::format(
-        "Type in the calibrated settings; these {} can give no more.", units_of(d)));
+        "Type in the calibrated settings; these {} can give no more.", name(d.observations)));
   }
 }
 

@@ -52,6 +52,16 @@ TEST_F(BeltCommands, FromTheLogToTheLinesToPaste) {
   EXPECT_THAT(lines.err, HasSubstr("Maslow_Scale_X and Maslow_Scale_Y stay as they are"));
 }
 
+TEST_F(BeltCommands, ADiagnosisBeginsWithTheNumberOfTheFit) {
+  const Outcome fit = run("fit " + belts_ + " -o anchors.json");
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  const std::string number = fit.err.substr(0, fit.err.find(" mm. With") + 4);
+  ASSERT_THAT(number, StartsWith("Your machine misses by about "));
+  const Outcome found = run("diagnose " + belts_);
+  ASSERT_EQ(found.code, 0) << found.err;
+  EXPECT_THAT(found.out, StartsWith(number));
+}
+
 TEST_F(BeltCommands, TheFixtureIsWhatImportMakes) {
   ASSERT_EQ(run("import maslow4 " + log_ + settings_ + " -o belts.json").code, 0);
   EXPECT_EQ(content_of(folder_ / "belts.json"), content_of(belts_));

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "grid/belts/belts_error.hpp"
+#include "grid/diagnosis/anchors_with_causes.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/law_declaration.hpp"
 #include "grid/diagnosis/order_search.hpp"
@@ -258,6 +260,13 @@ void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   say_next(words);
 }
 
+/// The number that a fit of the same belts begins with.
+std::optional<grid::ErrorSummary> tool_today(const grid::MeasuredBelts& belts) {
+  const auto fit = grid::diagnosis::fit_with_causes(belts);
+  const auto error = fit ? grid::error_of_belts(*fit) : std::nullopt;
+  return error ? error->today : std::nullopt;
+}
+
 /// Belts are diagnosed by themselves, on the machine in their own file.
 Outcome diagnosed_belts(const DiagnoseCommand& command, const InputFile& file) {
   const std::vector<std::size_t> without = points_left_out(command.without);
@@ -280,6 +289,7 @@ Outcome diagnosed_belts(const DiagnoseCommand& command, const InputFile& file) {
       read.belts, files::indices_beside(read.belts.points.size(), without), options);
   if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
   if (found->grid_name.empty()) found->grid_name = file_name(command.input.grid);
+  found->tool_today = tool_today(read.belts);
   return *std::move(found);
 }
 

@@ -96,7 +96,8 @@ void put_the_verdict(const Diagnosis& found, report::Document& document) {
                                                      found.sentence)
                                        : found.sentence};
   // The bar tells how the machine is, not how sure the name: a worn chain is no good news.
-  const bool errs = left || !found.causes.empty() || !found.outliers.empty();
+  const bool errs = left || !found.causes.empty() || !found.outliers.empty() ||
+                    (found.drawing && drawn_settings_light(found).tone != Tone::good);
   document.tone = errs ? std::max(lights.tone, Tone::caution) : lights.tone;
   document.lights = {
       {lights.found_tone, "Found?", std::string(lights.found)},
