@@ -156,7 +156,7 @@ TEST_F(Evening, FirstScreensOfFourBeltsAreInTheWordsOfAWorkshop) {
   EXPECT_THAT(first_words(fitted.err, kWordsBeforeTheFold),
               AllOf(StartsWith("Your machine misses by about "), HasSubstr("You wish for 0.5 mm: reached")));
   const Outcome found = next("diagnose " + belts + " -o diagnosis.json");
-  EXPECT_THAT(found.out, AllOf(StartsWith("Most likely "), HasSubstr("What to do now"), Not(HasSubstr("likeness"))));
+  EXPECT_THAT(found.out, AllOf(StartsWith("Your machine misses by about "), HasSubstr(" mm. Most likely "), HasSubstr("What to do now"), Not(HasSubstr("likeness"))));
   const Outcome checked = next("check anchors.json " + belts);
   EXPECT_THAT(checked.out, StartsWith("The anchors still hold"));
   for (const std::string* text : {&fitted.err, &found.out, &checked.out})

@@ -57,7 +57,9 @@ TEST(BeltTensions, TwoThatHoldBalanceTheTwoThatArePulledAndTheWeight) {
         const PerBelt<double> tension = tensions_of(machine, pulled, 1.6, place);
         for (const Belt belt : kBelts) {
           EXPECT_GE(tension[belt], 0.0);
-          if (pulled[belt]) EXPECT_EQ(tension[belt], 1.6);
+          if (pulled[belt]) {
+            EXPECT_EQ(tension[belt], 1.6);
+          }
         }
         if (!all_taut(tension)) continue;
         ++taut;
