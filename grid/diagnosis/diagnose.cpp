@@ -11,7 +11,6 @@
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
-#include "grid/diagnosis/normal_plot.hpp"
 #include "grid/diagnosis/order_search.hpp"
 #include "grid/diagnosis/single_reading.hpp"
 #include "grid/diagnosis/stability.hpp"
@@ -159,18 +158,9 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
     d.notes.push_back(std::move(*refused));
     d.stability.reset();
   }
-  d.seed = options.seed;
-  d.verdict = a.decision.verdict;
-  d.noise_factor = std::sqrt(a.estimate.noise_square);
-  d.family_wise_p = a.family_wise_p;
-  d.causes = causes_found(a);
-  d.hypotheses = hypotheses(a);
-  d.terms = terms(a);
-  d.not_testable = a.candidates.not_testable;
-  d.bounds = bounds(a, d.not_testable);
+  take_findings(a, d);
   d.settings = settings_found(a);
   d.outliers = outliers_found(a);
-  d.separations = separations(a);
   d.points = point_pictures(a);
   d.holes = hole_pictures(a);
   d.distances = distance_pictures(a);
@@ -178,7 +168,6 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   d.unexplained = unexplained(a);
   d.unexplained->laws = laws_found(a);
   d.budget = error_budget(a);
-  d.normal_plot = normal_plot(a);
   const std::vector<std::string> sessions = names_of_sessions(measured);
   d.bed_parts = bed_part_findings(a);
   d.sessions = session_findings(a, sessions);

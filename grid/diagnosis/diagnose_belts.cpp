@@ -4,7 +4,6 @@
 #include "grid/diagnosis/belts_report.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/normal_plot.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -43,18 +42,8 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
   Diagnosis d;
   d.observations = Observations::belts;
   d.grid_name = belts.name;
-  d.seed = options.seed;
-  d.verdict = a.decision.verdict;
-  d.noise_factor = std::sqrt(a.estimate.noise_square);
-  d.family_wise_p = a.family_wise_p;
-  d.causes = causes_found(a);
-  d.hypotheses = hypotheses(a);
-  d.terms = terms(a);
-  d.not_testable = a.candidates.not_testable;
-  d.bounds = bounds(a, d.not_testable);
-  d.separations = separations(a);
+  take_findings(a, d);
   d.unexplained = unexplained(*analysed);
-  d.normal_plot = normal_plot(a);
   d.bed_parts = bed_part_findings(a);
   d.outliers = bad_belts(given);
   for (Outlier& bad : d.outliers) bad.index = index_in_file(indices, bad.index);

@@ -5,7 +5,6 @@
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/normal_plot.hpp"
 #include "grid/plotter/drawing_fit.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -80,18 +79,8 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const TestDrawing& drawing,
   Diagnosis d;
   d.observations = Observations::drawing;
   d.grid_name = drawing.name;
-  d.seed = options.seed;
-  d.verdict = a.decision.verdict;
-  d.noise_factor = std::sqrt(a.estimate.noise_square);
-  d.family_wise_p = a.family_wise_p;
-  d.causes = causes_found(a);
-  d.hypotheses = hypotheses(a);
-  d.terms = terms(a);
-  d.not_testable = a.candidates.not_testable;
-  d.bounds = bounds(a, d.not_testable);
+  take_findings(a, d);
   d.outliers = outliers_found(a);
-  d.separations = separations(a);
-  d.normal_plot = normal_plot(a);
   d.drawing = DrawingFindings{
       drawing.machine.name, drawn_settings(a), drawn_values(a, drawing)};
   put_into_words(a, d);

@@ -11,6 +11,7 @@
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/constants.hpp"
+#include "grid/diagnosis/normal_plot.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -416,6 +417,20 @@ std::vector<Outlier> outliers_found(const Analysis& a) {
     return std::pair(x.of, x.index) < std::pair(y.of, y.index);
   });
   return result;
+}
+
+void take_findings(const Analysis& a, Diagnosis& d) {
+  d.seed = a.options.seed;
+  d.verdict = a.decision.verdict;
+  d.noise_factor = std::sqrt(a.estimate.noise_square);
+  d.family_wise_p = a.family_wise_p;
+  d.causes = causes_found(a);
+  d.hypotheses = hypotheses(a);
+  d.terms = terms(a);
+  d.not_testable = a.candidates.not_testable;
+  d.bounds = bounds(a, d.not_testable);
+  d.separations = separations(a);
+  d.normal_plot = normal_plot(a);
 }
 
 std::vector<Separation> separations(const Analysis& a) {

@@ -31,6 +31,10 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] std::vector<HolePicture> hole_pictures(const Analysis& analysis);
 [[nodiscard]] std::vector<DistancePicture> distance_pictures(const Analysis& analysis);
 
+/// Verdict, causes, hypotheses, terms, bounds, what is not testable, separations and the normal plot:
+/// what every answer has, whatever was measured.
+void take_findings(const Analysis& analysis, Diagnosis& diagnosis);
+
 /// Sets the machine and the corrections of the data from the causes; a class that may lie on the
 /// paper as well only where the options accept it.
 void apply_causes(const Analysis& analysis, Diagnosis& diagnosis);

@@ -6,8 +6,7 @@
 
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/belts_file.hpp"
-#include "grid/synthetic/simulated_belts.hpp"
-#include "tests/belts/frame.hpp"
+#include "tests/belts/two_pull_sessions.hpp"
 #include "tests/cli/command_fixture.hpp"
 
 namespace chaintrue::grid::two_pulls_diagnosed {
@@ -19,21 +18,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing_support::Outcome;
 
-constexpr double kHarder = 1.6;
-
-MeasuredBelts measured(std::vector<model::AppliedEffect> hidden,
-                       std::vector<double> pulls,
-                       double noise_mm,
-                       std::uint64_t seed) {
-  synthetic::BeltsSpec spec;
-  spec.columns = 7;
-  spec.rows = 6;
-  spec.noise_mm = noise_mm;
-  spec.hidden = std::move(hidden);
-  spec.pulls = std::move(pulls);
-  spec.seed = seed;
-  return synthetic::simulate_belts(testing_support::stated(), testing_support::truth(), spec).value();
-}
+using two_pulls::kHarder;
+using two_pulls::measured;
 
 TEST(TwoPulls, WhatOnePullLeavesOpenTwoName) {
   // Weak enough that other anchors, a belt's scale or the stretch do nearly the same.
