@@ -85,6 +85,13 @@ inline constexpr std::array kOlderAnchors = {
                  "written before the belts that hold were taken to give as those that are pulled; what it says of stretch is of "
                  "pulled belts alone: fit its belts again"}};
 
+inline constexpr std::array kOlderPlotters = {
+    OlderVersion{"1.0",
+     "written before what a drawing found was kept with its correlations; where it has found settings, their expected error is "
+     "not known: fit the drawing again"}};
+inline constexpr std::array kOlderDrawings = {
+    OlderVersion{"1.0", "written before Marlin's pieces a second were kept; 5 are taken, as its firmware has them unless they were changed"}};
+
 inline constexpr Format kMachineFormat{"chaintrue_machine", "1.0"};
 inline constexpr Format kGridFormat{"chaintrue_grid", "1.0"};
 inline constexpr Format kHolesFormat{"chaintrue_holes", "1.1", kOlderHoles};
@@ -98,8 +105,8 @@ inline constexpr Format kAnswerFormat{"chaintrue_answer", "1.0", {}, false};
 inline constexpr Format kCheckFormat{"chaintrue_check", "1.0", {}, false};
 inline constexpr Format kFitFormat{"chaintrue_fit", "1.1", {}, false};
 inline constexpr Format kEffectFormat{"chaintrue_effect", "1.0"};
-inline constexpr Format kPlotterFormat{"chaintrue_plotter", "1.0"};
-inline constexpr Format kDrawingFormat{"chaintrue_drawing", "1.0"};
+inline constexpr Format kPlotterFormat{"chaintrue_plotter", "1.1", kOlderPlotters};
+inline constexpr Format kDrawingFormat{"chaintrue_drawing", "1.1", kOlderDrawings};
 inline constexpr Format kEffectsFormat{"chaintrue_effects", "1.0", {}, false};
 inline constexpr Format kEffectPictureFormat{"chaintrue_effect_picture", "1.0", {}, false};
 

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// A map as a kinematics module of LinuxCNC: the source (C) of a component that interpolates both
-/// lengths in a table.
-///
-/// Between nodes of a regular lattice lengths are interpolated by cubic convolution in x and in y (R.
-/// Keys, IEEE Trans. Acoust. Speech Signal Process. 29 (1981), 1153, eq. 4 and the boundary values of
-/// eq. 25). The table is as dense as it has to be: what it is off by is looked for in the middles of
-/// cells and of their sides, where it is largest.
+/// lengths in a table (length_table.hpp).
 ///
 /// Joints 0 and 1 are the lengths left and right, joint 2 is z, in mm. Outside the table both
 /// directions fail, which stops LinuxCNC.
@@ -20,12 +15,9 @@
 #include <string>
 #include <tl/expected.hpp>
 
-#include "grid/map/length_map.hpp"
+#include "grid/files/length_table.hpp"
 
 namespace chaintrue::grid::files {
-
-/// What a table may be off by, mm: the hundredth part of what a careful hand reads.
-inline constexpr double kTableErrorMm = 0.005;
 
 struct LinuxcncNames {
   std::string module;  ///< of the component: an identifier, the source's file without its .c

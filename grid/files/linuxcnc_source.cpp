@@ -173,24 +173,24 @@ void rtapi_app_exit(void) { hal_exit(component); }
 
 }  // namespace
 
-std::string linuxcnc_source(const LinuxcncTable& table) {
-  std::string map = table.names.map;
+std::string linuxcnc_source(const LengthTable& table, const LinuxcncNames& names) {
+  std::string map = names.map;
   // It must not end the comment that it is in.
   std::replace(map.begin(), map.end(), '*', ' ');
   for (char& c : map) c = static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   std::string tail(kTail);
   constexpr std::string_view kModule = "%MODULE%";
-  tail.replace(tail.find(kModule), kModule.size(), table.names.module);
+  tail.replace(tail.find(kModule), kModule.size(), names.module);
   return fmt::format(fmt::runtime(kHead),
                      fmt::arg("name", map),
-                     fmt::arg("module", table.names.module),
+                     fmt::arg("module", names.module),
                      fmt::arg("columns", table.columns),
                      fmt::arg("rows", table.rows),
-                     fmt::arg("x", table.x_mm),
-                     fmt::arg("y", table.y_mm),
-                     fmt::arg("step_x", table.step_x_mm),
-                     fmt::arg("step_y", table.step_y_mm)) +
-         table.nodes + tail;
+                     fmt::arg("x", table.area.x_min),
+                     fmt::arg("y", table.area.y_min),
+                     fmt::arg("step_x", table.step_x()),
+                     fmt::arg("step_y", table.step_y())) +
+         table.nodes_as_text("{", "}") + tail;
 }
 
 }  // namespace chaintrue::grid::files

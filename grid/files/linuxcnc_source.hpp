@@ -9,18 +9,7 @@
 
 namespace chaintrue::grid::files {
 
-struct LinuxcncTable {
-  LinuxcncNames names;
-  int columns = 0;
-  int rows = 0;
-  double x_mm = 0.0;  ///< of the first node
-  double y_mm = 0.0;
-  double step_x_mm = 0.0;
-  double step_y_mm = 0.0;
-  std::string nodes;  ///< as an initialiser, a row in braces each
-};
-
 /// Same table, same bytes.
-[[nodiscard]] std::string linuxcnc_source(const LinuxcncTable& table);
+[[nodiscard]] std::string linuxcnc_source(const LengthTable& table, const LinuxcncNames& names);
 
 }  // namespace chaintrue::grid::files

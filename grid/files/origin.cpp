@@ -36,7 +36,8 @@ constexpr std::string_view kSchemaOfFormat =
     "{\n  \"$schema\": \"http://json-schema.org/draft-07/schema#\",\n  \"title\": \"chaintrue_";
 
 /// The first words of results.
-constexpr std::array<std::string_view, 8> kTables = {
+constexpr std::array<std::string_view, 9> kTables = {
+    "# Kinematics for Klipper, written by chaintrue export klipper: ",
     "/* Kinematics for LinuxCNC, written by chaintrue export linuxcnc: ",
     "cell,machine,effects,used_on,",
     "x_mm,y_mm,left_mm,right_mm,left_sigma_mm,right_sigma_mm,status\n",

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/plotter_file.hpp"
 
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+
 #include "grid/files/plotter_record.hpp"
+#include "grid/files/provenance_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
 
@@ -15,6 +20,31 @@ const Record<FoundSetting>& found_setting_record() {
   return record;
 }
 
+void check_correlations(const Cursor& at, FoundPlotter& found) {
+  constexpr std::size_t kPairs = 15;  // of six settings
+  if (!at.clean() || found.correlations.empty()) return;
+  if (found.correlations.size() != kPairs) {
+    at.problems().add(at.pointer() + "/correlations",
+                      fmt::format("{} numbers", found.correlations.size()),
+                      "15: of each of the six settings with those after it");
+    return;
+  }
+  // Rounded, a correlation matrix may miss zero by that.
+  constexpr double kRounding = 1e-6;
+  const Eigen::VectorXd scale = found.covariance().diagonal().cwiseSqrt();
+  Eigen::MatrixXd of_ones = found.covariance();
+  for (Eigen::Index i = 0; i < scale.size(); ++i) {
+    if (!(scale[i] > 0.0)) return;
+    of_ones.row(i) /= scale[i];
+    of_ones.col(i) /= scale[i];
+  }
+  if (Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(of_ones).eigenvalues().minCoeff() >= -kRounding)
+    return;
+  at.problems().add(at.pointer() + "/correlations",
+                    "numbers that no six quantities can have",
+                    "those that chaintrue fit wrote");
+}
+
 const Record<FoundPlotter>& found_plotter_record() {
   using Found = FoundPlotter;
   const auto setting = [] { return object(found_setting_record()); };
@@ -25,7 +55,9 @@ const Record<FoundPlotter>& found_plotter_record() {
           .required("zero_left_mm", &Found::zero_left_mm, setting())
           .required("zero_right_mm", &Found::zero_right_mm, setting())
           .required("scale_left_mm_per_m", &Found::scale_left_mm_per_m, setting())
-          .required("scale_right_mm_per_m", &Found::scale_right_mm_per_m, setting());
+          .required("scale_right_mm_per_m", &Found::scale_right_mm_per_m, setting())
+          .optional("correlations", &Found::correlations, list(number({"", -1.0, 1.0})))
+          .check(check_correlations);
   return record;
 }
 
@@ -40,11 +72,13 @@ void check_found(const Cursor& at, KnownPlotter& plotter) {
 }
 
 const Record<KnownPlotter>& plotter_record() {
-  static const auto record =
-      Record<KnownPlotter>("a V-plotter", kPlotterFormat)
-          .required("set", &KnownPlotter::set, object(set_plotter_record()))
-          .optional("found", &KnownPlotter::found, object(found_plotter_record()))
-          .check(check_found);
+  static const auto record = [] {
+    Record<KnownPlotter> plotter("a V-plotter", kPlotterFormat);
+    plotter.required("set", &KnownPlotter::set, object(set_plotter_record()))
+        .optional("found", &KnownPlotter::found, object(found_plotter_record()));
+    add_made_by_key(plotter).check(check_found);
+    return plotter;
+  }();
   return record;
 }
 
@@ -54,8 +88,10 @@ KnownPlotter parse_plotter(const std::string& text, const std::string& file) {
   return read_document(plotter_record(), text, file);
 }
 
-std::string write_plotter(const KnownPlotter& plotter, const std::vector<std::string>& comments) {
-  Json json = plotter_record().write(plotter);
+std::string write_plotter(const KnownPlotter& plotter,
+                          const std::vector<std::string>& comments,
+                          const std::optional<Provenance>& made_by) {
+  Json json = with_made_by(plotter_record().write(plotter), made_by);
   if (!comments.empty()) json["comment"] = comments;
   return print_json(json);
 }

@@ -9,11 +9,13 @@
 /// \endcode
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "grid/files/input_error.hpp"
 #include "grid/plotter/found_plotter.hpp"
+#include "grid/provenance.hpp"
 
 namespace chaintrue::grid::files {
 
@@ -22,6 +24,7 @@ namespace chaintrue::grid::files {
 /// `comments` go under the key "comment", one line each; readers ignore them. \throws
 /// std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_plotter(const KnownPlotter& plotter,
-                                        const std::vector<std::string>& comments = {});
+                                        const std::vector<std::string>& comments = {},
+                                        const std::optional<Provenance>& made_by = std::nullopt);
 
 }  // namespace chaintrue::grid::files

@@ -176,6 +176,10 @@ SetPlotter of_marlin(const std::string& text, Problems& problems) {
   SetPlotter set;
   set.firmware = PlotterFirmware::marlin;
   set.steps_per_mm = {steps("X", 0), steps("Y", 1)};
+  constexpr Range kASecond{"1/s", 0.1, 1e4};
+  if (const auto pieces =
+          settings.find(is_log ? "M665 S" : "DEFAULT_SEGMENTS_PER_SECOND 0", kASecond))
+    set.segments_per_second = *pieces;
   set.machine.pin_spacing_mm = right - left;
   set.pins_middle = {0.5 * (left + right), top};
   const double half = 0.5 * set.machine.pin_spacing_mm;

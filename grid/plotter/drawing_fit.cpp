@@ -193,6 +193,8 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
   if (auto slip = scaled_page_of(drawing.machine, machine_of(*estimate)))
     return tl::unexpected(std::move(*slip));
   fit.settings = settings_of(*estimate);
+  const auto count = static_cast<Eigen::Index>(fit.settings.size());
+  fit.covariance = estimate->covariance.topLeftCorner(count, count);
   fit.noise_factor = estimate->noise_factor;
   fit.to_set = typed_in(drawing.firmware, fit.mechanism->machine());
   const auto after = next_drawing(drawing, fit);

@@ -18,6 +18,7 @@
 /// \endcode
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -51,6 +52,7 @@ struct FittedMeasure {
 struct DrawingFit {
   std::shared_ptr<const model::PlotterMechanism> mechanism;  ///< as found
   std::vector<PlotterSetting> settings;
+  Eigen::MatrixXd covariance;  ///< of these
   /// In the order of the drawing's measures.
   std::vector<FittedMeasure> measures;
   /// The noise found, as a multiple of the sigmas that went in.

@@ -1,10 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/plotter/found_plotter.hpp"
 
+#include <cmath>
+
 namespace chaintrue::grid {
 
 using model::PlotterMachine;
 using model::Side;
+
+namespace {
+
+/// Above the diagonal, row by row.
+std::vector<double> correlations_of(const Eigen::MatrixXd& covariance) {
+  std::vector<double> upper;
+  for (Eigen::Index row = 0; row < covariance.rows(); ++row) {
+    for (Eigen::Index column = row + 1; column < covariance.cols(); ++column) {
+      const double both = std::sqrt(covariance(row, row) * covariance(column, column));
+      upper.push_back(both > 0.0 ? covariance(row, column) / both : 0.0);
+    }
+  }
+  return upper;
+}
+
+}  // namespace
+
+Eigen::MatrixXd FoundPlotter::covariance() const {
+  if (correlations.empty()) return {};
+  Eigen::VectorXd sigma(+model::kPlotterParameters);
+  sigma << pin_spacing_mm.sigma, pin_rise_mm.sigma, zero_left_mm.sigma, zero_right_mm.sigma,
+      scale_left_mm_per_m.sigma, scale_right_mm_per_m.sigma;
+  Eigen::MatrixXd covariance = sigma.cwiseAbs2().asDiagonal();
+  std::size_t next = 0;
+  for (Eigen::Index row = 0; row < sigma.size(); ++row) {
+    for (Eigen::Index column = row + 1; column < sigma.size(); ++column, ++next)
+      covariance(row, column) = covariance(column, row) =
+          correlations.at(next) * sigma[row] * sigma[column];
+  }
+  return covariance;
+}
 
 FoundPlotter found_by(const DrawingFit& fit) {
   const auto at = [&](model::PlotterParameter parameter) {
@@ -16,7 +49,8 @@ FoundPlotter found_by(const DrawingFit& fit) {
           at(model::kZeroLeft),
           at(model::kZeroRight),
           at(model::kScaleLeft),
-          at(model::kScaleRight)};
+          at(model::kScaleRight),
+          correlations_of(fit.covariance)};
 }
 
 PlotterMachine machine_found(const SetPlotter& set, const FoundPlotter& found) {

@@ -9,7 +9,9 @@
 /// \endcode
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "grid/plotter/drawing_fit.hpp"
 
@@ -28,6 +30,11 @@ struct FoundPlotter {
   FoundSetting zero_right_mm;
   FoundSetting scale_left_mm_per_m;
   FoundSetting scale_right_mm_per_m;
+  /// Of each with those after it, in this order, row by row: 15 numbers; empty where they are not known.
+  std::vector<double> correlations;
+
+  /// Of all six; empty where the correlations are not known.
+  [[nodiscard]] Eigen::MatrixXd covariance() const;
 };
 
 struct KnownPlotter {

@@ -56,6 +56,8 @@ struct SetPlotter {
   double homed_offset_mm = kMuralHomedOffsetMm;  ///< of a mural
   PenCommands pen;
   double feed_mm_per_min = 1500.0;
+  /// Of Marlin: into how many pieces a second it divides a move (M665 S).
+  double segments_per_second = 5.0;
 };
 
 struct TestDrawing : SetPlotter {

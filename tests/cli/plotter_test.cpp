@@ -6,15 +6,14 @@
 
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "generator/hidden/plotter.hpp"
-#include "generator/hidden/random.hpp"
 #include "grid/files/drawing_file.hpp"
 #include "model/plotter/plotter_controller.hpp"
 #include "tests/cli/command_fixture.hpp"
+#include "tests/cli/ruler.hpp"
 
 namespace chaintrue::plotter_command_test {
 namespace {
@@ -34,7 +33,7 @@ constexpr double kMassBelowMm = 20.0;
 /// tilt below half a radian.
 Json stiff_mural() {
   return Json::parse(R"({
-  "file_type": "chaintrue_plotter", "format_version": "1.0",
+  "file_type": "chaintrue_plotter", "format_version": "1.1",
   "set": {"firmware": "mural", "machine": {
     "name": "stiff mural", "pin_spacing_mm": 1500, "motors": "gondola", "pulley_radius_mm": 6.345,
     "gondola": {"spacing_mm": 85, "mass_below_mm": 20, "mass_kg": 0.55},
@@ -79,29 +78,11 @@ class HiddenMural {
   generator::HiddenPlotter plotter_;
 };
 
-double measured(const Json& measure,
-                const std::function<generator::PenAtRest(const std::string&)>& pen_of) {
-  const auto a = pen_of(measure.at("from")), b = pen_of(measure.at("to"));
-  const double length = std::hypot(b.x_mm - a.x_mm, b.y_mm - a.y_mm);
-  if (measure.at("kind") == "length") return length;
-  const auto m = pen_of(measure.at("middle"));
-  return ((b.x_mm - a.x_mm) * (m.y_mm - a.y_mm) - (b.y_mm - a.y_mm) * (m.x_mm - a.x_mm)) / length;
-}
-
 /// The drawing with every null filled in, to a tenth of a millimetre as a person writes.
-Json filled_in(Json drawing, const Typed& typed, double noise_mm, std::uint64_t seed) {
+Json filled_in(const Json& drawing, const Typed& typed, double noise_mm, std::uint64_t seed) {
   const HiddenMural mural;
-  generator::Dice dice(seed, "ruler");
-  for (Json& measure : drawing.at("measures")) {
-    const double true_mm = measured(measure, [&](const std::string& name) {
-      for (const Json& cross : drawing.at("crosses")) {
-        if (cross.at("name") == name) return mural.pen(typed, cross.at("x_mm"), cross.at("y_mm"));
-      }
-      throw std::logic_error("no cross " + name);
-    });
-    measure["value_mm"] = std::round(10.0 * (true_mm + noise_mm * dice.normal())) / 10.0;
-  }
-  return drawing;
+  return testing_support::ruled(
+      drawing, [&](double x_mm, double y_mm) { return mural.pen(typed, x_mm, y_mm); }, noise_mm, seed);
 }
 
 double largest_bow(const Json& drawing) {

@@ -52,6 +52,13 @@ TEST_F(ProvenanceOfCommands, OfAMapAreVersionVerbOptionsAndInputs) {
   EXPECT_EQ(found.at("inputs")[0].at("sha256"), sha256("grid.json"));
 }
 
+TEST_F(ProvenanceOfCommands, AFoundPlotterSaysWhatItWasMadeFrom) {
+  ASSERT_EQ(run("fit " CHAINTRUE_FIXTURES "/plotter/mural_drawing.json -o found.json").code, 0);
+  const json found = made_by("found.json");
+  EXPECT_EQ(found.at("verb"), "fit");
+  EXPECT_EQ(found.at("inputs")[0].at("name"), "mural_drawing.json");
+}
+
 TEST_F(ProvenanceOfCommands, FoldersAndOutputsLeaveNoTrace) {
   ASSERT_EQ(run("fit grid.json -o map.json").code, 0);
   const Outcome elsewhere = run_line(

@@ -167,5 +167,27 @@ TEST(FirmwareArc, EveryRuleGoesTheSameWayRoundInEveryPlane) {
   }
 }
 
+/// By each firmware's published division of a straight move.
+TEST(ControllerCheck, DividesAMoveAsThePlottersFirmwareDoes) {
+  using model::PlotterFirmware;
+  const auto pieces = [](PlotterFirmware plotter, double length_mm, double feed_mm_per_min) {
+    return pieces_of(firmware(plotter), length_mm, feed_mm_per_min);
+  };
+  // Marlin: five a second, cut to a whole number, one at least; 1500 mm/min until an F was read.
+  EXPECT_EQ(pieces(PlotterFirmware::marlin, 99.0, 600.0), 49.0);
+  EXPECT_EQ(pieces(PlotterFirmware::marlin, 99.0, 6000.0), 4.0);
+  EXPECT_EQ(pieces(PlotterFirmware::marlin, 0.5, 6000.0), 1.0);
+  EXPECT_EQ(pieces(PlotterFirmware::marlin, 100.0, 0.0), 20.0);
+  EXPECT_EQ(pieces(PlotterFirmware::mural, 99.5, 600.0), 100.0);
+  EXPECT_EQ(pieces(PlotterFirmware::polargraph, 99.0, 600.0), 50.0);
+  EXPECT_EQ(pieces(PlotterFirmware::fluidnc, 99.0, 600.0), 9.0);
+  for (const PlotterFirmware plotter : model::kPlotterFirmwares)
+    EXPECT_EQ(std::string(firmware(plotter).name).starts_with(name(plotter)), true);
+  EXPECT_FALSE(firmware(PlotterFirmware::mural).reads_gcode);
+  EXPECT_TRUE(firmware(PlotterFirmware::marlin).reads_gcode);
+  EXPECT_FALSE(knows_code(firmware(PlotterFirmware::marlin), 'G', 170));
+  EXPECT_TRUE(knows_code(firmware(PlotterFirmware::marlin), 'M', 2800));
+}
+
 }  // namespace
 }  // namespace chaintrue::gcode

@@ -37,7 +37,7 @@ std::string line_of(const Use& use, const Telling& telling) {
   if (!instead.empty() && instead.front() != '@') return instead;
   std::string line = use.line;
   if (instead.empty()) return line;
-  for (const char* own : {"@simple.nc", "@true.nc", "@belts_true.nc"}) line = replaced(line, own, instead);
+  for (const char* own : {"@simple.nc", "@true.nc", "@belts_true.nc", "@plotter_true.nc"}) line = replaced(line, own, instead);
   return line;
 }
 

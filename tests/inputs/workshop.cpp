@@ -207,6 +207,13 @@ std::map<std::string, std::string> made_by_the_command() {
       {"short_true.nc", "gcode compensate @short.nc --map @map.json --tolerance-mm 0.02 -o @short_true.nc"},
       {"short_belts_true.nc",
        "gcode compensate @short.nc --map @anchors.json --tolerance-mm 0.02 -o @short_belts_true.nc"},
+      {"rapid_plotter_true.nc",
+       "gcode compensate @rapid.nc --map @wide_plotter.json --tolerance-mm 0.01 --keep-rapids-whole -o "
+       "@rapid_plotter_true.nc"},
+      {"short_plotter_true.nc",
+       "gcode compensate @short.nc --map @wide_plotter.json --tolerance-mm 0.02 -o @short_plotter_true.nc"},
+      {"slow_plotter_true.nc",
+       "gcode compensate @slow.nc --map @wide_plotter.json -o @slow_plotter_true.nc"},
       {"slow_true.nc", "gcode compensate @slow.nc --map @map.json -o @slow_true.nc"},
       {"slow_belts_true.nc", "gcode compensate @slow.nc --map @anchors.json -o @slow_belts_true.nc"},
       {"diagnosis.json", "diagnose @grid.json -o @diagnosis.json"},
@@ -215,7 +222,33 @@ std::map<std::string, std::string> made_by_the_command() {
       {"belts_diagnosis.json", "diagnose @belts.json -o @belts_diagnosis.json"},
       {"belts_before.json", "diagnose @belts2.json -o @belts_before.json"},
       {"true.nc", "gcode compensate @simple.nc --map @map.json -o @true.nc"},
-      {"belts_true.nc", "gcode compensate @simple.nc --map @anchors.json -o @belts_true.nc"}};
+      {"belts_true.nc", "gcode compensate @simple.nc --map @anchors.json -o @belts_true.nc"},
+      {"plotter_true.nc", "gcode compensate @simple.nc --map @wide_plotter.json -o @plotter_true.nc"}};
+}
+
+std::string wide_plotter(double pin_spacing_mm) {
+  const auto found = [](double value, double sigma) { return Json{{"value", value}, {"sigma", sigma}}; };
+  const Json plotter = {
+      {"file_type", "chaintrue_plotter"},
+      {"format_version", "1.1"},
+      {"set",
+       {{"firmware", "fluidnc"},
+        {"machine",
+         {{"pin_spacing_mm", pin_spacing_mm},
+          {"motors", "wall"},
+          {"gondola", {{"mass_kg", 2.0}}},
+          {"area", {{"left_mm", -1200}, {"right_mm", 1200}, {"top_mm", -300}, {"bottom_mm", -1500}}}}},
+        {"home", {{"x_mm", 0}, {"y_mm", -900}}},
+        {"pins_middle", {{"x_mm", 0}, {"y_mm", 900}}}}},
+      {"found",
+       {{"pin_spacing_mm", found(3003.0, 0.5)},
+        {"pin_rise_mm", found(2.0, 1.0)},
+        {"zero_left_mm", found(6.0, 0.4)},
+        {"zero_right_mm", found(-4.0, 0.4)},
+        {"scale_left_mm_per_m", found(1.0, 0.2)},
+        {"scale_right_mm_per_m", found(-0.5, 0.2)},
+        {"correlations", std::vector<double>(15, 0.0)}}}};
+  return plotter.dump(1);
 }
 
 }  // namespace
@@ -258,6 +291,9 @@ Workshop::Workshop() : folder_(temporary_folder()), lines_(made_by_the_command()
   Json moved = Json::parse(text_of("belts.json"));
   moved["machine"]["anchors"]["tl"]["x_mm"] = -19.0;
   write("moved_belts.json", moved.dump(1));
+  // Over as large a sheet as a router's, as a drawing found it; and what its controller may hold now.
+  write("wide_plotter.json", wide_plotter(3000.0));
+  write("moved_plotter.json", wide_plotter(2996.0));
   write("belt_holes.json", belt_holes(text_of("belts.json")));
   write("narrow_holes.json", narrow_holes(text_of("holes.json")));
   // Links that are hardly longer than they should be, in place of the catalogue's.

@@ -23,8 +23,10 @@
 #include "grid/map/controller_error.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/settings_to_type.hpp"
+#include "tools/cli/export_klipper.hpp"
 #include "tools/cli/export_linuxcnc.hpp"
 #include "tools/cli/export_plotter.hpp"
+#include "tools/cli/export_straight.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/map_words.hpp"
@@ -365,6 +367,8 @@ void add_export(Verb app, Run& run) {
   add_maslow4(verb, run);
   add_export_plotter(verb, run);
   add_export_linuxcnc(verb, run);
+  add_export_klipper(verb, run);
+  add_export_straight(verb, run);
 }
 
 }  // namespace chaintrue::cli

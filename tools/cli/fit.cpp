@@ -227,7 +227,7 @@ int run_fit(Verb verb, const FitCommand& command) {
   if (opened.front().kind == FileKind::drawing) {
     refuse_what_does_nothing(verb, facts::drawing);
     return fit_the_drawing(
-        {std::move(opened.front()), command.output, command.verbose, command.json});
+        {verb, std::move(opened.front()), command.output, command.verbose, command.json});
   }
   for (const InputFile& file : opened)
     require_kind(file, {FileKind::grid, FileKind::holes, FileKind::belt_holes, FileKind::belts});

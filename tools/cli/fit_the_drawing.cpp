@@ -12,6 +12,7 @@
 #include "grid/files/drawing_file.hpp"
 #include "grid/files/plotter_file.hpp"
 #include "grid/plotter/drawing_fit.hpp"
+#include "tools/cli/made_by.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/report/document.hpp"
@@ -144,7 +145,7 @@ int fit_the_drawing(const DrawingFitCommand& command) {
       say_next({"diagnose", command.file.path});
     return kBadInput;
   }
-  const std::string text = files::write_plotter({drawing, grid::found_by(*fit)});
+  const std::string text = files::write_plotter({drawing, grid::found_by(*fit)}, {}, made_by(command.verb));
   std::vector<files::OutputFile> outputs = {{command.output, text}};
   if (command.json) outputs.push_back({"-", text});
   write_outputs(outputs);

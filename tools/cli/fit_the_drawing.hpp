@@ -11,6 +11,7 @@
 namespace chaintrue::cli {
 
 struct DrawingFitCommand {
+  Verb verb;
   InputFile file;
   std::string output;
   bool verbose = false;

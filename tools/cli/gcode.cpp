@@ -9,6 +9,7 @@
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/start_plotter.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -17,13 +18,31 @@ using Action = int (*)(const GcodeOptions&);
 
 constexpr grid::files::Range kToleranceMm{"mm", 1e-4, 100.0};
 
+Facts facts_of_map(FileKind kind) {
+  if (kind == FileKind::map) return facts::map;
+  return kind == FileKind::anchors ? facts::anchors : facts::plotter;
+}
+
+/// \throws files::InputError of a plotter that is sent pictures.
+void require_gcode(const InputFile& file) {
+  const model::PlotterFirmware plotter = load_plotter(file).plotter.set.firmware;
+  if (gcode::firmware(plotter).reads_gcode) return;
+  throw grid::files::InputError(
+      {{file.name,
+        "/set/firmware",
+        std::string(model::name(plotter)),
+        "a plotter that takes G-code, \"fluidnc\" or \"marlin\": this one is sent pictures, and draws "
+        "them true once the lines of chaintrue export plotter are typed in"}});
+}
+
 void open_map(Verb verb, GcodeOptions& options) {
   options.verb = verb;
   Facts facts = facts::no_map;
   if (!options.map.empty()) {
     options.map_file = open_input(options.map);
-    require_kind(*options.map_file, {FileKind::map, FileKind::anchors});
-    facts = options.map_file->kind == FileKind::map ? facts::map : facts::anchors;
+    require_kind(*options.map_file, {FileKind::map, FileKind::anchors, FileKind::plotter});
+    facts = facts_of_map(options.map_file->kind);
+    if (facts == facts::plotter) require_gcode(*options.map_file);
   }
   refuse_what_does_nothing(verb, facts);
   options.forced = verb.has_option("--force") && verb.is_given("--force");

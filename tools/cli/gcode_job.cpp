@@ -24,9 +24,12 @@
 #include "grid/files/whole_file.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/map_in_frame.hpp"
+#include "grid/plotter/plotter_map.hpp"
 #include "model/belts/belt_controller.hpp"
+#include "model/plotter/plotter_commands.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/settings_file.hpp"
+#include "tools/cli/start_plotter.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -47,6 +50,7 @@ constexpr KindName kKinds[] = {
 };
 
 constexpr std::string_view kFourBeltsName = "maslow4";
+constexpr std::string_view kMarlinName = "marlin";
 
 bool number(std::string_view text, double& value) {
   const auto [end, error] =
@@ -64,6 +68,7 @@ gcode::Dialect GcodeOptions::dialect() const {
   gcode::Dialect dialect;
   dialect.skip_deletable_blocks = skip_deletable;
   dialect.tools_have_no_diameter = tools_have_no_diameter;
+  dialect.passes_plotter_codes = map_file && map_file->kind == FileKind::plotter;
   dialect.step_budget = step_budget;
   return dialect;
 }
@@ -82,6 +87,7 @@ model::BedPoint GcodeOptions::home_mm() const {
 
 const gcode::Firmware* stated_firmware(std::string_view name) {
   if (name == kFourBeltsName) return &gcode::firmware_of_four_belts();
+  if (name == kMarlinName) return &gcode::firmware(model::PlotterFirmware::marlin);
   const auto kind = controller_kind(name);
   return kind ? &gcode::firmware(*kind) : nullptr;
 }
@@ -140,6 +146,59 @@ GcodeController controller_of_belts(const GcodeOptions& options, const GcodeTarg
           settings_of(believed)};
 }
 
+interp::Rectangle rectangle_of(const grid::SetPlotter& set) {
+  const model::DrawingArea& area = set.machine.area;
+  const model::BedPoint& by = set.pins_middle;
+  return {area.left_mm + by.x_mm,
+          area.right_mm + by.x_mm,
+          area.bottom_mm + by.y_mm,
+          area.top_mm + by.y_mm};
+}
+
+/// By the names that a chaintrue_plotter file has for them.
+std::vector<grid::files::NamedSetting> settings_of(const grid::SetPlotter& set) {
+  const model::PlotterMachine& m = set.machine;
+  return {{"firmware", std::string(model::name(set.firmware))},
+          {"pin_spacing_mm", fmt::format("{:.4f}", m.pin_spacing_mm)},
+          {"pin_rise_mm", fmt::format("{:.4f}", m.pin_rise_mm)},
+          {"zero", fmt::format("{:.4f} {:.4f}", m.zero_mm.left_mm, m.zero_mm.right_mm)},
+          {"scale",
+           fmt::format("{:.6f} {:.6f}", m.scale_mm_per_m.left_mm, m.scale_mm_per_m.right_mm)}};
+}
+
+/// What the controller of a V-plotter holds now.
+GcodeController controller_of_plotter(const GcodeOptions& options, const GcodeTarget& target) {
+  const grid::SetPlotter set = options.machine.empty()
+                                   ? target.plotter()->set
+                                   : load_plotter(open_input(options.machine)).plotter.set;
+  if (set.firmware != target.plotter()->set.firmware) {
+    throw InputError({{options.machine,
+                       "/set/firmware",
+                       std::string(model::name(set.firmware)),
+                       fmt::format("\"{}\", as in {}",
+                                   model::name(target.plotter()->set.firmware),
+                                   options.map)}});
+  }
+  const auto firmware = std::make_shared<gcode::Firmware>(gcode::firmware(set.firmware));
+  if (firmware->pieces_per_second > 0.0) firmware->pieces_per_second = set.segments_per_second;
+  if (!options.controller.empty() && options.controller != firmware->name) {
+    throw InputError({{"--controller",
+                       "",
+                       options.controller,
+                       fmt::format("\"{}\", or to be left out: the plotter's file says what its "
+                                   "controller is",
+                                   firmware->name)}});
+  }
+  return {std::make_unique<const model::PlotterController>(
+              set.firmware, set.machine, set.pins_middle),
+          firmware.get(),
+          std::nullopt,
+          rectangle_of(set),
+          {},
+          settings_of(set),
+          firmware};
+}
+
 model::Machine believed_machine(const GcodeOptions& options, const grid::CompensationMap& map) {
   if (!options.machine.empty()) return read_machine_input(options.machine);
   const auto stated = grid::stated_machine(map);
@@ -152,8 +211,9 @@ model::Machine believed_machine(const GcodeOptions& options, const grid::Compens
   throw InputError({{options.map,
                      "",
                      "",
-                     "a map that knows its machine; this one does not, so say with --machine "
-                     "or --settings what the controller believes"}});
+                     fmt::format("a map that knows its machine; this one does not, so say with {} "
+                                 "what the controller believes",
+                                 options.machine_option)}});
 }
 
 /// Where --controller names another than the map was measured with.
@@ -166,7 +226,15 @@ void say_other_controller(const grid::CompensationMap& map, model::ControllerKin
 }
 
 GcodeController controller_of(const GcodeOptions& options, const GcodeTarget& target) {
+  if (target.plotter() != nullptr) return controller_of_plotter(options, target);
   if (target.map() == nullptr) return controller_of_belts(options, target);
+  if (options.controller == kMarlinName) {
+    throw InputError({{"--controller",
+                       "",
+                       options.controller,
+                       "a controller of a router: Marlin's is of a V-plotter, whose drawing's fit takes "
+                       "the map's place"}});
+  }
   model::Machine machine = believed_machine(options, *target.map());
   if (const auto kind = controller_kind(options.controller)) {
     say_other_controller(*target.map(), *kind);
@@ -182,9 +250,7 @@ GcodeController controller_of(const GcodeOptions& options, const GcodeTarget& ta
 
 }  // namespace
 
-GcodeTarget::GcodeTarget(const GcodeOptions& options)
-    : GcodeTarget(options.map_file->kind == FileKind::anchors ? of_belts(options)
-                                                              : of_map(options)) {}
+GcodeTarget::GcodeTarget(const GcodeOptions& options) : GcodeTarget(of_any(options)) {}
 
 GcodeTarget::GcodeTarget(Parts parts)
     : source_(std::move(parts.source)),
@@ -197,8 +263,22 @@ const grid::CompensationMap* GcodeTarget::map() const {
   return map == nullptr ? nullptr : map->get();
 }
 
+const grid::KnownPlotter* GcodeTarget::plotter() const {
+  return std::get_if<grid::KnownPlotter>(&source_);
+}
+
 const model::BeltMachine* GcodeTarget::belts_in_force() const {
   return std::get_if<model::BeltMachine>(&source_);
+}
+
+GcodeTarget::Parts GcodeTarget::of_any(const GcodeOptions& options) {
+  if (options.map_file->kind == FileKind::anchors) return of_belts(options);
+  return options.map_file->kind == FileKind::plotter ? of_plotter(options) : of_map(options);
+}
+
+GcodeTarget::Parts GcodeTarget::of_plotter(const GcodeOptions& options) {
+  const grid::KnownPlotter plotter = load_plotter(*options.map_file).plotter;
+  return {plotter, load_plotter_map(*options.map_file, plotter), ""};
 }
 
 GcodeTarget::Parts GcodeTarget::of_belts(const GcodeOptions& options) {
@@ -250,6 +330,8 @@ GcodeMachine::GcodeMachine(const GcodeOptions& options)
 interp::Rectangle sheet_of(const GcodeOptions& options) {
   if (options.machine.empty()) return rectangle_of(model::Bed{});
   const FileKind kind = open_input(options.machine).kind;
+  if (kind == FileKind::plotter)
+    return rectangle_of(load_plotter(open_input(options.machine)).plotter.set);
   const bool of_belts = kind == FileKind::belts || kind == FileKind::anchors;
   return of_belts ? rectangle_of(read_belt_machine_input(options.machine))
                   : rectangle_of(read_machine_input(options.machine).bed);

@@ -14,6 +14,7 @@
 #include "grid/files/controller_settings.hpp"
 #include "grid/files/pending_file.hpp"
 #include "grid/map/compensation_map.hpp"
+#include "grid/plotter/found_plotter.hpp"
 #include "grid/progress.hpp"
 #include "grid/provenance.hpp"
 #include "tools/cli/effect_argument.hpp"
@@ -32,6 +33,8 @@ struct GcodeOptions {
   /// Of --map; opened before any verb begins.
   std::optional<InputFile> map_file;
   std::string machine;
+  /// What a message calls the option of `machine`, with others in its place.
+  std::string machine_option = "--machine or --settings";
   /// What the controller holds now.
   std::string settings;
   std::string controller;
@@ -60,10 +63,10 @@ struct GcodeOptions {
 
 /// Of --controller; empty where it is not given.
 [[nodiscard]] std::optional<model::ControllerKind> controller_kind(std::string_view name);
-/// That of --controller, a Maslow 4 among them; null where nothing is stated.
+/// That of --controller, a Maslow 4 and Marlin among them; null where nothing is stated.
 [[nodiscard]] const gcode::Firmware* stated_firmware(std::string_view name);
 
-/// The map, or the fit of four belts, that a program aims at.
+/// The map, the fit of four belts or the plotter that a drawing found, that a program aims at.
 class GcodeTarget {
  public:
   /// Of --map. \throws InputError for a bad file.
@@ -71,15 +74,19 @@ class GcodeTarget {
   [[nodiscard]] const grid::LengthMap& target() const { return *target_; }
   /// That with an error but for the scale, of four belts whose scale nobody taped; else null.
   [[nodiscard]] const grid::LengthMap* in_belts_mm() const { return in_belts_mm_.get(); }
-  /// Null of four belts.
+  /// Null of four belts and of a V-plotter.
   [[nodiscard]] const grid::CompensationMap* map() const;
-  /// The machine that was in force when they were measured; null of chains.
+  /// Null of all but a V-plotter.
+  [[nodiscard]] const grid::KnownPlotter* plotter() const;
+  /// The machine that was in force when they were measured; null of all but four belts.
   [[nodiscard]] const model::BeltMachine* belts_in_force() const;
   /// As LoadedMap::on_trust.
   [[nodiscard]] const std::string& on_trust() const { return on_trust_; }
 
  private:
-  using Source = std::variant<std::unique_ptr<const grid::CompensationMap>, model::BeltMachine>;
+  using Source = std::variant<std::unique_ptr<const grid::CompensationMap>,
+                              model::BeltMachine,
+                              grid::KnownPlotter>;
   struct Parts {
     Source source;
     std::unique_ptr<const grid::LengthMap> target;
@@ -89,6 +96,8 @@ class GcodeTarget {
   explicit GcodeTarget(Parts parts);
   static Parts of_map(const GcodeOptions& options);
   static Parts of_belts(const GcodeOptions& options);
+  static Parts of_plotter(const GcodeOptions& options);
+  static Parts of_any(const GcodeOptions& options);
 
   Source source_;
   std::unique_ptr<const grid::LengthMap> target_;
@@ -102,12 +111,14 @@ struct GcodeController {
   const gcode::Firmware* firmware;
   /// Empty where it does not clamp.
   std::optional<gcode::ClampBox> clamp_box;
-  /// Where programs may go: the bed, or the frame of the anchors of four belts.
+  /// Where programs may go: the bed, the frame of the anchors of four belts, a plotter's drawing area.
   interp::Rectangle sheet;
-  /// Of the machine that the map was extended with; none of belts.
+  /// Of the machine that the map was extended with; none of belts and plotters.
   model::ChainLengths half_play_mm;
   /// What it believes, for the header of what is compensated.
   std::vector<grid::files::NamedSetting> settings;
+  /// Where its firmware has a setting of its own; then `firmware` is this.
+  std::shared_ptr<const gcode::Firmware> with_settings = nullptr;
 };
 
 /// Map, machine and controller, which belong together.
@@ -119,8 +130,9 @@ class GcodeMachine {
   [[nodiscard]] const grid::LengthMap& target() const { return target_.target(); }
   /// As GcodeTarget::in_belts_mm().
   [[nodiscard]] const grid::LengthMap* in_belts_mm() const { return target_.in_belts_mm(); }
-  /// Null of four belts.
+  /// Null of four belts and of a V-plotter.
   [[nodiscard]] const grid::CompensationMap* map() const { return target_.map(); }
+  [[nodiscard]] const grid::KnownPlotter* plotter() const { return target_.plotter(); }
   [[nodiscard]] const gcode::Corrector& corrector() const { return corrector_; }
   [[nodiscard]] const GcodeController& controller() const { return controller_; }
   [[nodiscard]] const std::string& on_trust() const { return target_.on_trust(); }

@@ -66,6 +66,8 @@ inline constexpr Facts table = 1U << 28;
 inline constexpr Facts drawing = 1U << 29;
 /// Everything that these take but that.
 inline constexpr Facts no_drawing = grid | holes | belts | belt_holes;
+/// In a map's place: a V-plotter whose drawing was measured.
+inline constexpr Facts plotter = 1U << 30;
 /// Of an option that other verbs have of the same file.
 inline constexpr Facts nothing = 0;
 inline constexpr Facts any = ~0U;

@@ -23,6 +23,7 @@
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/query_text.hpp"
+#include "tools/cli/start_plotter.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -104,9 +105,12 @@ int answer_points(const AskedMap& asked, const QueryCommand& command) {
   return outside.empty() ? kDone : kNotSupportedOrOutside;
 }
 
+int answer_alone(const AskedMap& asked, const QueryCommand& command) {
+  return command.inverse.empty() ? answer_points(asked, command) : answer_inverse(asked, command);
+}
+
 int answer(const AskedMap& asked, const QueryCommand& command) {
-  const int code =
-      command.inverse.empty() ? answer_points(asked, command) : answer_inverse(asked, command);
+  const int code = answer_alone(asked, command);
   if (code == kDone) {
     say_next({"report",
               command.map,
@@ -156,11 +160,15 @@ int query_anchors(const QueryCommand& command, const InputFile& file) {
 
 int run_query(Verb verb, const QueryCommand& command) {
   const InputFile file = open_input(command.map);
-  require_kind(file, {FileKind::map, FileKind::anchors});
+  require_kind(file, {FileKind::map, FileKind::anchors, FileKind::plotter});
   refuse_what_does_nothing(verb,
-                           (file.kind == FileKind::map ? facts::map : facts::anchors) |
+                           (file.kind == FileKind::map       ? facts::map
+                            : file.kind == FileKind::anchors ? facts::anchors
+                                                             : facts::plotter) |
                                (command.outside.way == "fade" ? facts::fade : 0U));
   if (file.kind == FileKind::anchors) return query_anchors(command, file);
+  if (file.kind == FileKind::plotter)
+    return answer_alone({*load_plotter_map(file, load_plotter(file).plotter)}, command);
   return with_map(file,
                   [&](const grid::CompensationMap& stored) { return query_map(command, stored); });
 }
@@ -183,7 +191,7 @@ void add_query(Verb app, Run& run) {
   Verb verb =
       app.add_verb("query", "Chain lengths for points of the bed, or the point for chain lengths");
   add_input(
-      verb, "map", command->map, "A chaintrue_map or chaintrue_anchors file; - is standard input")
+      verb, "map", command->map, "A chaintrue_map or chaintrue_anchors file, or a chaintrue_plotter as fit makes it of a drawing; - is standard input")
       .required();
   add_numbers(verb,
               "coordinates",

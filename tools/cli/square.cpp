@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "grid/files/whole_file.hpp"
-#include "grid/map/map_for_settings.hpp"
 #include "model/kinematics.hpp"
 #include "model/square.hpp"
 #include "tools/cli/effect_argument.hpp"
@@ -47,12 +46,13 @@ struct SquareOptions {
 
 constexpr const char* kSideNames[] = {"left", "top", "right", "bottom"};
 
-model::SquareTask task_of(const SquareOptions& options) {
-  // Where nobody says, around the bed's middle.
+/// Where nobody says, around `middle`.
+model::SquareTask task_of(const SquareOptions& options, model::BedPoint middle) {
   const double half_mm = 0.5 * options.size_mm;
-  const model::BedPoint corner = options.at.empty()
-                                     ? model::BedPoint{-half_mm, options.below ? half_mm : -half_mm}
-                                     : model::BedPoint{options.at[0], options.at[1]};
+  const model::BedPoint corner =
+      options.at.empty()
+          ? model::BedPoint{middle.x_mm - half_mm, middle.y_mm + (options.below ? half_mm : -half_mm)}
+          : model::BedPoint{options.at[0], options.at[1]};
   return {.size_mm = options.size_mm, .corner = corner, .below = options.below};
 }
 
@@ -76,30 +76,35 @@ tl::expected<model::CutSquare, SquareRefusal> by_machines(const SquareOptions& o
                     failure.sentence()});
 }
 
+/// A map, or what stands in its place, with its controller: that of --controller-machine, or the one
+/// that the map was measured with.
+std::unique_ptr<const GcodeMachine> machine_of(const SquareOptions& options) {
+  GcodeOptions gcode;
+  gcode.map = options.map;
+  gcode.map_file = open_input(options.map);
+  require_kind(*gcode.map_file, {FileKind::map, FileKind::anchors, FileKind::plotter});
+  gcode.machine = options.controller_machine;
+  gcode.machine_option = "--controller-machine";
+  gcode.frame = gcode.map_file->kind == FileKind::map ? "bed" : "marks";
+  return std::make_unique<const GcodeMachine>(gcode);
+}
+
+model::BedPoint middle_of(const interp::Rectangle& sheet) {
+  return {0.5 * (sheet.x_min + sheet.x_max), 0.5 * (sheet.y_min + sheet.y_max)};
+}
+
 /// The controller pays out what its settings say for each command; the map tells where the tool is
 /// with that.
-tl::expected<model::CutSquare, SquareRefusal> by_map(const SquareOptions& options,
-                                                     const model::SquareTask& task,
-                                                     const grid::CompensationMap& map) {
-  const auto believed = options.controller_machine.empty()
-                            ? grid::stated_machine(map)
-                            : read_machine_input(options.controller_machine);
-  if (!believed) {
-    throw files::InputError({{options.map,
-                              "",
-                              "",
-                              "a map that knows its machine; this one does not, so say with "
-                              "--controller-machine what the controller believes"}});
-  }
-  const auto controller = model::make_controller_kinematics(*believed);
+tl::expected<model::CutSquare, SquareRefusal> by_map(const model::SquareTask& task,
+                                                     const GcodeMachine& machine) {
   std::vector<model::BedPoint> cut;
   for (const model::BedPoint commanded : model::outline_of(task)) {
-    const auto lengths = controller->lengths(commanded);
+    const auto lengths = machine.controller().kinematics->lengths(commanded);
     if (!lengths)
       return tl::unexpected(SquareRefusal{"the controller", commanded, lengths.error().sentence()});
-    const auto tool = map.inverse(*lengths);
+    const auto tool = machine.target().tool(*lengths);
     if (!tool) return tl::unexpected(SquareRefusal{"the map", commanded, tool.error().sentence()});
-    cut.push_back(map.to_bed(*tool));
+    cut.push_back(*tool);
   }
   return model::measured_square(task, std::move(cut));
 }
@@ -181,19 +186,17 @@ void say_what_to_do(const SquareOptions& options, const model::SquareTask& task)
             options.program == "-" ? "-" : compensated_name(options.program)});
 }
 
-tl::expected<model::CutSquare, SquareRefusal> predicted(const SquareOptions& options,
-                                                        const model::SquareTask& task) {
-  if (options.map.empty()) return by_machines(options, task);
-  return with_map(open_input(options.map),
-                  [&](const grid::CompensationMap& map) { return by_map(options, task, map); });
+/// What stands in a map's place, null where two machines do.
+const grid::KnownPlotter* plotter_of(const std::unique_ptr<const GcodeMachine>& machine) {
+  return machine == nullptr ? nullptr : machine->plotter();
 }
 
-int run_square(Verb verb, const SquareOptions& options) {
-  refuse_what_does_nothing(verb,
-                           (options.map.empty() ? facts::machine : facts::map) |
-                               (options.program.empty() ? 0U : facts::program));
-  const model::SquareTask task = task_of(options);
-  const auto square = predicted(options, task);
+int square_with(const SquareOptions& options, const std::unique_ptr<const GcodeMachine>& machine) {
+  const grid::KnownPlotter* plotter = plotter_of(machine);
+  const model::SquareTask task =
+      task_of(options, plotter == nullptr ? model::BedPoint{} : middle_of(machine->controller().sheet));
+  const auto square =
+      machine == nullptr ? by_machines(options, task) : by_map(task, *machine);
   if (!square) {
     const SquareRefusal& refusal = square.error();
     fmt::print(stderr,
@@ -208,10 +211,22 @@ int run_square(Verb verb, const SquareOptions& options) {
       {"-", options.json ? as_json(*square, task) : as_table(*square, task)}};
   if (!options.drawing.empty()) outputs.push_back({options.drawing, draw_square(*square, task)});
   if (!options.program.empty())
-    outputs.push_back({options.program, square_program(task, options.depth_mm)});
+    outputs.push_back({options.program,
+                       plotter == nullptr ? square_program(task, options.depth_mm)
+                                          : square_program(task, plotter->set)});
   write_outputs(outputs);
   say_what_to_do(options, task);
   return kDone;
+}
+
+int run_square(Verb verb, const SquareOptions& options) {
+  const auto machine = options.map.empty() ? nullptr : machine_of(options);
+  const Facts kind = machine == nullptr ? facts::machine
+                     : plotter_of(machine) != nullptr ? facts::plotter
+                                                      : facts::map;
+  refuse_what_does_nothing(verb, kind | (options.program.empty() ? 0U : facts::program));
+  if (machine == nullptr) return square_with(options, machine);
+  return blaming(machine->on_trust(), [&] { return square_with(options, machine); });
 }
 
 }  // namespace
@@ -222,7 +237,8 @@ void add_square(Verb app, Run& run) {
       "square",
       "A test square: sides, diagonals and bows as a ruler will show them, and its program");
   const Option map = add_input(
-      verb, "--map", options->map, "The compensation map of the machine that will cut it");
+      verb, "--map", options->map, "The machine that will cut it: a chaintrue_map, chaintrue_anchors, or the chaintrue_plotter "
+                               "that fit makes of a drawing");
   const Option machine =
       add_input(verb,
                 "--machine",
@@ -233,8 +249,8 @@ void add_square(Verb app, Run& run) {
   add_input(verb,
             "--controller-machine",
             options->controller_machine,
-            "chaintrue_machine file: what the controller believes; of a map what its own machine "
-            "file said");
+            "What the controller believes: a chaintrue_machine file, or one of the map's kind; of a map what "
+            "its own machine file said");
   add_number(verb, "--size-mm", options->size_mm, {"mm", 1.0, 5000.0}, "Length of a side");
   add_numbers(verb,
               "--at",

@@ -7,15 +7,35 @@
 
 namespace chaintrue::cli {
 
+namespace {
+
+std::vector<model::BedPoint> corners_of(model::SquareTask task) {
+  task.points_per_side = 2;
+  return model::outline_of(task);
+}
+
+/// Each side's end is the next one's beginning.
+std::string sides_text(const std::vector<model::BedPoint>& corners, double feed_mm_per_min) {
+  std::string text;
+  for (std::size_t i = 1; i < corners.size(); i += 2) {
+    fmt::format_to(std::back_inserter(text),
+                   "G1 X{:.3f} Y{:.3f} F{:g}\n",
+                   corners[i].x_mm,
+                   corners[i].y_mm,
+                   feed_mm_per_min);
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string square_program(const model::SquareTask& task, double depth_mm) {
   // High above the sheet between cuts, and slow enough for any hanging router.
   constexpr double kClearanceMm = 5.0;
-  constexpr int kFeedMmPerMin = 600;
+  constexpr double kFeedMmPerMin = 600.0;
   constexpr int kPlungeMmPerMin = 150;
-  model::SquareTask corners_alone = task;
-  corners_alone.points_per_side = 2;
-  const std::vector<model::BedPoint> corners = model::outline_of(corners_alone);
-  std::string text = fmt::format(
+  const std::vector<model::BedPoint> corners = corners_of(task);
+  const std::string text = fmt::format(
       "(chaintrue square: {:g} mm, {:g} mm deep)\n(Zero is the middle of the bed.)\nG21 G90 G17 "
       "G94\nG0 Z{:g}\nG0 X{:.3f} Y{:.3f}\nG1 Z{:g} F{}\n",
       task.size_mm,
@@ -25,15 +45,19 @@ std::string square_program(const model::SquareTask& task, double depth_mm) {
       corners.front().y_mm,
       -depth_mm,
       kPlungeMmPerMin);
-  // Each side's end is the next one's beginning.
-  for (std::size_t i = 1; i < corners.size(); i += 2) {
-    fmt::format_to(std::back_inserter(text),
-                   "G1 X{:.3f} Y{:.3f} F{}\n",
-                   corners[i].x_mm,
-                   corners[i].y_mm,
-                   kFeedMmPerMin);
-  }
-  return text + fmt::format("G0 Z{:g}\nG0 X0 Y0\nM2\n", kClearanceMm);
+  return text + sides_text(corners, kFeedMmPerMin) +
+         fmt::format("G0 Z{:g}\nG0 X0 Y0\nM2\n", kClearanceMm);
+}
+
+std::string square_program(const model::SquareTask& task, const grid::SetPlotter& plotter) {
+  const std::vector<model::BedPoint> corners = corners_of(task);
+  return fmt::format("; chaintrue square: {:g} mm\nG21\nG90\n{}\nG0 X{:.3f} Y{:.3f}\n{}\n",
+                     task.size_mm,
+                     plotter.pen.up,
+                     corners.front().x_mm,
+                     corners.front().y_mm,
+                     plotter.pen.down) +
+         sides_text(corners, plotter.feed_mm_per_min) + plotter.pen.up + "\n";
 }
 
 }  // namespace chaintrue::cli

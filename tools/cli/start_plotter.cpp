@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <stdexcept>
 #include <vector>
 
 #include "grid/files/drawing_file.hpp"
@@ -58,6 +59,25 @@ files::ReadPlotter load_plotter(const InputFile& file) {
     return {files::parse_plotter(file.text, file.name), {}};
   }
   return files::parse_plotter_settings(file.text, file.name);
+}
+
+std::unique_ptr<const grid::PlotterMap> load_plotter_map(const InputFile& file,
+                                                         const grid::KnownPlotter& plotter) {
+  if (!plotter.found) {
+    throw files::InputError({{file.name,
+                              "/found",
+                              "",
+                              "what a test drawing found; chaintrue fit drawing.json -o found.json "
+                              "writes a plotter with it"}});
+  }
+  try {
+    return std::make_unique<const grid::PlotterMap>(plotter);
+  } catch (const std::invalid_argument& error) {
+    throw files::InputError({{file.name,
+                              "/set/machine/area",
+                              error.what(),
+                              "an area that the pen reaches, as set and as found"}});
+  }
 }
 
 int start_plotter(Verb verb, const InputFile& file, std::string folder) {

@@ -63,11 +63,11 @@ double least_tolerance_mm(int decimals) {
 Compensator::Compensator(const Corrector& corrector, CompensateOptions options, ByteSink out)
     : corrector_(corrector),
       options_(std::move(options)),
-      emitter_(std::move(out), options_.decimals),
+      emitter_(std::move(out), options_.decimals, corrector.firmware().semicolon_comments),
       segmenter_(corrector, chord_tolerance(options_, corrector.firmware().single_precision)),
       field_(corrector, kTableShare * options_.tolerance_mm) {
   const double curvature = kCurvatureSafety * corrector.sampled_curvature_per_mm();
-  const bool straight = corrector.firmware().chain_linear_piece_mm == 0.0;
+  const bool straight = !is_chain_linear(corrector.firmware());
   if (straight) {
     unchecked_length_mm_ = std::sqrt(
         8.0 * kUncheckedShare * chord_tolerance(options_, corrector.firmware().single_precision) /
@@ -175,7 +175,7 @@ Result<void> Compensator::piece(
   }
   const double turn = move.arc ? std::fabs(move.arc->sweep_rad) * (to - from) : 0.0;
   const double longest = turn > kMostTurnRad ? length * kMostTurnRad / turn : length;
-  const auto done = segmenter_.run(commands, *start, to, {length, longest}, visit);
+  const auto done = segmenter_.run(commands, *start, to, {length, longest, feed}, visit);
   if (!done) {
     const Point place = here_ ? here_->target : at(move, from);
     object(move, done.error(), place.x_mm, place.y_mm);
@@ -252,8 +252,7 @@ Result<void> Compensator::move(const Move& original) {
   const Move move = placed(original);
   const double length = length_mm(move);
   summary_.path_mm += length;
-  const double feed =
-      move.feed.mode == FeedMode::inverse_time ? length * move.feed.value : move.feed.value;
+  const double feed = feed_mm_per_min(move);
   const bool cuts =
       move.kind != MoveKind::rapid && (move.names_xy || move.to.z_mm < move.from.z_mm);
   if (!here_ && cuts) CHAINTRUE_GCODE_TRY(go_to_assumed_start(move));

@@ -47,8 +47,7 @@ Result<void> ControllerCheck::move(const Move& move) {
     arc(move);
     return {};
   }
-  const double feed =
-      move.feed.mode == FeedMode::inverse_time ? length * move.feed.value : move.feed.value;
+  const double feed = feed_mm_per_min(move);
   const double speed_mm_per_s = feed / 60.0;
   if (firmware_.tick_s > 0.0 && length < speed_mm_per_s * firmware_.tick_s) {
     short_ticks_.see(move.line);

@@ -63,8 +63,8 @@ bool is_marked(std::string_view comment) {
   return true;
 }
 
-Emitter::Emitter(ByteSink out, int decimals)
-    : out_(std::move(out)), decimals_(decimals), per_mm_(1) {
+Emitter::Emitter(ByteSink out, int decimals, bool semicolons)
+    : out_(std::move(out)), decimals_(decimals), semicolons_(semicolons), per_mm_(1) {
   if (decimals < 1 || decimals > 6) {
     throw grid::precondition("an output has 1 to 6 decimals, not {}", decimals);
   }
@@ -93,6 +93,10 @@ void Emitter::append(std::string& text, char letter, std::int64_t count) const {
 }
 
 void Emitter::put_line(std::string_view text) {
+  if (semicolons_ && text.starts_with('(') && text.ends_with(')')) {
+    out_(";");
+    text = text.substr(1, text.size() - 2);
+  }
   out_(text);
   out_("\n");
 }
@@ -113,7 +117,8 @@ void Emitter::header(const Header& header) {
   put_line(fmt::format("(controller {}, tolerance {} mm)", header.controller, header.tolerance_mm));
   put_line(fmt::format("(home was X{} Y{})", header.home_x_mm, header.home_y_mm));
   for (const std::string& line : settings_lines(header.settings)) put_line(line);
-  put_line("G21 G90");
+  if (semicolons_) put_line("G21");
+  put_line(semicolons_ ? "G90" : "G21 G90");
 }
 
 Result<bool> Emitter::command(bool rapid,

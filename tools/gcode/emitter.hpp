@@ -43,7 +43,8 @@ struct Header {
 class Emitter {
  public:
   /// \param decimals 1 to 6.
-  Emitter(ByteSink out, int decimals);
+  /// \param semicolons comments stand behind semicolons, and one code on a line.
+  Emitter(ByteSink out, int decimals, bool semicolons = false);
 
   void header(const Header& header);
   /// One straight command. XY is empty for a move in Z alone, z if the height does not change. A
@@ -69,6 +70,7 @@ class Emitter {
 
   ByteSink out_;
   int decimals_;
+  bool semicolons_;
   std::int64_t per_mm_;
   std::optional<std::int64_t> x_;
   std::optional<std::int64_t> y_;

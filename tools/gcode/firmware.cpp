@@ -17,6 +17,7 @@ constexpr Firmware maslow(model::ControllerKind kind, const char* name) {
           .name = name,
           .single_precision = true,
           .tick_s = 0.01,
+          .codes = CodeSet::maslow,
           .clamps_to_bed = true,
           .planned_moves = 1,
           .unknown = kIgnores,
@@ -31,6 +32,7 @@ constexpr Firmware kFirmwares[] = {
      .name = "fluidnc_wallplotter",
      .single_precision = true,
      .chain_linear_piece_mm = 10.0,
+     .codes = CodeSet::fluidnc,
      .planned_moves = 16,
      .acceleration_mm_per_s2 = 25.0,
      .unknown = kStops,
@@ -43,10 +45,31 @@ constexpr Firmware kFourBelts{.kind = model::ControllerKind::fluidnc_wallplotter
                               .single_precision = true,
                               .chain_linear_piece_mm = 5.0,
                               .pieces_at_most = true,
+                              .codes = CodeSet::fluidnc,
                               .planned_moves = 16,
                               .acceleration_mm_per_s2 = 25.0,
                               .unknown = kStops,
                               .arcs = ArcRule::grbl};
+
+constexpr Firmware kMarlin{.name = "marlin",
+                           .single_precision = true,
+                           .pieces_per_second = 5.0,
+                           .first_feed_mm_per_min = 1500.0,
+                           .codes = CodeSet::marlin,
+                           .planned_moves = 16,
+                           .unknown = kIgnores,
+                           .semicolon_comments = true};
+
+constexpr Firmware kMural{.name = "mural",
+                          .chain_linear_piece_mm = 1.0,
+                          .pieces_at_most = true,
+                          .reads_gcode = false};
+
+constexpr Firmware kPolargraph{.name = "polargraph",
+                               .single_precision = true,
+                               .chain_linear_piece_mm = 2.0,
+                               .pieces_at_most = true,
+                               .reads_gcode = false};
 
 constexpr int kMaslowG[] = {0, 10, 20, 30, 40, 100, 200, 210, 380, 400, 900, 910};
 constexpr int kMaslowM[] = {0, 10, 20, 30, 40, 50, 60, 300, 1060, 1070};
@@ -55,6 +78,12 @@ constexpr int kFluidNcG[] = {0,   10,  20,  30,  40,  100, 170, 180, 190, 200, 2
                              550, 560, 570, 580, 590, 610, 800, 900, 910, 911, 920, 921, 930, 940};
 constexpr int kFluidNcM[] = {
     0, 10, 20, 30, 40, 50, 60, 70, 71, 80, 81, 90, 300, 620, 630, 640, 650, 670, 680};
+
+constexpr int kMarlinG[] = {0, 10, 20, 30, 40, 280, 900, 910, 920};
+constexpr int kMarlinM[] = {0,    10,   170,  180,  200,  210,  220,  230,  240,  250,  280,  290,
+                            820,  830,  840,  850,  920,  1060, 1070, 1100, 1140, 1150, 1170, 1180,
+                            1190, 2000, 2010, 2030, 2040, 2050, 2060, 2100, 2110, 2200, 2800, 4000,
+                            4100, 5000, 5010, 5020, 5030, 6650};
 
 template <std::size_t size>
 bool one_of(const int (&list)[size], int value) {
@@ -71,7 +100,29 @@ const Firmware& firmware(model::ControllerKind kind) {
 
 const Firmware& firmware_of_four_belts() { return kFourBelts; }
 
-double pieces_of(const Firmware& firmware, double length_mm) {
+const Firmware& firmware(model::PlotterFirmware plotter) {
+  switch (plotter) {
+    case model::PlotterFirmware::fluidnc:
+      return firmware(model::ControllerKind::fluidnc_wallplotter);
+    case model::PlotterFirmware::marlin:
+      return kMarlin;
+    case model::PlotterFirmware::polargraph:
+      return kPolargraph;
+    case model::PlotterFirmware::mural:
+      break;
+  }
+  return kMural;
+}
+
+bool is_chain_linear(const Firmware& firmware) {
+  return firmware.chain_linear_piece_mm > 0.0 || firmware.pieces_per_second > 0.0;
+}
+
+double pieces_of(const Firmware& firmware, double length_mm, double feed_mm_per_min) {
+  if (firmware.pieces_per_second > 0.0) {
+    const double feed = feed_mm_per_min > 0.0 ? feed_mm_per_min : firmware.first_feed_mm_per_min;
+    return std::max(1.0, std::floor(firmware.pieces_per_second * 60.0 * length_mm / feed));
+  }
   const double pieces = length_mm / firmware.chain_linear_piece_mm;
   return std::max(1.0, firmware.pieces_at_most ? std::ceil(pieces) : std::floor(pieces));
 }
@@ -82,14 +133,17 @@ int taken_for(const Firmware& firmware, char letter, int tenths) {
 
 bool knows_code(const Firmware& firmware, char letter, int tenths) {
   const int code = taken_for(firmware, letter, tenths);
-  switch (firmware.kind) {
-    case model::ControllerKind::ideal:
-      return true;
-    case model::ControllerKind::fluidnc_wallplotter:
-      return letter == 'G' ? one_of(kFluidNcG, code) : one_of(kFluidNcM, code);
-    default:
+  switch (firmware.codes) {
+    case CodeSet::maslow:
       return letter == 'G' ? one_of(kMaslowG, code) : one_of(kMaslowM, code);
+    case CodeSet::fluidnc:
+      return letter == 'G' ? one_of(kFluidNcG, code) : one_of(kFluidNcM, code);
+    case CodeSet::marlin:
+      return letter == 'G' ? one_of(kMarlinG, code) : one_of(kMarlinM, code);
+    case CodeSet::every:
+      break;
   }
+  return true;
 }
 
 std::optional<ClampBox> clamp_box(const model::Machine& machine) {
@@ -103,15 +157,16 @@ CommandWay::CommandWay(const Firmware& firmware,
                        const model::ControllerKinematics& kinematics,
                        model::BedPoint from,
                        model::BedPoint to,
+                       double feed_mm_per_min,
                        double doubt_mm)
     : firmware_(firmware), kinematics_(kinematics), from_(from), to_(to) {
-  if (firmware.chain_linear_piece_mm == 0.0) return;
+  if (!is_chain_linear(firmware)) return;
   const double length = std::hypot(to.x_mm - from.x_mm, to.y_mm - from.y_mm) - doubt_mm;
-  pieces_ = static_cast<int>(std::min(pieces_of(firmware, length), 1e6));
+  pieces_ = static_cast<int>(std::min(pieces_of(firmware, length, feed_mm_per_min), 1e6));
 }
 
 std::optional<model::BedPoint> CommandWay::at(double t) {
-  if (firmware_.chain_linear_piece_mm == 0.0) return on_line(t);
+  if (!is_chain_linear(firmware_)) return on_line(t);
   const int piece = std::min(static_cast<int>(t * pieces_), pieces_ - 1);
   if (piece != piece_) {
     const auto lengths = [&](int end) -> std::optional<model::ChainLengths> {

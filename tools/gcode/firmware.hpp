@@ -24,6 +24,19 @@
 ///                        belts linear within a piece; a move of no length stays where it is. The
 ///                        rest is FluidNC's. Its axes' accelerations are a machine's own settings.
 ///
+///   marlin               MarlinFirmware/Marlin, Marlin/src/module/motion.cpp,
+///                        line_to_destination_kinematic: as many pieces as a move has fifths of a second
+///                        (DEFAULT_SEGMENTS_PER_SECOND 5 of a POLARGRAPH), cut to a whole number, belts
+///                        linear within a piece. G0 goes at the F in force, 1500 mm/min at first. Codes:
+///                        gcode/gcode.cpp with the options of a plotter; an unknown one is answered
+///                        "Unknown command" and ignored. Its arcs, chords of 1 mm, are taken as exact.
+///
+///   mural                nikivanov/mural, src/tasks/interpolatingmovementtask.cpp: pieces of 1 mm, belts
+///                        linear within a piece, in double. It draws pictures.
+///   polargraph           euphy/polargraph_server_a1, exec.ino, exec_drawBetweenPoints: pieces of at most
+///                        maxSegmentLength along the longer axis, 2 as its controller sends it, in float.
+///                        It draws pictures.
+///
 /// Arcs: firmware_arc.hpp.
 #pragma once
 
@@ -31,8 +44,12 @@
 
 #include "model/controllers/payout.hpp"
 #include "model/machine.hpp"
+#include "model/plotter/plotter_controller.hpp"
 
 namespace chaintrue::gcode {
+
+/// The codes that a firmware implements.
+enum class CodeSet { every, maslow, fluidnc, marlin };
 
 /// How arcs are cut (firmware_arc.hpp).
 enum class ArcRule { exact, maslow, grbl };
@@ -47,6 +64,11 @@ struct Firmware {
   double chain_linear_piece_mm = 0.0;
   /// The length is an upper bound; otherwise a lower bound.
   bool pieces_at_most = false;
+  /// In place of a length: chain lengths are linear over pieces, so many a second; 0: by length.
+  double pieces_per_second = 0.0;
+  /// The feed until a program states one.
+  double first_feed_mm_per_min = 0.0;
+  CodeSet codes = CodeSet::every;
   /// Targets outside half the set bed are clamped without a message.
   bool clamps_to_bed = false;
   /// Implements G43 H. The others ignore it or stop.
@@ -59,6 +81,10 @@ struct Firmware {
   ArcRule arcs = ArcRule::exact;
   /// A move of zero length goes to another position.
   bool phantom_moves = false;
+  /// A comment begins with a semicolon, and one code stands on a line.
+  bool semicolon_comments = false;
+  /// False: it is sent pictures.
+  bool reads_gcode = true;
 };
 
 [[nodiscard]] const Firmware& firmware(model::ControllerKind kind);
@@ -66,8 +92,13 @@ struct Firmware {
 /// has; its kinematics are in model/belts/belt_controller.hpp.
 [[nodiscard]] const Firmware& firmware_of_four_belts();
 
-/// Number of pieces, linear in chain length, for a command of that length.
-[[nodiscard]] double pieces_of(const Firmware& firmware, double length_mm);
+/// That of a V-plotter. Its kind is FluidNC's or unused.
+[[nodiscard]] const Firmware& firmware(model::PlotterFirmware plotter);
+
+/// Whether it interpolates chain lengths, in pieces of a command.
+[[nodiscard]] bool is_chain_linear(const Firmware& firmware);
+/// Number of pieces, linear in chain length, for a command of that length at that feed.
+[[nodiscard]] double pieces_of(const Firmware& firmware, double length_mm, double feed_mm_per_min);
 
 /// The code that it executes for a code ('G' or 'M', in tenths: G38.2 is 382).
 [[nodiscard]] int taken_for(const Firmware& firmware, char letter, int tenths);
@@ -85,12 +116,14 @@ struct ClampBox {
 class CommandWay {
  public:
   /// Keeps references.
+  /// \param feed_mm_per_min of the command; 0: none was stated.
   /// \param doubt_mm subtracted from the command's length (its numbers will be rounded) before the
   /// controller's pieces are counted.
   CommandWay(const Firmware& firmware,
              const model::ControllerKinematics& kinematics,
              model::BedPoint from,
              model::BedPoint to,
+             double feed_mm_per_min,
              double doubt_mm = 0.0);
 
   /// Pieces that are linear in chain length; 1 if the controller follows the line.

@@ -27,6 +27,8 @@ struct Dialect {
   bool skip_deletable_blocks = false;
   /// The tool table holds zeros, so that G41 and G42 have no effect. Otherwise they are rejected.
   bool tools_have_no_diameter = false;
+  /// A line with one of a plotter's own codes (plotter_codes.hpp) is passed on; otherwise it is rejected.
+  bool passes_plotter_codes = false;
   /// Limit on lines read again in loops and subroutines plus moves of canned cycles; beyond it the
   /// program is rejected as endless.
   std::uint64_t step_budget = 10'000'000;

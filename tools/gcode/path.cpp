@@ -52,6 +52,11 @@ Point at(const Move& move, double t) {
           arc.centre.z_mm + u * a.z_mm + v * b.z_mm + height * normal.z_mm};
 }
 
+double feed_mm_per_min(const Move& move) {
+  return move.feed.mode == FeedMode::inverse_time ? length_mm(move) * move.feed.value
+                                                  : move.feed.value;
+}
+
 double length_mm(const Move& move) {
   if (!move.arc) return distance_mm(move.from, move.to);
   const Arc& arc = *move.arc;

@@ -14,6 +14,8 @@ namespace chaintrue::gcode {
 
 /// Length of the path, mm. For spirals with the mean radius: their radii differ only by rounding.
 [[nodiscard]] double length_mm(const Move& move);
+/// Of any feed mode; 0 where none was stated.
+[[nodiscard]] double feed_mm_per_min(const Move& move);
 
 [[nodiscard]] double distance_mm(Point a, Point b);
 

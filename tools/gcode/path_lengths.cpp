@@ -32,9 +32,7 @@ class Sampler final : public Sink {
     const double turns = move.arc ? std::fabs(move.arc->sweep_rad) / (2.0 * std::numbers::pi) : 0.0;
     const double pieces =
         std::max({1.0, std::ceil(length / every_mm_), std::ceil(kRowsPerTurn * turns - 1e-9)});
-    const double feed = move.kind == MoveKind::rapid               ? 0.0
-                        : move.feed.mode == FeedMode::inverse_time ? length * move.feed.value
-                                                                   : move.feed.value;
+    const double feed = move.kind == MoveKind::rapid ? 0.0 : feed_mm_per_min(move);
     for (double i = 1.0; i <= pieces; i += 1.0) {
       Point place = at(move, i / pieces);
       place.x_mm += home_.x_mm;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "tools/gcode/flow.hpp"
+#include "tools/gcode/plotter_codes.hpp"
 
 namespace chaintrue::gcode {
 
@@ -65,6 +66,13 @@ class Program::Runner {
     if (peek(at) == 'n') CHAINTRUE_GCODE_TRY(line_number(at));
     if (peek(at) == 'o') return flow_.control(line_, at);
     ++summary_.blocks;
+    if (interpreter_.dialect().passes_plotter_codes) {
+      if (const auto word = plotter_word(line_, at)) {
+        const auto commented = interpreter_.execute(block_, line_.comments);
+        if (!commented) return tl::unexpected(commented.error());
+        return sink_.word({raw.number, *word});
+      }
+    }
     CHAINTRUE_GCODE_TRY(read_words(ValueReader(line_, interpreter_.parameters(), at),
                                    block_,
                                    interpreter_.dialect().tools_have_no_diameter));

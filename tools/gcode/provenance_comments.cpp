@@ -8,7 +8,8 @@
 namespace chaintrue::gcode {
 namespace {
 
-constexpr std::string_view kHashHead = "(sha256 begins ";
+/// Behind the ( or ; that opens it.
+constexpr std::string_view kHashHead = "sha256 begins ";
 
 bool is_harmless(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -31,7 +32,7 @@ std::vector<std::string> comments_of(const grid::Provenance& made_by, std::size_
     lines.push_back(comment("option " + option, longest));
   for (const grid::SourceFile& file : made_by.inputs) {
     lines.push_back(comment("from " + file.name, longest));
-    lines.push_back(std::string(kHashHead) + file.sha256.substr(0, kHashDigits) + ")");
+    lines.push_back("(" + std::string(kHashHead) + file.sha256.substr(0, kHashDigits) + ")");
   }
   return lines;
 }
@@ -40,8 +41,9 @@ std::vector<std::string> hashes_in_head(LineSource program) {
   std::vector<std::string> hashes;
   SourceLine line;
   for (auto read = program.next(line); read && *read; read = program.next(line)) {
-    const std::string_view text = line.text;
-    if (!text.starts_with("(")) break;
+    std::string_view text = line.text;
+    if (!text.starts_with('(') && !text.starts_with(';')) break;
+    text.remove_prefix(1);
     if (text.starts_with(kHashHead))
       hashes.emplace_back(text.substr(kHashHead.size(), kHashDigits));
   }

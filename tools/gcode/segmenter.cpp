@@ -32,12 +32,14 @@ constexpr double kShortestMm = 0.002;
 tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& curve,
                                                                 const PathSample& a,
                                                                 const PathSample& b,
-                                                                double length_mm) const {
+                                                                double length_mm,
+                                                                double feed_mm_per_min) const {
   const auto way = [&](double doubt_mm) {
     return CommandWay(corrector_.firmware(),
                       corrector_.kinematics(),
                       {a.command.x_mm, a.command.y_mm},
                       {b.command.x_mm, b.command.y_mm},
+                      feed_mm_per_min,
                       doubt_mm);
   };
   // If rounding decides the number of the controller's pieces, both numbers must be within the
@@ -57,7 +59,7 @@ tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& cur
                                                                 CommandWay& way) const {
   int checks = std::max(kFewestChecks,
                         static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEveryMm))));
-  const bool own_way = corrector_.firmware().chain_linear_piece_mm > 0.0;
+  const bool own_way = is_chain_linear(corrector_.firmware());
   // Each of the controller's pieces bows: the worst point is in the middle of one, or between two.
   if (own_way) checks = 2 * way.pieces() * ((checks + 2 * way.pieces() - 1) / (2 * way.pieces()));
   double worst = 0.0;
@@ -104,7 +106,7 @@ tl::expected<void, CorrectionFailure> Segmenter::run(
       const auto b = curve(reach);
       if (!b) return tl::unexpected(b.error());
       const double step_mm = per_mm > 0.0 ? (reach - a.t) / per_mm : length_mm;
-      const auto deviation = deviation_mm(curve, a, *b, step_mm);
+      const auto deviation = deviation_mm(curve, a, *b, step_mm, extent.feed_mm_per_min);
       if (!deviation) return tl::unexpected(deviation.error());
       const double share = *deviation / tolerance_mm_;
       const double factor = share > 0.0 ? std::sqrt(kAim / share) : 4.0;

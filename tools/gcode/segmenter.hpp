@@ -36,6 +36,7 @@ class Segmenter {
   struct Extent {
     double length_mm = 0.0;
     double longest_mm = 0.0;
+    double feed_mm_per_min = 0.0;  ///< of the commands; 0: none was stated
   };
 
   /// Visits the samples after `start` up to t = `end`, in order.
@@ -53,7 +54,8 @@ class Segmenter {
   [[nodiscard]] tl::expected<double, CorrectionFailure> deviation_mm(const Curve& curve,
                                                                      const PathSample& a,
                                                                      const PathSample& b,
-                                                                     double length_mm) const;
+                                                                     double length_mm,
+                                                                     double feed_mm_per_min) const;
 
  private:
   [[nodiscard]] tl::expected<double, CorrectionFailure> deviation_mm(const Curve& curve,

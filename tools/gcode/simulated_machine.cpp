@@ -70,9 +70,7 @@ void SimulatedMachine::count_ticks(const Move& move) {
   const double tick_s = corrector_.firmware().tick_s;
   if (tick_s == 0.0 || move.kind == MoveKind::rapid) return;
   const double length = length_mm(move);
-  const double feed =
-      move.feed.mode == FeedMode::inverse_time ? length * move.feed.value : move.feed.value;
-  const double way_mm = feed / 60.0 * tick_s;
+  const double way_mm = feed_mm_per_min(move) / 60.0 * tick_s;
   if (!(way_mm > 0.0)) return;
   const double ticks = length / way_mm;
   tick_overshoot_mm_ = std::max(tick_overshoot_mm_, (std::ceil(ticks) - ticks) * way_mm);
@@ -88,7 +86,7 @@ Result<void> SimulatedMachine::run(const Move& move, const Visit& visit) {
     if (!end) return tl::unexpected(end.error());
     visit(*end, to);
   } else {
-    done = move.arc ? arc(move, visit) : straight(from, to, move.line, visit);
+    done = move.arc ? arc(move, visit) : straight(from, to, move, visit);
   }
   if (!done) return tl::unexpected(done.error());
   return {};
@@ -96,11 +94,11 @@ Result<void> SimulatedMachine::run(const Move& move, const Visit& visit) {
 
 Result<bool> SimulatedMachine::straight(Point from,
                                         Point to,
-                                        std::size_t line,
+                                        const Move& move,
                                         const Visit& visit) {
   const double length = xy_distance(from, to);
-  if (corrector_.firmware().chain_linear_piece_mm > 0.0 && length > 0.0) {
-    return chain_linear(from, to, line, visit);
+  if (is_chain_linear(corrector_.firmware()) && length > 0.0) {
+    return chain_linear(from, to, move, visit);
   }
   for (double gone = 0.0; gone < length;) {
     double step = kPlayStepMm;
@@ -115,22 +113,22 @@ Result<bool> SimulatedMachine::straight(Point from,
     gone += step;
     if (gone >= length) break;
     const Point here = as_read(between(from, to, gone / length));
-    const auto where = tool(here, line);
+    const auto where = tool(here, move.line);
     if (!where) return tl::unexpected(where.error());
     if (!visit(*where, here)) return false;
   }
-  const auto where = tool(to, line);
+  const auto where = tool(to, move.line);
   if (!where) return tl::unexpected(where.error());
   return visit(*where, to);
 }
 
-/// FluidNC: a whole number of pieces of about its segment length, summed in single precision.
+/// A whole number of pieces, summed in single precision.
 Result<bool> SimulatedMachine::chain_linear(Point from,
                                             Point to,
-                                            std::size_t line,
+                                            const Move& move,
                                             const Visit& visit) {
   const double length = xy_distance(from, to);
-  const double pieces = pieces_of(corrector_.firmware(), length);
+  const double pieces = pieces_of(corrector_.firmware(), length, feed_mm_per_min(move));
   const Point step{(to.x_mm - from.x_mm) / pieces,
                    (to.y_mm - from.y_mm) / pieces,
                    (to.z_mm - from.z_mm) / pieces};
@@ -142,7 +140,7 @@ Result<bool> SimulatedMachine::chain_linear(Point from,
     const Point next =
         as_read({here.x_mm + step.x_mm, here.y_mm + step.y_mm, here.z_mm + step.z_mm});
     const auto arrived = corrector_.paid_out({next.x_mm, next.y_mm});
-    if (!arrived) return no_place(arrived.error(), next, line);
+    if (!arrived) return no_place(arrived.error(), next, move.line);
     for (double look = 1.0; look <= looks; look += 1.0) {
       const double share = look / looks;
       model::ChainLengths lengths{paid->left_mm + share * (arrived->left_mm - paid->left_mm),
@@ -157,13 +155,13 @@ Result<bool> SimulatedMachine::chain_linear(Point from,
       }
       const auto where = corrector_.map().tool(lengths);
       const Point command = between(here, next, share);
-      if (!where) return no_place(CorrectionReason::outside_map, command, line);
+      if (!where) return no_place(CorrectionReason::outside_map, command, move.line);
       if (!visit({where->x_mm, where->y_mm, command.z_mm}, command)) return false;
     }
     here = next;
     paid = arrived;
   }
-  if (!paid) return no_place(paid.error(), here, line);
+  if (!paid) return no_place(paid.error(), here, move.line);
   return true;
 }
 
@@ -172,7 +170,7 @@ Result<bool> SimulatedMachine::arc(const Move& move, const Visit& visit) {
   Result<bool> done = true;
   for_each_chord(corrector_.firmware(), move, options_.flatness_mm, [&](Point end) {
     const Point next = as_read(end);
-    done = straight(here, next, move.line, visit);
+    done = straight(here, next, move, visit);
     here = next;
     return done && *done;
   });

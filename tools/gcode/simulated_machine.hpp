@@ -46,8 +46,8 @@ class SimulatedMachine {
  private:
   [[nodiscard]] Point as_read(Point point) const;
   [[nodiscard]] Result<Point> tool(Point command, std::size_t line);
-  Result<bool> straight(Point from, Point to, std::size_t line, const Visit& visit);
-  Result<bool> chain_linear(Point from, Point to, std::size_t line, const Visit& visit);
+  Result<bool> straight(Point from, Point to, const Move& move, const Visit& visit);
+  Result<bool> chain_linear(Point from, Point to, const Move& move, const Visit& visit);
   Result<bool> arc(const Move& move, const Visit& visit);
   void count_ticks(const Move& move);
 

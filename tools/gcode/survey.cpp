@@ -48,8 +48,7 @@ class Surveyor final : public Sink {
     const double length = length_mm(move);
     result.path_mm += length;
     if (move.kind == MoveKind::rapid) return;
-    const double feed =
-        move.feed.mode == FeedMode::inverse_time ? length * move.feed.value : move.feed.value;
+    const double feed = feed_mm_per_min(move);
     result.slowest_mm_per_min = std::min(result.slowest_mm_per_min.value_or(feed), feed);
     result.fastest_mm_per_min = std::max(result.fastest_mm_per_min.value_or(feed), feed);
   }

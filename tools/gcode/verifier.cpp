@@ -33,11 +33,6 @@ bool begins(const Move& move) {
   return move.names_xy || (move.kind != MoveKind::rapid && move.to.z_mm < move.from.z_mm);
 }
 
-double speed(const Move& move) {
-  return move.feed.mode == FeedMode::inverse_time ? length_mm(move) * move.feed.value
-                                                  : move.feed.value;
-}
-
 /// Until X and Y are known only heights are compared.
 Point height_of(Point point) { return {0.0, 0.0, point.z_mm}; }
 
@@ -111,7 +106,7 @@ class Verification {
     for (;;) {
       if (chord_ < chords_) {
         ++chord_;
-        piece = {at(arc_, static_cast<double>(chord_) / chords_), false, speed(arc_), arc_.line};
+        piece = {at(arc_, static_cast<double>(chord_) / chords_), false, feed_mm_per_min(arc_), arc_.line};
         return true;
       }
       const ProgramEvent* event = expected();
@@ -120,7 +115,7 @@ class Verification {
       if (!started_) {
         if (begins(move) && (move.kind != MoveKind::rapid || heights_done_)) return false;
         heights_done_ = begins(move);
-        piece = {height_of(move.to), move.kind == MoveKind::rapid, speed(move), move.line};
+        piece = {height_of(move.to), move.kind == MoveKind::rapid, feed_mm_per_min(move), move.line};
         const bool changes_height = move.from.z_mm != move.to.z_mm;
         if (!heights_done_) intended_.pop();  // which invalidates move
         if (changes_height) return true;
@@ -133,7 +128,7 @@ class Verification {
         intended_.pop();
         continue;
       }
-      piece = {move.to, move.kind == MoveKind::rapid, speed(move), move.line};
+      piece = {move.to, move.kind == MoveKind::rapid, feed_mm_per_min(move), move.line};
       const bool stays = move.from == move.to;
       intended_.pop();
       if (!stays) return true;
@@ -187,13 +182,13 @@ class Verification {
       if (begins(command)) return start(command);
       if (command.from.z_mm != command.to.z_mm) {
         advance(
-            {height_of(command.to), command.kind == MoveKind::rapid, speed(command), command.line});
+            {height_of(command.to), command.kind == MoveKind::rapid, feed_mm_per_min(command), command.line});
       }
       return;
     }
     if (command.from == command.to && !command.arc) return;
     const bool rapid = command.kind == MoveKind::rapid;
-    const double feed = rapid ? 0.0 : speed(command);
+    const double feed = rapid ? 0.0 : feed_mm_per_min(command);
     last_command_ = command.from;
     const auto done = machine_.run(command, [&](Point tool, Point commanded) {
       const double way = distance_mm(last_command_, commanded);

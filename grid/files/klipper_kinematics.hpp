@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A map as a kinematics module of Klipper: the source (Python) of a module that interpolates both
+/// lengths in a table (length_table.hpp).
+///
+/// Klipper computes steps in C, as straight distances from anchors (its kinematics `winch`). The module
+/// sends a tool that shall be at p to the place c whose straight distances from two anchors a are the map's
+/// lengths L,
+///
+///   |c - a| = sqrt((L(p) + o)^2 - z^2)                                                      (1)
+///
+/// o is what such distances are longer by all over, as by a sled's ring; steppers count from where they
+/// are switched on, so that it needs no setting.
+///
+/// in pieces so short that the lengths between their ends are the map's to a hundredth of a millimetre:
+/// `winch` counts z into its distances, which (1) takes out. Outside the table a move is refused before
+/// its first piece.
+///
+/// Sources: Klipper3d/klipper, klippy/kinematics/winch.py, klippy/extras/skew_correction.py (a transform
+/// of moves), klippy/chelper/kin_winch.c.
+///
+/// \code
+///   const auto module = klipper_kinematics(MapInFrame(map), {anchors, longer_mm}, "my map");
+///   if (module) write_whole_file("chaintrue.py", module->source);
+/// \endcode
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+
+#include "grid/files/length_table.hpp"
+
+namespace chaintrue::grid::files {
+
+struct KlipperKinematics {
+  std::string source;
+  int columns = 0;
+  int rows = 0;
+  double spacing_mm = 0.0;
+  double largest_error_mm = 0.0;  ///< of a length in the table
+  double piece_mm = 0.0;          ///< the longest move that is not divided
+};
+
+/// About where chains come from, in the map's frame, and o of (1); straight_settings.hpp has the nearest,
+/// and any near them serve.
+struct StraightChains {
+  model::PerSide<model::BedPoint> anchors;
+  model::ChainLengths longer_mm;
+};
+
+/// Over the map's domain. Fails where the map has no answer somewhere, or straight chains from there do not meet.
+[[nodiscard]] tl::expected<KlipperKinematics, MapFailure> klipper_kinematics(
+    const LengthMap& map,
+    const StraightChains& straight,
+    const std::string& name);
+
+}  // namespace chaintrue::grid::files

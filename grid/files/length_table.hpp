@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The lengths of a map at the nodes of a regular lattice, for controllers that interpolate in a table.
+///
+/// Between nodes lengths are interpolated by cubic convolution in x and in y (R. Keys, IEEE Trans.
+/// Acoust. Speech Signal Process. 29 (1981), 1153, eq. 4 and the boundary values of eq. 25). The table
+/// is as dense as it has to be: what it is off by is looked for in the middles of cells and of their
+/// sides, where it is largest.
+///
+/// \code
+///   const auto table = length_table(MapInFrame(map));
+///   if (table) write(table->columns, table->rows, table->largest_error_mm);
+/// \endcode
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/map/length_map.hpp"
+
+namespace chaintrue::grid::files {
+
+/// What a table may be off by, mm: the hundredth part of what a careful hand reads.
+inline constexpr double kTableErrorMm = 0.005;
+
+struct LengthTable {
+  interp::Rectangle area;
+  int columns = 0;
+  int rows = 0;
+  /// Left and right, row by row from below, to five digits after the point.
+  std::vector<std::array<double, 2>> nodes{};
+  /// Of a length, as it was looked for; above kTableErrorMm only where 5 mm from node to node do not do.
+  double largest_error_mm = 0.0;
+
+  [[nodiscard]] double step_x() const { return (area.x_max - area.x_min) / (columns - 1); }
+  [[nodiscard]] double step_y() const { return (area.y_max - area.y_min) / (rows - 1); }
+  [[nodiscard]] double x(double column) const { return area.x_min + column * step_x(); }
+  [[nodiscard]] double y(double row) const { return area.y_min + row * step_y(); }
+  /// The larger distance of neighbours.
+  [[nodiscard]] double spacing_mm() const;
+  /// side: 0 left, 1 right. One row or column beyond an edge it is continued (Keys, eq. 25).
+  [[nodiscard]] double node(int row, int column, std::size_t side) const;
+  /// All nodes as text, four to a line; each row and each node stands between `open` and `close`.
+  [[nodiscard]] std::string nodes_as_text(std::string_view open, std::string_view close) const;
+};
+
+/// Over the map's domain. Fails where the map has no answer somewhere in it.
+[[nodiscard]] tl::expected<LengthTable, MapFailure> length_table(const LengthMap& map);
+
+}  // namespace chaintrue::grid::files
