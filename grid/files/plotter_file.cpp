@@ -84,8 +84,13 @@ const Record<KnownPlotter>& plotter_record() {
 
 }  // namespace
 
-KnownPlotter parse_plotter(const std::string& text, const std::string& file) {
-  return read_document(plotter_record(), text, file);
+KnownPlotter parse_plotter(const std::string& text,
+                           const std::string& file,
+                           std::vector<Warning>* warnings) {
+  Problems problems(file);
+  KnownPlotter plotter = read_document(plotter_record(), text, problems);
+  if (warnings != nullptr) *warnings = problems.warnings();
+  return plotter;
 }
 
 std::string write_plotter(const KnownPlotter& plotter,

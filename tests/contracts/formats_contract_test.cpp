@@ -120,6 +120,15 @@ std::string aged_belts(std::string text, std::string_view) {
   return print_json(json);
 }
 
+/// Plotters and drawings of version 1.0 say neither Marlin's pieces nor correlations.
+std::string aged_plotter(std::string text, std::string_view) {
+  Problems problems("plotter.json");
+  Json json = parse_json(text, problems);
+  json["set"].erase("segments_per_second");
+  if (json.contains("found")) json["found"].erase("correlations");
+  return print_json(json);
+}
+
 /// A sweep names other files by their path relative to its own.
 std::vector<Warning> read_sweep_text(const std::string& text) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
@@ -186,16 +195,20 @@ const std::map<std::string_view, Sample>& samples() {
         text_of("effects/second_harmonic.json")}},
       {kPlotterFormat.file_type,
        {[](const std::string& text) {
-          (void)parse_plotter(text, "plotter.json");
-          return std::vector<Warning>{};
+          std::vector<Warning> warnings;
+          (void)parse_plotter(text, "plotter.json", &warnings);
+          return warnings;
         },
-        text_of("good/plotter_every_key.json")}},
+        text_of("good/plotter_every_key.json"),
+        aged_plotter}},
       {kDrawingFormat.file_type,
        {[](const std::string& text) {
-          (void)parse_drawing(text, "drawing.json");
-          return std::vector<Warning>{};
+          std::vector<Warning> warnings;
+          (void)parse_drawing(text, "drawing.json", &warnings);
+          return warnings;
         },
-        text_of("good/drawing_every_key.json")}},
+        text_of("good/drawing_every_key.json"),
+        aged_plotter}},
       {kSweepFormat.file_type, {read_sweep_text, text_of("sweeps/quick.json")}}};
   return by_type;
 }

@@ -426,7 +426,7 @@ std::vector<Telling> tellings() {
        "gcode verify @simple.nc @slow_plotter_true.nc --map @wide_plotter.json"},
       {"gcode", "--keep-rapids-whole", "--keep-rapids-whole"},
       {"gcode check", "--keep-rapids-whole", "--keep-rapids-whole", in_numbers, "plotter",
-       "gcode check @rapid.nc --map @wide_plotter.json --tolerance-mm 0.01"},
+       "gcode check @across.nc --map @wide_plotter.json --tolerance-mm 0.01"},
       {"gcode verify", "--keep-rapids-whole", "--keep-rapids-whole", in_numbers, "plotter",
        "gcode verify @rapid.nc @rapid_plotter_true.nc --map @wide_plotter.json --tolerance-mm 0.01"},
       {"gcode check", "--keep-rapids-whole", "--keep-rapids-whole", in_numbers, "map",

@@ -309,6 +309,8 @@ Workshop::Workshop() : folder_(temporary_folder()), lines_(made_by_the_command()
   // Long rapids bend; two digits do not show that a short rapid was made slow, three do; a feed may be off by a
   // hundredth.
   write("rapid.nc", "G21 G90 G17\nF600\nG0 X-1100 Y550\nG0 X1100 Y-550\nG1 X0 Y0\nM2\n");
+  // A plotter's lines bend most in the middle of its sheet's upper edge.
+  write("across.nc", "G21 G90 G17\nF600\nG0 X-1100 Y550\nG0 X1100 Y550\nG1 X1100 Y549\nM2\n");
   write("tiny.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG0 X100.06 Y0\nG1 X100.06 Y100\nM2\n");
   write("short.nc",
         "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG1 X100.06 Y0 F300\nG1 X100.06 Y100 F600\nM2\n");

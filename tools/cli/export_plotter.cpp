@@ -8,6 +8,7 @@
 #include "grid/plotter/settings_to_paste.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/start_plotter.hpp"
 #include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
@@ -23,7 +24,7 @@ struct ExportPlotterCommand {
 int export_plotter(const ExportPlotterCommand& command) {
   const InputFile file = open_input(command.input);
   require_kind(file, {FileKind::plotter});
-  const grid::KnownPlotter plotter = files::parse_plotter(file.text, file.name);
+  const grid::KnownPlotter plotter = load_plotter(file).plotter;
   if (!plotter.found) {
     throw files::InputError({{file.name,
                               "/found",

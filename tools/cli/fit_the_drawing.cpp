@@ -15,6 +15,7 @@
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
+#include "tools/cli/warnings.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
@@ -137,7 +138,10 @@ report::Document drawing_document(const TestDrawing& drawing, const DrawingFit& 
 }  // namespace
 
 int fit_the_drawing(const DrawingFitCommand& command) {
-  const TestDrawing drawing = files::parse_drawing(command.file.text, command.file.name);
+  std::vector<files::Warning> warnings;
+  const TestDrawing drawing =
+      files::parse_drawing(command.file.text, command.file.name, &warnings);
+  print_warnings(warnings);
   const auto fit = grid::fit_drawing(drawing);
   if (!fit) {
     fmt::print(stderr, "{}: {}\n", command.file.name, fit.error().sentence());
