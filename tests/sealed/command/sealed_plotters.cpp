@@ -26,6 +26,7 @@ struct Arguments {
   int sound = 100;
   double least = 8.0;
   double most = 16.0;
+  std::string kind;  ///< alone; empty: all
 };
 
 void print_row(PlotterKind kind, const HiddenCause& cause, int sets, const Arguments& arguments) {
@@ -52,6 +53,7 @@ int run(const Arguments& arguments) {
   fmt::print("| plotter | hidden | sets | alone | in a set | wrong | no name | refused |\n"
              "|---|---|---|---|---|---|---|---|\n");
   for (const PlotterKind kind : chaintrue::sealed::kPlotterKinds) {
+    if (!arguments.kind.empty() && arguments.kind != chaintrue::sealed::name(kind)) continue;
     for (const HiddenCause& cause : chaintrue::sealed::causes_of(kind))
       print_row(kind, cause, arguments.sets, arguments);
     print_row(kind, {}, arguments.sound, arguments);
@@ -68,6 +70,7 @@ int main(int count, char** words) {
   app.add_option("--sound", arguments.sound, "Of each kind, with nothing hidden");
   app.add_option("--least", arguments.least, "Strength");
   app.add_option("--most", arguments.most, "Strength");
+  app.add_option("--kind", arguments.kind, "One kind alone, such as \"light pen\"");
   CLI11_PARSE(app, count, words);
   try {
     return run(arguments);

@@ -31,9 +31,10 @@ model::PlotterMachine machine_of(PlotterKind kind) {
   if (kind == PlotterKind::mural) return machine;
   machine.motors = model::MotorPlace::wall;
   machine.pulley_radius_mm = 10.0;
-  if (kind == PlotterKind::pen) {
-    machine.gondola = {.mass_kg = 0.5};
-  }
+  if (kind == PlotterKind::body) return machine;
+  machine.gondola = {.mass_kg = kind == PlotterKind::pen ? 0.5 : 0.2};
+  // Links hang straight from the pins.
+  if (kind == PlotterKind::light_pen) machine.pulley_radius_mm = 0.0;
   return machine;
 }
 
@@ -73,7 +74,8 @@ TruePlotter true_plotter(const model::PlotterMachine& machine, Dice& dice) {
     plotter.zero_mm[side] = u.zero_mm * dice.normal();
     plotter.scale_mm_per_m[side] = u.scale_mm_per_m * dice.normal();
   }
-  plotter.turn_mm = 2.0 * std::numbers::pi * machine.pulley_radius_mm;
+  if (machine.pulley_radius_mm > 0.0)
+    plotter.turn_mm = 2.0 * std::numbers::pi * machine.pulley_radius_mm;
   return plotter;
 }
 
@@ -83,6 +85,9 @@ void hide(const HiddenCause& cause, double size, double phase, TruePlotter& plot
   if (cause.effect == "pen_off_centre") plotter.hung.pen_right_mm += 5.0 * size;
   if (cause.effect == "servo_arm") plotter.hung.mass_right_mm += 4.0 * size;
   if (cause.effect == "gondola_width") plotter.hung.spacing_mm += 2.0 * size;
+  if (cause.effect == "cord_weight")
+    plotter.hung.cord_n_per_mm = 8e-6 * kGravity * std::abs(size);  // 8 g/m
+  if (cause.effect == "cord_stretch") plotter.hung.compliance_per_n = 2e-4 * std::abs(size);
   for (int side = 0; side < 2; ++side) {
     if (!acts[side]) continue;
     if (cause.effect == "spool_eccentricity") {
@@ -107,6 +112,39 @@ double cord_out(const TruePlotter& p, int side, double counted_mm) {
   return cord;
 }
 
+/// Where a pen hangs on cords of links: Newton on lengths_of_links from where straight cords meet.
+Eigen::Vector2d pen_of_links(const HiddenPlotter& hung, double left_mm, double right_mm) {
+  // The links' error falls with the square of their number: a thousandth of the millimetres that the
+  // cords are longer by than straight ones, far below a ruler's.
+  constexpr int kLinks = 60, kMostSteps = 40;
+  constexpr double kDifferenceMm = 0.01, kConvergedMm = 1e-4, kLongestStepMm = 40.0;
+  const auto lengths_at = [&](double x, double y) {
+    const auto l = generator::lengths_of_links(hung, x, y, kLinks);
+    return Eigen::Vector2d(l[0], l[1]);
+  };
+  const double half = 0.5 * hung.pin_spacing_mm;
+  const double x = (left_mm * left_mm - right_mm * right_mm) / (4.0 * half);
+  Eigen::Vector2d pen(x, -std::sqrt(left_mm * left_mm - (x + half) * (x + half)));
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Eigen::Vector2d here = lengths_at(pen.x(), pen.y());
+    Eigen::Matrix2d slope;
+    slope << (lengths_at(pen.x() + kDifferenceMm, pen.y()) - here) / kDifferenceMm,
+        (lengths_at(pen.x(), pen.y() + kDifferenceMm) - here) / kDifferenceMm;
+    const Eigen::Vector2d change =
+        slope.partialPivLu().solve(Eigen::Vector2d(left_mm, right_mm) - here);
+    pen += change * std::min(1.0, kLongestStepMm / change.norm());
+    if (change.norm() < kConvergedMm) return pen;
+  }
+  throw std::runtime_error("a pen on links that comes to no rest");
+}
+
+Eigen::Vector2d pen_at_rest(const HiddenPlotter& hung, double left_mm, double right_mm) {
+  if (hung.cord_n_per_mm > 0.0 || hung.compliance_per_n > 0.0)
+    return pen_of_links(hung, left_mm, right_mm);
+  const generator::PenAtRest pen = generator::lowest_pose(hung, left_mm, right_mm);
+  return {pen.x_mm, pen.y_mm};
+}
+
 /// A ruler between two pens, or a string and a ruler across it.
 double measured(const DrawnMeasure& m, const std::vector<Eigen::Vector2d>& pens) {
   const Eigen::Vector2d way = pens[m.to] - pens[m.from];
@@ -119,15 +157,18 @@ Eigen::VectorXd drawn(const TestDrawing& drawing, const TruePlotter& plotter) {
   const auto crosses = grid::drawn_measures_of(drawing).value();
   std::vector<Eigen::Vector2d> pens;
   for (const auto& cross : crosses.points()) {
-    const generator::PenAtRest pen = generator::lowest_pose(plotter.hung,
-                                                            cord_out(plotter, 0, cross.paid_out.left_mm),
-                                                            cord_out(plotter, 1, cross.paid_out.right_mm));
-    pens.emplace_back(pen.x_mm, pen.y_mm);
+    pens.push_back(pen_at_rest(plotter.hung,
+                               cord_out(plotter, 0, cross.paid_out.left_mm),
+                               cord_out(plotter, 1, cross.paid_out.right_mm)));
   }
   Eigen::VectorXd values(std::ssize(drawing.measures));
   for (Eigen::Index i = 0; i < values.size(); ++i)
     values[i] = measured(drawing.measures[static_cast<std::size_t>(i)], pens);
   return values;
+}
+
+bool acts_on_links(const HiddenCause& cause) {
+  return cause.effect == "cord_weight" || cause.effect == "cord_stretch";
 }
 
 /// How much of a change of the measures settings of the stated sigmas leave, in units of noise.
@@ -156,13 +197,16 @@ std::string_view name(PlotterKind kind) {
     case PlotterKind::body:
       return "body";
     case PlotterKind::pen:
+      return "pen";
+    case PlotterKind::light_pen:
       break;
   }
-  return "pen";
+  return "light pen";
 }
 
 std::vector<HiddenCause> causes_of(PlotterKind kind) {
   std::vector<HiddenCause> causes;
+  if (kind == PlotterKind::light_pen) return {{"cord_weight", "both"}, {"cord_stretch", "both"}};
   if (kind != PlotterKind::pen)
     causes = {{"pen_off_centre", ""}, {"servo_arm", ""}, {"gondola_width", ""}};
   for (const char* side : {"left", "right"}) {
@@ -178,13 +222,26 @@ PlotterSet plotter_set(PlotterKind kind,
                        double least_strength,
                        double most_strength,
                        std::uint64_t seed) {
-  constexpr int kDraws = 200;
+  constexpr int kDraws = 200, kScalings = 12;
   PlotterSet set{cause, 0.0, grid::planned_drawing(machine_of(kind), firmware_of(kind))};
   Dice settings(seed, "settings of a plotter"), sizes(seed, "size of a cause"), ruler(seed, "ruler");
   const TruePlotter sound = true_plotter(set.drawing.machine, settings);
   const Eigen::VectorXd without = drawn(set.drawing, sound);
   Eigen::VectorXd values = without;
-  for (int draw = 0; draw < kDraws && !cause.effect.empty(); ++draw) {
+  if (acts_on_links(cause)) {
+    // What such a cause does grows with its size: scaled to a strength that is drawn, in place of draws.
+    const double wanted = sizes.log_uniform(least_strength, most_strength);
+    double size = 1.0;
+    for (int scaling = 0; scaling < kScalings; ++scaling) {
+      TruePlotter plotter = sound;
+      hide(cause, size, 0.0, plotter);
+      values = drawn(set.drawing, plotter);
+      set.strength = strength_of(set.drawing, values - without);
+      if (set.strength >= least_strength && set.strength <= most_strength) break;
+      size *= wanted / set.strength;
+    }
+  }
+  for (int draw = 0; draw < kDraws && !cause.effect.empty() && !acts_on_links(cause); ++draw) {
     TruePlotter plotter = sound;
     const double size = sizes.sign() * sizes.log_uniform(0.3, 12.0);
     hide(cause, size, sizes.uniform(-std::numbers::pi, std::numbers::pi), plotter);

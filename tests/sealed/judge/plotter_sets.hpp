@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Test drawings of V-plotters with a hidden cause, hung by the second implementation
-/// (generator/hidden/plotter.hpp), and what the diagnosis makes of them.
+/// (generator/hidden/plotter.hpp: bodies by the lowest pose of stiff cords, a light pen by cords of many
+/// links), and what the diagnosis makes of them.
 ///
 /// The controller counts K for a cross; the cord that is out is the L with
 ///
 ///   (L + added(L)) (1 + scale / 1000) + zero = K                                           (1)
 ///
 /// where what a cause adds is written here anew. Settings are off by a draw of their uncertainty.
-/// Causes that bend or weigh down the cords are not among them: the lowest pose is of stiff cords.
+/// Causes that stretch or weigh down the cords are of the light pen alone.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +20,11 @@
 
 namespace chaintrue::sealed {
 
-/// A mural; a body on motors on the wall; a pen on two spools.
-enum class PlotterKind { mural, body, pen };
+/// A mural; a body on motors on the wall; a pen on two spools; a light pen on cords that weigh.
+enum class PlotterKind { mural, body, pen, light_pen };
 [[nodiscard]] std::string_view name(PlotterKind kind);
-inline constexpr PlotterKind kPlotterKinds[] = {PlotterKind::mural, PlotterKind::body, PlotterKind::pen};
+inline constexpr PlotterKind kPlotterKinds[] = {
+    PlotterKind::mural, PlotterKind::body, PlotterKind::pen, PlotterKind::light_pen};
 
 struct HiddenCause {
   std::string effect;  ///< of the product's catalogue; empty: nothing is wrong
