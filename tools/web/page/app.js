@@ -10,6 +10,7 @@ import {download, h} from "./dom.js";
 import {filesStep} from "./files.js";
 import {machineStep, mayReplace, openZip, replaceFolder} from "./machine.js";
 import {measureStep} from "./measure.js";
+import {Plotter} from "./plotter.js";
 import {resultStep} from "./result.js";
 import {Steps} from "./steps.js";
 import {Storage} from "./storage.js";
@@ -44,6 +45,7 @@ class Page {
   async begin() {
     this.example = JSON.parse(document.getElementById("example").textContent);
     this.belts = new Belts(this);
+    this.plotter = new Plotter(this);
     this.machine = machineStep(this);
     const made = {machine: this.machine, measure: measureStep(this), result: resultStep(this), cut: cutStep(this), files: filesStep(this)};
     this.#steps = new Steps(STEPS.map(([id, label]) => [id, label, made[id]]), (step) => this.#go(step));

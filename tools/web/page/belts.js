@@ -7,6 +7,7 @@ import {ANCHORS, BELTS, filledIn, HOLES, isBelts, jsonOf, LOG, MASLOW_SETTINGS, 
 import {hookOption} from "./hook.js";
 import {inPage} from "./in_page.js";
 import {mayReplace, replaceFolder} from "./machine.js";
+import {isOfPlotter} from "./plotter_text.js";
 import {wishWords} from "./wish.js";
 
 /** Delay between the last key and a run of the command: the time between two keys. */
@@ -54,11 +55,15 @@ export class Belts {
       placeholder: "maslow.yaml and what the machine printed while it found its anchors, in any order",
       onpaste: () => setTimeout(() => read(), 0)});
     const read = async () => {
+      if (isOfPlotter(box.value)) {
+        if (mayReplace(this.#page) && await this.#page.plotter.take(box.value, "settings.txt", say)) box.value = "";
+        return;
+      }
       const isNew = splitPasted(box.value).log !== null || !isBelts(this.#page.store.folder);
       if (box.value.trim() === "" || (isNew && !mayReplace(this.#page))) return;
       if (await this.take(box.value, say)) box.value = "";
     };
-    return h("div", {class: "paste"}, h("label", {for: "paste"}, "Or paste, for a Maslow 4: its log, its maslow.yaml, or both"), box,
+    return h("div", {class: "paste"}, h("label", {for: "paste"}, "Or paste, for a Maslow 4: its log, its maslow.yaml, or both; for a pen plotter: its settings"), box,
       h("p", {class: "buttons"}, h("button", {type: "button", onclick: read}, "Read what is in the box")));
   }
 

@@ -3,19 +3,20 @@
 import {JOBS, NUMBERS, putAway, waysOf} from "./choice.js";
 import {DONE, runVerb, sentenceList, sentencesOf} from "./command.js";
 import {contentOf, download, fileDrop, h, unreadable} from "./dom.js";
-import {filledIn, HOLES, isBelts, mapOf, PASTED} from "./folder.js";
+import {DRAWING, filledIn, HOLES, isBelts, isPlotter, jsonOf, mapOf, PASTED} from "./folder.js";
 import {reportFrame} from "./frame.js";
 import {inPage} from "./in_page.js";
 import {areTypedIn, settingsWords} from "./numbers.js";
+import {readsGcode} from "./plotter_text.js";
 
 const PROGRAMS = [".nc", ".gcode", ".ngc", ".tap", ".cnc", ".txt"];
 /** Programs that drive to the marks; they belong to the lists of marks. */
-const SHEETS = ["marks.nc", "holes.nc", "lengths.nc", "five.nc"];
+const SHEETS = ["marks.nc", "holes.nc", "lengths.nc", "five.nc", "page.gcode", "sheet.txt"];
 /** The task that a newer program supersedes. */
 const TASK = "cut";
 
 /** What the controller holds now, where that is not what it was measured with. */
-const nowWords = (folder) => (!isBelts(folder) ? settingsWords(folder) : folder[PASTED] ? ["--machine", PASTED] : []);
+const nowWords = (folder) => (isPlotter(folder) ? [] : !isBelts(folder) ? settingsWords(folder) : folder[PASTED] ? ["--machine", PASTED] : []);
 const areIn = (folder) => (isBelts(folder) ? Boolean(folder[PASTED]) : areTypedIn(folder));
 
 const isProgram = (path) => PROGRAMS.some((end) => path.toLowerCase().endsWith(end));
@@ -35,8 +36,9 @@ export function cutStep(page) {
   const jobs = h("p", {class: "buttons"});
   const settings = h("p", {class: "hint"});
   const away = h("div");
+  const title = h("h3", {}, "Cut a part true");
   const open = h("div", {hidden: true},
-    h("section", {}, h("h3", {}, "Cut a part true"),
+    h("section", {}, title,
       h("p", {}, "The program is rewritten so that the machine as it is cuts what was drawn, and run " +
         "on a simulated controller before you get it."),
       settings,
@@ -133,11 +135,15 @@ export function cutStep(page) {
   return {
     element: h("div", {}, none, all),
     given: () => done(page.store.folder),
+    label: () => (isPlotter(page.store.folder) ? "Draw" : "Cut"),
     update() {
       const {folder, view} = page.store;
-      const ready = Boolean(folder[mapOf(folder)]);
+      const isOfPictures = isPlotter(folder) && !readsGcode(jsonOf(folder[DRAWING]));
+      const ready = Boolean(folder[mapOf(folder)]) && !isOfPictures;
       none.hidden = ready;
-      none.textContent = isBelts(folder) ? "The anchors are not found yet: paste the log first." : "There is no map yet: type readings in first.";
+      title.textContent = isPlotter(folder) ? "Draw a picture true" : "Cut a part true";
+      none.textContent = isOfPictures ? "This plotter is sent pictures, not programs: it draws them true once the lines are typed in."
+        : isPlotter(folder) ? "Nothing is found yet: measure the test page first." : isBelts(folder) ? "The anchors are not found yet: paste the log first." : "There is no map yet: type readings in first.";
       all.hidden = !ready;
       drawAway(folder, view);
       settings.textContent = settingsSentence(folder);
@@ -154,6 +160,7 @@ export function cutStep(page) {
 }
 
 function settingsSentence(folder) {
+  if (isPlotter(folder)) return "It is for the plotter with the numbers that it drew the test page with. Once you have typed the lines in, draw the second page first.";
   if (isBelts(folder)) {
     return areIn(folder) ? "It is for the machine with the lines that you pasted (see Map and causes)."
       : "It is for the machine with the anchors that it had when the log was made. If you have pasted the lines since, say so under Map and causes.";

@@ -17,11 +17,18 @@ export const WITHOUT = "without.txt";
 /** What the machine believes once the lines are pasted. */
 export const PASTED = "pasted.json";
 
+/** A V-plotter: as its controller holds it, its test drawing, and what was found of it. */
+export const PLOTTER = "plotter.json";
+export const DRAWING = "drawing.json";
+export const FOUND = "found.json";
+
 /** Of files that other readings make stale; an undo brings them back with the readings that they are of. */
 export const NO_DIAGNOSIS = {"diagnosis.json": null, "diagnosis.html": null};
 
 export const isBelts = (folder) => Boolean(folder[BELTS] || folder[MASLOW_SETTINGS]);
-export const mapOf = (folder) => (isBelts(folder) ? ANCHORS : "map.json");
+export const isPlotter = (folder) => Boolean(folder[DRAWING]);
+/** What a program is compensated with. */
+export const mapOf = (folder) => (isBelts(folder) ? ANCHORS : isPlotter(folder) ? FOUND : "map.json");
 export const programOf = (sheet) => sheet.replace(/\.csv$/, ".nc");
 
 /** The list of readings for the map: the one shown, or the one shown last. */
@@ -55,5 +62,6 @@ export const filledIn = (bytes) => (bytes ? Sheet.of(textOf(bytes))?.filled ?? 0
 
 /** True if readings were typed into a list: they are not discarded without a question. */
 export function hasReadings(folder) {
-  return Object.entries(folder).some(([path, bytes]) => path.endsWith(".csv") && filledIn(bytes) > 0);
+  const isRuled = (jsonOf(folder[DRAWING])?.measures ?? []).some(({value_mm: value}) => value !== null && value !== undefined);
+  return isRuled || Object.entries(folder).some(([path, bytes]) => path.endsWith(".csv") && filledIn(bytes) > 0);
 }

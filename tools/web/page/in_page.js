@@ -25,6 +25,7 @@ const OPTIONS = [
   [/: chaintrue diagnose of the same belts\./g, ": the causes say it."],
   [/ or say --inches\b/g, " or choose inches above the table"],
   [/ \(chaintrue plan [^)]*\)/g, ""],
+  [/: chaintrue fit finds them, and export plotter prints the lines\./g, "; they stand above."],
 ];
 
 /** The sentence as the page says it. An option that is left has no place in the page: its bracket goes. */

@@ -3,8 +3,9 @@
 import {isOfBelts} from "./belts_text.js";
 import {DONE, problemOf, runVerb, sentenceList, sentencesOf} from "./command.js";
 import {bytesOf, contentOf, fileDrop, h, textOf, unreadable} from "./dom.js";
-import {hasReadings, isBelts, jsonOf, MARKS, NO_DIAGNOSIS} from "./folder.js";
+import {hasReadings, isBelts, isPlotter, jsonOf, MARKS, NO_DIAGNOSIS} from "./folder.js";
 import {explained} from "./glossary.js";
+import {isOfPlotter, isWallPlotter} from "./plotter_text.js";
 import {inPage} from "./in_page.js";
 import {MachineForm} from "./machine_form.js";
 import {folderOf} from "./zip.js";
@@ -16,12 +17,17 @@ const EVENINGS = [
   ["worn_chain", "A worn chain"], ["bent_beam", "A beam that bends"], ["long_tape", "A tape that is too long"],
   ["slipped_tooth", "A chain that jumped a tooth"], ["nothing_wrong", "Nothing wrong"], ["maslow4", "A Maslow 4"],
 ];
-const SETTINGS = ".ini,.json,.yaml,.yml,.txt,.zip";
+const SETTINGS = ".ini,.json,.yaml,.yml,.txt,.h,.properties,.zip";
 
 export function machineStep(page) {
   const said = h("div", {class: "said", role: "status"});
   const form = new MachineForm((machine, name, pointer) => numbersTyped(page, machine, {name, pointer}, say));
   const others = h("ul", {class: "sentences assumed"});
+  const pen = h("p", {class: "buttons", hidden: true}, h("button", {type: "button", onclick: () => wallPlotter(page, say)}, "It hangs a pen, not a router"));
+  const plotterAssumed = h("div");
+  const plotter = h("section", {hidden: true}, h("h3", {}, "A pen plotter"),
+    h("p", {}, "It draws a test page; what a ruler reads of it says which of its settings are off."), plotterAssumed,
+    h("p", {class: "buttons"}, h("button", {type: "button", class: "main", onclick: () => page.store.show({step: "measure"})}, "On to the test page")));
   const numbers = h("section", {hidden: true}, h("h3", {}, "Its numbers"),
     h("p", {}, "As the settings state them; what they do not say was assumed, and says so. A few millimetres do for the motors: the " +
       "readings will tell better."), form.element, others,
@@ -31,7 +37,7 @@ export function machineStep(page) {
       h("p", {}, "From the settings that your machine runs with, this page makes the sheets to measure it, a map of its " +
         "errors from what you read, and programs that it cuts true. Nothing leaves this computer."),
       fileDrop("settings", "Open the machine's settings", SETTINGS,
-        "groundcontrol.ini, webcontrol.json, FluidNC's yaml, a machine.json, a Maslow 4's log or maslow.yaml, or the zip of an earlier evening. Or drop it here.",
+        "groundcontrol.ini, webcontrol.json, FluidNC's yaml, a machine.json, a Maslow 4's log or maslow.yaml, a pen plotter's settings, or the zip of an earlier evening. Or drop it here.",
         (files) => open(page, files, say), {multiple: true}),
       page.belts.pasteBox(say),
       h("p", {class: "buttons"},
@@ -41,7 +47,7 @@ export function machineStep(page) {
       h("p", {}, "What this page says of a machine with one thing wrong. Each opens with its readings typed in."),
       h("p", {class: "buttons"}, EVENINGS.map(([name, title]) =>
         h("button", {type: "button", onclick: () => openEvening(page, name, say)}, title)))),
-    said, page.belts.readingPart(), numbers);
+    said, page.belts.readingPart(), pen, plotter, numbers);
 
   function say(sentences, isProblem = false) {
     said.className = isProblem ? "said problem" : "said";
@@ -52,12 +58,16 @@ export function machineStep(page) {
   let assumed = "";
   return {
     element,
-    given: () => (isBelts(page.store.folder) ? page.belts.given() : given(page.store)),
+    given: () => (isBelts(page.store.folder) ? page.belts.given() : isPlotter(page.store.folder) ? page.plotter.given() : given(page.store)),
     update() {
       const {folder, view} = page.store;
       page.belts.update();
+      page.plotter.update();
+      plotter.hidden = !isPlotter(folder);
+      if (!plotter.hidden) plotterAssumed.replaceChildren(sentenceList((view.assumed ?? []).map((line) => line.charAt(0).toUpperCase() + line.slice(1))));
+      pen.hidden = isPlotter(folder) || wallPlotterOf(folder) === null;
       const machine = jsonOf(folder["machine.json"]);
-      numbers.hidden = !machine || isBelts(folder);
+      numbers.hidden = !machine || isBelts(folder) || isPlotter(folder);
       if (numbers.hidden) return;
       try {
         form.draw(machine);
@@ -118,11 +128,21 @@ async function open(page, files, say) {
   const text = contents.map(textOf).join("\n");
   if (/^\s*\{/.test(text) && text.includes('"chaintrue_machine"')) {
     await startFrom(page, "machine.json", bytes, say, "machine");
+  } else if (isOfPlotter(text)) {
+    await page.plotter.take(text, name, say);
   } else if (/\.(txt|log)$/i.test(name) || isOfBelts(text)) {
     await page.belts.take(text, say);
   } else {
     await startFrom(page, name, bytes, say, "machine");
   }
+}
+
+/** The file of FluidNC's WallPlotter in the folder, which may hang a pen; null for none. */
+const wallPlotterOf = (folder) => Object.keys(folder).find((path) => /\.ya?ml$/i.test(path) && isWallPlotter(textOf(folder[path]))) ?? null;
+
+async function wallPlotter(page, say) {
+  const name = wallPlotterOf(page.store.folder);
+  if (name && mayReplace(page)) await page.plotter.takeWallPlotter(name, page.store.folder[name], say);
 }
 
 /** Sentences on what a settings file does not say, or on what came from it with a doubt, end with the place in machine.json. */
@@ -136,7 +156,7 @@ export async function openZip(page, bytes, say) {
     say([`This zip cannot be read (${problem.message}). Open one that the button Download has made.`], true);
     return;
   }
-  if (!Object.keys(files).some((path) => ["machine.json", "belts.json", "map.json"].includes(path))) {
+  if (!Object.keys(files).some((path) => ["machine.json", "belts.json", "map.json", "drawing.json"].includes(path))) {
     say(["This zip holds no machine.json. Open one that the button Download has made."], true);
     return;
   }

@@ -3,7 +3,7 @@
 import {CHECK_FAILED, DONE, runVerb, sentenceList, sentencesOf} from "./command.js";
 import {beltsMeasure} from "./belts_measure.js";
 import {bytesOf, download, folded, h, textOf} from "./dom.js";
-import {bedOf, fittedList, HOLES, isBelts, MARKS, NEW_POINTS, NO_DIAGNOSIS, programOf} from "./folder.js";
+import {bedOf, fittedList, HOLES, isBelts, isPlotter, MARKS, NEW_POINTS, NO_DIAGNOSIS, programOf} from "./folder.js";
 import {reportFrame} from "./frame.js";
 import {explained} from "./glossary.js";
 import {howToMeasure} from "./how.js";
@@ -11,6 +11,7 @@ import {hookTick, hookWords} from "./hook.js";
 import {inPage, sheetInPage} from "./in_page.js";
 import {fitParts} from "./measure_words.js";
 import {settingsWords} from "./numbers.js";
+import {plotterMeasure} from "./plotter_measure.js";
 import {markRow, Readings} from "./readings.js";
 import {Sheet} from "./sheet.js";
 import {WishBox, wishWords} from "./wish.js";
@@ -55,7 +56,8 @@ export function measureStep(page) {
         h("span", {class: "pair"}, h("label", {for: "unit"}, "You read in"), unit), hook.element, wish.element),
       odd, readings.element));
   const ofBelts = beltsMeasure(page);
-  const element = h("div", {}, ofChains, ofBelts.element);
+  const ofPlotter = plotterMeasure(page);
+  const element = h("div", {}, ofChains, ofBelts.element, ofPlotter.element);
   let timer = null;
 
   function fitSoon() {
@@ -76,11 +78,13 @@ export function measureStep(page) {
   let fittedWith = "";
   return {
     element,
-    given: () => (isBelts(page.store.folder) ? ofBelts.given() : given(page.store)),
+    given: () => (isBelts(page.store.folder) ? ofBelts.given() : isPlotter(page.store.folder) ? ofPlotter.given() : given(page.store)),
+    label: () => (isPlotter(page.store.folder) ? "Draw and measure" : "Measure"),
     update() {
       const {folder, view} = page.store;
       ofBelts.update();
-      ofChains.hidden = isBelts(folder);
+      ofPlotter.update();
+      ofChains.hidden = isBelts(folder) || isPlotter(folder);
       if (ofChains.hidden) return;
       way.value = view.sheet;
       way.lastChild.disabled = !folder["map.json"];

@@ -5,12 +5,13 @@ import {Choice, JOBS, NUMBERS, waysOf} from "./choice.js";
 import {sentenceList} from "./command.js";
 import {causesPart} from "./diagnosis.js";
 import {folded, h} from "./dom.js";
-import {bedOf, isBelts, jsonOf, NEW_POINTS} from "./folder.js";
+import {bedOf, isBelts, isPlotter, jsonOf, NEW_POINTS} from "./folder.js";
 import {report} from "./frame.js";
 import {explained} from "./glossary.js";
 import {chooseWay} from "./measure.js";
 import {Numbers} from "./numbers.js";
 import {errorPicture} from "./picture.js";
+import {plotterResult} from "./plotter_result.js";
 import {wishSaid} from "./wish.js";
 
 export function resultStep(page) {
@@ -28,16 +29,19 @@ export function resultStep(page) {
       h("p", {}, "Chains stretch and zeros slip. A few new points, set where they tell most, say whether the map is still valid."),
       h("p", {class: "buttons"}, h("button", {type: "button", onclick: () => planCheck(page)}, "Set new points"))));
   const ofBelts = beltsResult(page);
+  const ofPlotter = plotterResult(page);
   let shown = {};
 
   return {
-    element: h("div", {}, none, all, ofBelts.element),
-    given: () => (isBelts(page.store.folder) ? ofBelts.given() : given(page)),
+    element: h("div", {}, none, all, ofBelts.element, ofPlotter.element),
+    given: () => (isBelts(page.store.folder) ? ofBelts.given() : isPlotter(page.store.folder) ? ofPlotter.given() : given(page)),
+    label: () => (isPlotter(page.store.folder) ? "Numbers and causes" : "Map and causes"),
     update() {
       const {folder, view} = page.store;
       ofBelts.update();
-      const ready = !isBelts(folder) && Boolean(folder["map.json"]);
-      none.hidden = ready || isBelts(folder);
+      ofPlotter.update();
+      const ready = !isBelts(folder) && !isPlotter(folder) && Boolean(folder["map.json"]);
+      none.hidden = ready || isBelts(folder) || isPlotter(folder);
       all.hidden = !ready;
       if (!ready || view.step !== "result") return;
       choice.update(page.store);
