@@ -2,7 +2,9 @@
 #include "grid/files/plotter_settings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -22,7 +24,14 @@ using model::PlotterMachine;
 constexpr Range kOnTheWall{"mm", -20000.0, 20000.0};
 constexpr Range kPositive{"", 1e-6, 1e6};
 
+// A mural's: the numbers of its own page, by their names there.
 constexpr const char* kTopDistance = "top distance";
+constexpr const char* kPulleyDiameter = "effective pulley diameter";
+constexpr const char* kHomedOffset = "homed step offset";
+constexpr const char* kBotMass = "bot mass";
+constexpr const char* kElongation = "belt elongation";
+constexpr const char* kExtended = "extended";
+constexpr const char* kMeasured = "measured";
 constexpr const char* kPolargraphWidth = "machine.width";
 
 bool has_line_with(const std::string& text, const std::string& begin) {
@@ -44,7 +53,11 @@ std::map<std::string, YamlValue> lines_of(const std::string& text, char separato
       return part.substr(first, part.find_last_not_of(" \t\r") - first + 1);
     };
     std::string value = trimmed(line.substr(at + 1));
-    if (value.ends_with("mm")) value = trimmed(value.substr(0, value.size() - 2));
+    for (const std::string_view unit : {"mm", "kg", "1/N", "/N"}) {
+      if (!value.ends_with(unit)) continue;
+      value = trimmed(value.substr(0, value.size() - unit.size()));
+      break;
+    }
     values[trimmed(line.substr(0, at))] = {value, fmt::format("line {}", number)};
   }
   return values;
@@ -64,6 +77,13 @@ class PlotterKeys {
   double number(const std::string& key, const Range& range) {
     if (!values_.contains(key)) problems_.add(key, "", range.expected());
     return find(key, range).value_or(0.0);
+  }
+  /// Of a text in which nothing else can stand.
+  void refuse_others(const std::vector<std::string_view>& known) {
+    for (const auto& [key, value] : values_) {
+      if (std::find(known.begin(), known.end(), key) == known.end())
+        problems_.add(value.place, key, fmt::format("one of {}", fmt::join(known, ", ")));
+    }
   }
 
  private:
@@ -226,19 +246,37 @@ SetPlotter of_polargraph(const std::string& text, Problems& problems) {
   return set;
 }
 
+/// The firmware's own calibration lets out a length and asks what a tape reads: its pulley counts by the
+/// ratio (nikivanov/mural, /estepsCalibrationApply).
+void take_calibration(PlotterKeys& settings, PlotterMachine& machine, Problems& problems) {
+  constexpr Range kLetOut{"mm", 10.0, 20000.0};
+  const auto extended = settings.find(kExtended, kLetOut);
+  const auto measured = settings.find(kMeasured, kLetOut);
+  if (extended && measured) machine.pulley_radius_mm *= *measured / *extended;
+  if (extended.has_value() == measured.has_value()) return;
+  problems.add(extended ? kMeasured : kExtended,
+               "",
+               "both distances of the calibration: what was extended, and what a tape read of it");
+}
+
 SetPlotter of_mural(const std::string& text, Problems& problems) {
   PlotterKeys settings(lines_of(text, ':'), problems);
   SetPlotter set;
   set.firmware = PlotterFirmware::mural;
   set.machine = model::mural(settings.number(kTopDistance, kOnTheWall));
-  if (const auto diameter = settings.find("effective pulley diameter", kPositive))
+  settings.refuse_others({kTopDistance, kPulleyDiameter, kHomedOffset, kBotMass, kElongation, kExtended, kMeasured});
+  if (const auto diameter = settings.find(kPulleyDiameter, kPositive))
     set.machine.pulley_radius_mm = 0.5 * *diameter;
-  if (const auto offset = settings.find("homed step offset", {"mm", -1000.0, 1000.0}))
+  if (const auto offset = settings.find(kHomedOffset, {"mm", -1000.0, 1000.0}))
     set.homed_offset_mm = *offset;
+  const auto mass = settings.find(kBotMass, {"kg", 0.01, 100.0});
+  if (mass) set.machine.gondola.mass_kg = *mass;
+  if (const auto elongation = settings.find(kElongation, {"1/N", 0.0, 0.01}))
+    set.machine.cord.compliance_per_n = *elongation;
+  take_calibration(settings, set.machine, problems);
   problems.warn("",
-                fmt::format("assumed is a mural as its firmware has it: {} kg, {} mm between its "
-                            "pulleys",
-                            set.machine.gondola.mass_kg,
+                fmt::format("assumed is a mural as its firmware has it: {}{} mm between its pulleys",
+                            mass ? "" : fmt::format("{} kg, ", set.machine.gondola.mass_kg),
                             set.machine.gondola.spacing_mm));
   return set;
 }

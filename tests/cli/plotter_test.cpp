@@ -222,6 +222,28 @@ TEST_F(Plotter, AMeasureThatFitsNothingIsLeftOut) {
   EXPECT_THAT(fitted.err, HasSubstr("the length E-F was left out"));
 }
 
+/// The page of a mural has these numbers, and a calibration that lets out a length and asks for a tape's.
+TEST_F(Plotter, EveryNumberOfAMuralIsTakenOrRefused) {
+  write("mural.txt",
+        "top distance: 1500 mm\neffective pulley diameter: 12.69 mm\nhomed step offset: 40 mm\n"
+        "bot mass: 0.8 kg\nbelt elongation: 3e-5 1/N\nextended: 1000 mm\nmeasured: 1004 mm\n");
+  const Outcome import = run("import plotter mural.txt -o plotter.json");
+  ASSERT_EQ(import.code, 0) << import.err;
+  EXPECT_THAT(import.err, AllOf(HasSubstr("85 mm between its pulleys"), Not(HasSubstr("0.8 kg"))));
+  const Json machine = Json::parse(content_of(folder_ / "plotter.json")).at("set").at("machine");
+  EXPECT_EQ(machine.at("gondola").at("mass_kg"), 0.8);
+  EXPECT_EQ(machine.at("cord").at("compliance_per_n"), 3e-5);
+  EXPECT_NEAR(machine.at("pulley_radius_mm").get<double>(), 0.5 * 12.69 * 1.004, 1e-12);
+  for (const auto& [line, words] :
+       {std::pair{"measured: 1004 mm", "extended: missing, expected both distances"}, std::pair{"pen angle: 40", "one of top distance"}}) {
+    write("bad.txt", std::string("top distance: 1500 mm\n") + line + "\n");
+    const Outcome bad = run("import plotter bad.txt -o bad.json");
+    EXPECT_EQ(bad.code, 3) << line;
+    EXPECT_THAT(bad.err, HasSubstr(words));
+    EXPECT_FALSE(exists("bad.json"));
+  }
+}
+
 TEST_F(Plotter, SettingsOfEachControllerBecomeAPlotter) {
   for (const auto& [file, words] :
        {std::pair{"plottersettings_fluidnc.yaml", "\"firmware\": \"fluidnc\""},
