@@ -165,8 +165,8 @@ struct ReadingModel::State {
 
 ChainAddition ReadingModel::State::additions(const Pose& pose, Side side, Part part) const {
   static const std::size_t direction = place_of_direction();
-  const effects::ChainAtRest chain{
-      pose.chains[side], length(pose, side), turn_mm, machine.sprocket.pitch_mm, pose.position};
+  const effects::ChainAtRest chain =
+      effects::chain_at_rest(pose, side, turn_mm, machine.sprocket.pitch_mm);
   ChainAddition sum;
   for (const ActingEffect& one : acting) {
     if (one.effect->add == nullptr || !acts_on(one.side, side)) continue;

@@ -215,7 +215,9 @@ BeltsNext next_measurements(const BeltsAnalysis& a, const PointIndices& indices)
   add_places(a, gathering, candidates);
   add_revisits(a, indices, gathering, candidates);
   result.measurements =
-      most_telling(a.analysis, predicted_at(a, gathering.take()), std::move(candidates));
+      most_telling(predicted_at(a, gathering.take()),
+                   std::move(candidates),
+                   a.analysis.decision.verdict == Verdict::named);
   result.all_once_more = all_once_more(a);
   result.second_pass = second_pass(a, result);
   return result;

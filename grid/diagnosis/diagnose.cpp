@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "grid/diagnosis/declared_answers.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/gross_errors.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
@@ -166,7 +167,9 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   d.distances = distance_pictures(a);
   d.left_over = left_over(a);
   d.unexplained = unexplained(a);
-  d.unexplained->laws = laws_found(a);
+  const LawsFound laws = laws_found(a);
+  take_laws(laws.laws, d);
+  d.declared = declared_answers(a, d);
   d.budget = error_budget(a);
   const std::vector<std::string> sessions = names_of_sessions(measured);
   d.bed_parts = bed_part_findings(a);
@@ -177,7 +180,10 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   }
   tell(options.progress, kPlanning);
   apply_causes(a, d);
-  if (options.next_measurements) d.next_measurements = next_measurements(a);
+  if (options.next_measurements) {
+    d.next_measurements = next_measurements(a);
+    if (d.next_measurements.empty()) d.next_measurements = next_for_laws(a, laws);
+  }
   put_into_words(a, d);
   if (d.visiting_order) d.notes.insert(d.notes.begin(), in_words(*d.visiting_order));
   note_zeros(sessions, a, d);

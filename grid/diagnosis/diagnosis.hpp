@@ -172,6 +172,15 @@ struct Bound {
   double upper_95 = 0.0;  ///< of the absolute value
 };
 
+/// What these readings say of an effect that the user declared (declared_answers.hpp).
+struct DeclaredAnswer {
+  enum class Says { confirmed, denied, open, not_testable };
+  CauseId cause;
+  Says says = Says::open;
+  double probability = 0.0;
+};
+[[nodiscard]] std::string_view name(DeclaredAnswer::Says says);
+
 struct CalibratedSetting {
   model::Setting setting = model::Setting::motor_left_x_mm;
   double stated = 0.0;
@@ -340,6 +349,7 @@ struct Diagnosis {
   std::vector<Outlier> outliers;
   std::vector<NotTestable> not_testable;
   std::vector<Bound> bounds;
+  std::vector<DeclaredAnswer> declared;
   std::vector<CalibratedSetting> settings;
   std::optional<HeldOutImprovement> improvement;
   std::vector<NextMeasurement> next_measurements;

@@ -60,20 +60,6 @@ std::vector<Group> groups_of(const Analysis& a) {
   return result;
 }
 
-/// S with S S' = a positive semidefinite matrix of whitened rows, but for a hundredth of the noise.
-Eigen::MatrixXd square_root(const Eigen::MatrixXd& matrix) {
-  constexpr double kNegligible = 1e-4;
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(matrix);
-  std::vector<Eigen::Index> columns;
-  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
-    if (ldlt.vectorD()(k) > kNegligible) columns.push_back(k);
-  }
-  const Eigen::MatrixXd lower = ldlt.matrixL();
-  const Eigen::MatrixXd result =
-      lower(Eigen::all, columns) * ldlt.vectorD()(columns).cwiseSqrt().asDiagonal();
-  return ldlt.transpositionsP().transpose() * result;
-}
-
 /// Adds the discrepancy of the estimate to what is expected of the rows of `system`, by kriging: K
 /// of the rows to come with those measured, C of these with their noise, X their design.
 ///   mean + K C^-1 (what is left),  design - K C^-1 X,  and K** - K C^-1 K' of its own
@@ -102,7 +88,7 @@ Eigen::MatrixXd add_discrepancy(const Analysis& a,
   design -= k * llt.solve(x);
   const Eigen::MatrixXd own =
       square * discrepancy_covariance(system, system, KeptRows::all(system), kernel);
-  return square_root(own - k * llt.solve(k.transpose()));
+  return root_of_spread(own - k * llt.solve(k.transpose()));
 }
 
 /// What an alternative expects of every candidate.
@@ -179,6 +165,19 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> groups_in(
 }
 
 }  // namespace
+
+Eigen::MatrixXd root_of_spread(const Eigen::MatrixXd& matrix) {
+  constexpr double kNegligible = 1e-4;
+  const Eigen::LDLT<Eigen::MatrixXd> ldlt(matrix);
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
+    if (ldlt.vectorD()(k) > kNegligible) columns.push_back(k);
+  }
+  const Eigen::MatrixXd lower = ldlt.matrixL();
+  const Eigen::MatrixXd result =
+      lower(Eigen::all, columns) * ldlt.vectorD()(columns).cwiseSqrt().asDiagonal();
+  return ldlt.transpositionsP().transpose() * result;
+}
 
 std::vector<Alternative> alternatives_of_best(const Analysis& a) {
   std::vector<Group> groups = groups_of(a);

@@ -63,6 +63,9 @@ using ColumnOf = std::function<std::optional<Eigen::VectorXd>(const Regressor&)>
 /// The same before anything is predicted: without means and spreads.
 [[nodiscard]] std::vector<Alternative> alternatives_of_best(const Analysis& analysis);
 
+/// A square root of a positive semidefinite matrix of whitened rows, but for a hundredth of the noise.
+[[nodiscard]] Eigen::MatrixXd root_of_spread(const Eigen::MatrixXd& matrix);
+
 struct ExpectedDiscrimination {
   double confusion = 0.0;
   double named_alone = 0.0;  ///< probability that the right group is named alone

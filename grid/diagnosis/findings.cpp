@@ -298,7 +298,8 @@ namespace {
 /// A cause that is likelier than this is not said to be absent.
 constexpr double kMayAct = 0.05;
 
-/// That a cause, or one of its class, acts; 0 where none of them was weighed.
+}  // namespace
+
 double probability_of(const Analysis& a, const CauseId& cause) {
   for (const ClassProbability& one : a.decision.marginal) {
     const CauseClass& members = a.decision.classes[one.index];
@@ -306,8 +307,6 @@ double probability_of(const Analysis& a, const CauseId& cause) {
   }
   return 0.0;
 }
-
-}  // namespace
 
 std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testable) {
   const std::vector<CauseId> listed = listed_causes(a);

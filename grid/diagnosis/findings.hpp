@@ -27,6 +27,8 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] ErrorBudget error_budget(const Analysis& analysis);
 
 /// In the order of the files' points, holes and distances.
+/// That a cause, or one of its class, acts; 0 where none of them was weighed.
+[[nodiscard]] double probability_of(const Analysis& analysis, const CauseId& cause);
 [[nodiscard]] std::vector<PointPicture> point_pictures(const Analysis& analysis);
 [[nodiscard]] std::vector<HolePicture> hole_pictures(const Analysis& analysis);
 [[nodiscard]] std::vector<DistancePicture> distance_pictures(const Analysis& analysis);

@@ -17,6 +17,7 @@
 /// A place, scale or period has the unit of v in its name: mm, rad, n (newtons), visit.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,6 +57,18 @@ struct ParameterEstimate {
   double sigma = 0.0;  ///< 0 for an integer that these data leave no choice in
 };
 
+/// A point next to a law's curve. Of what moves the tool outwards a point has two, along x and along y.
+struct LawResidual {
+  std::size_t index = 0;  ///< of the point
+  double at = 0.0;        ///< what the law is a function of
+  /// Partial residual: what the law makes here, and what nothing explains of what enters as it does.
+  double residual_mm = 0.0;
+  /// Shift of the tool that is left once the law is taken out, with the settings and causes that act with
+  /// it; a smooth pattern is left in it.
+  double left_x_mm = 0.0;
+  double left_y_mm = 0.0;
+};
+
 struct Law {
   LawOf of = LawOf::x;
   LawShape shape = LawShape::linear;
@@ -70,6 +83,7 @@ struct Law {
   double rms_mm = 0.0;  ///< of the tool, at the points
   double share = 0.0;   ///< of the mean square of what the settings leave
   std::vector<ParameterEstimate> parameters;  ///< in the order of the table
+  std::vector<LawResidual> points;               ///< those that were not rejected, in their order
 };
 
 /// In mm, at one value of what it is a function of. \throws std::invalid_argument for a law whose

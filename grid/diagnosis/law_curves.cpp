@@ -299,35 +299,38 @@ Eigen::MatrixXd LawColumns::of(const LawCurve& curve, double at) const {
   return of(curve, std::vector<double>{at});
 }
 
-namespace {
-
-/// What an entrance makes of one millimetre: of the chains at a place. Of what moves the tool outwards that
-/// along x.
-Eigen::Vector2d chains_moved(const LawCurve& curve, const SystemPlace& place) {
+std::vector<LawEntry> entries_of(const LawCurve& curve, const SystemPlace& place) {
+  if (curve.of == LawOf::visit && !place.ordered) return {};
   const Eigen::Matrix2d& by_mark = place.state.by_mark;
+  const auto at = [&](const Eigen::Vector2d& chains_mm) {
+    return std::vector<LawEntry>{{variable_at(place, curve.of, curve.direction_rad), chains_mm}};
+  };
   switch (curve.enters) {
     case Enters::left:
-      return {1.0, 0.0};
+      return at({1.0, 0.0});
     case Enters::right:
-      return {0.0, 1.0};
+      return at({0.0, 1.0});
     case Enters::equal:
-      return {1.0, 1.0};
+      return at({1.0, 1.0});
     case Enters::opposite:
-      return {1.0, -1.0};
+      return at({1.0, -1.0});
     case Enters::x:
-      return by_mark.col(0);
+      return at(by_mark.col(0));
     case Enters::y:
-      return by_mark.col(1);
+      return at(by_mark.col(1));
     case Enters::along:
-      return by_mark *
-             Eigen::Vector2d(std::cos(curve.direction_rad), std::sin(curve.direction_rad));
+      return at(by_mark *
+                Eigen::Vector2d(std::cos(curve.direction_rad), std::sin(curve.direction_rad)));
     case Enters::outwards:
-      return by_mark.col(0) * std::copysign(1.0, place.mark.x_mm);
+      return {{from_border(place, true), by_mark.col(0) * std::copysign(1.0, place.mark.x_mm)},
+              {from_border(place, false), by_mark.col(1) * std::copysign(1.0, place.mark.y_mm)}};
     case Enters::mixed:
       break;
   }
-  return Eigen::Vector2d::Zero();
+  return {};
 }
+
+namespace {
 
 /// Values of every amplitude at each of some points of the grid.
 Eigen::RowVectorXd values_at(const LawCurve& curve, const std::vector<double>& at, double v) {
@@ -342,21 +345,13 @@ Eigen::RowVectorXd values_at(const LawCurve& curve, const std::vector<double>& a
 
 Eigen::MatrixXd LawColumns::of(const LawCurve& curve, const std::vector<double>& at) const {
   const Eigen::Index count = columns_of(curve.shape) * static_cast<Eigen::Index>(at.size());
-  const bool outwards = curve.enters == Enters::outwards;
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(system_.e.size(), count);
   for (const SystemUnit& unit : system_.units) {
     for (const observation::PlaceColumns& own : unit.places) {
-      const SystemPlace& place = system_.places[own.place];
-      if (curve.of == LawOf::visit && !place.ordered) continue;
-      const double v =
-          outwards ? from_border(place, true) : variable_at(place, curve.of, curve.direction_rad);
-      const Eigen::VectorXd in_rows = own.by_chain * chains_moved(curve, place);
-      columns.middleRows(unit.first_row, unit.rows) += in_rows * values_at(curve, at, v);
-      if (!outwards) continue;
-      const Eigen::VectorXd up =
-          own.by_chain * (place.state.by_mark.col(1) * std::copysign(1.0, place.mark.y_mm));
-      columns.middleRows(unit.first_row, unit.rows) +=
-          up * values_at(curve, at, from_border(place, false));
+      for (const LawEntry& entry : entries_of(curve, system_.places[own.place])) {
+        const Eigen::VectorXd in_rows = own.by_chain * entry.chains_mm;
+        columns.middleRows(unit.first_row, unit.rows) += in_rows * values_at(curve, at, entry.v);
+      }
     }
   }
   return columns;

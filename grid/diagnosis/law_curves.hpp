@@ -54,6 +54,14 @@ void share_out(std::vector<LawCurve>& curves);
 /// Prior density of a point of the grid, but for a factor.
 [[nodiscard]] double density_at(const LawCurve& curve, double at);
 
+/// Where a law stands at a place, and what one millimetre of it makes of the chains there.
+struct LawEntry {
+  double v = 0.0;  ///< what it is a function of
+  Eigen::Vector2d chains_mm = Eigen::Vector2d::Zero();
+};
+/// One, or two of what moves the tool outwards; none at a visit without a number, of a law of these.
+[[nodiscard]] std::vector<LawEntry> entries_of(const LawCurve& curve, const SystemPlace& place);
+
 /// Whitened rows that a law's amplitudes add to, all rows by columns_of().
 class LawColumns {
  public:

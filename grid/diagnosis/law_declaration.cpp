@@ -136,15 +136,32 @@ std::string formula_of(const Law& law, const model::Bed& bed) {
                      with_unit(law, law.parameters[1].value));
 }
 
+/// What a millimetre of the law adds to either chain, as a factor; empty where it is that of the chain itself.
+std::string entrance_of(const Law& law) {
+  switch (law.enters) {
+    case Enters::x:
+      return "side * cos(phi) * ";
+    case Enters::y:
+      return "-sin(phi) * ";
+    case Enters::along: {
+      const double direction = law.direction_deg * std::numbers::pi / 180.0;
+      return fmt::format(
+          "({:.6f} * side * cos(phi) - {:.6f} * sin(phi)) * ", std::cos(direction), std::sin(direction));
+    }
+    default:
+      return "";
+  }
+}
+
 std::string refusal_of(const Law& law) {
-  if (is_of_other_chain(law) && law.enters != Enters::y)
-    return "a chain's formula knows that chain alone, and this law acts elsewhere";
-  if (is_of_other_chain(law))
-    return "a chain's formula knows that chain alone, and this law moves the tool";
-  if (law.enters == Enters::x || law.enters == Enters::along || law.enters == Enters::outwards ||
-      law.enters == Enters::mixed || law.enters == Enters::opposite) {
-    return "what moves the tool other than up and down adds to one chain and takes from the other, "
-           "which no formula of a chain can say";
+  if (is_of_other_chain(law)) {
+    const bool moves = law.enters == Enters::x || law.enters == Enters::y;
+    return fmt::format("a chain's formula knows that chain alone, and this law {}",
+                       moves ? "moves the tool" : "acts elsewhere");
+  }
+  if (law.enters == Enters::outwards || law.enters == Enters::mixed || law.enters == Enters::opposite) {
+    return "what moves the tool outwards moves it along x by one distance and along y by another, which no "
+           "formula of a chain can say";
   }
   return "";
 }
@@ -166,10 +183,8 @@ tl::expected<Declaration, std::string> declaration_of(const Law& law, const mode
   const bool has_place =
       law.shape == LawShape::step || law.shape == LawShape::kink || law.shape == LawShape::wave;
   if (has_place) own.parameters.push_back(place_of(law));
-  own.adds_mm = formula_of(law, bed);
-  // Up is less chain on either side.
-  if (law.enters == Enters::y) own.adds_mm = fmt::format("-sin(phi) * {}", own.adds_mm);
-  own.cause = fmt::format("a cause without a name, found as {}", in_words(law));
+  own.adds_mm = entrance_of(law) + formula_of(law, bed);
+  own.cause = fmt::format("a cause without a name, {}", form_in_words(law));
   own.signature = in_words(law);
   own.remedy = "find what has this place or period, and give it a name here";
   own.not_modelled = "whatever of it is not of this form";

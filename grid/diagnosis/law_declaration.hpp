@@ -4,10 +4,9 @@
 /// and given to later diagnoses.
 ///
 /// A place and a phase are the effect's place; a period, a scale and the range are numbers in the formula,
-/// to be edited there. What moves the tool up or down is written as what that adds to either chain,
-/// -sin(phi) of it. What moves the tool from left to right adds with one sign to one chain and with
-/// the other to the other, which no formula can say: it is refused, as is what moves the tool outwards or
-/// in a direction between.
+/// to be edited there. What moves the tool is written as what that adds to either chain: side cos(phi) of it
+/// along x, -sin(phi) along y. What moves the tool outwards over every border, and what depends on the other
+/// chain, no formula of a chain can say: both are refused.
 #pragma once
 
 #include <string>

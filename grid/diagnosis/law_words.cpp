@@ -20,35 +20,6 @@ std::string number_words(double value, double sigma) {
   return fmt::format("{:.{}f} +- {:.{}f}", value, digits, sigma, digits);
 }
 
-std::string variable_words(const Law& law) {
-  switch (law.of) {
-    case LawOf::x:
-      return "x";
-    case LawOf::y:
-      return "y";
-    case LawOf::across:
-      return fmt::format("the way in the direction {:.0f} degrees from x towards y",
-                         law.direction_deg);
-    case LawOf::border:
-      return "the distance from the border";
-    case LawOf::length_left:
-      return "the left chain's length";
-    case LawOf::length_right:
-      return "the right chain's length";
-    case LawOf::angle_left:
-      return "the left chain's angle below the horizontal";
-    case LawOf::angle_right:
-      return "the right chain's angle below the horizontal";
-    case LawOf::tension_left:
-      return "the pull in the left chain";
-    case LawOf::tension_right:
-      return "the pull in the right chain";
-    case LawOf::visit:
-      break;
-  }
-  return "the number of the visit";
-}
-
 /// A place, scale or period with its unit.
 std::string quantity_words(const Law& law, const ParameterEstimate& estimate) {
   const std::string_view unit = unit_of(law.of);
@@ -99,8 +70,42 @@ std::string slope_words(const Law& law, const ParameterEstimate& size) {
 
 }  // namespace
 
+std::string variable_in_words(const Law& law) {
+  switch (law.of) {
+    case LawOf::x:
+      return "x";
+    case LawOf::y:
+      return "y";
+    case LawOf::across:
+      return fmt::format("the way in the direction {:.0f} degrees from x towards y",
+                         law.direction_deg);
+    case LawOf::border:
+      return "the distance from the border";
+    case LawOf::length_left:
+      return "the left chain's length";
+    case LawOf::length_right:
+      return "the right chain's length";
+    case LawOf::angle_left:
+      return "the left chain's angle below the horizontal";
+    case LawOf::angle_right:
+      return "the right chain's angle below the horizontal";
+    case LawOf::tension_left:
+      return "the pull in the left chain";
+    case LawOf::tension_right:
+      return "the pull in the right chain";
+    case LawOf::visit:
+      break;
+  }
+  return "the number of the visit";
+}
+
+std::string form_in_words(const Law& law) {
+  constexpr std::string_view kForms[] = {"a slope", "a bow", "a step", "a kink", "an exponential", "a wave"};
+  return fmt::format("{} over {}", kForms[static_cast<std::size_t>(law.shape)], variable_in_words(law));
+}
+
 std::string in_words(const Law& law) {
-  const std::string variable = variable_words(law);
+  const std::string variable = variable_in_words(law);
   const std::string entrance = entrance_words(law.enters);
   const ParameterEstimate& size = law.parameters.front();
   const std::string size_words = number_words(size.value, size.sigma);

@@ -15,6 +15,12 @@ namespace chaintrue::grid::diagnosis {
 /// chain". Without its probability.
 [[nodiscard]] std::string in_words(const Law& law);
 
+/// "the left chain's length": what it is a function of.
+[[nodiscard]] std::string variable_in_words(const Law& law);
+
+/// "a wave over the left chain's length".
+[[nodiscard]] std::string form_in_words(const Law& law);
+
 /// What a period or a place is near to on this machine, as hints: whole sentences.
 [[nodiscard]] std::vector<std::string> hints_of(const Law& law, const model::Machine& machine);
 

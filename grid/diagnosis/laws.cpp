@@ -10,8 +10,10 @@
 #include <numbers>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "grid/diagnosis/law_parts.hpp"
+#include "grid/diagnosis/law_residuals.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -168,7 +170,9 @@ void measure(const Analysis& a, const FoundPoint& best, Law& law) {
 }
 
 /// Those of one variable and one way to enter; nothing where they are not worth a line.
-std::optional<Law> law_of(const Analysis& a, const std::vector<FoundPoint>& points, double log_all) {
+std::optional<std::pair<Law, FoundPoint>> law_of(const Analysis& a,
+                                                 const std::vector<FoundPoint>& points,
+                                                 double log_all) {
   std::map<LawShape, double> shapes;
   double sum = 0.0;
   for (const FoundPoint& point : points) {
@@ -198,7 +202,8 @@ std::optional<Law> law_of(const Analysis& a, const std::vector<FoundPoint>& poin
   law.to = curve.to;
   law.parameters = estimates(*best, points);
   measure(a, *best, law);
-  return law;
+  law.points = residuals_about(a, *best->evidence, *best->law, law);
+  return std::pair(std::move(law), *best);
 }
 
 /// Of the best model, and of that which rejects least: a law at the border looks like bad points there.
@@ -224,33 +229,40 @@ double probability_of_any(const std::vector<LawEvidence>& evidence) {
   return std::max(0.0, -std::expm1(log_sum(without) - log_total(evidence)));
 }
 
-std::vector<Law> laws_of(const Analysis& a, const std::vector<LawEvidence>& evidence) {
-  if (probability_of_any(evidence) < kLawLikely) return {};
-  const double log_all = log_total(evidence);
+LawsFound laws_of(const Analysis& a, std::vector<LawEvidence> evidence) {
+  LawsFound found{{}, std::move(evidence), {}};
+  if (probability_of_any(found.evidence) < kLawLikely) return found;
+  const double log_all = log_total(found.evidence);
   std::map<std::tuple<LawOf, Enters>, std::vector<FoundPoint>> answers;
-  for (const LawEvidence& own : evidence) {
+  for (const LawEvidence& own : found.evidence) {
     for (const WeighedLaw& law : own.laws) {
       const LawCurve& curve = own.curves[law.curve];
       answers[{curve.of, curve.enters}].push_back({&own, &law});
     }
   }
-  std::vector<Law> laws;
+  std::vector<std::pair<Law, FoundPoint>> laws;
   for (const auto& [key, points] : answers) {
     if (auto law = law_of(a, points, log_all)) laws.push_back(*std::move(law));
   }
-  std::stable_sort(laws.begin(), laws.end(), [](const Law& x, const Law& y) {
-    return x.probability > y.probability;
+  std::stable_sort(laws.begin(), laws.end(), [](const auto& x, const auto& y) {
+    return x.first.probability > y.first.probability;
   });
   // Parts of the bed may deny what all of it says.
-  std::erase_if(laws, [](const Law& law) { return law.probability < kLeastLaw; });
+  std::erase_if(laws, [](const auto& law) { return law.first.probability < kLeastLaw; });
   double any = 0.0;
-  for (const Law& law : laws) any += law.probability;
-  if (any < kLawLikely) return {};
-  if (laws.size() > kMostLaws) laws.resize(kMostLaws);
-  return laws;
+  for (const auto& [law, heaviest] : laws) any += law.probability;
+  if (any < kLawLikely) return found;
+  if (laws.size() > kMostLaws) laws.erase(laws.begin() + kMostLaws, laws.end());
+  for (auto& [law, heaviest] : laws) {
+    found.laws.push_back(std::move(law));
+    const auto at = static_cast<std::size_t>(heaviest.evidence - found.evidence.data());
+    found.heaviest.push_back(
+        {at, static_cast<std::size_t>(heaviest.law - found.evidence[at].laws.data())});
+  }
+  return found;
 }
 
-std::vector<Law> laws_found(const Analysis& a) {
+LawsFound laws_found(const Analysis& a) {
   if (a.options.given_cause || !a.session.reads_chains()) return {};
   std::vector<LawCurve> curves = law_curves(a.system);
   // Numbers on several sheets are of several frames; chains know one.
@@ -264,7 +276,7 @@ std::vector<Law> laws_found(const Analysis& a) {
   std::vector<LawEvidence> evidence;
   for (const std::size_t number : systems_to_weigh(a.comparison))
     evidence.push_back(weigh_laws(a, number, curves));
-  return laws_of(a, evidence);
+  return laws_of(a, std::move(evidence));
 }
 
 }  // namespace chaintrue::grid::diagnosis

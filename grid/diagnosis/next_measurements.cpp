@@ -8,7 +8,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr double kEnough = 0.97;
 /// An explanation as likely as this is left alone where none is named: nothing hidden keeps 0.93 in
 /// the median session of 28 points.
 constexpr double kLeftAlone = 0.9;
@@ -54,13 +53,13 @@ bool is_left_alone(const Analysis& a, const std::vector<Alternative>& alternativ
          (a.decision.listed.empty() && share_of_best(alternatives) > kLeftAlone);
 }
 
-std::vector<NextMeasurement> most_telling(const Analysis& a,
-                                          const std::vector<Alternative>& alternatives,
-                                          std::vector<Candidate> options) {
+std::vector<NextMeasurement> most_telling(const std::vector<Alternative>& alternatives,
+                                          std::vector<Candidate> options,
+                                          bool is_named) {
   std::vector<NextMeasurement> result;
   std::vector<Eigen::Index> chosen;
   ExpectedDiscrimination now = expected_discrimination(alternatives, chosen);
-  double reached = a.decision.verdict == Verdict::named ? kEnough : now.named_alone;
+  double reached = is_named ? kEnough : now.named_alone;
   while (result.size() < kMostNextMeasurements && reached < kEnough) {
     std::size_t best = options.size();
     ExpectedDiscrimination then = now;
@@ -91,7 +90,8 @@ std::vector<NextMeasurement> next_measurements(const Analysis& a) {
   NextCandidates next = next_candidates(a);
   const auto alternatives = alternatives_about(a, next.session);
   if (!alternatives || is_left_alone(a, *alternatives)) return {};
-  std::vector<NextMeasurement> result = most_telling(a, *alternatives, std::move(next.all));
+  std::vector<NextMeasurement> result = most_telling(
+      *alternatives, std::move(next.all), a.decision.verdict == Verdict::named);
   add_link_reading(a, result);
   return result;
 }

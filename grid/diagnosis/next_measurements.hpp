@@ -9,10 +9,13 @@
 
 #include "grid/diagnosis/next_candidates.hpp"
 #include "grid/diagnosis/expected_discrimination.hpp"
+#include "grid/diagnosis/laws.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 inline constexpr std::size_t kMostNextMeasurements = 8;
+/// Probability from which on nothing more is proposed.
+inline constexpr double kEnough = 0.97;
 
 /// Empty where fewer than two hypotheses are left to tell apart.
 [[nodiscard]] std::vector<NextMeasurement> next_measurements(const Analysis& analysis);
@@ -22,10 +25,14 @@ inline constexpr std::size_t kMostNextMeasurements = 8;
                                  const std::vector<Alternative>& alternatives);
 
 /// Of these candidates, whose rows are those of the alternatives, the most telling one after the
-/// other, until a name is as good as sure or no other one pays.
+/// other, until a name is as good as sure or no other one pays. None where something is named already.
 [[nodiscard]] std::vector<NextMeasurement> most_telling(
-    const Analysis& analysis,
     const std::vector<Alternative>& alternatives,
-    std::vector<Candidate> options);
+    std::vector<Candidate> options,
+    bool is_named);
+
+/// What tells the laws found from each other and from none (laws.hpp). Empty where one is as good as sure.
+[[nodiscard]] std::vector<NextMeasurement> next_for_laws(const Analysis& analysis,
+                                                         const LawsFound& found);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -75,11 +75,8 @@ Eigen::Vector2d added_at(const SystemPlace& place,
       mm(row) = cause.effect->misread({place.order, sprocket.pitch_mm}, values);
     } else {
       mm(row) = cause.effect
-                    ->add({pose.chains[side],
-                           pose.lengths[side],
-                           sprocket.teeth * sprocket.pitch_mm,
-                           sprocket.pitch_mm,
-                           pose.position},
+                    ->add(model::effects::chain_at_rest(
+                              pose, side, sprocket.teeth * sprocket.pitch_mm, sprocket.pitch_mm),
                           values)
                     .length_mm;
     }

@@ -7,6 +7,8 @@
 #include <string_view>
 
 #include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/law_words.hpp"
+#include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/observation/measured_holes.hpp"
@@ -73,6 +75,9 @@ std::vector<std::string> bad_ones(const Diagnosis& d) {
 
 /// "; besides, a pattern of 0.4 mm that follows x, which no listed cause makes".
 std::string alongside_words(const Diagnosis& d) {
+  if (const Law* law = claimed_law(d)) {
+    return fmt::format(" Also, what no listed cause makes: {}, {}.", in_words(*law), percent(law->probability));
+  }
   if (!d.unexplained || d.unexplained->probability <= kDiscrepancyLikely) return "";
   const Unexplained& left = *d.unexplained;
   return fmt::format(
@@ -119,6 +124,12 @@ std::string several_words(const Diagnosis& d) {
 }
 
 std::string unknown_words(const Diagnosis& d) {
+  if (const Law* law = claimed_law(d)) {
+    return fmt::format("The {} follow a law that no cause in the catalogue has: {}, {}.",
+                       name(d.observations),
+                       in_words(*law),
+                       percent(law->probability));
+  }
   std::string text =
       !speaks_of_distances(d)
           ? fmt::format(
@@ -288,7 +299,11 @@ void say_what_to_do(Diagnosis& d) {
                     s.calibrated,
                     name(d.observations)));
   }
-  if (d.verdict == Verdict::model_discrepancy && d.what_to_do.size() < 3) {
+  if (claimed_law(d) != nullptr && d.what_to_do.size() < 3) {
+    d.what_to_do.emplace_back(
+        "Write the law to a file (chaintrue diagnose --law), measure other points, and diagnose these with "
+        "it (--effects): they confirm or deny it.");
+  } else if (d.verdict == Verdict::model_discrepancy && d.what_to_do.size() < 3) {
     d.what_to_do.emplace_back(
         "Use the measured map (chaintrue fit): it corrects a pattern that repeats, whatever makes "
         "it.");
@@ -321,7 +336,9 @@ std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
           side_words(*lead.rival));
     }
   } else if (d.verdict == Verdict::model_discrepancy) {
-    text = "No cause in the catalogue explains it, but one may still act as well.";
+    text = claimed_law(d) != nullptr
+               ? "A law says what the error is a function of, not what makes it; other causes may act as well."
+               : "No cause in the catalogue explains it, but one may still act as well.";
   } else {
     text =
         "This does not prove the machine perfect: causes smaller than their bounds below would "

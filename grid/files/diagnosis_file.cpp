@@ -245,6 +245,7 @@ Record<Diagnosis> make_diagnosis_record() {
   outlier_keys(record);
   record.required("not_testable", &Diagnosis::not_testable, list(object(not_testable_record())))
       .required("bounds", &Diagnosis::bounds, list(object(bound_record())))
+      .sparse("declared", &Diagnosis::declared, list(object(declared_answer_record())))
       .required("settings", &Diagnosis::settings, list(object(calibrated_setting_record())))
       .optional("gain", &Diagnosis::improvement, object(improvement_record()))
       .required("next_measurements",

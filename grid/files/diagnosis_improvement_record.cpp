@@ -162,18 +162,9 @@ const Record<HeldOutImprovement>& improvement_record() {
 
 const Record<Transfer>& transfer_record() {
   static const auto record = [] {
-    const Value<int> whole = integer(0, kMostNumbered);
     Record<Transfer> transfer("another grid predicted");
     transfer.required("to", &Transfer::to, text())
-        .custom(
-            "points",
-            true,
-            whole.expected,
-            [whole](const Cursor& at, Transfer& object) {
-              if (const auto value = whole.read(at))
-                object.points = static_cast<std::size_t>(*value);
-            },
-            [](const Transfer& object) { return std::optional<Json>(object.points); });
+        .required("points", &Transfer::points, index_number());
     error_figures(transfer, kTransferRows);
     return transfer;
   }();

@@ -84,16 +84,6 @@ void chains_key(Record<PointPicture>& record,
       });
 }
 
-Value<std::size_t> index_value() {
-  const Value<int> whole = integer(0, kMostNumbered);
-  return {[whole](const Cursor& at) -> std::optional<std::size_t> {
-            const auto value = whole.read(at);
-            return value ? std::optional(static_cast<std::size_t>(*value)) : std::nullopt;
-          },
-          [](const std::size_t& value) { return Json(value); },
-          whole.expected};
-}
-
 template <class T>
 void place_keys(Record<T>& record,
                 const std::function<model::MarkPoint&(T&)>& place,
@@ -201,7 +191,7 @@ const Record<HolePicture>& hole_picture_record() {
 const Record<DistancePicture>& distance_picture_record() {
   static const auto record =
       Record<DistancePicture>("a distance")
-          .required("index", &DistancePicture::index, index_value())
+          .required("index", &DistancePicture::index, index_number())
           .required("from", &DistancePicture::from, text())
           .required("to", &DistancePicture::to, text())
           .required("bad", &DistancePicture::bad, boolean())
@@ -217,7 +207,7 @@ const Record<DistancePicture>& distance_picture_record() {
 const Record<PointPicture>& point_picture_record() {
   static const auto record = [] {
     Record<PointPicture> point("a point");
-    point.required("index", &PointPicture::index, index_value());
+    point.required("index", &PointPicture::index, index_number());
     place_keys<PointPicture>(
         point,
         [](PointPicture& object) -> model::MarkPoint& { return object.mark; },

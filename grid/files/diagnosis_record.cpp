@@ -22,6 +22,7 @@ using diagnosis::Bound;
 using diagnosis::CalibratedSetting;
 using diagnosis::Cause;
 using diagnosis::CauseId;
+using diagnosis::DeclaredAnswer;
 using diagnosis::Hypothesis;
 using diagnosis::LeftOver;
 using diagnosis::NotTestable;
@@ -278,6 +279,25 @@ const Record<Bound>& bound_record() {
     bound.required("parameter", &Bound::parameter, text())
         .required("upper_95", &Bound::upper_95, number(kNotNegative));
     return bound;
+  }();
+  return record;
+}
+
+const Record<DeclaredAnswer>& declared_answer_record() {
+  using Says = DeclaredAnswer::Says;
+  static const auto record = [] {
+    std::vector<std::pair<std::string, Says>> words;
+    for (const Says one : {Says::confirmed, Says::denied, Says::open, Says::not_testable})
+      words.emplace_back(name(one), one);
+    Record<DeclaredAnswer> answer("an answer");
+    cause_keys(answer, kCause);
+    answer
+        .required(
+            "says",
+            &DeclaredAnswer::says,
+            choice<Says>(std::move(words)))
+        .required("probability", &DeclaredAnswer::probability, number(kShare));
+    return answer;
   }();
   return record;
 }

@@ -18,6 +18,7 @@ namespace chaintrue::grid::files {
 [[nodiscard]] const Record<diagnosis::Trend>& trend_record();
 [[nodiscard]] const Record<diagnosis::NotTestable>& not_testable_record();
 [[nodiscard]] const Record<diagnosis::Bound>& bound_record();
+[[nodiscard]] const Record<diagnosis::DeclaredAnswer>& declared_answer_record();
 [[nodiscard]] const Record<diagnosis::CalibratedSetting>& calibrated_setting_record();
 [[nodiscard]] const Record<diagnosis::HolePicture>& hole_picture_record();
 [[nodiscard]] const Record<diagnosis::DistancePicture>& distance_picture_record();

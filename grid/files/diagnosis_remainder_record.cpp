@@ -15,6 +15,7 @@ using diagnosis::CauseId;
 using diagnosis::Enters;
 using diagnosis::ErrorBudget;
 using diagnosis::Law;
+using diagnosis::LawResidual;
 using diagnosis::LawOf;
 using diagnosis::LawShape;
 using diagnosis::ParameterEstimate;
@@ -61,6 +62,17 @@ const Record<ParameterEstimate>& named_estimate_record() {
   return record;
 }
 
+const Record<LawResidual>& law_point_record() {
+  static const auto record =
+      Record<LawResidual>("a point next to a law's curve")
+          .required("index", &LawResidual::index, index_number())
+          .required("at", &LawResidual::at, number(kAnyNumber))
+          .required("residual_mm", &LawResidual::residual_mm, number(kAnyNumber))
+          .required("left_x_mm", &LawResidual::left_x_mm, number(kAnyNumber))
+          .required("left_y_mm", &LawResidual::left_y_mm, number(kAnyNumber));
+  return record;
+}
+
 const Record<Law>& law_record() {
   static const auto record =
       Record<Law>("a law")
@@ -103,6 +115,7 @@ const Record<Law>& law_record() {
           .required("rms_mm", &Law::rms_mm, number(kNotNegative))
           .required("share", &Law::share, number(kShare))
           .required("parameters", &Law::parameters, list(object(named_estimate_record()), 1))
+          .sparse("points", &Law::points, list(object(law_point_record())))
           .check([](const Cursor& at, Law& law) {
             if (at.child("from").clean() && at.child("to").clean() && !(law.from < law.to))
               at.child("to").expect("more than from");

@@ -9,7 +9,7 @@ namespace chaintrue::grid::files {
 namespace {
 
 /// Before the table.
-constexpr std::string_view kHead = R"py(# Kinematics for Klipper, written by chaintrue export klipper: {name}
+constexpr std::string_view kModuleHead = R"py(# Kinematics for Klipper, written by chaintrue export klipper: {name}
 #
 # Chain lengths over the sheet. Put this file into klippy/kinematics, and say in printer.cfg
 #
@@ -37,7 +37,7 @@ LONGEST_PIECE = {piece:.1f}
 TABLE = (
 )py";
 
-constexpr std::string_view kTail = R"py()
+constexpr std::string_view kModuleTail = R"py()
 
 class OutsideMap(Exception):
     pass
@@ -228,7 +228,7 @@ std::string klipper_source(const LengthTable& table,
                            std::string name) {
   // It must not end the comment that it is in.
   for (char& c : name) c = static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  return fmt::format(fmt::runtime(kHead),
+  return fmt::format(fmt::runtime(kModuleHead),
                      fmt::arg("name", name),
                      fmt::arg("module", "chaintrue"),
                      fmt::arg("columns", table.columns),
@@ -244,7 +244,7 @@ std::string klipper_source(const LengthTable& table,
                      fmt::arg("left_longer", straight.longer_mm.left_mm),
                      fmt::arg("right_longer", straight.longer_mm.right_mm),
                      fmt::arg("piece", piece_mm)) +
-         table.nodes_as_text("(", ")") + std::string(kTail);
+         table.nodes_as_text("(", ")") + std::string(kModuleTail);
 }
 
 }  // namespace chaintrue::grid::files

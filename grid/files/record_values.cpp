@@ -6,6 +6,16 @@
 
 namespace chaintrue::grid::files {
 
+Value<std::size_t> index_number() {
+  const Value<int> whole = integer(0, kMostNumbered);
+  return {[whole](const Cursor& at) -> std::optional<std::size_t> {
+            const auto value = whole.read(at);
+            return value ? std::optional(static_cast<std::size_t>(*value)) : std::nullopt;
+          },
+          [](const std::size_t& value) { return Json(value); },
+          whole.expected};
+}
+
 Value<model::Setting> setting_word() {
   std::vector<std::pair<std::string, model::Setting>> names;
   for (auto setting : model::kMachineSettings) names.emplace_back(model::name(setting), setting);

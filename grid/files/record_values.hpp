@@ -22,6 +22,9 @@ inline constexpr Range kPlaceMm{"mm", -1e5, 1e5};
 /// Largest number of points, distances and positions.
 inline constexpr int kMostNumbered = 1000000;
 
+/// The number of a point, a distance or a position, from 0.
+[[nodiscard]] Value<std::size_t> index_number();
+
 /// A dimension of a machine: its range is checked by model::problems_of, for files and programs in
 /// one place.
 [[nodiscard]] inline Value<double> number_in(std::string_view unit) {

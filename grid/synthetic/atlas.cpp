@@ -220,10 +220,12 @@ std::size_t first_size(const Effect& effect) {
 }
 
 void add_settings(const Mechanism& mechanism,
+                  std::string_view cause,
                   const std::function<std::optional<SetAndActual>(Eigen::Index, double)>& with_size,
                   Atlas& atlas) {
   const auto parameters = mechanism.parameters();
   for (std::size_t k = 0; k < parameters.size(); ++k) {
+    if (!cause.empty() && cause != parameters[k].name) continue;
     const double usual = parameters[k].prior_sigma.value_or(model::kParameterShiftSigma);
     const double most = 2.0 * usual;
     add_picture({.parameter = parameters[k].name},
@@ -236,9 +238,11 @@ void add_settings(const Mechanism& mechanism,
 
 void add_effects(
     const Mechanism& mechanism,
+    std::string_view cause,
     const std::function<std::optional<SetAndActual>(const model::AppliedEffect&)>& with_effect,
     Atlas& atlas) {
   for (const Effect* effect : mechanism.effects()) {
+    if (!cause.empty() && cause != effect->id) continue;
     const std::size_t at = first_size(*effect);
     const EffectParameter& size_of = effect->parameters[at];
     for (const EffectSide side : effect->sides) {
@@ -284,18 +288,20 @@ ToolPosition origin_of(const model::BeltMachine& machine) {
 
 }  // namespace
 
-Atlas atlas_of(const Mechanism& mechanism) {
+Atlas atlas_of(const Mechanism& mechanism, std::string_view cause) {
   const MechanismPointer set = mechanism.with_values(mechanism.values());
   Atlas atlas;
   atlas.lines = lattice_over(mechanism.extent());
   add_settings(
       mechanism,
+      cause,
       [&](Eigen::Index k, double more) -> std::optional<SetAndActual> {
         return SetAndActual{set, with_parameter(mechanism, k, more)};
       },
       atlas);
   add_effects(
       mechanism,
+      cause,
       [&](const model::AppliedEffect& effect) -> std::optional<SetAndActual> {
         return SetAndActual{set, mechanism.with_effects({effect})};
       },
@@ -303,7 +309,7 @@ Atlas atlas_of(const Mechanism& mechanism) {
   return atlas;
 }
 
-Atlas atlas_of(const model::BeltMachine& machine) {
+Atlas atlas_of(const model::BeltMachine& machine, std::string_view cause) {
   if (!machine.anchors_known) throw std::invalid_argument("an atlas of anchors that are not known");
   const auto actual = model::make_belt_mechanism(machine);
   const ToolPosition origin = origin_of(machine);
@@ -317,6 +323,7 @@ Atlas atlas_of(const model::BeltMachine& machine) {
   atlas.lines = lattice_over(area);
   add_settings(
       *actual,
+      cause,
       [&](Eigen::Index k, double more) -> std::optional<SetAndActual> {
         const auto as_is = model::make_belt_mechanism(
             belts::with_anchors(machine, with_parameter(*actual, k, more)->values()));
@@ -325,6 +332,7 @@ Atlas atlas_of(const model::BeltMachine& machine) {
       atlas);
   add_effects(
       *actual,
+      cause,
       [&](const model::AppliedEffect& effect) -> std::optional<SetAndActual> {
         const auto found = calibrated(machine, effect);
         if (!found) return std::nullopt;

@@ -71,9 +71,10 @@ struct Atlas {
   std::vector<std::string> not_drawn;
 };
 
-/// Of two chains or a V-plotter.
-[[nodiscard]] Atlas atlas_of(const model::Mechanism& mechanism);
+/// Of two chains or a V-plotter; of one cause alone, by the name of its setting or its effect, where
+/// `cause` is not empty.
+[[nodiscard]] Atlas atlas_of(const model::Mechanism& mechanism, std::string_view cause = {});
 /// Of four belts. \throws std::invalid_argument for anchors that are not known.
-[[nodiscard]] Atlas atlas_of(const model::BeltMachine& machine);
+[[nodiscard]] Atlas atlas_of(const model::BeltMachine& machine, std::string_view cause = {});
 
 }  // namespace chaintrue::grid::synthetic

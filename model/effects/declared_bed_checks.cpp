@@ -64,11 +64,10 @@ std::vector<Trial> trials_of(const Declaration& own, const Machine& machine) {
     if (!pose) return;
     for (const Side side : kSides) {
       trials.push_back({where,
-                        ChainAtRest{pose->chains[side],
-                                    pose->lengths[side],
-                                    machine.sprocket.teeth * machine.sprocket.pitch_mm,
-                                    machine.sprocket.pitch_mm,
-                                    pose->position},
+                        chain_at_rest(*pose,
+                                      side,
+                                      machine.sprocket.teeth * machine.sprocket.pitch_mm,
+                                      machine.sprocket.pitch_mm),
                         {},
                         {}});
     }

@@ -16,7 +16,7 @@ What the catalogue does not have is declared in a [chaintrue_effect](formats/eff
 | acts on | formula | what it may use besides its parameters |
 |---|---|---|
 | `paper` | `adds_x_mm`, `adds_y_mm` | `x`, `y` of the mark, in proportion to them |
-| `chain` | `adds_mm` | `L0`, `S`, `phi`, `T`, `H`, `turn` (chain of one turn of the sprocket), `pitch`; `x`, `y` of the tool and `r`, its distance from the middle; or `d` alone, 1 where the chain was paid out and -1 where it was taken in |
+| `chain` | `adds_mm` | `L0`, `S`, `phi`, `T`, `H`, `turn` (chain of one turn of the sprocket), `pitch`; `x`, `y` of the tool and `r`, its distance from the middle; `side`, 1 of the left chain and -1 of the right, so that `side * cos(phi)` is what a millimetre of the tool along x adds, `-sin(phi)` along y; or `d` alone, 1 where the chain was paid out and -1 where it was taken in |
 | `chain` | `elongation` | nothing: counted length = true length / (1 + elongation) |
 | `reading` | `adds_mm` | `n`, `pitch` |
 | `visit` | `adds_mm` | `n`, `pitch`; added at the visit that its place names and at no other |

@@ -6,7 +6,7 @@
 /// | acts on | formulas | what they may use besides the parameters |
 /// |---|---|---|
 /// | paper   | adds_x_mm, adds_y_mm | x, y of the mark; in proportion to them, as a tape or a skew acts |
-/// | chain   | adds_mm | L0, S, phi, T, H, turn, pitch, x, y, r (symbols of effect.hpp; x, y, r the tool's place and its distance from the middle); or d alone |
+/// | chain   | adds_mm | L0, S, phi, T, H, turn, pitch, x, y, r, side (symbols of effect.hpp; x, y, r the tool's place and its distance from the middle; side 1 of the left chain, -1 of the right); or d alone |
 /// |         | elongation | nothing: counted length = true length / (1 + elongation) |
 /// | reading | adds_mm | n, pitch |
 /// | visit   | adds_mm | n, pitch; added at the visit that its place names and at no other |

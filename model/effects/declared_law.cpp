@@ -87,7 +87,8 @@ std::vector<FormulaName> variables_of(ActsOn acts_on) {
               {"turn", kMm},
               {"pitch", kMm},
               {"r", kMm},
-              {"d", {}}};
+              {"d", {}},
+              {"side", {}}};
     default:
       return {{"n", {}}, {"pitch", kMm}};
   }
@@ -121,7 +122,8 @@ ChainValues values_of(const ChainAtRest& chain, double direction, Values paramet
                                  ChainDual(chain.turn_mm),
                                  ChainDual(chain.pitch_mm),
                                  distance,
-                                 ChainDual(direction)}) {
+                                 ChainDual(direction),
+                                 ChainDual(chain.side)}) {
     values.all.at(values.count++) = value;
   }
   return values;

@@ -3,7 +3,7 @@
 /// A declared effect with its parsed formulas, and what these give. Private to model/effects.
 ///
 /// Values of a formula stand in this order: the parameters; then of a chain phi, S, L0, T, H, x, y,
-/// which have derivatives, turn, pitch, r and d; of the paper x, y; of a reading n, pitch.
+/// which have derivatives, turn, pitch, r, d and side; of the paper x, y; of a reading n, pitch.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ inline constexpr std::size_t kMostParameters = 2;
 
 /// Where a formula is evaluated.
 struct ChainValues {
-  std::array<ChainDual, kMostParameters + 11> all;
+  std::array<ChainDual, kMostParameters + 12> all;
   std::size_t count = 0;
   [[nodiscard]] std::span<const ChainDual> span() const { return {all.data(), count}; }
 };

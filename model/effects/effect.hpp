@@ -77,7 +77,19 @@ struct ChainAtRest {
   double turn_mm = 0.0;    ///< teeth * pitch: what one turn of the sprocket pays out
   double pitch_mm = 0.0;
   BedPoint position;  ///< of the tool
+  double side = 1.0;  ///< 1 of the left chain, -1 of the right
 };
+[[nodiscard]] inline ChainAtRest chain_at_rest(const Pose& pose,
+                                               Side side,
+                                               double turn_mm,
+                                               double pitch_mm) {
+  return {pose.chains[side],
+          pose.lengths[side],
+          turn_mm,
+          pitch_mm,
+          pose.position,
+          side == Side::left ? 1.0 : -1.0};
+}
 
 /// The change of a chain's length, and its derivatives by what effects depend on.
 struct ChainAddition {

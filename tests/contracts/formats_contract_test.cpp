@@ -75,10 +75,16 @@ std::string aged_map(std::string text, std::string_view) {
 /// no belts, and those of 1.2 no next measurements of belts; this one has none of these. Those before 1.4
 /// have no parts of the bed, and those before 1.5 do not say what is left without a part of the error.
 /// Those before 1.6 do not say what they were made from, nor how far the machine misses as it is used, and those
-/// before 1.7 no order that was found, those before 1.8 no laws.
+/// before 1.7 no order that was found, those before 1.8 no laws, and those before
+/// 1.9 no points next to these, and no answers to declared effects.
 std::string aged_diagnosis(std::string text, std::string_view version) {
   Problems problems("diagnosis.json");
   Json json = parse_json(text, problems);
+  if (json.contains("unexplained") && json["unexplained"].contains("laws")) {
+    for (Json& law : json["unexplained"]["laws"]) law.erase("points");
+  }
+  json.erase("declared");
+  if (version == "1.8") return print_json(json);
   if (json.contains("unexplained")) json["unexplained"].erase("laws");
   if (version == "1.7") return print_json(json);
   json.erase("visiting_order");

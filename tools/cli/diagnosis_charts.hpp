@@ -3,7 +3,7 @@
 /// The pictures of a diagnosis' page. Residuals are measured less predicted; vermilion is before,
 /// blue is with the causes named.
 /// The places on the bed are drawn in diagnosis_charts.cpp, what the residuals follow in
-/// diagnosis_scatter_charts.cpp, bars and the matrix in diagnosis_bar_charts.cpp; the sections that
+/// diagnosis_scatter_charts.cpp and diagnosis_law_charts.cpp, bars and the matrix in diagnosis_bar_charts.cpp; the sections that
 /// hold nothing else are put together in diagnosis_pictures.cpp.
 #pragma once
 
@@ -26,6 +26,11 @@ namespace chaintrue::cli {
 [[nodiscard]] std::vector<report::ChartRow> arrow_charts(const grid::diagnosis::Diagnosis& found);
 /// Measured, best cause, rival, remainder: one chart a chain. Empty where no cause is named.
 [[nodiscard]] std::vector<report::Chart> strip_charts(const grid::diagnosis::Diagnosis& found);
+/// The likeliest law's curve among the points' partial residuals, and its best rival's. Precondition of this
+/// and the next: the law has points.
+[[nodiscard]] report::ChartRow law_charts(const grid::diagnosis::Diagnosis& found);
+/// What is left of the tool's error without the likeliest law, and with it.
+[[nodiscard]] std::vector<report::ChartRow> law_rest_charts(const grid::diagnosis::Diagnosis& found);
 /// Against the chain's length, and alongside the same folded at one turn of the sprocket; a row a
 /// chain.
 [[nodiscard]] std::vector<report::ChartRow> length_charts(const grid::diagnosis::Diagnosis& found);

@@ -152,6 +152,7 @@ void add_sections(const Diagnosis& found, Detail detail, std::vector<Section>& a
   sections.add_open(found.trend.has_value(), trend_section, found);
   sections.add_open(named, causes_section, found);
   sections.add_open(found.unexplained && !found.unexplained->laws.empty(), laws_section, found);
+  sections.add_open(!found.declared.empty(), declared_section, found);
   sections.add_open_to_page(found.belts.has_value(), frame_section, found);
   sections.add(found.belts.has_value(), anchors_section, found);
   sections.add_open(found.drawing.has_value(), drawn_settings_section, found);

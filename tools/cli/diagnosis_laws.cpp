@@ -6,6 +6,7 @@
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/law_words.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
+#include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 
@@ -19,7 +20,9 @@ using report::Item;
 std::vector<Item> details_of(const Law& law, const grid::diagnosis::Diagnosis& found) {
   std::vector<Item> details;
   if (law.probability < grid::diagnosis::kLawLikely) return details;
-  details.push_back({fmt::format("on average it moves the tool by {:.2f} mm", law.rms_mm)});
+  details.push_back({fmt::format("on average it moves the tool by {:.2f} mm: {} of what the settings leave",
+                                 law.rms_mm,
+                                 grid::diagnosis::percent(law.share))});
   if (law.shape_probability < grid::diagnosis::kLawClaimed) {
     details.push_back({fmt::format("that it looks like this and not otherwise: {}",
                                    grid::diagnosis::percent(law.shape_probability))});
@@ -40,6 +43,10 @@ report::Section laws_section(const grid::diagnosis::Diagnosis& found) {
     item.items = details_of(law, found);
   }
   report::Section section{"What the rest looks like", {std::move(list)}};
+  if (!laws.front().points.empty()) {
+    section.blocks.emplace_back(law_charts(found));
+    for (report::ChartRow& row : law_rest_charts(found)) section.blocks.emplace_back(std::move(row));
+  }
   const bool is_claimed = laws.front().probability >= grid::diagnosis::kLawClaimed;
   section.blocks.emplace_back(report::Paragraph{
       is_claimed ? "No listed cause makes this. --law writes it as a cause of your own, to be named, "
@@ -47,6 +54,22 @@ report::Section laws_section(const grid::diagnosis::Diagnosis& found) {
                  : fmt::format("These {} cannot tell which of these it is, if it is any.",
                                name(found.observations))});
   return section;
+}
+
+report::Section declared_section(const grid::diagnosis::Diagnosis& found) {
+  using Says = grid::diagnosis::DeclaredAnswer::Says;
+  report::Table table{{{.width = 34}, {}, {.gap = 2}}, {}, ""};
+  for (const auto& [cause, says, probability] : found.declared) {
+    const char* words = says == Says::confirmed ? "confirmed: it acts here"
+                        : says == Says::denied  ? "denied: at its usual size it would have shown"
+                        : says == Says::open    ? "left open: measure more points"
+                                                : "not testable with these readings";
+    table.rows.push_back({{cause_title(cause),
+                           words,
+                           says == Says::not_testable ? report::Cell{}
+                                                      : report::Cell(grid::diagnosis::percent(probability))}});
+  }
+  return {"Effects of your own", {std::move(table)}};
 }
 
 }  // namespace chaintrue::cli

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 
 #include "grid/chain_rows.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
-#include "tools/report/bed_chart.hpp"
+#include "tools/cli/residual_scatter.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -21,7 +20,6 @@ using grid::diagnosis::Diagnosis;
 using grid::diagnosis::PointPicture;
 using model::Side;
 using report::Chart;
-using report::DataTable;
 
 constexpr const char* kPaidOutColor = report::kThirdColor;
 constexpr const char* kTakenInColor = report::kFourthColor;
@@ -41,66 +39,38 @@ struct Scatter {
   Eigen::Vector2d PointPicture::*first = &PointPicture::chain_before_mm;
 };
 
-struct Span {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  void take(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  /// With a margin, and never of no width.
-  [[nodiscard]] Span widened(double share, double least) const {
-    const double margin = std::max(share * (high - low), 0.5 * (least - (high - low)));
-    return {low - margin, high + margin};
-  }
-};
-
 /// Means of the good points in stretches of equal width along x.
-DataTable means_of(const Diagnosis& found, const Scatter& scatter, const Span& span) {
-  DataTable curve{"curve", {"x", "y_mm"}, {}};
+std::vector<std::pair<double, double>> means_of(const Diagnosis& found, const Scatter& scatter) {
   const std::size_t bins = found.points.size() >= 60 ? 10 : 6;
+  std::vector<double> all;
+  for (const PointPicture& point : found.points) all.push_back(scatter.x(point, scatter.chain));
+  const auto [low, high] = std::minmax_element(all.begin(), all.end());
   std::vector<double> x(bins), y(bins), count(bins);
-  for (const PointPicture& point : found.points) {
-    if (point.bad) continue;
-    const double at = scatter.x(point, scatter.chain);
-    const double share = (at - span.low) / std::max(span.high - span.low, 1e-12);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (found.points[i].bad) continue;
+    const double share = (all[i] - *low) / std::max(*high - *low, 1e-12);
     const auto bin = std::min(
         bins - 1, static_cast<std::size_t>(std::max(0.0, share) * static_cast<double>(bins)));
-    x[bin] += at;
-    y[bin] += point.chain_before_mm[row_of(scatter.chain)];
+    x[bin] += all[i];
+    y[bin] += found.points[i].chain_before_mm[row_of(scatter.chain)];
     count[bin] += 1.0;
   }
+  std::vector<std::pair<double, double>> means;
   for (std::size_t i = 0; i < bins; ++i) {
-    if (count[i] > 0.0) curve.rows.push_back({x[i] / count[i], y[i] / count[i]});
+    if (count[i] > 0.0) means.emplace_back(x[i] / count[i], y[i] / count[i]);
   }
-  return curve;
+  return means;
 }
 
 Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
-  constexpr double kLeastSpanMm = 0.2;
-  Chart chart{
-      .specification = "residual_scatter", .title = scatter.title, .caption = scatter.caption};
   const bool has_after = !scatter.by_direction && !found.causes.empty();
-  Span along, up;
-  up.take(0.0);
-  for (const PointPicture& point : found.points) {
-    along.take(scatter.x(point, scatter.chain));
-    if (point.bad) continue;
-    // Both chains at one scale, so that the noise of one does not look like the error of the other.
-    for (const Side side : model::kSides) {
-      up.take((point.*scatter.first)[row_of(side)]);
-      if (has_after) up.take(point.chain_after_mm[row_of(side)]);
-    }
-  }
-  const Span x_window = along.widened(0.03, 1e-6), y_window = up.widened(0.08, kLeastSpanMm);
-  DataTable points{"points", {"name", "x", "y_mm", "is_first", "is_bad"}, {}};
+  ResidualScatter chart{.title = scatter.title, .caption = scatter.caption, .x_title = scatter.x_title};
   const auto add = [&](const PointPicture& point, double residual_mm, bool is_first) {
-    // Bad points stand at the rim, so that they do not flatten the rest.
-    points.rows.push_back({point_name(point.index),
-                           scatter.x(point, scatter.chain),
-                           std::clamp(residual_mm, y_window.low, y_window.high),
-                           is_first,
-                           point.bad});
+    chart.dots.push_back({point_name(point.index),
+                          scatter.x(point, scatter.chain),
+                          residual_mm,
+                          is_first,
+                          point.bad});
   };
   for (const PointPicture& point : found.points) {
     const int direction =
@@ -109,24 +79,23 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
         (point.*scatter.first)[row_of(scatter.chain)],
         !scatter.by_direction || direction > 0);
     if (has_after) add(point, point.chain_after_mm[row_of(scatter.chain)], false);
+    if (point.bad) continue;
+    // Both chains at one scale, so that the noise of one does not look like the error of the other.
+    for (const Side side : model::kSides) {
+      chart.y_also_mm.push_back((point.*scatter.first)[row_of(side)]);
+      if (has_after) chart.y_also_mm.push_back(point.chain_after_mm[row_of(side)]);
+    }
   }
-  DataTable curve{"curve", {"x", "y_mm"}, {}};
-  if (!scatter.by_direction) curve = means_of(found, scatter, along);
-  chart.data = {std::move(points), std::move(curve)};
-  chart.signals = {
-      {"x_title", scatter.x_title},
-      {"x_min", x_window.low},
-      {"x_max", x_window.high},
-      {"bottom_mm", y_window.low},
-      {"top_mm", y_window.high},
-      {"first_label", std::string(scatter.by_direction ? "paid out to get there" : "calibrated")},
-      {"second_label",
-       std::string(scatter.by_direction ? "taken in"
-                   : has_after          ? "with the cause"
-                                        : "")},
-      {"first_color", std::string(scatter.by_direction ? kPaidOutColor : report::kBeforeColor)},
-      {"second_color", std::string(scatter.by_direction ? kTakenInColor : report::kAfterColor)}};
-  return chart;
+  if (!scatter.by_direction) chart.curve = means_of(found, scatter);
+  chart.first_label = scatter.by_direction ? "paid out to get there" : "calibrated";
+  if (scatter.by_direction) {
+    chart.second_label = "taken in";
+    chart.first_color = kPaidOutColor;
+    chart.second_color = kTakenInColor;
+  } else if (has_after) {
+    chart.second_label = "with the cause";
+  }
+  return residual_scatter_chart(chart);
 }
 
 double length_mm(const PointPicture& point, Side chain) { return point.lengths[chain]; }

@@ -16,6 +16,8 @@ namespace chaintrue::cli {
 [[nodiscard]] report::Section causes_section(const grid::diagnosis::Diagnosis& found);
 /// What the rest may be a function of. Precondition: some law is reported.
 [[nodiscard]] report::Section laws_section(const grid::diagnosis::Diagnosis& found);
+/// What a session says of each effect of the user's own. Precondition: there are some.
+[[nodiscard]] report::Section declared_section(const grid::diagnosis::Diagnosis& found);
 /// The next measurements, numbered. Precondition: there are some.
 [[nodiscard]] report::Section next_section(const grid::diagnosis::Diagnosis& found);
 /// Every hypothesis that is worth a line, and what is left over.

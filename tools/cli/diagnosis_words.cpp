@@ -24,6 +24,7 @@ struct Words {
 
 constexpr Words kHypotheses[] = {{"nothing", "nothing hidden"},
                                  {"unknown", "an unknown pattern"},
+                                 {"law", "a law that no listed cause has"},
                                  {"noise", "readings worse than you said"},
                                  {"bad_points", "bad points alone"}};
 

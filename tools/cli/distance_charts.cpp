@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/residual_scatter.hpp"
 #include "tools/report/bed_chart.hpp"
 
 namespace chaintrue::cli {
@@ -173,55 +174,23 @@ struct DistanceScatter {
   double (*x)(const DistancePicture&, const Ends&);
 };
 
-struct Window {
-  double low = 0.0;
-  double high = 0.0;
-};
-
-Window window_of(const std::vector<double>& values, double share, double least) {
-  if (values.empty()) return {0.0, least};
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  const double margin = std::max(share * (*high - *low), 0.5 * (least - (*high - *low)));
-  return {*low - margin, *high + margin};
-}
-
 Chart scatter_chart(const Diagnosis& found, const DistanceScatter& scatter) {
-  constexpr double kLeastSpanMm = 0.5;
   const bool has_after = !found.causes.empty();
-  std::vector<double> along, up = {0.0};
+  ResidualScatter chart{.title = scatter.title,
+                        .caption = scatter.caption,
+                        .x_title = scatter.x_title,
+                        .least_span_mm = 0.5,
+                        .first_label = "calibrated",
+                        .second_label = has_after ? "with the cause" : ""};
   for (const DistancePicture& distance : found.distances) {
-    along.push_back(scatter.x(distance, ends_of(found, distance)));
-    if (distance.bad) continue;
-    up.push_back(distance.before_mm);
-    if (has_after) up.push_back(distance.after_mm);
-  }
-  const Window x = window_of(along, 0.04, 1e-6), y = window_of(up, 0.08, kLeastSpanMm);
-  DataTable points{"points", {"name", "x", "y_mm", "is_first", "is_bad"}, {}};
-  for (std::size_t k = 0; k < found.distances.size(); ++k) {
-    const DistancePicture& distance = found.distances[k];
+    const double x = scatter.x(distance, ends_of(found, distance));
     const auto add = [&](double mm, bool is_first) {
-      points.rows.push_back({words_of_ends(distance),
-                             along[k],
-                             std::clamp(mm, y.low, y.high),
-                             is_first,
-                             distance.bad});
+      chart.dots.push_back({words_of_ends(distance), x, mm, is_first, distance.bad});
     };
     add(distance.before_mm, true);
     if (has_after) add(distance.after_mm, false);
   }
-  Chart chart{
-      .specification = "residual_scatter", .title = scatter.title, .caption = scatter.caption};
-  chart.data = {std::move(points), DataTable{"curve", {"x", "y_mm"}, {}}};
-  chart.signals = {{"x_title", scatter.x_title},
-                   {"x_min", x.low},
-                   {"x_max", x.high},
-                   {"bottom_mm", y.low},
-                   {"top_mm", y.high},
-                   {"first_label", std::string("calibrated")},
-                   {"second_label", std::string(has_after ? "with the cause" : "")},
-                   {"first_color", std::string(report::kBeforeColor)},
-                   {"second_color", std::string(report::kAfterColor)}};
-  return chart;
+  return residual_scatter_chart(chart);
 }
 
 }  // namespace

@@ -239,7 +239,8 @@ EffectSide chosen_side(const Effect& effect, const std::string& word, OptionProb
 }
 
 void check_options(const EffectsOptions& options, OptionProblems& problems) {
-  if (options.markdown || options.id.empty()) return;
+  // Of an atlas, its machine says which causes there are.
+  if (options.markdown || options.id.empty() || !options.atlas.empty()) return;
   (void)parse_values(options, problems);
   // Standard input is read once, and files of effects with it.
   const bool known_later = !options.declared.empty() || options.machine == "-";
@@ -326,7 +327,7 @@ int run_effects(const EffectsOptions& options) {
     fmt::print("{}", model::effects::catalogue_document());
     return kDone;
   }
-  if (!options.atlas.empty()) return write_atlas(options.atlas, options.declared, options.output);
+  if (!options.atlas.empty()) return write_atlas(options.atlas, options.id, options.declared, options.output);
   if (options.id.empty()) {
     if (!options.json) {
       list_catalogue(machine_of(options));
@@ -358,7 +359,7 @@ void add_effects(Verb app, Run& run) {
   auto options = std::make_shared<EffectsOptions>();
   Verb verb = app.add_verb(
       "effects", "List the catalogue of effects, or show what one of them does to a machine");
-  auto id = verb.add_option("id", options->id, "Effect; without it the catalogue is listed");
+  verb.add_option("id", options->id, "Effect; without it the catalogue is listed");
   auto machine =
       add_input(verb, "--machine", options->machine, "chaintrue_machine file to show it on");
   verb.add_option("--side", options->side, "left, right, both, x or y; default: the effect's first")
@@ -384,8 +385,7 @@ void add_effects(Verb app, Run& run) {
                          "--atlas",
                          options->atlas,
                          "A machine on two chains or four belts, or a V-plotter: a page with a "
-                         "picture of what each cause draws")
-                   .excludes(id)
+                         "picture of what each cause draws; after an effect's or a setting's name of that alone")
                    .excludes(machine)
                    .excludes(json)
                    .excludes(markdown);

@@ -29,8 +29,8 @@ struct NamedAtlas {
   std::string machine;
 };
 
-NamedAtlas of_plotter(const model::PlotterMachine& machine) {
-  return {synthetic::atlas_of(*model::make_plotter_mechanism(machine)), machine.name};
+NamedAtlas of_plotter(const model::PlotterMachine& machine, const std::string& cause) {
+  return {synthetic::atlas_of(*model::make_plotter_mechanism(machine), cause), machine.name};
 }
 
 void refuse_declared(const InputFile& file, const std::vector<std::string>& declared) {
@@ -42,12 +42,14 @@ void refuse_declared(const InputFile& file, const std::vector<std::string>& decl
   problems.throw_if_any();
 }
 
-NamedAtlas atlas_of_file(const InputFile& file, const std::vector<std::string>& declared) {
+NamedAtlas atlas_of_file(const InputFile& file,
+                         const std::string& cause,
+                         const std::vector<std::string>& declared) {
   if (is_of_a_plotter(file)) {
     refuse_declared(file, declared);
     const files::ReadPlotter read = load_plotter(file);
     print_warnings(read.warnings);
-    return of_plotter(read.plotter.set.machine);
+    return of_plotter(read.plotter.set.machine, cause);
   }
   require_kind(file,
                {FileKind::machine,
@@ -58,29 +60,36 @@ NamedAtlas atlas_of_file(const InputFile& file, const std::vector<std::string>& 
   if (file.kind == FileKind::machine) {
     model::Machine machine = load_machine(file);
     files::declare_effects(declared, machine);
-    return {synthetic::atlas_of(*model::make_chain_mechanism(machine)), machine.name};
+    return {synthetic::atlas_of(*model::make_chain_mechanism(machine), cause), machine.name};
   }
   refuse_declared(file, declared);
   if (file.kind == FileKind::drawing)
-    return of_plotter(files::parse_drawing(file.text, file.name).machine);
+    return of_plotter(files::parse_drawing(file.text, file.name).machine, cause);
   const model::BeltMachine machine = load_belt_machine(file);
-  return {synthetic::atlas_of(machine), machine.name};
+  return {synthetic::atlas_of(machine, cause), machine.name};
 }
 
 }  // namespace
 
 int write_atlas(const std::string& machine,
+                const std::string& cause,
                 const std::vector<std::string>& declared,
                 const std::string& output) {
-  const NamedAtlas named = atlas_of_file(open_input(machine), declared);
+  const NamedAtlas named = atlas_of_file(open_input(machine), cause, declared);
+  if (named.atlas.pictures.empty() && named.atlas.not_drawn.empty()) {
+    OptionProblems problems;
+    problems.add("effect", cause, fmt::format("a cause or a setting of {}: without a name all are drawn", machine));
+    problems.throw_if_any();
+  }
   end_progress();
   write_output(output, atlas_page(named.atlas, named.machine));
   fmt::print(stderr,
-             "{}: {} pictures of what may be wrong; find the one that looks like your sheet\n",
+             "{}: {} of what may be wrong; find the one that looks like your sheet\n",
              output,
-             named.atlas.pictures.size());
-  for (const std::string& cause : named.atlas.not_drawn)
-    fmt::print(stderr, "No picture of {}: this machine does not bear it at its usual size.\n", cause);
+             named.atlas.pictures.size() == 1 ? "a picture"
+                                              : fmt::format("{} pictures", named.atlas.pictures.size()));
+  for (const std::string& missing : named.atlas.not_drawn)
+    fmt::print(stderr, "No picture of {}: this machine does not bear it at its usual size.\n", missing);
   return kDone;
 }
 

@@ -9,9 +9,10 @@
 
 namespace chaintrue::cli {
 
-/// `declared` are files of the owner's effects, of two chains alone. \throws files::InputError with
-/// every problem.
+/// Of one cause alone where `cause` is not empty. `declared` are files of the owner's effects, of two chains
+/// alone. \throws files::InputError with every problem.
 int write_atlas(const std::string& machine,
+                const std::string& cause,
                 const std::vector<std::string>& declared,
                 const std::string& output);
 

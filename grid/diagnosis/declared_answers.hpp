@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a session says of the effects that a user declared, such as a law that an earlier session found.
+///
+///   confirmed     named, at kLawClaimed and more
+///   denied        no more than 1 - kLawClaimed, and its usual size would have shown: the size lies below
+///                 it at 95 %
+///   open          neither
+///   not testable  these readings do not show it, whatever its size
+///
+/// \code
+///   for (const DeclaredAnswer& one : declared_answers(analysis, diagnosis)) ...
+/// \endcode
+#pragma once
+
+#include <vector>
+
+#include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/diagnosis.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// An answer for each side of each declared effect, in the order of the machine's. `found` with its causes,
+/// bounds and what is not testable.
+[[nodiscard]] std::vector<DeclaredAnswer> declared_answers(const Analysis& analysis,
+                                                           const Diagnosis& found);
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// One explanation in which a law may stand: the covariance of the kept rows with the settings, the sizes of
+/// causes and the amplitudes of a law integrated out.
+///
+///   C = 1 + S + s^2 K + sum_k p_k^2 g_k g_k',   S of the settings as stated, K of a discrepancy
+///   r = C^-1 (e - m)   what noise has of rows e, once m is taken out (posterior mean)
+///
+/// \code
+///   LawModel model(analysis, marginalised, {3, 7}, -1);
+///   const Eigen::VectorXd noise = model.noise_of(law);
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "grid/diagnosis/analysis.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+class LawModel {
+ public:
+  /// `regressors` of the system; `discrepancy` -1 for none. Both arguments must outlive this.
+  LawModel(const Analysis& analysis,
+           const MarginalisedSystem& marginalised,
+           const std::vector<int>& regressors,
+           int discrepancy);
+
+  /// A column of unknown amplitude, of all rows.
+  void add(const Eigen::VectorXd& column);
+
+  /// Of some of the kept rows, by their positions.
+  [[nodiscard]] double log_density(const std::vector<Eigen::Index>& rows) const;
+
+  /// What noise has of the kept rows, and, with what the discrepancy has added, of all that the machine
+  /// leaves, once `known` (all rows) is taken out.
+  struct Left {
+    Eigen::VectorXd noise;
+    Eigen::VectorXd unexplained;
+  };
+  [[nodiscard]] Left left_of(const Eigen::VectorXd& known) const;
+
+  /// What is expected of other rows, whitened, by all kept ones: mean, and a square root of the covariance but
+  /// for their noise. `columns` of these rows: the regressors', then those added.
+  ///   m = X* f + K* C^-1 (e - X f),  S = K** - K* C^-1 K*'
+  /// C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equations 2.38 and 2.39.
+  struct Expected {
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd spread;
+  };
+  [[nodiscard]] Expected expected_of(const RegressorSystem& next, const Eigen::MatrixXd& columns) const;
+
+ private:
+  const RegressorSystem& system_;
+  const MarginalisedSystem& marginalised_;
+  double dof_;
+  std::optional<Discrepancy> process_;
+  Eigen::MatrixXd settings_;             ///< kept rows, of one sigma each
+  std::vector<Eigen::VectorXd> columns_;  ///< the same
+  std::vector<double> sigmas_;
+  Eigen::MatrixXd covariance_;
+  Eigen::MatrixXd discrepancy_;  ///< s^2 K; empty without one
+  Eigen::VectorXd e_;
+};
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/law_residuals.hpp"
+
+#include <algorithm>
+
+#include "grid/diagnosis/estimate.hpp"
+#include "grid/diagnosis/law_model.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+std::vector<LawResidual> residuals_about(const Analysis& a,
+                                         const LawEvidence& evidence,
+                                         const WeighedLaw& weighed,
+                                         const Law& law) {
+  const RegressorSystem& system = a.system;
+  const MarginalisedSystem& marginalised = a.comparison.marginalised_systems[evidence.marginalised];
+  const LawCurve& curve = evidence.curves[weighed.curve];
+  const LawModel model(a, marginalised, evidence.sets[weighed.set], weighed.discrepancy);
+  const LawModel::Left left = model.left_of(LawColumns(system).of(curve, weighed.at) * weighed.amplitude);
+  std::vector<LawResidual> points;
+  for (const KeptRows::Unit& kept : marginalised.kept.units()) {
+    const SystemUnit& unit = system.units[kept.unit];
+    if (!unit.reads_chains || kept.across) continue;
+    Eigen::VectorXd rows = Eigen::VectorXd::Zero(system.e.size());
+    rows.segment(unit.first_row, unit.rows) = left.unexplained.segment(kept.at, kept.rows);
+    const Eigen::Vector2d left_mm = error_of_unit(system, rows, kept.unit);
+    const observation::PlaceColumns& own = unit.places.front();
+    LawResidual point;
+    point.index = a.session.places[own.place].index;
+    point.left_x_mm = left_mm.x();
+    point.left_y_mm = left_mm.y();
+    for (const LawEntry& entry : entries_of(curve, system.places[own.place])) {
+      const Eigen::VectorXd one_mm = own.by_chain * entry.chains_mm;
+      point.at = entry.v;
+      point.residual_mm = value_of(law, entry.v) +
+                          one_mm.dot(left.noise.segment(kept.at, kept.rows)) / one_mm.squaredNorm();
+      points.push_back(point);
+    }
+  }
+  std::stable_sort(points.begin(), points.end(), [](const LawResidual& x, const LawResidual& y) {
+    return x.index < y.index;
+  });
+  return points;
+}
+
+}  // namespace chaintrue::grid::diagnosis

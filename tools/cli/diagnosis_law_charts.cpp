@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Laws of what no cause explains: their curves among partial residuals, and the bed with and without one.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "grid/diagnosis/law_words.hpp"
+#include "tools/cli/diagnosis_charts.hpp"
+#include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/residual_scatter.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::diagnosis::Diagnosis;
+using grid::diagnosis::Law;
+using grid::diagnosis::LawResidual;
+using grid::diagnosis::LawShape;
+using grid::diagnosis::PointPicture;
+using report::Arrow;
+
+constexpr int kCurvePoints = 200;
+/// Of more waves than these one is drawn, with all points on it.
+constexpr double kMostWaves = 3.0;
+
+bool is_folded(const Law& law) {
+  return law.shape == LawShape::wave && law.to - law.from > kMostWaves * law.parameters[1].value;
+}
+
+double degrees_of(const Law& law, double at) {
+  return grid::diagnosis::unit_of(law.of) == "rad" ? at * 180.0 / std::numbers::pi : at;
+}
+
+/// Where a point stands along x.
+double drawn(const Law& law, double at) {
+  if (!is_folded(law)) return degrees_of(law, at);
+  const double period = law.parameters[1].value;
+  return degrees_of(law, at - law.from - period * std::floor((at - law.from) / period));
+}
+
+std::string axis_title(const Law& law) {
+  const std::string_view unit = grid::diagnosis::unit_of(law.of);
+  const std::string_view words = unit == "rad" ? "degrees" : unit == "n" ? "N" : unit == "mm" ? "mm" : "visits";
+  const std::string variable = variable_in_words(law);
+  if (is_folded(law)) {
+    return fmt::format("{}, {} past a full period of {:.4g}",
+                       variable,
+                       words,
+                       degrees_of(law, law.parameters[1].value));
+  }
+  return unit == "visit" ? variable : fmt::format("{}, {}", variable, words);
+}
+
+std::vector<std::pair<double, double>> curve_of(const Law& law) {
+  const double span = is_folded(law) ? law.parameters[1].value : law.to - law.from;
+  std::vector<std::pair<double, double>> curve;
+  if (is_folded(law)) {
+    for (int k = 0; k <= kCurvePoints; ++k) {
+      const double off = span * k / kCurvePoints;
+      curve.emplace_back(degrees_of(law, off), value_of(law, law.from + off));
+    }
+    return curve;
+  }
+  std::vector<double> at;
+  for (int k = 0; k <= kCurvePoints; ++k) at.push_back(law.from + span * k / kCurvePoints);
+  if (law.shape == LawShape::step) {
+    // Both ends of the step at its place.
+    const double place = std::clamp(law.parameters[1].value, law.from, law.to);
+    at = {law.from, place - 1e-9 * (law.to - law.from), place, law.to};
+  }
+  for (const double v : at) curve.emplace_back(drawn(law, v), value_of(law, v));
+  return curve;
+}
+
+report::Chart law_chart(const Law& law, bool is_likeliest) {
+  ResidualScatter chart{
+      .title = is_likeliest ? "The likeliest" : "Its best rival",
+      .caption = fmt::format("{}: {}. {}",
+                             capitalised(in_words(law)),
+                             grid::diagnosis::percent(law.probability),
+                             is_likeliest ? "The dots are what the readings leave once all else that "
+                                            "is known of is taken out; the right curve goes through them."
+                                          : "The same readings, if it were this."),
+      .x_title = axis_title(law),
+      .first_label = "readings and curve",
+      .first_color = is_likeliest ? report::kAfterColor : report::kNeutralColor};
+  for (const LawResidual& point : law.points)
+    chart.dots.push_back({point_name(point.index), drawn(law, point.at), point.residual_mm});
+  chart.curve = curve_of(law);
+  return residual_scatter_chart(chart);
+}
+
+}  // namespace
+
+report::ChartRow law_charts(const Diagnosis& found) {
+  const std::vector<Law>& laws = found.unexplained->laws;
+  report::ChartRow row;
+  for (std::size_t k = 0; k < std::min<std::size_t>(laws.size(), 2); ++k)
+    row.charts.push_back(law_chart(laws[k], k == 0));
+  return row;
+}
+
+std::vector<report::ChartRow> law_rest_charts(const Diagnosis& found) {
+  const Law& law = found.unexplained->laws.front();
+  std::vector<Arrow> before, after;
+  for (const PointPicture& point : found.points) {
+    const auto own = std::find_if(law.points.begin(), law.points.end(), [&](const LawResidual& p) {
+      return p.index == point.index;
+    });
+    const Eigen::Vector2d& shift = found.causes.empty() ? point.before_mm : point.after_mm;
+    Arrow arrow{.name = point_name(point.index),
+                .x_mm = point.mark.x_mm,
+                .y_mm = point.mark.y_mm,
+                .dx_mm = shift.x(),
+                .dy_mm = shift.y(),
+                .is_bad = point.bad,
+                .noise_x_mm = point.noise_sigma_mm.x(),
+                .noise_y_mm = point.noise_sigma_mm.y()};
+    before.push_back(arrow);
+    if (own == law.points.end()) continue;
+    arrow.dx_mm = own->left_x_mm;
+    arrow.dy_mm = own->left_y_mm;
+    after.push_back(arrow);
+  }
+  const model::Bed& bed = found.extended_machine.bed;
+  return report::arrow_rows(
+      {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm},
+      before,
+      after,
+      {found.causes.empty() ? "Without it: the machine calibrated" : "Without it: what the causes leave",
+       "From where the tool should be to where it was. Grey: one sigma of the noise at that mark.",
+       "With it, same scale",
+       "Neighbours that still point the same way are an error that it does not explain either."});
+}
+
+}  // namespace chaintrue::cli
