@@ -8,8 +8,11 @@
 #include <ctime>
 #include <numbers>
 
+#include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/constants.hpp"
+#include "grid/diagnosis/law_declaration.hpp"
 #include "grid/files/grid_file.hpp"
+#include "sealed/judge/map_errors.hpp"
 #include "sealed/judge/trial.hpp"
 
 namespace chaintrue::sealed {
@@ -108,6 +111,50 @@ std::optional<double> worst_of(const HiddenLaw& law, const Law& found) {
   }
 }
 
+grid::diagnosis::DiagnosisOptions verdict_alone() {
+  grid::diagnosis::DiagnosisOptions how;
+  how.stability = false;
+  how.improvement = false;
+  how.next_measurements = false;
+  return how;
+}
+
+std::optional<LawInUse::Says> said_of(const std::string& grid_text, const model::effects::Effect& effect) {
+  grid::MeasuredGrid grid = grid::files::parse_grid(grid_text, "second.json").grid;
+  grid.machine->declared = {&effect};
+  const auto found = grid::diagnosis::diagnose(grid, verdict_alone());
+  if (!found || found->declared.size() != 1) return std::nullopt;
+  return found->declared.front().says;
+}
+
+std::optional<double> error_ratio(const generator::SealedSet& set, const model::effects::Effect& effect) {
+  grid::MeasuredGrid grid = grid::files::parse_grid(set.grid_text, "sealed.json").grid;
+  const auto plain = grid::joint_fit(grid::Measured(grid));
+  grid.machine->declared = {&effect};
+  const auto own = grid::diagnosis::fit_with_causes(grid::Measured(grid));
+  const auto of_plain = plain ? map_errors(set, plain->map) : std::nullopt;
+  const auto of_own = own ? map_errors(set, own->fit.map) : std::nullopt;
+  if (!of_plain || !of_own) return std::nullopt;
+  return of_own->true_rms_mm / of_plain->true_rms_mm;
+}
+
+/// Of a session, a machine and a seed that have no part in the first.
+std::optional<LawInUse> use(const generator::SealedSet& set, const LawsTrial& trial) {
+  constexpr std::uint64_t kOtherNoise = 70000;
+  constexpr std::uint64_t kOtherFamily = 9;
+  const auto written = grid::diagnosis::declaration_of(trial.laws, model::Bed{});
+  if (!written) return std::nullopt;
+  const model::effects::Effect& effect = model::effects::declared_effect(*written);
+  const generator::Layout layout = generator::layout_of(trial.points);
+  const std::uint64_t other = trial.seed + kOtherFamily;
+  LawInUse result;
+  result.second = said_of(
+      generator::other_session(set, layout.columns, layout.rows, trial.seed + kOtherNoise), effect);
+  result.foreign = said_of(generator::draw_set(recipe_of("laws", other), other).grid_text, effect);
+  result.error_ratio = error_ratio(set, effect);
+  return result;
+}
+
 }  // namespace
 
 const std::vector<LawsKind>& laws_kinds() {
@@ -125,20 +172,16 @@ const std::vector<LawsKind>& laws_kinds() {
   return kKinds;
 }
 
-LawsTrial run_laws_trial(std::string_view kind, std::uint64_t seed) {
+LawsTrial run_laws_trial(std::string_view kind, std::uint64_t seed, bool in_use) {
   const generator::Recipe recipe = recipe_of(kind, seed);
   const generator::SealedSet set = generator::draw_set(recipe, seed);
   LawsTrial trial;
   trial.seed = seed;
   trial.points = recipe.points;
   trial.answer = set.answer;
-  grid::diagnosis::DiagnosisOptions how;
-  how.stability = false;
-  how.improvement = false;
-  how.next_measurements = false;
   const double start = processor_seconds();
   const auto found =
-      grid::diagnosis::diagnose(grid::files::parse_grid(set.grid_text, "sealed.json").grid, how);
+      grid::diagnosis::diagnose(grid::files::parse_grid(set.grid_text, "sealed.json").grid, verdict_alone());
   trial.seconds = processor_seconds() - start;
   if (!found) {
     trial.failed = true;
@@ -153,6 +196,7 @@ LawsTrial run_laws_trial(std::string_view kind, std::uint64_t seed) {
   trial.reported = !trial.laws.empty();
   trial.claimed =
       trial.reported && trial.laws.front().probability >= grid::diagnosis::kLawClaimed;
+  if (in_use && trial.claimed) trial.in_use = use(set, trial);
   if (!set.answer.law || !trial.reported) return trial;
   const HiddenLaw& law = set.answer.law->law;
   trial.leads = is_right(law, trial.laws.front());
@@ -185,6 +229,15 @@ std::string line_of(std::string_view kind, const LawsTrial& trial) {
     if (law.of == LawOf::across) text += fmt::format(" dir {:.0f}", law.direction_deg);
     for (const auto& p : law.parameters)
       text += fmt::format(" {}={:.2f}+-{:.2f}", p.parameter, p.value, p.sigma);
+  }
+  if (trial.in_use) {
+    const auto said = [](const std::optional<LawInUse::Says>& says) {
+      return says ? name(*says) : std::string_view("failed");
+    };
+    text += fmt::format(" | second {} foreign {} error {:.2f}",
+                        said(trial.in_use->second),
+                        said(trial.in_use->foreign),
+                        trial.in_use->error_ratio.value_or(-1.0));
   }
   return text + fmt::format(" | {:.2f} s", trial.seconds);
 }

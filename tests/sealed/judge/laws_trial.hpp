@@ -23,6 +23,18 @@ struct LawsKind {
 };
 [[nodiscard]] const std::vector<LawsKind>& laws_kinds();
 
+/// What a claimed law, written as an effect of the user's own, is worth afterwards.
+struct LawInUse {
+  using Says = grid::diagnosis::DeclaredAnswer::Says;
+  /// Of a second session of the same machine at marks of its own, and of the session of another machine with
+  /// another law.
+  std::optional<Says> second;
+  std::optional<Says> foreign;
+  /// The tool's true error over the measured area by the first session's map with the law offered, over
+  /// that of the map without.
+  std::optional<double> error_ratio;
+};
+
 struct LawsTrial {
   std::uint64_t seed = 0;
   int points = 0;
@@ -38,12 +50,12 @@ struct LawsTrial {
   std::optional<double> worst_sigmas;
   bool cause_named = false;  ///< of sets with a listed cause
   double seconds = 0.0;
-  /// Of a second session at other marks: probability of the claimed law written as an effect.
   std::string sentence;
+  std::optional<LawInUse> in_use;  ///< of a claimed law that a file can say
 };
 
 /// 28, 60 and 117 points in turn.
-[[nodiscard]] LawsTrial run_laws_trial(std::string_view kind, std::uint64_t seed);
+[[nodiscard]] LawsTrial run_laws_trial(std::string_view kind, std::uint64_t seed, bool in_use = false);
 [[nodiscard]] std::string line_of(std::string_view kind, const LawsTrial& trial);
 
 }  // namespace chaintrue::sealed

@@ -102,6 +102,7 @@ std::optional<MapErrors> map_errors(const generator::SealedSet& set,
       set.machine.stated(), set.machine.truth(), of_the_bed(set.machine.hidden()));
   if (set.answer.unlisted) lasting.suffers(*set.answer.unlisted);
   if (set.answer.pattern) lasting.suffers(set.answer.pattern->pattern);
+  if (set.answer.law) lasting.suffers(set.answer.law->law);
   const auto missed = missed_by(lasting, area_of(set.machine), map);
   if (!missed) return std::nullopt;
   return errors_of(*missed);

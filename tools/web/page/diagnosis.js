@@ -8,6 +8,7 @@ import {report} from "./frame.js";
 import {explained} from "./glossary.js";
 import {hookWords} from "./hook.js";
 import {inPage} from "./in_page.js";
+import {keepLaw, ownEffectPart, ownWords} from "./own_effect.js";
 import {errorPicture} from "./picture.js";
 import {Sheet} from "./sheet.js";
 
@@ -19,12 +20,14 @@ export function causesPart(page) {
   const noiseBox = h("details", {}, h("summary", {}, "How well you read"), noise.element);
   const causes = h("div");
   const use = h("div");
+  const own = ownEffectPart(page);
+  const law = h("div");
   const next = h("div");
   const whole = folded("The whole diagnosis", (box) => report(page, "diagnosis.json", "diagnosis.html", "The diagnosis", box));
   const ask = h("button", {type: "button", class: "main", onclick: () => diagnose(page, noise.words())}, "Find the cause");
   const element = h("section", {}, h("h3", {}, "Why does it err?"),
     h("p", {}, "Which of the known causes explains the readings, how sure that is, and what to do."),
-    noiseBox, h("p", {class: "buttons"}, ask), causes, use, next, whole.element);
+    noiseBox, own.element, h("p", {class: "buttons"}, ask), causes, use, law, next, whole.element);
   let shown = null;
   let used = {};
 
@@ -42,6 +45,7 @@ export function causesPart(page) {
     update({folder, view}) {
       noise.update(page.store);
       noiseBox.hidden = noise.element.hidden;
+      own.update(page.store);
       const bytes = folder["diagnosis.json"];
       whole.element.hidden = !bytes;
       ask.classList.toggle("main", !bytes);
@@ -52,6 +56,7 @@ export function causesPart(page) {
         h("button", {type: "button", onclick: () => planNext(page, next)}, "What to measure next"))] : []));
       whole.forget();
       causes.replaceChildren();
+      law.replaceChildren(...lawPart(page, jsonOf(bytes), () => keepLaw(page, diagnosisWords(page, noise.words()))));
       if (bytes) drawCauses(page, jsonOf(bytes), causes);
     },
   };
@@ -64,7 +69,19 @@ function nameOf({effect, side}) {
   return `${effect.replaceAll("_", " ")}${side ? `, ${SIDES[side] ?? side}` : ""}`;
 }
 
-const NOT_CAUSES = {nothing: "nothing is wrong", unknown: "a pattern that no known cause makes", noise: "readings that are worse than they should be", bad_points: "readings that are wrong"};
+/** As laws are claimed (grid/diagnosis/constants.def, kLawClaimed). */
+const CLAIMED = 0.9;
+const SAYS = {confirmed: "confirmed, it acts here", denied: "denied, at its usual size it would have shown", open: "left open, measure more points", not_testable: "not testable with these readings"};
+
+/** The button that makes a claimed law a cause of the owner's own. */
+function lawPart(page, found, keep) {
+  const [first] = found?.unexplained?.laws ?? [];
+  if (!first || first.probability < CLAIMED) return [];
+  return [h("p", {class: "buttons"}, h("button", {type: "button", onclick: keep}, "Keep the law as a cause of your own"),
+    h("span", {class: "hint"}, "then measure other points: they confirm or deny it"))];
+}
+
+const NOT_CAUSES = {nothing: "nothing is wrong", law: "a law that no listed cause has", unknown: "a pattern that no known cause makes", noise: "readings that are worse than they should be", bad_points: "readings that are wrong"};
 
 /** The hypotheses of a diagnosis as bars, likeliest first. `meanings` has sentences by effect, `pictures` figures by rank. */
 function causeBars(hypotheses, meanings, pictures = []) {
@@ -109,6 +126,8 @@ async function drawCauses(page, found, box) {
       before: "with better numbers alone", after: `with ${found.causes.map(nameOf).join(" and ")}`,
     }));
   }
+  if (found.declared?.length > 0)
+    box.append(h("h4", {}, "Your own cause"), sentenceList(found.declared.map((one) => `${capital(nameOf(one))}: ${SAYS[one.says]}.`)));
   const ranked = h("div", {}, rankedCauses(found.hypotheses));
   box.append(ranked, ...remedies(found));
   const meanings = await meaningsOf(page);
@@ -189,10 +208,13 @@ function usual(folder, option) {
   return new RegExp(`chaintrue diagnose .*${option} (\\S+)`).exec(readme)?.[1] ?? "";
 }
 
+const diagnosisWords = ({store}, noise) =>
+  ["diagnose", fittedList(store.view), "--machine", "machine.json", ...ownWords(store.folder), ...noise, ...hookWords(store), "-o", "diagnosis.json", "--force"];
+
 async function diagnose(page, noise) {
   const list = fittedList(page.store.view);
   const readings = page.store.folder[list];
-  const result = await runVerb(page, ["diagnose", list, "--machine", "machine.json", ...noise, ...hookWords(page.store), "-o", "diagnosis.json", "--force"]);
+  const result = await runVerb(page, diagnosisWords(page, noise));
   if (!result || page.store.folder[list] !== readings) return;
   if (result.code !== DONE) {
     page.alert(sentencesAbout(listOf(page), result).map(inPage).join(" "));

@@ -22,6 +22,9 @@ export const PLOTTER = "plotter.json";
 export const DRAWING = "drawing.json";
 export const FOUND = "found.json";
 
+/** A cause of the owner's own. */
+export const OWN_EFFECT = "own_effect.json";
+
 /** Of files that other readings make stale; an undo brings them back with the readings that they are of. */
 export const NO_DIAGNOSIS = {"diagnosis.json": null, "diagnosis.html": null};
 

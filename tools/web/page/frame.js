@@ -19,12 +19,18 @@ addEventListener("message", (event) => {
   }
 });
 
-/** Buttons and the frame. `title` names it to a screen reader. */
-export function reportFrame(title, name, bytes, {onDownload}) {
+/** A page of the command by itself. `title` names it to a screen reader. */
+export function drawingFrame(title, bytes) {
   const frame = h("iframe", {title, sandbox: "allow-scripts allow-modals", class: "report"});
   frame.srcdoc = textOf(bytes) + INSIDE;
   for (const other of frames) if (!other.isConnected) frames.delete(other);
   frames.add(frame);
+  return frame;
+}
+
+/** The same with buttons. */
+export function reportFrame(title, name, bytes, {onDownload}) {
+  const frame = drawingFrame(title, bytes);
   return h("div", {class: "framed"},
     h("p", {class: "buttons"},
       h("button", {type: "button", onclick: () => frame.contentWindow.postMessage("chaintrue print", "*")}, "Print"),

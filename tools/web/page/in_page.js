@@ -25,6 +25,8 @@ const OPTIONS = [
   [/: chaintrue diagnose of the same belts\./g, ": the causes say it."],
   [/ or say --inches\b/g, " or choose inches above the table"],
   [/ \(chaintrue plan [^)]*\)/g, ""],
+  [/Write the law to a file \(chaintrue diagnose --law\), measure other points, and diagnose these with it \(--effects\): they/g,
+    "Keep the law as a cause of your own, measure other points, and find the cause again: they"],
   [/: chaintrue fit finds them, and export plotter prints the lines\./g, "; they stand above."],
 ];
 

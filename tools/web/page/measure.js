@@ -11,6 +11,7 @@ import {hookTick, hookWords} from "./hook.js";
 import {inPage, sheetInPage} from "./in_page.js";
 import {fitParts} from "./measure_words.js";
 import {settingsWords} from "./numbers.js";
+import {ownWords} from "./own_effect.js";
 import {plotterMeasure} from "./plotter_measure.js";
 import {markRow, Readings} from "./readings.js";
 import {Sheet} from "./sheet.js";
@@ -156,7 +157,7 @@ async function judge(page, readings, said) {
   const isOnCauses = Boolean(page.store.view.causes);
   const words = isCheck ? ["check", "map.json", path, "--machine", "machine.json", ...settingsWords(page.store.folder)]
     : ["fit", path, "--machine", "machine.json", "-o", "map.json", "--force", "--verbose",
-      ...choiceWords(page.store.view), ...hookWords(page.store)];
+      ...choiceWords(page.store.view), ...(isOnCauses ? ownWords(page.store.folder) : []), ...hookWords(page.store)];
   const result = await runVerb(page, words, {quiet: true, supersede: "judge"});
   if (!result || page.store.folder[path] !== text) return;
   const sentences = sentencesOf(result);

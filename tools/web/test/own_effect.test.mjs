@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A cause of the owner's own: drawn while it is typed, refused with a sentence, weighed with the others.
+import assert from "node:assert/strict";
+import {describe, test} from "node:test";
+import {effectOf} from "../page/own_effect_file.js";
+import {browsers, Visit} from "./browser.mjs";
+
+test("a form becomes an effect file", () => {
+  const form = {name: "Rubs on the Frame!", where: "x", formula: "size_mm * ramp(place_mm - L0) / turn", size: "0,3", place: "900"};
+  const effect = effectOf(form);
+  assert.equal(effect.id, "rubs_on_the_frame");
+  assert.equal(effect.adds_mm, "side * cos(phi) * (size_mm * ramp(place_mm - L0) / turn)");
+  assert.deepEqual(effect.sides, ["both"]);
+  assert.deepEqual(effect.parameters.map(({name, nominal}) => [name, nominal]), [["size_mm", 0.3], ["place_mm", 900]]);
+  assert.equal(effectOf({...form, where: "either", formula: "size_mm * x / turn"}).parameters.length, 1);
+});
+
+for (const browser of browsers) {
+  describe(`a cause of one's own in ${browser}`, () => {
+    test("from a formula to an answer", async () => {
+      const visit = await Visit.to(browser);
+      const formula = async (text) => {
+        const input = await visit.page.$("#own-formula");
+        await input.click({clickCount: 3});
+        await input.type(text);
+      };
+      try {
+        await visit.click("A worn chain");
+        await visit.text(".said", "With this map it misses by about");
+        await visit.click("See the map and the causes");
+        await visit.unfold("A cause of your own");
+        const frame = await (await visit.page.waitForSelector('iframe[title="What it does to a square"]')).contentFrame();
+        await frame.waitForSelector("svg");
+        await formula("size_mm * sin(phy)");
+        await visit.text("#step-result .problem", "phy");
+        await formula("size_mm * sin(2 * pi * L0 / (111 * mm) + phase_rad)");
+        await visit.page.waitForFunction(() => document.querySelectorAll("#step-result .own-picture iframe").length === 1 &&
+          !document.querySelector("#step-result .problem"));
+        await visit.click("Weigh it with the others");
+        await visit.text("#step-result", "Weighed: a sprocket that is not round.");
+        await visit.click("Find the cause");
+        await visit.text("#step-result", "Your own cause");
+        assert.match(await visit.text("#step-result .sentences", "a sprocket"), /(denied|left open)/i);
+        await visit.click("Take it away");
+        await visit.page.waitForFunction(() => ![...document.querySelectorAll("#step-result .hint")].some((hint) => !hint.hidden && /^Weighed/.test(hint.textContent)));
+        assert.deepEqual(visit.problems, []);
+      } finally {
+        await visit.close();
+      }
+    });
+  });
+}
