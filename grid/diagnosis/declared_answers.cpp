@@ -6,6 +6,8 @@
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/law_model.hpp"
+#include "grid/diagnosis/regressors.hpp"
 #include "model/effects/declared_effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -20,13 +22,34 @@ const T* find_of(const std::vector<T>& all, const CauseId& cause) {
   return at == all.end() ? nullptr : &*at;
 }
 
-Says said_of(const Diagnosis& found, const CauseId& cause, double probability) {
+/// What leads the comparison, without this cause.
+std::vector<int> others_than(const Analysis& a, const CauseId& cause) {
+  std::vector<int> others;
+  for (const int k : a.decision.regressors) {
+    if (regressor(a, k).cause != cause) others.push_back(k);
+  }
+  return others;
+}
+
+/// Whether the readings are likelier without it than with it as it stands in the file.
+bool is_refuted(const Analysis& a, const CauseId& cause) {
+  const auto g = signature(
+      a.session, a.state, a.system, cause, model::effects::nominal_values(*cause.effect));
+  if (!g) return false;
+  const LawModel model(
+      a, marginalised_system(a), others_than(a, cause), a.decision.best_discrepancy);
+  const double odds = kLawClaimed / (1.0 - kLawClaimed);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(g->size());
+  return model.log_density(none) - model.log_density(*g) > std::log(odds);
+}
+
+Says said_of(const Analysis& a, const Diagnosis& found, const CauseId& cause, double probability) {
   if (find_of(found.causes, cause) != nullptr && probability >= kLawClaimed) return Says::confirmed;
-  if (find_of(found.not_testable, cause) != nullptr) return Says::not_testable;
+  if (probability > 1.0 - kLawClaimed) return Says::open;
   const Bound* bound = find_of(found.bounds, cause);
   const double usual = std::abs(cause.effect->parameters.front().nominal);
-  const bool would_show = bound != nullptr && bound->upper_95 < usual;
-  return would_show && probability <= 1.0 - kLawClaimed ? Says::denied : Says::open;
+  if ((bound != nullptr && bound->upper_95 < usual) || is_refuted(a, cause)) return Says::denied;
+  return find_of(found.not_testable, cause) != nullptr ? Says::not_testable : Says::open;
 }
 
 }  // namespace
@@ -38,12 +61,17 @@ std::string_view name(Says says) {
 
 std::vector<DeclaredAnswer> declared_answers(const Analysis& a, const Diagnosis& found) {
   std::vector<DeclaredAnswer> answers;
-  const auto add = [&](const CauseId& cause, double probability) {
-    if (model::effects::declaration_of(*cause.effect) == nullptr) return;
-    answers.push_back({cause, said_of(found, cause, probability), probability});
+  const auto is_declared = [](const CauseId& cause) {
+    return model::effects::declaration_of(*cause.effect) != nullptr;
   };
-  for (const CauseId& cause : a.candidates.testable) add(cause, probability_of(a, cause));
-  for (const NotTestable& one : a.candidates.not_testable) add(one.cause, 0.0);
+  for (const CauseId& cause : a.candidates.testable) {
+    if (!is_declared(cause)) continue;
+    const double probability = probability_of(a, cause);
+    answers.push_back({cause, said_of(a, found, cause, probability), probability});
+  }
+  for (const NotTestable& one : a.candidates.not_testable) {
+    if (is_declared(one.cause)) answers.push_back({one.cause, Says::not_testable, 0.0});
+  }
   return answers;
 }
 

@@ -3,10 +3,14 @@
 /// What a session says of the effects that a user declared, such as a law that an earlier session found.
 ///
 ///   confirmed     named, at kLawClaimed and more
-///   denied        no more than 1 - kLawClaimed, and its usual size would have shown: the size lies below
-///                 it at 95 %
+///   denied        no more than 1 - kLawClaimed, and it would have shown as it stands in the file: its size
+///                 lies below the usual one at 95 %, or the readings are likelier without it than with its
+///                 usual values, by the odds of kLawClaimed
 ///   open          neither
 ///   not testable  these readings do not show it, whatever its size
+///
+///   odds = p(e | S, D) / p(e - g | S, D),   g its signature at the usual values; S, D what leads the
+///                                          comparison, without it
 ///
 /// \code
 ///   for (const DeclaredAnswer& one : declared_answers(analysis, diagnosis)) ...

@@ -9,6 +9,13 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
+double log_density_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& e, double dof) {
+  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
+  const Eigen::VectorXd z = llt.matrixL().solve(e);
+  const double log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
+  return NoiseDensity(dof, e.size()).log_density(z.squaredNorm()) - 0.5 * log_det;
+}
+
 double square_of(const Discrepancy& process) { return process.sigma_mm * process.sigma_mm; }
 
 }  // namespace
@@ -42,11 +49,11 @@ void LawModel::add(const Eigen::VectorXd& column) {
 }
 
 double LawModel::log_density(const std::vector<Eigen::Index>& rows) const {
-  const Eigen::LLT<Eigen::MatrixXd> llt(covariance_(rows, rows));
-  const Eigen::VectorXd z = llt.matrixL().solve(e_(rows));
-  const double log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-  const NoiseDensity noise(dof_, static_cast<Eigen::Index>(rows.size()));
-  return noise.log_density(z.squaredNorm()) - 0.5 * log_det;
+  return log_density_of(covariance_(rows, rows), e_(rows), dof_);
+}
+
+double LawModel::log_density(const Eigen::VectorXd& known) const {
+  return log_density_of(covariance_, e_ - marginalised_.kept(known), dof_);
 }
 
 LawModel::Left LawModel::left_of(const Eigen::VectorXd& known) const {

@@ -33,6 +33,8 @@ class LawModel {
 
   /// Of some of the kept rows, by their positions.
   [[nodiscard]] double log_density(const std::vector<Eigen::Index>& rows) const;
+  /// Of all kept rows, once `known` (all rows) is taken out.
+  [[nodiscard]] double log_density(const Eigen::VectorXd& known) const;
 
   /// What noise has of the kept rows, and, with what the discrepancy has added, of all that the machine
   /// leaves, once `known` (all rows) is taken out.

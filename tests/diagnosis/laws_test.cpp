@@ -420,6 +420,14 @@ TEST(LawFiles, AreConfirmedByASecondSessionOfTheMachineAndDeniedByAnother) {
     EXPECT_EQ(denying.declared.front().says, DeclaredAnswer::Says::denied)
         << denying.declared.front().probability;
   }
+  // A few marks of the same machine may not tell it, and do not deny it.
+  for (std::uint64_t seed = 61; seed < 67; ++seed) {
+    const Diagnosis few = with_law(with_left(session_of({}, seed, 4, 3), [](const auto&, const auto& reading) {
+      return 0.45 * std::sin(2.0 * std::numbers::pi * reading.pose.lengths.left_mm / 31.75 + 0.7);
+    }));
+    ASSERT_EQ(few.declared.size(), 1U);
+    EXPECT_NE(few.declared.front().says, DeclaredAnswer::Says::denied) << "seed " << seed;
+  }
 }
 
 }  // namespace

@@ -180,7 +180,7 @@ TEST(DeclaredEffect, SaysWhatIsWrongWithItself) {
             "/parameters/1/name: phase_rad: a parameter that the formula uses, or none");
   EXPECT_EQ(own_problem([](Declaration& d) { d.adds_mm = "amplitude_mm * sin(phase)"; }),
             "/adds_mm@19: phase: a name that this formula may use: amplitude_mm, phase_rad, phi, "
-            "S, L0, T, H, x, y, turn, pitch, r, d, mm, N, pi");
+            "S, L0, T, H, x, y, turn, pitch, r, d, side, mm, N, pi");
   EXPECT_EQ(own_problem([](Declaration& d) { d.adds_mm = "amplitude_mm * T * sin(phase_rad)"; }),
             "/adds_mm@0: a formula in mm N: one whose units come out as mm");
   EXPECT_THAT(

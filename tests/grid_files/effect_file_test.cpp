@@ -104,7 +104,7 @@ TEST(EffectFile, TheSameTwiceIsOne) {
 TEST(BadEffectFile, AnUnknownName) {
   EXPECT_EQ(only_sentence("amplitude_mm * sin(4 * pi * L / turn + phase_rad)"),
             "effect_0.json: line 8, column 43: found L, expected a name that this formula may use: "
-            "amplitude_mm, phase_rad, phi, S, L0, T, H, x, y, turn, pitch, r, d, mm, N, pi");
+            "amplitude_mm, phase_rad, phi, S, L0, T, H, x, y, turn, pitch, r, d, side, mm, N, pi");
 }
 
 TEST(BadEffectFile, AWrongNumberOfArguments) {

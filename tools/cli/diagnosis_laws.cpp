@@ -61,7 +61,7 @@ report::Section declared_section(const grid::diagnosis::Diagnosis& found) {
   report::Table table{{{.width = 34}, {}, {.gap = 2}}, {}, ""};
   for (const auto& [cause, says, probability] : found.declared) {
     const char* words = says == Says::confirmed ? "confirmed: it acts here"
-                        : says == Says::denied  ? "denied: at its usual size it would have shown"
+                        : says == Says::denied  ? "denied: as it stands in the file it would have shown"
                         : says == Says::open    ? "left open: measure more points"
                                                 : "not testable with these readings";
     table.rows.push_back({{cause_title(cause),

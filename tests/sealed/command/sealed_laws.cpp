@@ -103,7 +103,11 @@ void print_rows(const LawsKind& kind, const std::vector<LawsTrial>& all) {
   print_row(hidden, "a claim is right", "97 %", claims_right);
   print_row(hidden, "place or period, and size, within three sigmas", "97 %", near);
   print_use(hidden, all);
-  if (kind.word == "both") print_row(hidden, "the cause named", "", causes);
+  if (kind.word != "both") return;
+  Share both;
+  for (const LawsTrial& t : all) both.count(t.in_set && t.cause_named);
+  print_row(hidden, "the cause named", "", causes);
+  print_row(hidden, "both told", "75 %", both);
 }
 
 }  // namespace

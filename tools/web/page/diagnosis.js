@@ -71,7 +71,7 @@ function nameOf({effect, side}) {
 
 /** As laws are claimed (grid/diagnosis/constants.def, kLawClaimed). */
 const CLAIMED = 0.9;
-const SAYS = {confirmed: "confirmed, it acts here", denied: "denied, at its usual size it would have shown", open: "left open, measure more points", not_testable: "not testable with these readings"};
+const SAYS = {confirmed: "confirmed, it acts here", denied: "denied, as it stands in the file it would have shown", open: "left open, measure more points", not_testable: "not testable with these readings"};
 
 /** The button that makes a claimed law a cause of the owner's own. */
 function lawPart(page, found, keep) {

@@ -40,7 +40,7 @@ for (const browser of browsers) {
         await visit.text("#step-result", "Weighed: a sprocket that is not round.");
         await visit.click("Find the cause");
         await visit.text("#step-result", "Your own cause");
-        assert.match(await visit.text("#step-result .sentences", "a sprocket"), /(denied|left open)/i);
+        assert.match(await visit.text("#step-result .sentences", "A sprocket"), /(denied|left open)/i);
         await visit.click("Take it away");
         await visit.page.waitForFunction(() => ![...document.querySelectorAll("#step-result .hint")].some((hint) => !hint.hidden && /^Weighed/.test(hint.textContent)));
         assert.deepEqual(visit.problems, []);
