@@ -21,7 +21,7 @@ for (const browser of browsers) {
       const visit = await Visit.to(browser);
       const formula = async (text) => {
         const input = await visit.page.$("#own-formula");
-        await input.click({clickCount: 3});
+        await input.evaluate((element) => element.select());
         await input.type(text);
       };
       try {
