@@ -117,6 +117,47 @@ TEST_F(DiagnosisPage, DrawsEveryChartAndLogsNothing) {
   EXPECT_EQ(count_marks(visited, "next_points", "measured_marks"), kSamplePoints);
 }
 
+// The likeliest law and its best rival, each among the points' partial residuals, and the bed with and without it.
+TEST_F(DiagnosisPage, DrawsLawsAmongTheirPoints) {
+  using grid::diagnosis::Enters;
+  using grid::diagnosis::Law;
+  using grid::diagnosis::LawOf;
+  using grid::diagnosis::LawShape;
+  Diagnosis found = sample_diagnosis();
+  Law wave;
+  wave.of = LawOf::length_left;
+  wave.shape = LawShape::wave;
+  wave.enters = Enters::left;
+  wave.probability = 0.95;
+  wave.shape_probability = 0.9;
+  wave.from = 0.0;
+  wave.to = 4000.0;
+  wave.parameters = {{"size_mm", 0.4, 0.05}, {"period_mm", 63.5, 0.3}, {"phase_rad", 0.2, 0.1}};
+  for (const auto& point : found.points) {
+    wave.points.push_back({point.index, point.lengths.left_mm, 0.1, 0.05, -0.05});
+  }
+  Law step = wave;
+  step.of = LawOf::x;
+  step.shape = LawShape::step;
+  step.probability = 0.04;
+  step.from = -1200.0;
+  step.to = 1200.0;
+  step.parameters = {{"size_mm", 0.3, 0.1}, {"place_mm", 100.0, 50.0}};
+  for (std::size_t k = 0; k < step.points.size(); ++k) step.points[k].at = found.points[k].mark.x_mm;
+  if (!found.unexplained) found.unexplained.emplace();
+  found.unexplained->laws = {wave, step};
+  const std::string html = page_of(found);
+  // Sixty waves over the bed are drawn as one.
+  EXPECT_THAT(html, HasSubstr("the left chain's length, mm past a full period of 63.5"));
+  EXPECT_THAT(html, HasSubstr("Its best rival"));
+  if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
+  const Visit visited = visit(html);
+  EXPECT_THAT(problems_of(visited), IsEmpty());
+  EXPECT_EQ(count_marks(visited, "residual_scatter", "point_marks"), 16 * kSamplePoints);
+  // Without the law, with it, and with it once more at a larger magnification.
+  EXPECT_EQ(count_marks(visited, "bed_arrows", "point_marks"), 7 * kSamplePoints);
+}
+
 // A name that depends on one point shows where without opening anything; sections without problems
 // are folded, and their charts have the right width once opened.
 TEST_F(DiagnosisPage, FoldsAwayWhatIsAsItShouldBe) {
