@@ -125,10 +125,12 @@ std::string several_words(const Diagnosis& d) {
 
 std::string unknown_words(const Diagnosis& d) {
   if (const Law* law = claimed_law(d)) {
-    return fmt::format("The {} follow a law that no cause in the catalogue has: {}, {}.",
+    return fmt::format("The {} follow a law that no cause in the catalogue has: {}, {}. On average it moves "
+                       "the tool by {:.2f} mm.",
                        name(d.observations),
                        in_words(*law),
-                       percent(law->probability));
+                       percent(law->probability),
+                       law->rms_mm);
   }
   std::string text =
       !speaks_of_distances(d)
