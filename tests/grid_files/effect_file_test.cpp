@@ -37,10 +37,14 @@ std::string with_formula(const std::string& formula, const std::string& id = "wa
 
 const std::string kGood = "amplitude_mm * sin(4 * pi * L0 / turn + phase_rad)";
 
+/// In a folder of the running test: others write such files at the same time.
 std::filesystem::path written(const std::string& name, const std::string& text) {
-  const auto path = std::filesystem::path(::testing::TempDir()) / name;
-  std::ofstream(path) << text;
-  return path;
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+  const auto folder = std::filesystem::path(::testing::TempDir()) /
+                      (std::string("chaintrue_effects_") + test->test_suite_name() + "_" + test->name());
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / name) << text;
+  return folder / name;
 }
 
 /// Every problem of such files, given to a machine as --effects does.
