@@ -244,6 +244,18 @@ TEST_F(Plotter, EveryNumberOfAMuralIsTakenOrRefused) {
   }
 }
 
+/// A name before --atlas draws that cause or setting alone; one that the machine does not have is refused.
+TEST_F(Plotter, AnAtlasOfOneCauseIsOfThatAlone) {
+  write("mural.txt", "top distance: 1500 mm\neffective pulley diameter: 12.69 mm\nhomed step offset: 40 mm\n");
+  const Outcome one = run("effects gondola_mass --atlas mural.txt -o one.html");
+  ASSERT_EQ(one.code, 0) << one.err;
+  EXPECT_THAT(one.err, HasSubstr("one.html: a picture of what may be wrong"));
+  const Outcome none = run("effects nonsense --atlas mural.txt -o none.html");
+  EXPECT_EQ(none.code, 3);
+  EXPECT_THAT(none.err, HasSubstr("effect: found nonsense, expected a cause or a setting of mural.txt"));
+  EXPECT_FALSE(exists("none.html"));
+}
+
 TEST_F(Plotter, SettingsOfEachControllerBecomeAPlotter) {
   for (const auto& [file, words] :
        {std::pair{"plottersettings_fluidnc.yaml", "\"firmware\": \"fluidnc\""},
