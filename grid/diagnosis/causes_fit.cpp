@@ -11,6 +11,7 @@
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/order_search.hpp"
+#include "grid/diagnosis/regressors.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/map/larger_error.hpp"
@@ -18,6 +19,8 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
+using model::effects::EffectParameter;
+using model::effects::PlaceVariable;
 using model::effects::Station;
 
 /// Squared error of the tool at what one map left out, mm^2, and the block it was left out with.
@@ -143,9 +146,44 @@ bool has_order(const MeasuredFile& file) {
          });
 }
 
+/// Its place, where a step or a bend depends on it and it is not sure; else null.
+const ParameterEstimate* unsure_place(const Cause& cause) {
+  const model::effects::Effect& effect = *cause.cause.effect;
+  const EffectParameter* place = place_parameter(effect);
+  if (place == nullptr || place->integer) return nullptr;
+  const PlaceVariable of = variable_of_place(effect, *place);
+  if (of == PlaceVariable::none || of == PlaceVariable::phase || of == PlaceVariable::visit) return nullptr;
+  for (const ParameterEstimate& p : cause.parameters) {
+    if (p.parameter == place->name) return p.sigma > 0.0 ? &p : nullptr;
+  }
+  return nullptr;
+}
+
+/// So much of the cause, its place so far from the likeliest.
+model::AppliedEffect applied_at(const Cause& cause, const ParameterEstimate& place, double off, double share) {
+  const EffectParameter& bounds = *place_parameter(*cause.cause.effect);
+  const EffectParameter& size = cause.cause.effect->parameters.front();
+  model::AppliedEffect effect = applied(cause);
+  effect.parameters[place.parameter] = std::clamp(place.value + off, bounds.lower, bounds.upper);
+  double& own = effect.parameters[std::string(size.name)];
+  own = size.null + share * (own - size.null);
+  return effect;
+}
+
+struct ActingCause {
+  Cause cause;
+  std::vector<model::AppliedEffect> effects;
+};
+
+std::vector<ActingCause> over_places(const std::vector<Cause>& causes) {
+  std::vector<ActingCause> acting;
+  for (const Cause& cause : causes) acting.push_back({cause, applied_over_places(cause)});
+  return acting;
+}
+
 /// What happened at a visit happened in the one session whose visits were weighed: the first with an
 /// order.
-Measured with_effects(const Measured& measured, const std::vector<Cause>& causes) {
+Measured with_effects(const Measured& measured, const std::vector<ActingCause>& causes) {
   Measured changed;
   bool is_before_visits = true;
   for (MeasuredFile file : measured.files()) {
@@ -154,9 +192,10 @@ Measured with_effects(const Measured& measured, const std::vector<Cause>& causes
     std::visit(
         [&](auto& own) {
           if (!own.machine) return;
-          for (const Cause& cause : causes) {
-            if (has_visits || !model::effects::depends_on_visit(*cause.cause.effect))
-              own.machine->effects.push_back(applied(cause));
+          auto& effects = own.machine->effects;
+          for (const ActingCause& acting : causes) {
+            if (has_visits || !model::effects::depends_on_visit(*acting.cause.cause.effect))
+              effects.insert(effects.end(), acting.effects.begin(), acting.effects.end());
           }
         },
         file.measured);
@@ -240,6 +279,26 @@ double least_known_size(const std::vector<Cause>& causes) {
   return largest;
 }
 
+/// A quarter of the square by which the maps differ that have an unsure place one sigma to either side.
+double square_of_places(const Measured& measured,
+                        const CausesFitOptions& options,
+                        const std::vector<Cause>& built_on) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < built_on.size(); ++k) {
+    const ParameterEstimate* place = unsure_place(built_on[k]);
+    if (place == nullptr) continue;
+    const auto map_at = [&](double off) {
+      std::vector<ActingCause> acting = over_places(built_on);
+      acting[k].effects = {applied_at(built_on[k], *place, off, 1.0)};
+      return joint_fit(with_effects(measured, acting), options.fit);
+    };
+    const auto low = map_at(-place->sigma);
+    const auto high = map_at(place->sigma);
+    if (low && high) sum += 0.25 * apart(low->map, high->map).difference_mm2;
+  }
+  return sum;
+}
+
 /// (2), of the likeliest of those that are offered and not of the paper, which moves no tool.
 void count_what_is_left_open(const Measured& measured,
                              const CausesFitOptions& options,
@@ -262,11 +321,12 @@ void count_what_is_left_open(const Measured& measured,
   if (open.size() > kMostMaps) open.resize(kMostMaps);
   const Apart built = apart(result.fit.map, plain);
   const double expected_mm2 = built.expected_mm2;
-  double variance_mm2 = std::pow(least_known_size(result.built_on), 2) * built.difference_mm2;
+  double variance_mm2 = std::pow(least_known_size(result.built_on), 2) * built.difference_mm2 +
+                        square_of_places(measured, options, result.built_on);
   for (const Cause* cause : open) {
     std::vector<Cause> acting = result.built_on;
     acting.push_back(*cause);
-    const auto other = joint_fit(with_effects(measured, acting), options.fit);
+    const auto other = joint_fit(with_effects(measured, over_places(acting)), options.fit);
     if (!other) continue;
     variance_mm2 += cause->probability * apart(result.fit.map, other->map).difference_mm2;
   }
@@ -312,6 +372,18 @@ model::AppliedEffect applied(const Cause& cause) {
   return effect;
 }
 
+std::vector<model::AppliedEffect> applied_over_places(const Cause& cause) {
+  const ParameterEstimate* place = unsure_place(cause);
+  if (place == nullptr) return {applied(cause)};
+  constexpr int kPlaces = 9;  // a ninth of a gap between marks: less than a surface of these marks can show
+  std::vector<model::AppliedEffect> effects;
+  for (int k = 0; k < kPlaces; ++k) {
+    const double off = std::sqrt(3.0) * place->sigma * ((2.0 * k + 1.0) / kPlaces - 1.0);
+    effects.push_back(applied_at(cause, *place, off, 1.0 / kPlaces));
+  }
+  return effects;
+}
+
 tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
                                                     const CausesFitOptions& options) {
   auto plain = joint_fit(measured, options.fit);
@@ -345,7 +417,7 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
     return noted(std::move(result));
   };
   if (sure.empty()) return with_open();
-  auto with_causes = joint_fit(with_effects(ordered, sure), options.fit);
+  auto with_causes = joint_fit(with_effects(ordered, over_places(sure)), options.fit);
   if (!with_causes) {
     offer(sure, OfferedCause::Reason::gains_nothing, result);
     return with_open();

@@ -21,7 +21,12 @@
 /// that does. With f_i the map on cause i of probability p_i, f the map that is given, f_0 the plain
 /// one and s the largest sigma of a cause in f over its size, the tool's variance grows by
 ///
-///   V = sum p_i |J^-1 (f_i - f)|^2 + s^2 |J^-1 (f - f_0)|^2, the mean over the measured part     (2)
+///   V = sum p_i |J^-1 (f_i - f)|^2 + s^2 |J^-1 (f - f_0)|^2 + sum |J^-1 (f_l - f_h)|^2 / 4,
+///       the mean over the measured part                                                           (2)
+///
+/// A step's or a bend's place is known to the gap between two marks. The map has the mean of such a cause over
+/// the places where it may stand, evenly within sqrt(3) sigmas of the likeliest: a single place that is wrong
+/// is worse there than a surface that knows no step. f_l and f_h have it one sigma to either side.
 ///
 /// The sum is the variance between models: J. Hoeting et al., Bayesian model averaging: a tutorial,
 /// Statistical Science 14 (1999) 382, equation 3.
@@ -91,5 +96,8 @@ struct CausesFit {
 
 /// A cause as a machine file has it.
 [[nodiscard]] model::AppliedEffect applied(const Cause& cause);
+/// The same, its size shared out over the places where it may stand; one where its place is sure, or where it
+/// has none that a step or a bend depends on.
+[[nodiscard]] std::vector<model::AppliedEffect> applied_over_places(const Cause& cause);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -86,13 +86,15 @@ double step_of_places(const Analysis& a, const Regressor& own, std::size_t which
 }
 
 /// Of a continuous place by the curvature of the likelihood, settings and all coefficients of the
-/// fit free; 0 where there is no derivative.
-double fitted_place_sigma(
-    const Analysis& a, int column, std::size_t which, const Estimate& fitted, double coefficient) {
+/// fit free.
+double fitted_place_sigma(const Analysis& a,
+                          int column,
+                          std::size_t which,
+                          const Estimate& fitted,
+                          double coefficient,
+                          const Eigen::VectorXd& slope) {
   const Regressor& own = regressor(a, column);
   const EffectParameter& place = own.cause.effect->parameters[which];
-  const auto slope = slope_by_place(a, own, which);
-  if (!slope) return 0.0;
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const RegressorSystem& system = a.system;
   const Eigen::Index settings = system.setting.size();
@@ -107,10 +109,12 @@ double fitted_place_sigma(
     design.col(settings + k) = marginalised.kept(system.g.col(other));
     sigma(settings + k) = wide_coefficient_sigma(system, marginalised, other);
   }
-  design.col(settings + free) = coefficient * marginalised.kept(*slope);
-  // Beforehand any value between the bounds is as likely.
-  sigma(settings + free) =
-      std::min(place.upper - place.lower, 2.0 * std::numbers::pi) / std::sqrt(12.0);
+  design.col(settings + free) = coefficient * marginalised.kept(slope);
+  // Beforehand any value between the bounds is as likely, and a phase goes round.
+  const double range = place.name.ends_with("_rad")
+                           ? std::min(place.upper - place.lower, 2.0 * std::numbers::pi)
+                           : place.upper - place.lower;
+  sigma(settings + free) = range / std::sqrt(12.0);
   if (a.noise) a.noise->llt.matrixL().solveInPlace(design);
   const Eigen::MatrixXd scaled = design * sigma.asDiagonal();
   Eigen::MatrixXd normal = scaled.transpose() * scaled / fitted.noise_square;
@@ -124,8 +128,8 @@ double fitted_place_sigma(
   return std::hypot(sigma(last) * std::sqrt(column_of_inverse(last)), step / std::sqrt(12.0));
 }
 
-/// How well the data say where a cause sets in: the scatter of that parameter over the models.
-double place_scatter(const Analysis& a, int column, std::size_t which) {
+/// How well the data say where a cause sets in: the scatter of that parameter over the models, about a value.
+double place_scatter(const Analysis& a, int column, std::size_t which, double about) {
   const Regressor& own = regressor(a, column);
   const EffectParameter& place = own.cause.effect->parameters[which];
   double weight = 0.0;
@@ -135,7 +139,7 @@ double place_scatter(const Analysis& a, int column, std::size_t which) {
       const Regressor& other = regressor(a, k);
       if (!(other.cause == own.cause)) continue;
       const double p = a.comparison.probability(model);
-      const double off = circular(other.values[which] - own.values[which], place);
+      const double off = circular(other.values[which] - about, place);
       weight += p;
       square += p * off * off;
     }
@@ -148,6 +152,28 @@ Eigen::Index position_of(const Estimate& e, int column) {
   return static_cast<Eigen::Index>(found - e.regressors.begin());
 }
 
+/// The models hold a continuous place at a few values only: where one of them has all the weight their scatter
+/// says nothing of how far the place may lie from it.
+ParameterEstimate estimated_place(
+    const Analysis& a, int column, std::size_t which, const Estimate& fitted, double coefficient) {
+  const Regressor& own = regressor(a, column);
+  const EffectParameter& place = own.cause.effect->parameters[which];
+  ParameterEstimate result{std::string(place.name), own.values[which], 0.0};
+  double width = 0.0;
+  if (!place.integer) {
+    const auto slope = slope_by_place(a, own, which);
+    const bool is_step = slope && slope->isZero();
+    if (slope && !is_step) width = fitted_place_sigma(a, column, which, fitted, coefficient, *slope);
+    // No reading tells where between two of them a step stands.
+    if (const auto gap = is_step ? gap_about(a.system, *own.cause.effect, result.value) : std::nullopt) {
+      result.value = 0.5 * (gap->below + gap->above);
+      width = (gap->above - gap->below) / std::sqrt(12.0);
+    }
+  }
+  result.sigma = std::max(place_scatter(a, column, which, result.value), width);
+  return result;
+}
+
 std::vector<ParameterEstimate> parameters(const Analysis& a, int column, const Estimate& fitted) {
   const Regressor& d = regressor(a, column);
   const Eigen::Index at = position_of(fitted, column);
@@ -158,15 +184,8 @@ std::vector<ParameterEstimate> parameters(const Analysis& a, int column, const E
   result.push_back({std::string(described.front().name),
                     size_at(d, coefficient),
                     std::abs(size_slope(d, coefficient)) * sigma});
-  for (std::size_t k = 1; k < described.size(); ++k) {
-    // The models hold a continuous place at a few values only: where one of them has all the weight
-    // their scatter says nothing of how far the place may lie from it.
-    const double width =
-        described[k].integer ? 0.0 : fitted_place_sigma(a, column, k, fitted, coefficient);
-    result.push_back({std::string(described[k].name),
-                      d.values[k],
-                      std::max(place_scatter(a, column, k), width)});
-  }
+  for (std::size_t k = 1; k < described.size(); ++k)
+    result.push_back(estimated_place(a, column, k, fitted, coefficient));
   return result;
 }
 

@@ -40,12 +40,29 @@ std::string_view unit_of(LawOf of) {
 }
 
 std::string_view name(LawShape shape) {
-  constexpr std::string_view kNames[] = {"linear", "square", "step", "kink", "exponential", "wave"};
+  constexpr std::string_view kNames[] = {"linear", "square", "step", "kink", "exponential", "wave", "harmonics"};
   return kNames[static_cast<std::size_t>(shape)];
 }
 
+bool is_periodic(LawShape shape) {
+  return shape == LawShape::wave || shape == LawShape::harmonics;
+}
+
+std::size_t parameter_count(LawShape shape) {
+  switch (shape) {
+    case LawShape::linear:
+      return 1;
+    case LawShape::wave:
+      return 3;
+    case LawShape::harmonics:
+      return 5;
+    default:
+      return 2;
+  }
+}
+
 double value_of(const Law& law, double v) {
-  const std::size_t count = law.shape == LawShape::linear ? 1 : law.shape == LawShape::wave ? 3 : 2;
+  const std::size_t count = parameter_count(law.shape);
   if (law.parameters.size() != count) {
     throw precondition("a law of shape {} with {} parameters", name(law.shape), law.parameters.size());
   }
@@ -65,9 +82,13 @@ double value_of(const Law& law, double v) {
     case LawShape::exponential:
       return size * std::exp(-(law.towards > 0 ? law.to - v : v - law.from) / second);
     case LawShape::wave:
+    case LawShape::harmonics:
       break;
   }
-  return size * std::sin(2.0 * std::numbers::pi * (v - middle) / second + law.parameters[2].value);
+  const double turn = 2.0 * std::numbers::pi * (v - middle) / second;
+  const double first = size * std::sin(turn + law.parameters[2].value);
+  if (law.shape == LawShape::wave) return first;
+  return first + law.parameters[3].value * std::sin(2.0 * turn + law.parameters[4].value);
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -12,7 +12,8 @@
 /// | step        | size for v >= place, else 0                      | size_mm, place           |
 /// | kink        | size max(0, towards (v - place)) / span          | size_mm, place           |
 /// | exponential | size exp(-distance of v from the end / scale), the end being `to` where `towards` is 1, `from` where -1 | size_mm, scale |
-/// | wave        | size sin(2 pi (v - middle) / period + phase)     | size_mm, period, phase_rad |
+/// | wave        | size sin(w + phase), w = 2 pi (v - middle) / period | size_mm, period, phase_rad |
+/// | harmonics   | size sin(w + phase) + second_size sin(2 w + second_phase) | size_mm, period, phase_rad, second_size_mm, second_phase_rad |
 ///
 /// A place, scale or period has the unit of v in its name: mm, rad, n (newtons), visit.
 #pragma once
@@ -48,8 +49,12 @@ enum class LawOf {
 /// "mm", "rad", "n", "visit": what a parameter's name ends in.
 [[nodiscard]] std::string_view unit_of(LawOf of);
 
-enum class LawShape { linear, square, step, kink, exponential, wave };
+enum class LawShape { linear, square, step, kink, exponential, wave, harmonics };
 [[nodiscard]] std::string_view name(LawShape shape);
+/// Whether it has a period.
+[[nodiscard]] bool is_periodic(LawShape shape);
+/// How many parameters a law of this shape has.
+[[nodiscard]] std::size_t parameter_count(LawShape shape);
 
 struct ParameterEstimate {
   std::string parameter;

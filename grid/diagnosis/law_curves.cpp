@@ -16,6 +16,7 @@ namespace {
 constexpr int kLawDirections = 16;
 constexpr double kFewestWaves = 0.5;  // over the span; less is a trend
 constexpr double kWaveStep = 0.25;
+constexpr double kHarmonicsStep = 0.125;  // their second harmonic goes twice as far
 constexpr int kStepPlaces = 48;
 constexpr int kKinkPlaces = 16;
 constexpr int kScales = 9;
@@ -134,7 +135,9 @@ class CurveList {
       if (start_.enters != Enters::outwards) add(LawShape::kink, towards, own, kink_places());
       add(LawShape::exponential, towards, own, scales());
     }
-    if (!of_border) add_waves(0.25 * weight);
+    if (!of_border) add_waves(LawShape::wave, kWaveStep, 0.25 * weight);
+    // Two parameters more than a wave.
+    if (may_repeat()) add_waves(LawShape::harmonics, kHarmonicsStep, 0.0625 * weight);
   }
 
   void add(LawShape shape, int towards, double weight, std::vector<double> grid) {
@@ -148,26 +151,9 @@ class CurveList {
   }
 
   void add_steps(double weight) {
-    std::vector<double> grid;
-    std::vector<double> mass;
-    std::ptrdiff_t last = 0;
-    std::vector<double> same;
-    const auto close = [&] {
-      if (same.empty()) return;
-      grid.push_back(0.5 * (same.front() + same.back()));
-      mass.push_back(static_cast<double>(same.size()) / kStepPlaces);
-      same.clear();
-    };
-    for (int k = 0; k < kStepPlaces; ++k) {
-      const double at = start_.from + (k + 0.5) / kStepPlaces * start_.span();
-      const auto below = std::lower_bound(values_.begin(), values_.end(), at) - values_.begin();
-      if (below != last) close();
-      last = below;
-      same.push_back(at);
-    }
-    close();
-    add(LawShape::step, 0, weight, std::move(grid));
-    curves_.back().mass = std::move(mass);
+    StepPlaces places = step_places(values_, start_.from, start_.to);
+    add(LawShape::step, 0, weight, std::move(places.at));
+    curves_.back().mass = std::move(places.mass);
   }
 
   [[nodiscard]] std::vector<double> kink_places() const {
@@ -184,20 +170,28 @@ class CurveList {
     return grid;
   }
 
-  void add_waves(double weight) {
+  /// Where something turns, or is built of equal parts.
+  [[nodiscard]] bool may_repeat() const {
+    return start_.of == LawOf::x || start_.of == LawOf::y ||
+           (start_.of == LawOf::length_left && start_.enters == Enters::left) ||
+           (start_.of == LawOf::length_right && start_.enters == Enters::right);
+  }
+
+  void add_waves(LawShape shape, double step, double weight) {
+    const double harmonic = shape == LawShape::harmonics ? 2.0 : 1.0;
     const double most =
-        start_.span() / shortest_wave(start_.of, start_.enters, start_.span());
+        start_.span() / (harmonic * shortest_wave(start_.of, start_.enters, start_.span()));
     std::vector<double> grid;
     std::vector<double> mass;
     double sum = 0.0;
-    for (double waves = kFewestWaves; waves <= most; waves += kWaveStep) {
+    for (double waves = kFewestWaves; waves <= most; waves += step) {
       grid.push_back(waves);
       mass.push_back(1.0 / waves);
       sum += 1.0 / waves;
     }
     if (grid.empty()) return;
     for (double& own : mass) own /= sum;
-    add(LawShape::wave, 0, weight, std::move(grid));
+    add(shape, 0, weight, std::move(grid));
     curves_.back().mass = std::move(mass);
   }
 
@@ -222,25 +216,49 @@ double basis(const LawCurve& curve, double at, Eigen::Index column, double v) {
     case LawShape::exponential:
       return std::exp(-(curve.towards > 0 ? curve.to - v : v - curve.from) / at);
     case LawShape::wave:
+    case LawShape::harmonics:
       break;
   }
-  const double turn = 2.0 * std::numbers::pi * at * u;
-  return column == 0 ? std::cos(turn) : std::sin(turn);
+  const double harmonic = column < 2 ? 1.0 : 2.0;
+  const double turn = 2.0 * std::numbers::pi * harmonic * at * u;
+  return column % 2 == 0 ? std::cos(turn) : std::sin(turn);
 }
 
 }  // namespace
 
+StepPlaces step_places(const std::vector<double>& values, double from, double to) {
+  StepPlaces places;
+  std::ptrdiff_t last = 0;
+  std::vector<double> same;
+  const auto close = [&] {
+    if (same.empty()) return;
+    places.at.push_back(0.5 * (same.front() + same.back()));
+    places.mass.push_back(static_cast<double>(same.size()) / kStepPlaces);
+    same.clear();
+  };
+  for (int k = 0; k < kStepPlaces; ++k) {
+    const double at = from + (k + 0.5) / kStepPlaces * (to - from);
+    const auto below = std::lower_bound(values.begin(), values.end(), at) - values.begin();
+    if (below != last) close();
+    last = below;
+    same.push_back(at);
+  }
+  close();
+  return places;
+}
+
 Eigen::Index columns_of(LawShape shape) {
+  if (shape == LawShape::harmonics) return 4;
   return shape == LawShape::square || shape == LawShape::wave ? 2 : 1;
 }
 
 bool is_continuous(LawShape shape) {
-  return shape == LawShape::kink || shape == LawShape::exponential || shape == LawShape::wave;
+  return shape == LawShape::kink || shape == LawShape::exponential || is_periodic(shape);
 }
 
 double density_at(const LawCurve& curve, double at) {
   // Scales are even in their logarithm, as periods are.
-  return curve.shape == LawShape::wave || curve.shape == LawShape::exponential ? 1.0 / at : 1.0;
+  return is_periodic(curve.shape) || curve.shape == LawShape::exponential ? 1.0 / at : 1.0;
 }
 
 double variable_at(const SystemPlace& place, LawOf of, double direction_rad) {

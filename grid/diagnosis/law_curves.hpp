@@ -5,7 +5,9 @@
 ///
 /// The grid of a wave is in waves over the span, a quarter of one from one to the next: between two of
 /// them the phase is off by at most an eighth of a turn at either end, which costs less than a tenth of
-/// the wave's square; leading waves get a finer grid. A step stands at 48 places over the span, of
+/// the wave's square; leading waves get a finer grid. That of a wave with its second harmonic is an eighth
+/// of a wave apart, for the same of the harmonic; it is weighed over x, over y, and over the length of the
+/// chain that it acts on, where something turns or repeats. A step stands at 48 places over the span, of
 /// which those between the same two readings are one. Places of kinks: sixteen; scales: a factor of
 /// 1.45 apart, neighbours of which have a collinearity of 0.99.
 ///
@@ -42,12 +44,21 @@ struct LawCurve {
   [[nodiscard]] double middle() const { return 0.5 * (from + to); }
 };
 
+/// Where a step may stand, evenly over a range, in units of what it is a function of: the middle of each gap
+/// between two of these values (sorted), with the share of the range that it takes.
+struct StepPlaces {
+  std::vector<double> at;
+  std::vector<double> mass;
+};
+[[nodiscard]] StepPlaces step_places(const std::vector<double>& values, double from, double to);
+
 /// Of this system's places.
 [[nodiscard]] std::vector<LawCurve> law_curves(const RegressorSystem& system);
 /// Shares in proportion to the weights.
 void share_out(std::vector<LawCurve>& curves);
 
-/// Amplitudes that enter linearly: two of a square and of a wave, else one.
+/// Amplitudes that enter linearly: two of a square and of a wave, four of a wave with its second
+/// harmonic, else one.
 [[nodiscard]] Eigen::Index columns_of(LawShape shape);
 /// Whether there is a place, a scale or a period, and finer values of it mean something.
 [[nodiscard]] bool is_continuous(LawShape shape);

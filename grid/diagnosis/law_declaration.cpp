@@ -75,7 +75,7 @@ DeclaredParameter size_of(const Law& law) {
           .null = 0.0,
           .nominal = value,
           // The phase of a wave has its sign.
-          .lower = law.shape == LawShape::wave ? 0.0 : -bound,
+          .lower = is_periodic(law.shape) ? 0.0 : -bound,
           .upper = bound,
           .prior_sigma = std::max(std::abs(value), 0.05)};
 }
@@ -83,7 +83,7 @@ DeclaredParameter size_of(const Law& law) {
 DeclaredParameter place_of(const Law& law) {
   DeclaredParameter place;
   place.role = ParameterRole::place;
-  if (law.shape == LawShape::wave) {
+  if (is_periodic(law.shape)) {
     place.name = "phase_rad";
     place.symbol = "p";
     place.meaning = "phase of the wave in the middle of its range";
@@ -128,12 +128,21 @@ std::string formula_of(const Law& law, const model::Bed& bed) {
                  : fmt::format("size_mm * exp(({:.6g} - {}) / {})", law.from, v, scale);
     }
     case LawShape::wave:
+    case LawShape::harmonics:
       break;
   }
-  return fmt::format("size_mm * sin(2 * pi * ({} - {:.6g}) / {} + phase_rad)",
-                     v,
-                     0.5 * (law.from + law.to),
-                     with_unit(law, law.parameters[1].value));
+  const std::string turn = fmt::format(
+      "2 * pi * ({} - {:.6g}) / {}", v, 0.5 * (law.from + law.to), with_unit(law, law.parameters[1].value));
+  if (law.shape == LawShape::wave) return fmt::format("size_mm * sin({} + phase_rad)", turn);
+  // The form of one period stays: the harmonic grows and turns with the wave.
+  const double ratio = law.parameters[3].value / law.parameters[0].value;
+  const double behind = std::remainder(law.parameters[4].value - 2.0 * law.parameters[2].value,
+                                       2.0 * std::numbers::pi);
+  return fmt::format("size_mm * (sin({} + phase_rad) + {:.6g} * sin(2 * ({} + phase_rad) + {:.6f}))",
+                     turn,
+                     ratio,
+                     turn,
+                     behind);
 }
 
 /// What a millimetre of the law adds to either chain, as a factor; empty where it is that of the chain itself.
@@ -180,8 +189,7 @@ tl::expected<Declaration, std::string> declaration_of(const Law& law, const mode
                : law.enters == Enters::right ? EffectSide::right
                                              : EffectSide::both};
   own.parameters = {size_of(law)};
-  const bool has_place =
-      law.shape == LawShape::step || law.shape == LawShape::kink || law.shape == LawShape::wave;
+  const bool has_place = law.shape == LawShape::step || law.shape == LawShape::kink || is_periodic(law.shape);
   if (has_place) own.parameters.push_back(place_of(law));
   own.adds_mm = entrance_of(law) + formula_of(law, bed);
   own.cause = fmt::format("a cause without a name, {}", form_in_words(law));

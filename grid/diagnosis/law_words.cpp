@@ -100,7 +100,7 @@ std::string variable_in_words(const Law& law) {
 }
 
 std::string form_in_words(const Law& law) {
-  constexpr std::string_view kForms[] = {"a slope", "a bow", "a step", "a kink", "an exponential", "a wave"};
+  constexpr std::string_view kForms[] = {"a slope", "a bow", "a step", "a kink", "an exponential", "a wave", "a wave with its second harmonic"};
   return fmt::format("{} over {}", kForms[static_cast<std::size_t>(law.shape)], variable_in_words(law));
 }
 
@@ -139,6 +139,13 @@ std::string in_words(const Law& law) {
           law.towards > 0 ? "largest" : "least",
           quantity_words(law, law.parameters[1]),
           entrance);
+    case LawShape::harmonics:
+      return fmt::format("a wave of {} mm over {} with period {} and its second harmonic of {} mm, {}",
+                         size_words,
+                         variable,
+                         quantity_words(law, law.parameters[1]),
+                         number_words(law.parameters[3].value, law.parameters[3].sigma),
+                         entrance);
     case LawShape::wave:
       break;
   }
@@ -156,7 +163,7 @@ std::vector<std::string> hints_of(const Law& law, const model::Machine& machine)
     const ParameterEstimate& own = law.parameters[1];
     return std::abs(own.value - value) < std::max(2.0 * own.sigma, least);
   };
-  if (law.shape == LawShape::wave && of_length) {
+  if (is_periodic(law.shape) && of_length) {
     const double pitch = machine.sprocket.pitch_mm;
     const double turn = machine.sprocket.teeth * pitch;
     // Nearer than that a period is not made: a hundredth.

@@ -36,13 +36,32 @@ struct FoundPoint {
   const LawEvidence* evidence = nullptr;
   const WeighedLaw* law = nullptr;
   [[nodiscard]] const LawCurve& curve() const { return evidence->curves[law->curve]; }
+  /// Of the posterior there but for a factor, whatever part of the range the point stands for: about the
+  /// leading points a grid is finer, and each of these holds less. A step's place is one of its gaps.
+  [[nodiscard]] double log_density() const {
+    const LawCurve& own = curve();
+    if (!is_continuous(own.shape)) return law->log_weight;
+    const auto at = std::find(own.grid.begin(), own.grid.end(), law->at) - own.grid.begin();
+    return law->log_weight - std::log(own.mass[static_cast<std::size_t>(at)]) +
+           std::log(density_at(own, law->at));
+  }
 };
 
-/// Size and place (a period, a scale) or size, period and phase of a point, with their variances.
+/// Size and place (a period, a scale) or size, period and phase of a point, with their variances; of a wave
+/// with its second harmonic, size and phase of that besides.
 struct PointParameters {
   std::vector<double> value;
   std::vector<double> variance;
 };
+
+/// Size and phase of a cosine and a sine.
+PointParameters size_and_phase(const Eigen::Vector2d& a, const Eigen::Matrix2d& c) {
+  const double size = std::max(a.norm(), kSmallestWaveMm);
+  const Eigen::Vector2d along = a / size;
+  const Eigen::Vector2d turned(along(1), -along(0));
+  return {{size, std::atan2(a(0), a(1))},
+          {along.dot(c * along), turned.dot(c * turned) / (size * size)}};
+}
 
 PointParameters parameters_of(const LawCurve& curve, const WeighedLaw& law) {
   const Eigen::VectorXd& a = law.amplitude;
@@ -58,12 +77,17 @@ PointParameters parameters_of(const LawCurve& curve, const WeighedLaw& law) {
       const double half = 0.5 * curve.span();
       return {{a(0), curve.middle() + half * at}, {c(0, 0), half * half * slope.dot(c * slope)}};
     }
-    case LawShape::wave: {
-      const double size = std::max(a.norm(), kSmallestWaveMm);
-      const Eigen::Vector2d along = a / size;
-      const Eigen::Vector2d turned(along(1), -along(0));
-      return {{size, curve.span() / law.at, std::atan2(a(0), a(1))},
-              {along.dot(c * along), 0.0, turned.dot(c * turned) / (size * size)}};
+    case LawShape::wave:
+    case LawShape::harmonics: {
+      const PointParameters first = size_and_phase(a.head<2>(), c.topLeftCorner<2, 2>());
+      PointParameters own{{first.value[0], curve.span() / law.at, first.value[1]},
+                          {first.variance[0], 0.0, first.variance[1]}};
+      if (curve.shape == LawShape::harmonics) {
+        const PointParameters second = size_and_phase(a.tail<2>(), c.bottomRightCorner<2, 2>());
+        own.value.insert(own.value.end(), second.value.begin(), second.value.end());
+        own.variance.insert(own.variance.end(), second.variance.begin(), second.variance.end());
+      }
+      return own;
     }
     case LawShape::step: {
       // Anywhere between two readings.
@@ -89,11 +113,16 @@ std::vector<std::string> names_of(const LawCurve& curve) {
       return {"size_mm", with_unit("scale")};
     case LawShape::wave:
       return {"size_mm", with_unit("period"), "phase_rad"};
+    case LawShape::harmonics:
+      return {"size_mm", with_unit("period"), "phase_rad", "second_size_mm", "second_phase_rad"};
     default:
       break;
   }
   return {"size_mm", with_unit("place")};
 }
+
+/// The third and the fifth, of what has a period.
+bool is_phase(std::size_t parameter) { return parameter == 2 || parameter == 4; }
 
 /// Values of the heaviest point; sigmas over all points of its curve.
 std::vector<ParameterEstimate> estimates(const FoundPoint& best,
@@ -111,7 +140,7 @@ std::vector<ParameterEstimate> estimates(const FoundPoint& best,
     const PointParameters there = parameters_of(point.curve(), *point.law);
     for (std::size_t k = 0; k < count; ++k) {
       double off = there.value[k] - own.value[k];
-      if (k == 2) off = std::remainder(off, 2.0 * std::numbers::pi);
+      if (is_phase(k)) off = std::remainder(off, 2.0 * std::numbers::pi);
       sum[k] += w * off;
       square[k] += w * off * off;
       within[k] += w * there.variance[k];
@@ -186,7 +215,7 @@ std::optional<std::pair<Law, FoundPoint>> law_of(const Analysis& a,
   const FoundPoint* best = nullptr;
   for (const FoundPoint& point : points) {
     if (point.curve().shape != likeliest->first) continue;
-    if (best == nullptr || point.law->log_weight > best->law->log_weight) best = &point;
+    if (best == nullptr || point.log_density() > best->log_density()) best = &point;
   }
   const LawCurve& curve = best->curve();
   Law law;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "grid/chain_rows.hpp"
+#include "grid/diagnosis/law_curves.hpp"
 #include "grid/diagnosis/secants.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/effects/declared_effect.hpp"
@@ -105,13 +106,6 @@ Eigen::VectorXd added(const RegressorSystem& system,
 
 const EffectParameter& size_parameter(const Effect& effect) { return effect.parameters.front(); }
 
-const EffectParameter* place_parameter(const Effect& effect) {
-  for (const EffectParameter& p : effect.parameters) {
-    if (p.role == ParameterRole::place) return &p;
-  }
-  return nullptr;
-}
-
 /// What the place of an effect is compared with, at one place of the tool.
 double compared(const SystemPlace& own, PlaceVariable variable, model::Side side) {
   const model::Pose& pose = own.state.reading.pose;
@@ -138,11 +132,13 @@ double compared(const SystemPlace& own, PlaceVariable variable, model::Side side
   }
 }
 
-PlaceVariable variable_of_place(const Effect& effect, const EffectParameter& place) {
-  if (effect.law != nullptr) return model::effects::place_variable(effect);
-  if (place.integer) return PlaceVariable::visit;
-  return place.upper - place.lower >= 2.0 * std::numbers::pi ? PlaceVariable::phase
-                                                             : PlaceVariable::angle;
+std::vector<double> compared(const RegressorSystem& system, PlaceVariable variable, model::Side side) {
+  std::vector<double> there;
+  for (const SystemPlace& own : system.places) {
+    if (variable != PlaceVariable::visit || own.ordered)
+      there.push_back(compared(own, variable, side));
+  }
+  return there;
 }
 
 /// As many as kPlaces, evenly in the rank of those that are there.
@@ -185,18 +181,22 @@ std::vector<double> places(const RegressorSystem& system, CauseId cause) {
       result.push_back(place.lower + (place.upper - place.lower) * (k + 0.5) / kPlaces);
     return result;
   }
-  std::vector<double> there;
   const auto side = cause.side == EffectSide::left ? model::Side::left : model::Side::right;
-  for (const SystemPlace& own : system.places) {
-    if (variable != PlaceVariable::visit || own.ordered)
-      there.push_back(compared(own, variable, side));
-  }
+  std::vector<double> there = compared(system, variable, side);
   if (there.size() < 2) return result;
   result = evenly_by_rank(std::move(there));
   if (cause.effect->law != nullptr) {
     std::erase_if(result, [&](double at) { return at < place.lower || at > place.upper; });
   }
   return result;
+}
+
+/// Whether its formula steps where it sets in, so that it has no derivative by its place.
+bool has_step(const Effect& effect) {
+  const model::effects::Declaration* declared = model::effects::declaration_of(effect);
+  if (declared == nullptr || declared->adds_mm.find("step(") == std::string::npos) return false;
+  const PlaceVariable of = variable_of_place(effect, *place_parameter(effect));
+  return of != PlaceVariable::phase && of != PlaceVariable::none && of != PlaceVariable::visit;
 }
 
 /// Goes on through zero as a straight line, where an odd effect changes its sign.
@@ -220,6 +220,7 @@ class Builder {
     } else if (place_parameter(*cause.effect) == nullptr) {
       add_one(cause, values, std::log(share_of_side(cause)));
     } else {
+      if (has_step(*cause.effect)) return add_steps(cause, values);
       const std::vector<double> where = places(system_, cause);
       const double share = std::log(share_of_side(cause) / static_cast<double>(where.size()));
       for (const double place : where) {
@@ -255,6 +256,28 @@ class Builder {
     limit(regressor);
     system_.regressors.push_back(std::move(regressor));
     system_.g.add(*g);
+  }
+
+  /// A step stands in a gap between two places of the tool, the likelier the wider that is.
+  void add_steps(CauseId cause, std::vector<double> values) {
+    const EffectParameter& place = *place_parameter(*cause.effect);
+    const PlaceVariable variable = variable_of_place(*cause.effect, place);
+    std::vector<double> there = compared(system_, variable, model::Side::left);
+    if (cause.side != EffectSide::left) {
+      const std::vector<double> right = compared(system_, variable, model::Side::right);
+      if (cause.side == EffectSide::right) there.clear();
+      there.insert(there.end(), right.begin(), right.end());
+    }
+    if (there.size() < 2) return;
+    std::sort(there.begin(), there.end());
+    const double from = std::max(place.lower, there.front());
+    const double to = std::min(place.upper, there.back());
+    if (!(from < to)) return;
+    const StepPlaces where = step_places(there, from, to);
+    for (std::size_t k = 0; k < where.at.size(); ++k) {
+      values.back() = where.at[k];
+      add_one(cause, values, std::log(share_of_side(cause) * where.mass[k]));
+    }
   }
 
   /// A misreading of k links is k times that of one.
@@ -304,6 +327,35 @@ std::string untestable(const ObservationSet& session, CauseId cause) {
 }
 
 }  // namespace
+
+const EffectParameter* place_parameter(const Effect& effect) {
+  for (const EffectParameter& p : effect.parameters) {
+    if (p.role == ParameterRole::place) return &p;
+  }
+  return nullptr;
+}
+
+PlaceVariable variable_of_place(const Effect& effect, const EffectParameter& place) {
+  if (effect.law != nullptr) return model::effects::place_variable(effect);
+  if (place.integer) return PlaceVariable::visit;
+  return place.upper - place.lower >= 2.0 * std::numbers::pi ? PlaceVariable::phase
+                                                             : PlaceVariable::angle;
+}
+
+std::optional<PlaceGap> gap_about(const RegressorSystem& system, const Effect& effect, double place) {
+  const PlaceVariable variable = variable_of_place(effect, *place_parameter(effect));
+  if (variable == PlaceVariable::phase || variable == PlaceVariable::none) return std::nullopt;
+  std::optional<double> below;
+  std::optional<double> above;
+  for (const model::Side side : {model::Side::left, model::Side::right}) {
+    for (const double at : compared(system, variable, side)) {
+      if (at < place && (!below || at > *below)) below = at;
+      if (at >= place && (!above || at < *above)) above = at;
+    }
+  }
+  if (!below || !above) return std::nullopt;
+  return PlaceGap{*below, *above};
+}
 
 Candidates candidates(const ObservationSet& session) {
   Candidates result;

@@ -9,6 +9,7 @@
 
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
+#include "model/effects/declared_effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -46,6 +47,22 @@ void add_regressors(const ObservationSet& session,
                                                        const RegressorSystem& system,
                                                        CauseId cause,
                                                        const std::vector<double>& values);
+
+/// Where or when an effect sets in; null of one that has no place.
+[[nodiscard]] const model::effects::EffectParameter* place_parameter(const model::effects::Effect& effect);
+
+/// What that place is compared with.
+[[nodiscard]] model::effects::PlaceVariable variable_of_place(const model::effects::Effect& effect,
+                                                              const model::effects::EffectParameter& place);
+/// Between the nearest places of the tool to either side of it, in that variable: a step at one place between them
+/// is the same at all readings as one at another. Nothing where none is on a side, and for phases.
+struct PlaceGap {
+  double below = 0.0;
+  double above = 0.0;
+};
+[[nodiscard]] std::optional<PlaceGap> gap_about(const RegressorSystem& system,
+                                                const model::effects::Effect& effect,
+                                                double place);
 
 /// Size of a cause at a coefficient of its regressor.
 [[nodiscard]] double size_at(const Regressor& regressor, double coefficient);

@@ -96,7 +96,8 @@ const Record<Law>& law_record() {
                                      LawShape::step,
                                      LawShape::kink,
                                      LawShape::exponential,
-                                     LawShape::wave}))
+                                     LawShape::wave,
+                                     LawShape::harmonics}))
           .required("enters",
                     &Law::enters,
                     words(std::array{Enters::left,
@@ -120,9 +121,7 @@ const Record<Law>& law_record() {
             if (at.child("from").clean() && at.child("to").clean() && !(law.from < law.to))
               at.child("to").expect("more than from");
             if (!at.child("shape").clean() || !at.child("parameters").clean()) return;
-            const std::size_t count = law.shape == LawShape::linear ? 1
-                                      : law.shape == LawShape::wave ? 3
-                                                                    : 2;
+            const std::size_t count = diagnosis::parameter_count(law.shape);
             if (law.parameters.size() != count)
               at.child("parameters").expect(fmt::format("{} of a law of this shape", count));
           });

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "grid/files/json_reader.hpp"
+#include "grid/files/effect_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/machine_record.hpp"
 #include "grid/files/schemas.hpp"
@@ -211,9 +212,13 @@ const Record<StatedSweep>& sweep_record() {
   return record;
 }
 
-void read_machines(const fs::path& path, StatedSweep& stated, Problems& problems) {
+void read_machines(const fs::path& path,
+                   const std::vector<std::string>& effects,
+                   StatedSweep& stated,
+                   Problems& problems) {
   // Several levels may name one file; its warnings are given once.
   std::map<std::string, model::Machine> known;
+  bool effects_are_sound = true;  // what is wrong with them is said once
   const auto alongside = [&](const std::string& name) {
     const auto [at, is_new] = known.try_emplace(name);
     if (!is_new) return at->second;
@@ -222,6 +227,12 @@ void read_machines(const fs::path& path, StatedSweep& stated, Problems& problems
       problems.add_warnings(read.warnings);
       at->second = std::move(read.machine);
     } catch (const InputError& error) {
+      problems.add_all(error);
+    }
+    try {
+      if (effects_are_sound) declare_effects(effects, at->second);
+    } catch (const InputError& error) {
+      effects_are_sound = false;
       problems.add_all(error);
     }
     return at->second;
@@ -269,11 +280,11 @@ Json median_and_worst(const std::vector<sweep::CellResult>& done,
 
 }  // namespace
 
-ReadSweep read_sweep(const fs::path& path) {
+ReadSweep read_sweep(const fs::path& path, const std::vector<std::string>& effects) {
   Problems problems(name_in_messages(path));
   StatedSweep stated = read_document(sweep_record(), read_whole_file(path), problems);
   fill_defaults(stated.spec);
-  read_machines(path, stated, problems);
+  read_machines(path, effects, stated, problems);
   problems.throw_if_any();
   check_effects(stated.spec, problems);
   problems.throw_if_any();

@@ -34,8 +34,10 @@ struct ReadSweep {
   std::vector<Warning> warnings;
 };
 
-/// \throws InputError with every problem of the file.
-[[nodiscard]] ReadSweep read_sweep(const std::filesystem::path& path);
+/// `effects` are chaintrue_effect files; what they declare may act on every machine of the sweep.
+/// \throws InputError with every problem of the file, of those it names and of these.
+[[nodiscard]] ReadSweep read_sweep(const std::filesystem::path& path,
+                                   const std::vector<std::string>& effects = {});
 
 /// The parts of summary.json, written one after the other: head, one line for each combination with
 /// commas between, tail.

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/law_declaration.hpp"
 #include "grid/diagnosis/law_words.hpp"
@@ -51,6 +52,14 @@ MeasuredGrid with_half_turns(std::uint64_t seed, double size_mm = 0.45, double s
   });
 }
 
+/// A turn whose second harmonic is as large as its first: two bumps a turn, one of them deep.
+MeasuredGrid with_two_harmonics(std::uint64_t seed) {
+  return with_left(session_of({}, seed, 13, 9), [](const auto&, const auto& reading) {
+    const double turn = 2.0 * std::numbers::pi * reading.pose.lengths.left_mm / 110.0;
+    return 0.5 * std::sin(turn + 0.7) + 0.45 * std::sin(2.0 * turn - 0.4);
+  });
+}
+
 MeasuredGrid with_step_along_x(std::uint64_t seed, double size_mm = 1.0) {
   return with_left(session_of({}, seed, 9, 6), [=](const model::MarkPoint& mark, const auto&) {
     return mark.x_mm >= 250.0 ? size_mm : 0.0;
@@ -80,6 +89,23 @@ TEST(Laws, AWaveOfHalfATurnIsFoundWithItsPeriodAndSize) {
   const auto hints = hints_of(law, model::Machine{});
   ASSERT_EQ(hints.size(), 1U);
   EXPECT_THAT(hints.front(), HasSubstr("half a turn of the sprocket (31.8 mm)"));
+}
+
+// Two sizes and one period; the second is not a wave of its own.
+TEST(Laws, AWaveAndItsSecondHarmonicAreOneLaw) {
+  const std::vector<Law> laws = laws_found(analysed(with_two_harmonics(14))).laws;
+  ASSERT_FALSE(laws.empty());
+  const Law& law = laws.front();
+  EXPECT_EQ(law.of, LawOf::length_left) << in_words(law);
+  EXPECT_EQ(law.shape, LawShape::harmonics);
+  EXPECT_EQ(law.enters, Enters::left);
+  EXPECT_GT(law.probability, kLawClaimed);
+  // Three sigmas.
+  ASSERT_EQ(law.parameters.size(), 5U);
+  EXPECT_NEAR(law.parameters[0].value, 0.5, 3.0 * law.parameters[0].sigma);
+  EXPECT_NEAR(law.parameters[1].value, 110.0, 3.0 * law.parameters[1].sigma);
+  EXPECT_NEAR(law.parameters[3].value, 0.45, 3.0 * law.parameters[3].sigma);
+  EXPECT_THAT(in_words(law), HasSubstr("and its second harmonic of 0.4"));
 }
 
 double probability_of(const Diagnosis& found, std::string_view what) {
@@ -233,11 +259,13 @@ TEST(Laws, MoreParametersAndDirectionsHaveLess) {
   double of_x = 0.0;
   for (const LawCurve& curve : law_curves(a.system)) {
     if (curve.of == LawOf::x && curve.enters == Enters::left) along_x[curve.shape] += curve.share;
-    if (curve.of == LawOf::x) of_x += curve.share;
+    // No direction has a wave with its second harmonic.
+    if (curve.of == LawOf::x && curve.shape != LawShape::harmonics) of_x += curve.share;
     if (curve.of == LawOf::across) across += curve.share;
   }
   EXPECT_DOUBLE_EQ(along_x[LawShape::step], 0.5 * along_x[LawShape::linear]);
   EXPECT_DOUBLE_EQ(along_x[LawShape::wave], 0.5 * along_x[LawShape::step]);
+  EXPECT_DOUBLE_EQ(along_x[LawShape::harmonics], 0.25 * along_x[LawShape::wave]);
   EXPECT_NEAR(across, 0.5 * of_x, 1e-12);
 }
 
@@ -265,9 +293,13 @@ Law law_of(LawOf of, LawShape shape, Enters enters) {
   const double span = law.to - law.from;
   law.parameters = {{"size_mm", 0.7, 0.05}};
   const std::string unit(unit_of(of));
-  if (shape == LawShape::wave) {
+  if (is_periodic(shape)) {
     law.parameters.push_back({"period_" + unit, 0.4 * span, 0.01 * span});
     law.parameters.push_back({"phase_rad", 0.6, 0.1});
+    if (shape == LawShape::harmonics) {
+      law.parameters.push_back({"second_size_mm", 0.3, 0.05});
+      law.parameters.push_back({"second_phase_rad", -1.1, 0.2});
+    }
   } else if (shape == LawShape::exponential) {
     law.parameters.push_back({"scale_" + unit, 0.2 * span, 0.02 * span});
   } else if (shape != LawShape::linear) {
@@ -289,10 +321,17 @@ LawCurve curve_of(const Law& law, Eigen::VectorXd& amplitude, double& at) {
   const double size = law.parameters[0].value;
   amplitude = Eigen::VectorXd::Constant(1, size);
   at = law.parameters.size() > 1 ? law.parameters[1].value : 0.0;
-  if (law.shape == LawShape::wave) {
+  const auto wave = [&](std::size_t of_size) {
+    const double phase = law.parameters[of_size == 0 ? 2 : 4].value;
+    return Eigen::Vector2d(law.parameters[of_size].value * Eigen::Vector2d(std::sin(phase), std::cos(phase)));
+  };
+  if (is_periodic(law.shape)) {
     at = curve.span() / at;
-    amplitude = size * Eigen::Vector2d(std::sin(law.parameters[2].value),
-                                       std::cos(law.parameters[2].value));
+    amplitude = wave(0);
+    if (law.shape == LawShape::harmonics) {
+      amplitude.conservativeResize(4);
+      amplitude.tail<2>() = wave(3);
+    }
   } else if (law.shape == LawShape::square) {
     const double off = (at - curve.middle()) / (0.5 * curve.span());
     amplitude = size * Eigen::Vector2d(1.0, -2.0 * off);
@@ -363,6 +402,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Written{LawOf::across, LawShape::kink, Enters::y},
                     Written{LawOf::border, LawShape::exponential, Enters::left},
                     Written{LawOf::length_left, LawShape::wave, Enters::left},
+                    Written{LawOf::length_left, LawShape::harmonics, Enters::left},
+                    Written{LawOf::y, LawShape::harmonics, Enters::y},
                     Written{LawOf::length_right, LawShape::linear, Enters::right},
                     Written{LawOf::angle_left, LawShape::wave, Enters::left},
                     Written{LawOf::angle_right, LawShape::kink, Enters::right},
@@ -428,6 +469,50 @@ TEST(LawFiles, AreConfirmedByASecondSessionOfTheMachineAndDeniedByAnother) {
     ASSERT_EQ(few.declared.size(), 1U);
     EXPECT_NE(few.declared.front().says, DeclaredAnswer::Says::denied) << "seed " << seed;
   }
+}
+
+// A step between two columns of marks: no reading tells where, and the map has the mean over these places.
+TEST(LawFiles, TheMapAveragesOverTheGapInWhichAStepMayStand) {
+  const auto written = declaration_of(laws_found(analysed(with_step_along_x(12))).laws, model::Bed{});
+  ASSERT_TRUE(written) << written.error();
+  MeasuredGrid grid = with_step_along_x(41);
+  double below = -1e9;
+  double above = 1e9;
+  for (const MeasuredPoint& point : grid.points) {
+    double& own = point.mark.x_mm < 250.0 ? below : above;
+    own = point.mark.x_mm < 250.0 ? std::max(own, point.mark.x_mm) : std::min(own, point.mark.x_mm);
+  }
+  grid.machine->declared = {&declared_effect(*written)};
+  const CausesFit fit = fit_with_causes(Measured(grid)).value();
+  ASSERT_EQ(fit.built_on.size(), 1U);
+  const Cause& cause = fit.built_on.front();
+  ASSERT_EQ(cause.parameters.back().parameter, "place_mm");
+  const ParameterEstimate& place = cause.parameters.back();
+  // A column of readings is a few millimetres wide where the lengths say that it is.
+  constexpr double kColumnMm = 6.0;
+  EXPECT_NEAR(place.value, 0.5 * (below + above), kColumnMm);
+  EXPECT_NEAR(place.sigma, (above - below) / std::sqrt(12.0), kColumnMm);
+  const auto effects = applied_over_places(cause);
+  ASSERT_GT(effects.size(), 1U);
+  double size = 0.0;
+  for (const model::AppliedEffect& own : effects) {
+    size += own.parameters.at("size_mm");
+    EXPECT_GT(own.parameters.at("place_mm"), below - kColumnMm);
+    EXPECT_LT(own.parameters.at("place_mm"), above + kColumnMm);
+  }
+  EXPECT_NEAR(size, cause.parameters.front().value, 1e-12);
+  // The map's own file has them all.
+  const model::Machine& base = std::get<ModelSurface>(fit.fit.map.contents().surface).machine;
+  EXPECT_EQ(base.effects.size(), effects.size());
+  // A cause without such a place is what it was.
+  Cause pitch = cause;
+  pitch.cause = {find_effect("chain_pitch_error"), EffectSide::left};
+  pitch.parameters = {{"elongation", 0.001, 0.0001}};
+  EXPECT_EQ(applied_over_places(pitch).size(), 1U);
+  Cause wave = cause;
+  wave.cause = {find_effect("sprocket_eccentricity"), EffectSide::left};
+  wave.parameters = {{"eccentricity_mm", 0.4, 0.01}, {"phase_rad", 1.0, 0.05}};
+  EXPECT_EQ(applied_over_places(wave).size(), 1U);
 }
 
 }  // namespace

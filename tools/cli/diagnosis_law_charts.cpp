@@ -26,7 +26,7 @@ constexpr int kCurvePoints = 200;
 constexpr double kMostWaves = 3.0;
 
 bool is_folded(const Law& law) {
-  return law.shape == LawShape::wave && law.to - law.from > kMostWaves * law.parameters[1].value;
+  return is_periodic(law.shape) && law.to - law.from > kMostWaves * law.parameters[1].value;
 }
 
 double degrees_of(const Law& law, double at) {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "grid/files/sweep_file.hpp"
 #include "grid/files/sweep_store.hpp"
@@ -36,6 +37,7 @@ namespace fs = std::filesystem;
 struct SweepOptions {
   std::string specification;
   std::string directory;
+  std::vector<std::string> effects;
   std::string shard;
   bool resume = false;
   int threads = 0;
@@ -99,7 +101,10 @@ int assemble(Verb verb,
                store.finished(),
                store.cells(),
                options.directory);
-    say_next({"sweep", options.specification, "-o", options.directory, "--resume"});
+    std::vector<std::string> next = {"sweep", options.specification, "-o", options.directory};
+    for (const std::string& effect : options.effects) next.insert(next.end(), {"--effects", effect});
+    next.emplace_back("--resume");
+    say_next(next);
     return kDone;
   }
   check_folder(verb, options.directory, results());
@@ -126,7 +131,7 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
     run.share.rank = processes.rank();
     run.share.ranks = processes.count();
     run.threads = options.threads;
-    read = files::read_sweep(options.specification);
+    read = files::read_sweep(options.specification, options.effects);
     if (processes.rank() == 0) print_warnings(read->warnings);
     refuse_old_results(options);
     check_folder(verb, options.directory, results());
@@ -170,6 +175,10 @@ void add_sweep(Verb app, Run& run) {
   add_output_folder(verb, "-o,--output", options->directory, "Folder for the parts and the results")
       .required();
   verb.add_option("--shard", options->shard, "Only this share of the cells, as in 3/16");
+  add_input(verb,
+            "--effects",
+            options->effects,
+            "chaintrue_effect files: effects of your own that the specification may name");
   verb.add_flag("--resume",
                 options->resume,
                 "Go on with the finished cells that the folder holds; merges shards too");

@@ -22,8 +22,17 @@ export const PLOTTER = "plotter.json";
 export const DRAWING = "drawing.json";
 export const FOUND = "found.json";
 
-/** A cause of the owner's own. */
+/** A cause of the owner's own, as typed; laws that were kept have files of their own. */
 export const OWN_EFFECT = "own_effect.json";
+const lawFile = (number) => (number === 1 ? "law_effect.json" : `law_effect_${number}.json`);
+export const ownEffects = (folder) => Object.keys(folder).filter((name) => folder[name] && (name === OWN_EFFECT || /^law_effect(_\d+)?\.json$/.test(name))).sort();
+
+/** Of the next law that is kept. */
+export function nextLawFile(folder) {
+  let number = 1;
+  while (folder[lawFile(number)]) number += 1;
+  return lawFile(number);
+}
 
 /** Of files that other readings make stale; an undo brings them back with the readings that they are of. */
 export const NO_DIAGNOSIS = {"diagnosis.json": null, "diagnosis.html": null};

@@ -3,7 +3,7 @@
 // listed ones once it is kept.
 import {DONE, runVerb, sentenceList, sentencesOf} from "./command.js";
 import {bytesOf, download, h, textOf} from "./dom.js";
-import {jsonOf, NO_DIAGNOSIS, OWN_EFFECT} from "./folder.js";
+import {jsonOf, nextLawFile, NO_DIAGNOSIS, OWN_EFFECT, ownEffects} from "./folder.js";
 import {drawingFrame} from "./frame.js";
 import {inPage} from "./in_page.js";
 import {effectOf, WHERE} from "./own_effect_file.js";
@@ -12,7 +12,7 @@ const EXAMPLE = "size_mm * sin(4 * pi * L0 / turn + phase_rad)";
 const WAIT_MS = 400;
 
 /** Options of a verb that weighs the kept effect. */
-export const ownWords = (folder) => (folder[OWN_EFFECT] ? ["--effects", OWN_EFFECT] : []);
+export const ownWords = (folder) => ownEffects(folder).flatMap((name) => ["--effects", name]);
 
 export function ownEffectPart(page) {
   const field = (id, label, value, size, hint) => {
@@ -27,8 +27,7 @@ export function ownEffectPart(page) {
   const said = h("div", {class: "said", role: "status", "aria-live": "polite"});
   const picture = h("div", {class: "own-picture"});
   const keep = h("button", {type: "button", onclick: () => kept()}, "Weigh it with the others");
-  const away = h("button", {type: "button", onclick: () => page.store.change({[OWN_EFFECT]: null, ...NO_DIAGNOSIS})}, "Take it away");
-  const keptAs = h("p", {class: "hint"});
+  const weighed = h("div", {class: "hint"});
   const form = h("div", {},
     h("p", {}, "What you suspect and no list has: give it a formula. It is then weighed like any other cause."),
     h("p", {class: "choices"}, name.element, h("span", {class: "pair"}, h("label", {for: "own-where"}, "It acts on"), where)),
@@ -37,7 +36,7 @@ export function ownEffectPart(page) {
       "pitch, x and y of the tool, r (its distance from the middle), + - * / ^, sin, cos, exp, log, sqrt, abs, min, max, step and ramp; and one place: phase_rad, place_mm, place_rad or place_n."),
     said, picture);
   const element = h("details", {class: "folded", ontoggle: () => draw()}, h("summary", {}, "A cause of your own"), form,
-    h("p", {class: "buttons"}, keep, away), keptAs);
+    h("p", {class: "buttons"}, keep), weighed);
   let timer = null;
   let drawn = null;
 
@@ -72,24 +71,24 @@ export function ownEffectPart(page) {
   return {
     element,
     update({folder}) {
-      const own = jsonOf(folder[OWN_EFFECT]);
-      away.hidden = !folder[OWN_EFFECT];
-      keptAs.hidden = !folder[OWN_EFFECT];
-      keptAs.replaceChildren(...(folder[OWN_EFFECT] ? [`Weighed: ${own?.cause ?? "a cause of your own"}. Find the cause again to see what the readings say of it. `,
-        h("button", {type: "button", onclick: () => download(OWN_EFFECT, folder[OWN_EFFECT])}, "Download it")] : []));
+      weighed.replaceChildren(...ownEffects(folder).map((name) => h("p", {class: "buttons"},
+        `Weighed: ${jsonOf(folder[name])?.cause ?? "a cause of your own"}. Find the cause again to see what the readings say of it. `,
+        h("button", {type: "button", onclick: () => download(name, folder[name])}, "Download it"),
+        h("button", {type: "button", onclick: () => page.store.change({[name]: null, ...NO_DIAGNOSIS})}, "Take it away"))));
       draw();
     },
   };
 }
 
-/** Writes the law that a diagnosis claims as the owner's cause. `words` are those of the diagnosis. */
+/** Keeps the law that a diagnosis claims as one more cause of the owner's. `words` are those of the diagnosis. */
 export async function keepLaw(page, words) {
-  const result = await runVerb(page, [...words, "--law", OWN_EFFECT]);
+  const file = nextLawFile(page.store.folder);
+  const result = await runVerb(page, [...words, "--law", file]);
   if (!result) return;
-  const law = result.files?.[OWN_EFFECT];
+  const law = result.files?.[file];
   if (!law) {
     page.alert(sentencesOf(result).map(inPage).join(" "));
     return;
   }
-  page.store.change({[OWN_EFFECT]: law});
+  page.store.change({[file]: law});
 }

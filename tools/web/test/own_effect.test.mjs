@@ -2,6 +2,7 @@
 // A cause of the owner's own: drawn while it is typed, refused with a sentence, weighed with the others.
 import assert from "node:assert/strict";
 import {describe, test} from "node:test";
+import {nextLawFile, OWN_EFFECT, ownEffects} from "../page/folder.js";
 import {effectOf} from "../page/own_effect_file.js";
 import {browsers, Visit} from "./browser.mjs";
 
@@ -13,6 +14,13 @@ test("a form becomes an effect file", () => {
   assert.deepEqual(effect.sides, ["both"]);
   assert.deepEqual(effect.parameters.map(({name, nominal}) => [name, nominal]), [["size_mm", 0.3], ["place_mm", 900]]);
   assert.equal(effectOf({...form, where: "either", formula: "size_mm * x / turn"}).parameters.length, 1);
+});
+
+test("a law that is kept replaces neither a cause that was typed nor another law", () => {
+  const folder = {[OWN_EFFECT]: new Uint8Array(1)};
+  for (let k = 0; k < 3; k += 1) folder[nextLawFile(folder)] = new Uint8Array(1);
+  assert.deepEqual(ownEffects(folder), ["law_effect.json", "law_effect_2.json", "law_effect_3.json", OWN_EFFECT]);
+  assert.deepEqual(ownEffects({...folder, "law_effect.json": null, "grid.json": new Uint8Array(1)}), ["law_effect_2.json", "law_effect_3.json", OWN_EFFECT]);
 });
 
 for (const browser of browsers) {
