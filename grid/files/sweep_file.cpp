@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "grid/files/json_reader.hpp"
@@ -215,6 +216,7 @@ const Record<StatedSweep>& sweep_record() {
 void read_machines(const fs::path& path,
                    const std::vector<std::string>& effects,
                    StatedSweep& stated,
+                   std::set<std::string>& given,
                    Problems& problems) {
   // Several levels may name one file; its warnings are given once.
   std::map<std::string, model::Machine> known;
@@ -230,7 +232,10 @@ void read_machines(const fs::path& path,
       problems.add_all(error);
     }
     try {
+      const std::size_t own = at->second.declared.size();
       if (effects_are_sound) declare_effects(effects, at->second);
+      for (std::size_t k = own; k < at->second.declared.size(); ++k)
+        given.insert(std::string(at->second.declared[k]->id));
     } catch (const InputError& error) {
       effects_are_sound = false;
       problems.add_all(error);
@@ -264,6 +269,17 @@ void check_effects(const SweepSpec& spec, Problems& problems) {
   for (std::size_t i = 0; i < spec.uses.size(); ++i) check("used_on", i, spec.uses[i].effects);
 }
 
+/// What was given and acts nowhere changes nothing: its owner meant something else.
+void check_given(const SweepSpec& spec, std::set<std::string> given, Problems& problems) {
+  const auto remove = [&](const std::vector<model::AppliedEffect>& effects) {
+    for (const model::AppliedEffect& own : effects) given.erase(own.effect);
+  };
+  for (const auto& level : spec.effects) remove(level.effects);
+  for (const auto& level : spec.uses) remove(level.effects);
+  for (const std::string& id : given)
+    problems.add("/effects", "", fmt::format("a line that names {}, or --effects without its file", id));
+}
+
 // FNV-1a, 64 bits.
 std::uint64_t hash_of(const std::string& text) {
   std::uint64_t hash = 0xcbf29ce484222325U;
@@ -284,9 +300,11 @@ ReadSweep read_sweep(const fs::path& path, const std::vector<std::string>& effec
   Problems problems(name_in_messages(path));
   StatedSweep stated = read_document(sweep_record(), read_whole_file(path), problems);
   fill_defaults(stated.spec);
-  read_machines(path, effects, stated, problems);
+  std::set<std::string> given;
+  read_machines(path, effects, stated, given, problems);
   problems.throw_if_any();
   check_effects(stated.spec, problems);
+  check_given(stated.spec, std::move(given), problems);
   problems.throw_if_any();
   std::string depends_on = write_document(sweep_record(), stated);
   for (const sweep::MachineLevel& level : stated.spec.machines) {

@@ -97,7 +97,9 @@ TEST_F(EffectsCommand, AVerbThatCannotUseItSaysSo) {
   const Outcome plain = run("fit wave.json" + kOwn + " -o map.json");
   EXPECT_EQ(plain.code, 3);
   EXPECT_THAT(plain.err, HasSubstr("to be left out without --causes"));
-  EXPECT_EQ(run("sweep " + kFixtures + "/sweeps/quick.json" + kOwn + " -o results").code, 2);
+  const Outcome sweep = run("sweep " + kFixtures + "/sweeps/quick.json" + kOwn + " -o results");
+  EXPECT_EQ(sweep.code, 3);
+  EXPECT_THAT(sweep.err, HasSubstr("or --effects without its file"));
   const Outcome belts = run("diagnose " + kFixtures + "/belts/thirty_one_places.json" + kOwn);
   EXPECT_EQ(belts.code, 3);
   EXPECT_THAT(belts.err, HasSubstr("four belts have their own"));

@@ -103,6 +103,42 @@ TEST(SweepSpec, TellsOnceWhatAMachineFileDoesNotSay) {
   EXPECT_THAT(read.warnings.front().message(), HasSubstr("not given; assumed are motor positions"));
 }
 
+TEST(SweepSpec, TakesEffectsOfOnesOwn) {
+  const fs::path folder = fresh_folder("own_effects");
+  fs::create_directories(folder);
+  std::ofstream(folder / "s.json")
+      << R"({"file_type": "chaintrue_sweep", "format_version": "1.0", "name": "x", "repetitions": 1,
+             "machines": [{"name": "m", "machine_file": ")" +
+             std::string(CHAINTRUE_FIXTURES) + R"(/machines/classic.json"}],
+             "effects": [{"name": "e", "effects": [{"effect": "second_harmonic", "side": "left",
+                                                    "parameters": {"amplitude_mm": 0.3, "phase_rad": 1}}]}]})";
+  try {
+    static_cast<void>(files::read_sweep(folder / "s.json"));
+    FAIL() << "accepted";
+  } catch (const files::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/effects/0"));
+  }
+  const std::string own = std::string(CHAINTRUE_FIXTURES) + "/effects/second_harmonic.json";
+  const files::ReadSweep read = files::read_sweep(folder / "s.json", {own});
+  EXPECT_EQ(read.spec.machines.front().truth.declared.size(), 1U);
+  // The same cells under another effect of this name are others.
+  std::ifstream in(own);
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  text.replace(text.find("4 * pi"), 6, "6 * pi");
+  std::ofstream(folder / "other.json") << text;
+  EXPECT_NE(files::read_sweep(folder / "s.json", {(folder / "other.json").string()}).hash, read.hash);
+  // What is wrong with them is said once, whatever machines there are.
+  std::ofstream(folder / "bad.json") << R"({"file_type": "chaintrue_effect"})";
+  try {
+    static_cast<void>(files::read_sweep(folder / "s.json", {(folder / "bad.json").string()}));
+    FAIL() << "accepted";
+  } catch (const files::InputError& error) {
+    const std::string said = error.what();
+    EXPECT_THAT(said, HasSubstr("bad.json"));
+    EXPECT_EQ(said.find("bad.json: /id"), said.rfind("bad.json: /id")) << said;
+  }
+}
+
 TEST(SweepSpec, ChecksEffectsAgainstTheCatalogue) {
   const fs::path folder = fresh_folder("bad_effects");
   fs::create_directories(folder);
