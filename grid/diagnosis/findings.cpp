@@ -165,7 +165,7 @@ ParameterEstimate estimated_place(
     const bool is_step = slope && slope->isZero();
     if (slope && !is_step) width = fitted_place_sigma(a, column, which, fitted, coefficient, *slope);
     // No reading tells where between two of them a step stands.
-    if (const auto gap = is_step ? gap_about(a.system, *own.cause.effect, result.value) : std::nullopt) {
+    if (const auto gap = is_step ? gap_about(a.system, own.cause, result.value) : std::nullopt) {
       result.value = 0.5 * (gap->below + gap->above);
       width = (gap->above - gap->below) / std::sqrt(12.0);
     }

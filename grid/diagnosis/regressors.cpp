@@ -141,6 +141,16 @@ std::vector<double> compared(const RegressorSystem& system, PlaceVariable variab
   return there;
 }
 
+/// Of the chain that a cause is of, or of either.
+std::vector<double> compared(const RegressorSystem& system, PlaceVariable variable, EffectSide side) {
+  std::vector<double> there;
+  if (side != EffectSide::right) there = compared(system, variable, model::Side::left);
+  if (side == EffectSide::left) return there;
+  const std::vector<double> right = compared(system, variable, model::Side::right);
+  there.insert(there.end(), right.begin(), right.end());
+  return there;
+}
+
 /// As many as kPlaces, evenly in the rank of those that are there.
 std::vector<double> evenly_by_rank(std::vector<double> there) {
   std::vector<double> result;
@@ -262,12 +272,7 @@ class Builder {
   void add_steps(CauseId cause, std::vector<double> values) {
     const EffectParameter& place = *place_parameter(*cause.effect);
     const PlaceVariable variable = variable_of_place(*cause.effect, place);
-    std::vector<double> there = compared(system_, variable, model::Side::left);
-    if (cause.side != EffectSide::left) {
-      const std::vector<double> right = compared(system_, variable, model::Side::right);
-      if (cause.side == EffectSide::right) there.clear();
-      there.insert(there.end(), right.begin(), right.end());
-    }
+    std::vector<double> there = compared(system_, variable, cause.side);
     if (there.size() < 2) return;
     std::sort(there.begin(), there.end());
     const double from = std::max(place.lower, there.front());
@@ -342,16 +347,14 @@ PlaceVariable variable_of_place(const Effect& effect, const EffectParameter& pla
                                                              : PlaceVariable::angle;
 }
 
-std::optional<PlaceGap> gap_about(const RegressorSystem& system, const Effect& effect, double place) {
-  const PlaceVariable variable = variable_of_place(effect, *place_parameter(effect));
+std::optional<PlaceGap> gap_about(const RegressorSystem& system, CauseId cause, double place) {
+  const PlaceVariable variable = variable_of_place(*cause.effect, *place_parameter(*cause.effect));
   if (variable == PlaceVariable::phase || variable == PlaceVariable::none) return std::nullopt;
   std::optional<double> below;
   std::optional<double> above;
-  for (const model::Side side : {model::Side::left, model::Side::right}) {
-    for (const double at : compared(system, variable, side)) {
-      if (at < place && (!below || at > *below)) below = at;
-      if (at >= place && (!above || at < *above)) above = at;
-    }
+  for (const double at : compared(system, variable, cause.side)) {
+    if (at < place && (!below || at > *below)) below = at;
+    if (at >= place && (!above || at < *above)) above = at;
   }
   if (!below || !above) return std::nullopt;
   return PlaceGap{*below, *above};

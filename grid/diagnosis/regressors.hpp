@@ -61,7 +61,7 @@ struct PlaceGap {
   double above = 0.0;
 };
 [[nodiscard]] std::optional<PlaceGap> gap_about(const RegressorSystem& system,
-                                                const model::effects::Effect& effect,
+                                                CauseId cause,
                                                 double place);
 
 /// Size of a cause at a coefficient of its regressor.
