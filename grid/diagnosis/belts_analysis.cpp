@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "grid/diagnosis/discrepancy.hpp"
 #include "grid/diagnosis/regressors.hpp"
 #include "grid/statistics.hpp"
 
@@ -133,7 +134,7 @@ void weigh_for_a_verdict(BeltsAnalysis& a) {
   own.parts = average_over_parts(own.system,
                                  own.session.noise_dof,
                                  nothing_rejected(own.system),
-                                 kFewestPlaces,
+                                 own.session.fewest_units,
                                  own.comparison);
 }
 
@@ -197,6 +198,15 @@ belts::Counting decided_counting(const BeltsAnalysis& a) {
       a.analysis.comparison.marginalised_systems[a.analysis.decision.marginalised].outliers);
 }
 
+Analysis analysis_of_laws(const BeltsAnalysis& a) {
+  Analysis own = a.analysis;
+  const bool ordered = std::any_of(a.belts.points.begin(), a.belts.points.end(), [](const BeltPoint& point) {
+    return point.order.has_value();
+  });
+  own.system.discrepancies = &length_discrepancies_of_laws(ordered);
+  return own;
+}
+
 std::vector<BeltCause> decided_causes(const Analysis& a) {
   std::vector<BeltCause> causes;
   for (std::size_t k = 0; k < a.estimate.regressors.size(); ++k) {
@@ -231,6 +241,7 @@ tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts
   own.system = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
   own.session.noise_dof = own.system.noise_dof;
   own.session.units.resize(own.system.units.size());
+  own.session.fewest_units = kFewestPlaces;
   drop_hidden(a);
   for (int pass = 0; pass < kCalibrationRounds; ++pass) {
     compare(pass + 1 == kCalibrationRounds, depth, a);

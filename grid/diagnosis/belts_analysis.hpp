@@ -34,6 +34,9 @@ enum class AnalysisDepth { anchors, verdict };
 /// Of each reading, whether the decision keeps it.
 [[nodiscard]] belts::Counting decided_counting(const BeltsAnalysis& analysis);
 
+/// The analysis as laws are weighed in it: next to patterns of single belts as well.
+[[nodiscard]] Analysis analysis_of_laws(const BeltsAnalysis& analysis);
+
 /// The causes of the decision with their values as estimated.
 [[nodiscard]] std::vector<BeltCause> decided_causes(const Analysis& analysis);
 

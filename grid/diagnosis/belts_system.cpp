@@ -245,6 +245,7 @@ RegressorSystem system_of(const MeasuredBelts& belts,
   const std::size_t count = belts.points.size();
   const auto rows = 2 * static_cast<Eigen::Index>(count);
   const belts::ReadingLines lines = belts::reading_lines(belts, state.frame.state);
+  const model::BeltMachine frame = belts::with_anchors(belts.machine, state.frame.state.anchors);
   RegressorSystem system;
   system.e.resize(rows);
   system.by_setting.resize(rows, belts::kAnchorUnknowns);
@@ -255,6 +256,11 @@ RegressorSystem system_of(const MeasuredBelts& belts,
     const BeltPoint& point = belts.points[k];
     const model::FramePoint where = state.frame.state.places[k];
     LengthEntry entry{where.x_mm, where.y_mm, static_cast<double>(point.order.value_or(0)), {}};
+    for (const Belt belt : kBelts) {
+      entry.length_mm.push_back(point.lengths_mm[belt]);
+      entry.angle_rad.push_back(std::atan2(std::abs(where.y_mm - frame.anchors[belt].y_mm),
+                                           std::abs(where.x_mm - frame.anchors[belt].x_mm)));
+    }
     entry.by_length = checks_of(lines, k, {true, true, true, true}).transpose() / sigma_mm;
     system.e.segment<2>(row) = entry.by_length * lines.residual_mm.segment<4>(reading);
     system.by_setting.middleRows<2>(row) = entry.by_length * lines.by_anchor.middleRows<4>(reading);

@@ -8,6 +8,8 @@
 #include "grid/diagnosis/belts_report.hpp"
 #include "grid/diagnosis/belts_system.hpp"
 #include "grid/diagnosis/constants.hpp"
+#include "grid/diagnosis/law_words.hpp"
+#include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -68,6 +70,10 @@ std::string improvement_words(const BeltsFindings& found) {
 
 /// " Besides, 0.4 mm of each reading ..."
 std::string alongside_belts_words(const Diagnosis& d) {
+  if (const Law* law = claimed_law(d)) {
+    return fmt::format(
+        " Besides, what no listed cause makes: {}, {}.", in_words(*law), percent(law->probability));
+  }
   if (!d.unexplained || d.unexplained->probability <= kDiscrepancyLikely) return "";
   return fmt::format(
       " Besides, {:.2f} mm a belt follow a pattern over some {:.0f} mm of the sheet that no listed "
@@ -145,6 +151,15 @@ std::string sentence(const Diagnosis& d) {
                          joined(bad_belts(d), "and"),
                          d.outliers.size() == 1 ? "it" : "them");
     case Verdict::model_discrepancy:
+      if (const Law* law = claimed_law(d)) {
+        return fmt::format(
+                   "The lengths follow a law that no cause in the catalogue has: {}, {}. On average "
+                   "it {}.",
+                   in_words(*law),
+                   percent(law->probability),
+                   average_in_words(*law, d.observations)) +
+               short_of_a_name(d);
+      }
       return fmt::format(
                  "What is left of the lengths changes smoothly from place to place, {:.2f} mm a "
                  "belt over "
@@ -247,6 +262,12 @@ void say_what_to_do(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis
   if (!d.outliers.empty()) {
     d.what_to_do.push_back(fmt::format("Do not trust {}: let the machine measure there again.",
                                        joined(bad_belts(d), "and")));
+  }
+  if (const Law* law = claimed_law(d)) {
+    d.what_to_do.push_back(
+        fmt::format("Look at the {} belt and all that it runs over for what has this place or "
+                    "period; then let the machine measure other places, which confirm or deny it.",
+                    model::words(belt_of(law->enters).value())));
   }
   say_what_to_measure(next, d);
   if (!d.belts->scale) {

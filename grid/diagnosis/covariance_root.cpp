@@ -7,9 +7,15 @@ namespace chaintrue::grid::diagnosis {
 
 CovarianceRoot::CovarianceRoot(const Eigen::MatrixXd& a) : basis_(a.rows(), 0) {
   if (a.rows() == 0 || a.cols() == 0) return;
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU);
-  basis_ = svd.matrixU();
-  log_variance_ = svd.singularValues().array().square().log1p();
+  const auto take = [&](const auto& svd) {
+    basis_ = svd.matrixU();
+    log_variance_ = svd.singularValues().array().square().log1p();
+  };
+  take(Eigen::BDCSVD<Eigen::MatrixXd>(a, Eigen::ComputeThinU));
+  // Of finite matrices with singular values that are nearly equal Eigen 3.4.0's division makes NaN; rotations
+  // are slower and do not.
+  if (!basis_.allFinite() || !log_variance_.allFinite())
+    take(Eigen::JacobiSVD<Eigen::MatrixXd>(a, Eigen::ComputeThinU));
 }
 
 Eigen::MatrixXd CovarianceRoot::power(double exponent, const Eigen::MatrixXd& m) const {

@@ -4,6 +4,7 @@
 #include "grid/diagnosis/belts_report.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/laws.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -44,6 +45,11 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
   d.grid_name = belts.name;
   take_findings(a, d);
   d.unexplained = unexplained(*analysed);
+  std::vector<Law> laws = laws_found(analysis_of_laws(*analysed)).laws;
+  for (Law& law : laws) {
+    for (LawResidual& point : law.points) point.index = index_in_file(indices, point.index);
+  }
+  take_laws(std::move(laws), d);
   d.bed_parts = bed_part_findings(a);
   d.outliers = bad_belts(given);
   for (Outlier& bad : d.outliers) bad.index = index_in_file(indices, bad.index);

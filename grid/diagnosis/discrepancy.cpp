@@ -143,9 +143,13 @@ Eigen::Matrix2d between_units(const DiscrepancyKernel& kernel,
                               const PlacedUnit& b) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   if (a.entry != nullptr && b.entry != nullptr) {
-    sum.topLeftCorner(a.unit.rows, b.unit.rows) =
-        between_lengths(kernel, *a.entry, *b.entry) * a.entry->by_length *
-        b.entry->by_length.transpose();
+    const double k = between_lengths(kernel, *a.entry, *b.entry);
+    auto block = sum.topLeftCorner(a.unit.rows, b.unit.rows);
+    if (const auto alone = kernel.fields.front().alone) {
+      block = k * a.entry->by_length.col(*alone) * b.entry->by_length.col(*alone).transpose();
+    } else {
+      block = k * a.entry->by_length * b.entry->by_length.transpose();
+    }
     return sum;
   }
   for (const observation::PlaceColumns& i : a.unit.places) {
@@ -198,6 +202,26 @@ const DiscrepancyFamily& length_discrepancies(bool ordered) {
                                           kStrengths};
   static const DiscrepancyFamily kUnordered{
       {kernel(150.0, 0.0, 0.2), kernel(300.0, 0.0, 0.4), kernel(600.0, 0.0, 0.4)}, kStrengths};
+  return ordered ? kOrdered : kUnordered;
+}
+
+const DiscrepancyFamily& length_discrepancies_of_laws(bool ordered) {
+  static const auto with_single = [](DiscrepancyFamily family) {
+    constexpr std::array kPlaceMm = {150.0, 300.0, 600.0};
+    constexpr Eigen::Index kLengths = 4;
+    constexpr double kHalf = 0.5;
+    for (DiscrepancyKernel& own : family.kernels) own.prior *= kHalf;
+    for (const double place_mm : kPlaceMm) {
+      for (Eigen::Index length = 0; length < kLengths; ++length) {
+        DiscrepancyField field{FieldOf::place, place_mm, FieldEntry::lengths};
+        field.alone = length;
+        family.kernels.push_back({{field}, kHalf / static_cast<double>(kPlaceMm.size() * kLengths)});
+      }
+    }
+    return family;
+  };
+  static const DiscrepancyFamily kOrdered = with_single(length_discrepancies(true));
+  static const DiscrepancyFamily kUnordered = with_single(length_discrepancies(false));
   return ordered ? kOrdered : kUnordered;
 }
 

@@ -67,6 +67,8 @@ struct DiscrepancyField {
   FieldEntry entry = FieldEntry::chains;
   std::optional<double> direction_rad{};  ///< of entry: of (left, right), or of (x, y)
   double across_rad = 0.0;                ///< from x, of FieldOf::across
+  /// Of FieldEntry::lengths the one length that it disturbs; absent: each of them.
+  std::optional<Eigen::Index> alone{};
   bool operator==(const DiscrepancyField&) const = default;
 };
 
@@ -104,6 +106,9 @@ struct DiscrepancyFamily {
 /// Of any other mechanism: a smooth function of the place for each of its lengths, and, where the
 /// visits' order is known, one that changes with these as well.
 [[nodiscard]] const DiscrepancyFamily& length_discrepancies(bool ordered);
+/// Of four lengths those, and smooth functions of the place that disturb one length alone: what stands against a
+/// law of one length. Half of the prior is theirs; the first kernels are those of length_discrepancies().
+[[nodiscard]] const DiscrepancyFamily& length_discrepancies_of_laws(bool ordered);
 
 struct Discrepancy {
   DiscrepancyKernel kernel;

@@ -19,16 +19,19 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "model/belts/belt.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 /// Through what a pattern that nobody listed enters: one chain, both equally or opposite to each
 /// other, the tool along an axis of the sheet, or none of these by itself. Of a law also: the tool
-/// along the direction that the law runs in, and the tool outwards over every border.
-enum class Enters { left, right, equal, opposite, x, y, mixed, along, outwards };
+/// along the direction that the law runs in, the tool outwards over every border, and one of four belts.
+enum class Enters { left, right, equal, opposite, x, y, mixed, along, outwards, tl, tr, bl, br };
 [[nodiscard]] std::string_view name(Enters enters);
 
 /// What a law is a function of.
@@ -44,8 +47,19 @@ enum class LawOf {
   tension_left,   ///< N, at the sprocket
   tension_right,  ///< N
   visit,          ///< number of the visit
+  length_tl,      ///< mm, of a belt
+  length_tr,      ///< mm
+  length_bl,      ///< mm
+  length_br,      ///< mm
+  angle_tl,       ///< rad, of a belt against the line of the upper or of the lower anchors
+  angle_tr,       ///< rad
+  angle_bl,       ///< rad
+  angle_br,       ///< rad
 };
 [[nodiscard]] std::string_view name(LawOf of);
+/// Of belts that enter or that a law is a function of; null of all else.
+[[nodiscard]] std::optional<model::Belt> belt_of(Enters enters);
+[[nodiscard]] std::optional<model::Belt> belt_of(LawOf of);
 /// "mm", "rad", "n", "visit": what a parameter's name ends in.
 [[nodiscard]] std::string_view unit_of(LawOf of);
 
@@ -69,9 +83,20 @@ struct LawResidual {
   /// Partial residual: what the law makes here, and what nothing explains of what enters as it does.
   double residual_mm = 0.0;
   /// Shift of the tool that is left once the law is taken out, with the settings and causes that act with
-  /// it; a smooth pattern is left in it.
-  double left_x_mm = 0.0;
-  double left_y_mm = 0.0;
+  /// it; a smooth pattern is left in it. None of belts, which do not tell where the tool should have been.
+  std::optional<double> left_x_mm{};
+  std::optional<double> left_y_mm{};
+};
+
+/// Readings that were left out, root mean square of how far they are from what the others predict, mm: without a
+/// law and with it.
+struct LawHeldOut {
+  struct Errors {
+    double without_mm = 0.0;
+    double with_mm = 0.0;
+  };
+  Errors inside;   ///< every fourth place
+  Errors outside;  ///< a quarter of the bed on one side of a line
 };
 
 struct Law {
@@ -85,10 +110,11 @@ struct Law {
   int towards = 0;                 ///< of a kink or an exponential: 1, -1; else 0
   double from = 0.0;
   double to = 0.0;
-  double rms_mm = 0.0;  ///< of the tool, at the points
+  double rms_mm = 0.0;  ///< of the tool at the points; of four belts, of one of these
   double share = 0.0;   ///< of the mean square of what the settings leave
   std::vector<ParameterEstimate> parameters;  ///< in the order of the table
-  std::vector<LawResidual> points;               ///< those that were not rejected, in their order
+  std::vector<LawResidual> points;            ///< those that were not rejected, in their order
+  std::optional<LawHeldOut> held_out{};
 };
 
 /// In mm, at one value of what it is a function of. \throws std::invalid_argument for a law whose

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <utility>
-
-#include "grid/diagnosis/discrepancy.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -23,82 +22,12 @@ constexpr int kScales = 9;
 constexpr double kShortestScale = 0.03;  // of the span
 constexpr double kScaleFactor = 1.45;
 
-struct Entrance {
-  Enters enters;
-  double weight;
-};
-
-/// A law of a chain mostly acts on that chain.
-std::vector<Entrance> entrances(LawOf of) {
-  switch (of) {
-    case LawOf::x:
-    case LawOf::y:
-      return {{Enters::left, 0.25}, {Enters::right, 0.25}, {Enters::x, 0.25}, {Enters::y, 0.25}};
-    case LawOf::across:
-      return {{Enters::left, 0.2},
-              {Enters::right, 0.2},
-              {Enters::x, 0.2},
-              {Enters::y, 0.2},
-              {Enters::along, 0.2}};
-    case LawOf::border:
-      return {{Enters::outwards, 0.4},
-              {Enters::left, 0.15},
-              {Enters::right, 0.15},
-              {Enters::x, 0.15},
-              {Enters::y, 0.15}};
-    case LawOf::length_left:
-    case LawOf::angle_left:
-    case LawOf::tension_left:
-      return {{Enters::left, 0.55}, {Enters::right, 0.15}, {Enters::x, 0.15}, {Enters::y, 0.15}};
-    case LawOf::length_right:
-    case LawOf::angle_right:
-    case LawOf::tension_right:
-      return {{Enters::left, 0.15}, {Enters::right, 0.55}, {Enters::x, 0.15}, {Enters::y, 0.15}};
-    case LawOf::visit:
-      break;
-  }
-  return {{Enters::left, 0.35}, {Enters::right, 0.35}, {Enters::equal, 0.3}};
-}
-
-/// Where waves end: shorter ones are not of such a thing, or no marks show them.
-double shortest_wave(LawOf of, Enters enters, double span) {
-  switch (of) {
-    case LawOf::x:
-    case LawOf::y:
-      return 100.0;
-    case LawOf::across:
-      return 400.0;
-    case LawOf::length_left:
-      return enters == Enters::left ? 25.0 : 200.0;
-    case LawOf::length_right:
-      return enters == Enters::right ? 25.0 : 200.0;
-    default:
-      return span / 6.0;
-  }
-}
-
-/// From the nearest border inwards.
-double from_border(const SystemPlace& place) {
-  return std::min(0.5 * place.bed.width_mm - std::abs(place.mark.x_mm),
-                  0.5 * place.bed.height_mm - std::abs(place.mark.y_mm));
-}
-
-/// From the border that a component crosses.
-double from_border(const SystemPlace& place, bool along_x) {
-  return along_x ? 0.5 * place.bed.width_mm - std::abs(place.mark.x_mm)
-                 : 0.5 * place.bed.height_mm - std::abs(place.mark.y_mm);
-}
-
 class CurveList {
  public:
   explicit CurveList(const RegressorSystem& system) : system_(system) {}
 
   void add_all(LawOf of, double direction_rad, double weight) {
-    values_.clear();
-    for (const SystemPlace& place : system_.places) {
-      if (of == LawOf::visit && !place.ordered) continue;
-      values_.push_back(variable_at(place, of, direction_rad));
-    }
+    values_ = values_of_variable(system_, of, direction_rad);
     constexpr std::size_t kFewest = 8;  // places: fewer show no shape
     if (values_.size() < kFewest) return;
     const auto [low, high] = std::minmax_element(values_.begin(), values_.end());
@@ -109,7 +38,11 @@ class CurveList {
     start_.from = *low;
     start_.to = *high;
     std::sort(values_.begin(), values_.end());
-    for (const Entrance& entrance : entrances(of)) {
+    double most = 0.0;
+    for (const LawEntrance& entrance : law_entrances(system_, of))
+      most = std::max(most, start_.span() / shortest_wave(of, entrance.enters, start_.span()));
+    most_waves_told_ = most_waves_told(most);
+    for (const LawEntrance& entrance : law_entrances(system_, of)) {
       start_.enters = entrance.enters;
       add_shapes(weight * entrance.weight);
     }
@@ -137,7 +70,7 @@ class CurveList {
     }
     if (!of_border) add_waves(LawShape::wave, kWaveStep, 0.25 * weight);
     // Two parameters more than a wave.
-    if (may_repeat()) add_waves(LawShape::harmonics, kHarmonicsStep, 0.0625 * weight);
+    if (may_repeat(start_.of, start_.enters)) add_waves(LawShape::harmonics, kHarmonicsStep, 0.0625 * weight);
   }
 
   void add(LawShape shape, int towards, double weight, std::vector<double> grid) {
@@ -170,17 +103,27 @@ class CurveList {
     return grid;
   }
 
-  /// Where something turns, or is built of equal parts.
-  [[nodiscard]] bool may_repeat() const {
-    return start_.of == LawOf::x || start_.of == LawOf::y ||
-           (start_.of == LawOf::length_left && start_.enters == Enters::left) ||
-           (start_.of == LawOf::length_right && start_.enters == Enters::right);
+  /// Waves over the span beyond which evenly spaced values mistake one for a longer one: half of the
+  /// first number of waves that all of them see nearly in the same phase (the sampling theorem).
+  [[nodiscard]] double most_waves_told(double most) const {
+    // 0.97: a strength of 12 parts two such waves by less than three sigmas, 12 sqrt(1 - 0.97^2).
+    constexpr double kSamePhase = 0.97;
+    constexpr double kFirst = 1.5;  // fewer waves than one are nearly in phase everywhere
+    constexpr double kStep = 0.05;
+    for (double waves = kFirst; waves < 2.0 * most; waves += kStep) {
+      std::complex<double> sum = 0.0;
+      for (const double v : values_)
+        sum += std::polar(1.0, 2.0 * std::numbers::pi * waves * (v - start_.from) / start_.span());
+      if (std::abs(sum) > kSamePhase * static_cast<double>(values_.size())) return 0.5 * waves;
+    }
+    return most;
   }
 
   void add_waves(LawShape shape, double step, double weight) {
     const double harmonic = shape == LawShape::harmonics ? 2.0 : 1.0;
     const double most =
-        start_.span() / (harmonic * shortest_wave(start_.of, start_.enters, start_.span()));
+        std::min(start_.span() / shortest_wave(start_.of, start_.enters, start_.span()), most_waves_told_) /
+        harmonic;
     std::vector<double> grid;
     std::vector<double> mass;
     double sum = 0.0;
@@ -197,6 +140,7 @@ class CurveList {
 
   const RegressorSystem& system_;
   std::vector<double> values_;
+  double most_waves_told_ = 0.0;
   LawCurve start_;
   std::vector<LawCurve> curves_;
 };
@@ -261,40 +205,9 @@ double density_at(const LawCurve& curve, double at) {
   return is_periodic(curve.shape) || curve.shape == LawShape::exponential ? 1.0 / at : 1.0;
 }
 
-double variable_at(const SystemPlace& place, LawOf of, double direction_rad) {
-  switch (of) {
-    case LawOf::x:
-      return place.mark.x_mm;
-    case LawOf::y:
-      return place.mark.y_mm;
-    case LawOf::across:
-      return place.mark.x_mm * std::cos(direction_rad) + place.mark.y_mm * std::sin(direction_rad);
-    case LawOf::border:
-      return from_border(place);
-    case LawOf::visit:
-      return place.order;
-    default:
-      break;
-  }
-  const auto first = static_cast<std::size_t>(FieldOf::length_left);
-  const auto own = static_cast<std::size_t>(of) - static_cast<std::size_t>(LawOf::length_left);
-  return discrepancy_place(place).at[first + own];
-}
-
 std::vector<LawCurve> law_curves(const RegressorSystem& system) {
   CurveList list(system);
-  for (const LawOf of : {LawOf::x,
-                         LawOf::y,
-                         LawOf::border,
-                         LawOf::length_left,
-                         LawOf::length_right,
-                         LawOf::angle_left,
-                         LawOf::angle_right,
-                         LawOf::tension_left,
-                         LawOf::tension_right,
-                         LawOf::visit}) {
-    list.add_all(of, 0.0, 1.0);
-  }
+  for (const LawOf of : law_variables(system)) list.add_all(of, 0.0, 1.0);
   for (int k = 1; k < kLawDirections; ++k) {
     if (2 * k == kLawDirections) continue;
     // A direction is a parameter more.
@@ -317,37 +230,6 @@ Eigen::MatrixXd LawColumns::of(const LawCurve& curve, double at) const {
   return of(curve, std::vector<double>{at});
 }
 
-std::vector<LawEntry> entries_of(const LawCurve& curve, const SystemPlace& place) {
-  if (curve.of == LawOf::visit && !place.ordered) return {};
-  const Eigen::Matrix2d& by_mark = place.state.by_mark;
-  const auto at = [&](const Eigen::Vector2d& chains_mm) {
-    return std::vector<LawEntry>{{variable_at(place, curve.of, curve.direction_rad), chains_mm}};
-  };
-  switch (curve.enters) {
-    case Enters::left:
-      return at({1.0, 0.0});
-    case Enters::right:
-      return at({0.0, 1.0});
-    case Enters::equal:
-      return at({1.0, 1.0});
-    case Enters::opposite:
-      return at({1.0, -1.0});
-    case Enters::x:
-      return at(by_mark.col(0));
-    case Enters::y:
-      return at(by_mark.col(1));
-    case Enters::along:
-      return at(by_mark *
-                Eigen::Vector2d(std::cos(curve.direction_rad), std::sin(curve.direction_rad)));
-    case Enters::outwards:
-      return {{from_border(place, true), by_mark.col(0) * std::copysign(1.0, place.mark.x_mm)},
-              {from_border(place, false), by_mark.col(1) * std::copysign(1.0, place.mark.y_mm)}};
-    case Enters::mixed:
-      break;
-  }
-  return {};
-}
-
 namespace {
 
 /// Values of every amplitude at each of some points of the grid.
@@ -364,13 +246,10 @@ Eigen::RowVectorXd values_at(const LawCurve& curve, const std::vector<double>& a
 Eigen::MatrixXd LawColumns::of(const LawCurve& curve, const std::vector<double>& at) const {
   const Eigen::Index count = columns_of(curve.shape) * static_cast<Eigen::Index>(at.size());
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(system_.e.size(), count);
-  for (const SystemUnit& unit : system_.units) {
-    for (const observation::PlaceColumns& own : unit.places) {
-      for (const LawEntry& entry : entries_of(curve, system_.places[own.place])) {
-        const Eigen::VectorXd in_rows = own.by_chain * entry.chains_mm;
-        columns.middleRows(unit.first_row, unit.rows) += in_rows * values_at(curve, at, entry.v);
-      }
-    }
+  for (std::size_t u = 0; u < system_.units.size(); ++u) {
+    const SystemUnit& unit = system_.units[u];
+    for (const LawRows& own : law_rows(system_, u, curve))
+      columns.middleRows(unit.first_row, unit.rows) += own.rows * values_at(curve, at, own.v);
   }
   return columns;
 }

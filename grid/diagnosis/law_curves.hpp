@@ -7,7 +7,8 @@
 /// them the phase is off by at most an eighth of a turn at either end, which costs less than a tenth of
 /// the wave's square; leading waves get a finer grid. That of a wave with its second harmonic is an eighth
 /// of a wave apart, for the same of the harmonic; it is weighed over x, over y, and over the length of the
-/// chain that it acts on, where something turns or repeats. A step stands at 48 places over the span, of
+/// chain or belt that it acts on, where something turns or repeats. Evenly spaced values mistake short waves
+/// for long ones: no wave is weighed of which half is shorter than their spacing. A step stands at 48 places over the span, of
 /// which those between the same two readings are one. Places of kinks: sixteen; scales: a factor of
 /// 1.45 apart, neighbours of which have a collinearity of 0.99.
 ///
@@ -21,16 +22,13 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "grid/diagnosis/law.hpp"
+#include "grid/diagnosis/law_variables.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
-struct LawCurve {
-  LawOf of = LawOf::x;
+struct LawCurve : LawTerm {
   LawShape shape = LawShape::linear;
-  Enters enters = Enters::left;
-  double direction_rad = 0.0;
   int towards = 0;
   double from = 0.0;
   double to = 0.0;
@@ -65,14 +63,6 @@ void share_out(std::vector<LawCurve>& curves);
 /// Prior density of a point of the grid, but for a factor.
 [[nodiscard]] double density_at(const LawCurve& curve, double at);
 
-/// Where a law stands at a place, and what one millimetre of it makes of the chains there.
-struct LawEntry {
-  double v = 0.0;  ///< what it is a function of
-  Eigen::Vector2d chains_mm = Eigen::Vector2d::Zero();
-};
-/// One, or two of what moves the tool outwards; none at a visit without a number, of a law of these.
-[[nodiscard]] std::vector<LawEntry> entries_of(const LawCurve& curve, const SystemPlace& place);
-
 /// Whitened rows that a law's amplitudes add to, all rows by columns_of().
 class LawColumns {
  public:
@@ -85,8 +75,5 @@ class LawColumns {
  private:
   const RegressorSystem& system_;
 };
-
-/// What a law is a function of, at a place.
-[[nodiscard]] double variable_at(const SystemPlace& place, LawOf of, double direction_rad);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -42,7 +42,7 @@ std::string variable_of(const Law& law, const model::Bed& bed) {
     case LawOf::tension_left:
     case LawOf::tension_right:
       return "T";
-    case LawOf::visit:
+    default:
       break;
   }
   return "n";
@@ -163,6 +163,7 @@ std::string entrance_of(const Law& law) {
 }
 
 std::string refusal_of(const Law& law) {
+  if (belt_of(law.enters)) return "a cause of one's own acts on chains, and this law on a belt";
   if (is_of_other_chain(law)) {
     const bool moves = law.enters == Enters::x || law.enters == Enters::y;
     return fmt::format("a chain's formula knows that chain alone, and this law {}",

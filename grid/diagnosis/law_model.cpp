@@ -65,6 +65,14 @@ LawModel::Left LawModel::left_of(const Eigen::VectorXd& known) const {
   return left;
 }
 
+Eigen::VectorXd LawModel::left_of_prediction(const std::vector<Eigen::Index>& rows,
+                                             const std::vector<Eigen::Index>& left_out) const {
+  const Eigen::MatrixXd own = covariance_(rows, rows);
+  const Eigen::MatrixXd across = covariance_(left_out, rows);
+  const Eigen::VectorXd known = e_(rows);
+  return e_(left_out) - across * own.llt().solve(known);
+}
+
 LawModel::Expected LawModel::expected_of(const RegressorSystem& next,
                                          const Eigen::MatrixXd& columns) const {
   const Eigen::Index settings = settings_.cols();

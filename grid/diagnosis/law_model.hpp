@@ -44,6 +44,10 @@ class LawModel {
   };
   [[nodiscard]] Left left_of(const Eigen::VectorXd& known) const;
 
+  /// Of kept rows that are left out, by their positions: what they differ by from what others make expected.
+  [[nodiscard]] Eigen::VectorXd left_of_prediction(const std::vector<Eigen::Index>& rows,
+                                                   const std::vector<Eigen::Index>& left_out) const;
+
   /// What is expected of other rows, whitened, by all kept ones: mean, and a square root of the covariance but
   /// for their noise. `columns` of these rows: the regressors', then those added.
   ///   m = X* f + K* C^-1 (e - X f),  S = K** - K* C^-1 K*'

@@ -30,7 +30,7 @@ double averaged_over_parts(const Analysis& a,
   const MarginalisedSystem& marginalised =
       a.comparison.marginalised_systems[evidence.marginalised];
   const std::vector<BedPart> parts =
-      bed_parts(a.system, std::vector<bool>(a.system.units.size(), false), a.session.fewest_units);
+      bed_parts(a.system, nothing_rejected(a.system), a.session.fewest_units);
   if (parts.empty()) return probability;
   LawModel with(a, marginalised, evidence.sets[law.set], law.discrepancy);
   const Eigen::MatrixXd columns = LawColumns(a.system).of(evidence.curves[law.curve], law.at);

@@ -18,22 +18,24 @@ std::vector<LawResidual> residuals_about(const Analysis& a,
   const LawModel model(a, marginalised, evidence.sets[weighed.set], weighed.discrepancy);
   const LawModel::Left left = model.left_of(LawColumns(system).of(curve, weighed.at) * weighed.amplitude);
   std::vector<LawResidual> points;
+  const bool of_belts = !system.entries.empty();
   for (const KeptRows::Unit& kept : marginalised.kept.units()) {
     const SystemUnit& unit = system.units[kept.unit];
-    if (!unit.reads_chains || kept.across) continue;
-    Eigen::VectorXd rows = Eigen::VectorXd::Zero(system.e.size());
-    rows.segment(unit.first_row, unit.rows) = left.unexplained.segment(kept.at, kept.rows);
-    const Eigen::Vector2d left_mm = error_of_unit(system, rows, kept.unit);
-    const observation::PlaceColumns& own = unit.places.front();
+    if (kept.across || (!of_belts && !unit.reads_chains)) continue;
     LawResidual point;
-    point.index = a.session.places[own.place].index;
-    point.left_x_mm = left_mm.x();
-    point.left_y_mm = left_mm.y();
-    for (const LawEntry& entry : entries_of(curve, system.places[own.place])) {
-      const Eigen::VectorXd one_mm = own.by_chain * entry.chains_mm;
-      point.at = entry.v;
-      point.residual_mm = value_of(law, entry.v) +
-                          one_mm.dot(left.noise.segment(kept.at, kept.rows)) / one_mm.squaredNorm();
+    point.index = kept.unit;
+    if (!of_belts) {
+      Eigen::VectorXd rows = Eigen::VectorXd::Zero(system.e.size());
+      rows.segment(unit.first_row, unit.rows) = left.unexplained.segment(kept.at, kept.rows);
+      const Eigen::Vector2d left_mm = error_of_unit(system, rows, kept.unit);
+      point.index = a.session.places[unit.places.front().place].index;
+      point.left_x_mm = left_mm.x();
+      point.left_y_mm = left_mm.y();
+    }
+    for (const LawRows& own : law_rows(system, kept.unit, curve)) {
+      point.at = own.v;
+      point.residual_mm = value_of(law, own.v) +
+                          own.rows.dot(left.noise.segment(kept.at, kept.rows)) / own.rows.squaredNorm();
       points.push_back(point);
     }
   }

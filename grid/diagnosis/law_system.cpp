@@ -31,6 +31,7 @@ LawSystem::LawSystem(const Analysis& a,
     cause_regressors_.push_back(from_.regressors[static_cast<std::size_t>(k)]);
   own_.units = from_.units;
   own_.places = from_.places;
+  own_.entries = from_.entries;
   own_.discrepancies = from_.discrepancies;
   own_.unit_of_row = from_.unit_of_row;
   own_.e = from_.e;

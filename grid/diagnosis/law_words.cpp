@@ -49,10 +49,11 @@ std::string entrance_words(Enters enters) {
       return "which moves the tool in that direction";
     case Enters::outwards:
       return "which moves the tool outwards";
-    case Enters::mixed:
+    default:
       break;
   }
-  return "";
+  const auto belt = belt_of(enters);
+  return belt ? fmt::format("in the {} belt", model::words(*belt)) : "";
 }
 
 /// What a slope of so much over the whole range is by its natural unit.
@@ -71,13 +72,15 @@ std::string slope_words(const Law& law, const ParameterEstimate& size) {
 }  // namespace
 
 std::string variable_in_words(const Law& law) {
+  const bool of_belts = belt_of(law.enters).has_value();
   switch (law.of) {
     case LawOf::x:
-      return "x";
+      return of_belts ? "x from the bottom left anchor" : "x";
     case LawOf::y:
-      return "y";
+      return of_belts ? "y from the bottom left anchor" : "y";
     case LawOf::across:
-      return fmt::format("the way in the direction {:.0f} degrees from x towards y",
+      return fmt::format("the way{} in the direction {:.0f} degrees from x towards y",
+                         of_belts ? " from the bottom left anchor" : "",
                          law.direction_deg);
     case LawOf::border:
       return "the distance from the border";
@@ -94,9 +97,20 @@ std::string variable_in_words(const Law& law) {
     case LawOf::tension_right:
       return "the pull in the right chain";
     case LawOf::visit:
+      return "the number of the visit";
+    default:
       break;
   }
-  return "the number of the visit";
+  const std::string_view belt = model::words(belt_of(law.of).value());
+  return law.of >= LawOf::angle_tl ? fmt::format("the {} belt's angle against the horizontal", belt)
+                                   : fmt::format("the {} belt's length", belt);
+}
+
+std::string average_in_words(const Law& law, Observations of) {
+  const std::string_view what = of == Observations::distances ? "changes a distance"
+                                : of == Observations::belts   ? "changes that belt's length"
+                                                              : "moves the tool";
+  return fmt::format("{} by {:.2f} mm", what, law.rms_mm);
 }
 
 std::string form_in_words(const Law& law) {
@@ -154,6 +168,18 @@ std::string in_words(const Law& law) {
                      variable,
                      quantity_words(law, law.parameters[1]),
                      entrance);
+}
+
+std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& machine) {
+  const double turn = machine.belt_turn_mm;
+  const bool of_length = belt_of(law.of) && unit_of(law.of) == "mm";
+  if (!of_length || !is_periodic(law.shape)) return {};
+  const ParameterEstimate& period = law.parameters[1];
+  // Nearer than that a belt's pitch is not made: a hundredth.
+  if (std::abs(period.value - turn) >= std::max(2.0 * period.sigma, 0.01 * turn)) return {};
+  return {fmt::format("Its period is near one turn of the motor ({:.3f} mm of belt): does its pulley or its "
+                      "magnet run out of true?",
+                      turn)};
 }
 
 std::vector<std::string> hints_of(const Law& law, const model::Machine& machine) {

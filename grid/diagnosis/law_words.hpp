@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/law.hpp"
+#include "model/belts/belt_machine.hpp"
 #include "model/machine.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -21,7 +23,11 @@ namespace chaintrue::grid::diagnosis {
 /// "a wave over the left chain's length".
 [[nodiscard]] std::string form_in_words(const Law& law);
 
+/// "moves the tool by 0.41 mm", of distances and belts "changes a distance by": on average.
+[[nodiscard]] std::string average_in_words(const Law& law, Observations of);
+
 /// What a period or a place is near to on this machine, as hints: whole sentences.
 [[nodiscard]] std::vector<std::string> hints_of(const Law& law, const model::Machine& machine);
+[[nodiscard]] std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& machine);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "grid/diagnosis/law_held_out.hpp"
 #include "grid/diagnosis/law_parts.hpp"
 #include "grid/diagnosis/law_residuals.hpp"
 #include "grid/statistics.hpp"
@@ -169,33 +170,18 @@ Eigen::VectorXd left_by_settings(const RegressorSystem& system,
   return rows - system.by_setting * system.sigma.cwiseProduct(x);
 }
 
-double mean_square_of_tool_mm2(const RegressorSystem& system,
-                               const MarginalisedSystem& marginalised,
-                               const Eigen::VectorXd& rows) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
-    if (marginalised.outliers[u]) continue;
-    sum += error_of_unit(system, rows, u).squaredNorm();
-    count += 1.0;
-  }
-  return count > 0.0 ? sum / count : 0.0;
-}
-
 void measure(const Analysis& a, const FoundPoint& best, Law& law) {
   const RegressorSystem& system = a.system;
   const MarginalisedSystem& marginalised =
       a.comparison.marginalised_systems[best.evidence->marginalised];
   const Eigen::VectorXd rows =
       LawColumns(system).of(best.curve(), best.law->at) * best.law->amplitude;
-  const double own = mean_square_of_tool_mm2(
-      system, marginalised, left_by_settings(system, marginalised, rows));
-  const double all = mean_square_of_tool_mm2(
+  law.rms_mm = rms_of_units_mm(system, marginalised.kept, left_by_settings(system, marginalised, rows));
+  const double all = rms_of_units_mm(
       system,
-      marginalised,
+      marginalised.kept,
       left_by_settings(system, marginalised, system.e - system.by_setting * system.expected_change));
-  law.rms_mm = std::sqrt(own);
-  law.share = all > 0.0 ? std::min(own / all, 1.0) : 0.0;
+  law.share = all > 0.0 ? std::min(std::pow(law.rms_mm / all, 2), 1.0) : 0.0;
 }
 
 /// Those of one variable and one way to enter; nothing where they are not worth a line.
@@ -232,6 +218,7 @@ std::optional<std::pair<Law, FoundPoint>> law_of(const Analysis& a,
   law.parameters = estimates(*best, points);
   measure(a, *best, law);
   law.points = residuals_about(a, *best->evidence, *best->law, law);
+  if (law.probability >= kLawLikely) law.held_out = held_out_with(a, *best->evidence, *best->law);
   return std::pair(std::move(law), *best);
 }
 
@@ -292,7 +279,7 @@ LawsFound laws_of(const Analysis& a, std::vector<LawEvidence> evidence) {
 }
 
 LawsFound laws_found(const Analysis& a) {
-  if (a.options.given_cause || !a.session.reads_chains()) return {};
+  if (a.options.given_cause) return {};
   std::vector<LawCurve> curves = law_curves(a.system);
   // Numbers on several sheets are of several frames; chains know one.
   if (a.session.sheets > 1) {

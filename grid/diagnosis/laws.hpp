@@ -27,8 +27,8 @@ struct LawsFound {
   std::vector<Heaviest> heaviest;
 };
 
-/// Likeliest first, at most three; empty unless all laws together are at least kLawLikely, where one
-/// cause alone is asked for, and where no chain was read at a mark.
+/// Likeliest first, at most three; empty unless all laws together are at least kLawLikely, and where one
+/// cause alone is asked for.
 [[nodiscard]] LawsFound laws_found(const Analysis& analysis);
 
 /// The same from evidence in one or more of the comparison's systems, each weighed with the same laws.

@@ -77,6 +77,8 @@ struct LengthEntry {
   double y_mm = 0.0;
   double visit = 0.0;         ///< its number; 0 where the order is not known
   Eigen::MatrixXd by_length;  ///< rows x lengths, whitened
+  std::vector<double> length_mm{};  ///< of each, as read
+  std::vector<double> angle_rad{};  ///< of each at its anchor, against the horizontal; 0 to pi / 2
 };
 
 struct DiscrepancyFamily;

@@ -12,7 +12,8 @@ namespace chaintrue::grid::diagnosis {
 
 std::string_view name(Enters enters) {
   constexpr std::string_view kNames[] = {
-      "left", "right", "alike", "opposite", "x", "y", "mixed", "along", "outwards"};
+      "left", "right", "alike", "opposite", "x", "y", "mixed", "along", "outwards",
+      "tl", "tr", "bl", "br"};
   return kNames[static_cast<std::size_t>(enters)];
 }
 

@@ -125,12 +125,11 @@ std::string several_words(const Diagnosis& d) {
 
 std::string unknown_words(const Diagnosis& d) {
   if (const Law* law = claimed_law(d)) {
-    return fmt::format("The {} follow a law that no cause in the catalogue has: {}, {}. On average it moves "
-                       "the tool by {:.2f} mm.",
+    return fmt::format("The {} follow a law that no cause in the catalogue has: {}, {}. On average it {}.",
                        name(d.observations),
                        in_words(*law),
                        percent(law->probability),
-                       law->rms_mm);
+                       average_in_words(*law, d.observations));
   }
   std::string text =
       !speaks_of_distances(d)

@@ -15,6 +15,7 @@ using diagnosis::CauseId;
 using diagnosis::Enters;
 using diagnosis::ErrorBudget;
 using diagnosis::Law;
+using diagnosis::LawHeldOut;
 using diagnosis::LawResidual;
 using diagnosis::LawOf;
 using diagnosis::LawShape;
@@ -68,8 +69,23 @@ const Record<LawResidual>& law_point_record() {
           .required("index", &LawResidual::index, index_number())
           .required("at", &LawResidual::at, number(kAnyNumber))
           .required("residual_mm", &LawResidual::residual_mm, number(kAnyNumber))
-          .required("left_x_mm", &LawResidual::left_x_mm, number(kAnyNumber))
-          .required("left_y_mm", &LawResidual::left_y_mm, number(kAnyNumber));
+          .optional("left_x_mm", &LawResidual::left_x_mm, number(kAnyNumber))
+          .optional("left_y_mm", &LawResidual::left_y_mm, number(kAnyNumber));
+  return record;
+}
+
+const Record<LawHeldOut::Errors>& law_errors_record() {
+  static const auto record =
+      Record<LawHeldOut::Errors>("readings that were left out")
+          .required("without_mm", &LawHeldOut::Errors::without_mm, number(kNotNegative))
+          .required("with_mm", &LawHeldOut::Errors::with_mm, number(kNotNegative));
+  return record;
+}
+
+const Record<LawHeldOut>& law_held_out_record() {
+  static const auto record = Record<LawHeldOut>("how well a law predicts what was left out")
+                                 .required("inside", &LawHeldOut::inside, object(law_errors_record()))
+                                 .required("outside", &LawHeldOut::outside, object(law_errors_record()));
   return record;
 }
 
@@ -88,7 +104,15 @@ const Record<Law>& law_record() {
                                      LawOf::angle_right,
                                      LawOf::tension_left,
                                      LawOf::tension_right,
-                                     LawOf::visit}))
+                                     LawOf::visit,
+                                     LawOf::length_tl,
+                                     LawOf::length_tr,
+                                     LawOf::length_bl,
+                                     LawOf::length_br,
+                                     LawOf::angle_tl,
+                                     LawOf::angle_tr,
+                                     LawOf::angle_bl,
+                                     LawOf::angle_br}))
           .required("shape",
                     &Law::shape,
                     words(std::array{LawShape::linear,
@@ -106,7 +130,11 @@ const Record<Law>& law_record() {
                                      Enters::x,
                                      Enters::y,
                                      Enters::along,
-                                     Enters::outwards}))
+                                     Enters::outwards,
+                                     Enters::tl,
+                                     Enters::tr,
+                                     Enters::bl,
+                                     Enters::br}))
           .required("probability", &Law::probability, number(kShare))
           .required("shape_probability", &Law::shape_probability, number(kShare))
           .optional("direction_deg", &Law::direction_deg, number({"deg", -360.0, 360.0}))
@@ -117,6 +145,7 @@ const Record<Law>& law_record() {
           .required("share", &Law::share, number(kShare))
           .required("parameters", &Law::parameters, list(object(named_estimate_record()), 1))
           .sparse("points", &Law::points, list(object(law_point_record())))
+          .optional("held_out", &Law::held_out, object(law_held_out_record()))
           .check([](const Cursor& at, Law& law) {
             if (at.child("from").clean() && at.child("to").clean() && !(law.from < law.to))
               at.child("to").expect("more than from");

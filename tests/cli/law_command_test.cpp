@@ -62,11 +62,20 @@ TEST_F(LawCommand, WhereThereIsNoLawNothingIsWritten) {
   EXPECT_TRUE(exists("d.json"));
 }
 
-TEST_F(LawCommand, HolesHaveNone) {
+TEST_F(LawCommand, HolesThatFollowNoneSaySo) {
   const Outcome found =
-      run("diagnose " + kFixtures + "/holes/nine_holes.json --law law.json");
+      run("diagnose " + kFixtures + "/holes/nine_holes.json -o d.json --law law.json");
+  EXPECT_EQ(found.code, 4);
+  EXPECT_THAT(found.err, HasSubstr("No file of a law is made: no law is likelier than none"));
+  EXPECT_FALSE(exists("law.json"));
+}
+
+TEST_F(LawCommand, BeltsHaveNoFileOfOne) {
+  const Outcome found =
+      run("diagnose " + kFixtures + "/belts/thirty_one_places.json --law law.json");
   EXPECT_EQ(found.code, 3);
-  EXPECT_THAT(found.err, HasSubstr("--law: found law.json, expected to be left out: a law is found from marks"));
+  EXPECT_THAT(found.err,
+              HasSubstr("--law: found law.json, expected to be left out of belts: a cause of your own acts on chains"));
 }
 
 }  // namespace

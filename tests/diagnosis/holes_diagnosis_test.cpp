@@ -12,6 +12,7 @@
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/diagnosis_file.hpp"
+#include "grid/files/holes_file.hpp"
 #include "grid/files/input_error.hpp"
 #include "grid/synthetic/random.hpp"
 #include "model/effects/catalogue.hpp"
@@ -48,6 +49,14 @@ Diagnosis diagnosed(const MeasuredHoles& set, const DiagnosisOptions& options = 
   const auto found = diagnose(set, options);
   EXPECT_TRUE(found) << found.error().sentence();
   return *found;
+}
+
+// Ninety-three distances of which Eigen's division for singular values made NaN, so that no model was left.
+TEST(HolesDiagnosis, SingularValuesThatAreNearlyEqualAreNoMatter) {
+  const MeasuredHoles set =
+      files::read_holes(CHAINTRUE_FIXTURES "/holes/thirty_holes.json").holes;
+  const Diagnosis found = diagnosed(set);
+  EXPECT_EQ(found.verdict, Verdict::model_discrepancy) << found.sentence;
 }
 
 bool names_something(const Diagnosis& found) { return !found.causes.empty(); }

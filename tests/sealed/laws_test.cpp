@@ -20,8 +20,23 @@ TEST(SealedLaws, AreClaimedAndRight) {
   }
 }
 
+// In belts a slope, ripples and a step; in holes a step, ripples of a chain's length and of its angle.
+TEST(SealedLaws, AreClaimedAndRightInBeltsAndHoles) {
+  const std::pair<std::string_view, std::vector<std::uint64_t>> kinds[] = {{"belts_laws", {4, 5, 11, 13}},
+                                                                           {"holes_laws", {1, 5, 6, 9}}};
+  for (const auto& [kind, seeds] : kinds) {
+    for (const std::uint64_t seed : seeds) {
+      const LawsTrial trial = run_laws_trial(kind, seed);
+      EXPECT_TRUE(trial.claimed) << line_of(kind, trial);
+      EXPECT_TRUE(trial.leads) << line_of(kind, trial);
+      EXPECT_LT(trial.worst_sigmas.value_or(0.0), 3.0) << line_of(kind, trial);
+    }
+  }
+}
+
 TEST(SealedLaws, FieldsCausesAndNothingAreNoLaw) {
-  for (const std::string_view kind : {"gaussian", "matern", "uneven", "causes", "nothing"}) {
+  for (const std::string_view kind : {"gaussian", "matern", "uneven", "causes", "nothing", "belts_gaussian",
+                                      "belts_causes", "belts_nothing", "holes_gaussian", "holes_nothing"}) {
     for (const std::uint64_t seed : {3, 4}) {
       const LawsTrial trial = run_laws_trial(kind, seed);
       EXPECT_FALSE(trial.claimed) << line_of(kind, trial);

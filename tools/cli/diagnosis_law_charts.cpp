@@ -119,9 +119,9 @@ std::vector<report::ChartRow> law_rest_charts(const Diagnosis& found) {
                 .noise_x_mm = point.noise_sigma_mm.x(),
                 .noise_y_mm = point.noise_sigma_mm.y()};
     before.push_back(arrow);
-    if (own == law.points.end()) continue;
-    arrow.dx_mm = own->left_x_mm;
-    arrow.dy_mm = own->left_y_mm;
+    if (own == law.points.end() || !own->left_x_mm || !own->left_y_mm) continue;
+    arrow.dx_mm = *own->left_x_mm;
+    arrow.dy_mm = *own->left_y_mm;
     after.push_back(arrow);
   }
   const model::Bed& bed = found.extended_machine.bed;

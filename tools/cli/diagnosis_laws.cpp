@@ -20,14 +20,28 @@ using report::Item;
 std::vector<Item> details_of(const Law& law, const grid::diagnosis::Diagnosis& found) {
   std::vector<Item> details;
   if (law.probability < grid::diagnosis::kLawLikely) return details;
-  details.push_back({fmt::format("on average it moves the tool by {:.2f} mm: {} of what the settings leave",
-                                 law.rms_mm,
-                                 grid::diagnosis::percent(law.share))});
+  details.push_back({fmt::format("on average it {}: {} of what the {} leave",
+                                 average_in_words(law, found.observations),
+                                 grid::diagnosis::percent(law.share),
+                                 found.belts ? "anchors" : "settings")});
+  if (law.held_out) {
+    const auto& [inside, outside] = *law.held_out;
+    details.push_back({fmt::format(
+        "every fourth place left out: predicted within {:.2f} mm with it, {:.2f} without; a quarter of the bed "
+        "left out: {:.2f} with it, {:.2f} without",
+        inside.with_mm,
+        inside.without_mm,
+        outside.with_mm,
+        outside.without_mm)});
+  }
   if (law.shape_probability < grid::diagnosis::kLawClaimed) {
     details.push_back({fmt::format("that it looks like this and not otherwise: {}",
                                    grid::diagnosis::percent(law.shape_probability))});
   }
-  for (const std::string& hint : grid::diagnosis::hints_of(law, found.extended_machine))
+  const std::vector<std::string> hints =
+      found.belts ? grid::diagnosis::hints_of(law, found.belts->machine)
+                  : grid::diagnosis::hints_of(law, found.extended_machine);
+  for (const std::string& hint : hints)
     details.push_back({"a hint: " + hint});
   return details;
 }
@@ -45,11 +59,13 @@ report::Section laws_section(const grid::diagnosis::Diagnosis& found) {
   report::Section section{"What the rest looks like", {std::move(list)}};
   if (!laws.front().points.empty()) {
     section.blocks.emplace_back(law_charts(found));
-    for (report::ChartRow& row : law_rest_charts(found)) section.blocks.emplace_back(std::move(row));
+    if (!found.points.empty())
+      for (report::ChartRow& row : law_rest_charts(found)) section.blocks.emplace_back(std::move(row));
   }
   const bool is_claimed = laws.front().probability >= grid::diagnosis::kLawClaimed;
   section.blocks.emplace_back(report::Paragraph{
-      is_claimed ? "No listed cause makes this. --law writes it as a cause of your own, to be named, "
+      is_claimed && found.belts ? "No listed cause makes this."
+      : is_claimed ? "No listed cause makes this. --law writes it as a cause of your own, to be named, "
                    "edited and given back with --effects."
                  : fmt::format("These {} cannot tell which of these it is, if it is any.",
                                name(found.observations))});

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/hidden/belt_draw.hpp"
 
-#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
+#include "generator/hidden/belt_strength.hpp"
 #include "generator/hidden/random.hpp"
 
 namespace chaintrue::generator {
@@ -36,10 +39,6 @@ constexpr Card kCards[] = {{"belt_stretch", false, false, 0.002, 0.006, false},
                            {"anchor_flex", false, false, 0.5, 3.0, false}};
 /// The last two are asked for by name alone: the frozen sets are drawn from the others.
 constexpr std::size_t kDrawnCards = std::size(kCards) - 2;
-
-double span(const std::array<double, 3>& anchor, double x, double y) {
-  return std::hypot(anchor[0] - x, anchor[1] - y);
-}
 
 std::vector<std::array<double, 2>> raster(const BeltFrame& frame, int columns, int rows, Dice& dice) {
   const double width = frame.anchors[3][0];
@@ -77,7 +76,7 @@ void let_anchors_give(const BeltSession& session, double give_mm_per_n, std::vec
     FourLengths pull{};
     pull.fill(session.frame.pull_n);
     for (std::size_t i = 0; i < 4; ++i) {
-      const double level = span(session.frame.anchors[i], x, y) - session.frame.reach_mm;
+      const double level = level_span(session.frame.anchors[i], x, y) - session.frame.reach_mm;
       held[i] = std::hypot(level, session.frame.anchors[i][2]);
     }
     const SledAtRest rest =
@@ -133,33 +132,95 @@ std::vector<FourLengths> readings(const BeltFrame& frame,
   return read;
 }
 
-/// Norm of a change of the readings after projection on anchors and positions, mm.
-double beyond_the_fit(const BeltFrame& frame,
-                      const std::vector<std::array<double, 2>>& places,
-                      const std::vector<FourLengths>& change) {
-  const auto count = static_cast<Eigen::Index>(places.size());
-  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(4 * count, 5 + 2 * count);
-  Eigen::VectorXd off(4 * count);
-  for (Eigen::Index n = 0; n < count; ++n) {
-    const auto& at = places[static_cast<std::size_t>(n)];
-    for (Eigen::Index i = 0; i < 4; ++i) {
-      const auto& anchor = frame.anchors[static_cast<std::size_t>(i)];
-      const double level = span(anchor, at[0], at[1]);
-      const double belt = level - frame.reach_mm;
-      const double share = belt / std::hypot(belt, anchor[2]);
-      const double ux = share * (at[0] - anchor[0]) / level;
-      const double uy = share * (at[1] - anchor[1]) / level;
-      const Eigen::Index row = 4 * n + i;
-      design(row, 5 + 2 * n) = ux;
-      design(row, 6 + 2 * n) = uy;
-      if (i == 0) design(row, 0) = -ux, design(row, 1) = -uy;
-      if (i == 1) design(row, 2) = -ux, design(row, 3) = -uy;
-      if (i == 3) design(row, 4) = -ux;
-      off(row) = change[static_cast<std::size_t>(n)][static_cast<std::size_t>(i)];
+std::vector<FourLengths> less(std::vector<FourLengths> read, const std::vector<FourLengths>& plain) {
+  for (std::size_t n = 0; n < read.size(); ++n) {
+    for (std::size_t i = 0; i < 4; ++i) read[n][i] -= plain[n][i];
+  }
+  return read;
+}
+
+/// What each cause of the catalogue at its usual size leaves, as unit vectors; what sets in does so at
+/// every visit.
+std::vector<Eigen::VectorXd> rivals_of(const BeltFrame& frame,
+                                       const std::vector<std::array<double, 2>>& commands,
+                                       const std::vector<FourLengths>& plain,
+                                       const AnchorProjection& projection) {
+  std::vector<Eigen::VectorXd> rivals;
+  const auto add = [&](const std::vector<FourLengths>& change) {
+    const Eigen::VectorXd left = projection.left_of(change);
+    if (left.norm() > 1e-6) rivals.push_back(left.normalized());
+  };
+  for (const Card& card : kCards) {
+    const std::string effect = card.effect;
+    if (effect == "tooth_skip" || effect == "anchor_moved" || effect == "zero_shift") continue;
+    std::vector<std::string> sides = {""};
+    if (card.sided) sides = {"tl", "tr", "bl", "br"};
+    if (card.may_be_of_all) sides.emplace_back("all");
+    for (const std::string& side : sides) {
+      BeltSecret secret;
+      secret.effect = effect;
+      secret.side = side;
+      secret.size = std::sqrt(card.least * card.most);
+      add(less(readings(frame, secret, commands), plain));
     }
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(design);
-  return (off - design * qr.solve(off)).norm();
+  // A belt that is longer, and an anchor that is elsewhere, from a visit on.
+  for (std::size_t first = 1; first < commands.size(); ++first) {
+    for (std::size_t belt = 0; belt < 4; ++belt) {
+      std::vector<FourLengths> longer(commands.size(), FourLengths{});
+      std::vector<FourLengths> right(commands.size(), FourLengths{});
+      std::vector<FourLengths> up(commands.size(), FourLengths{});
+      for (std::size_t n = first; n < commands.size(); ++n) {
+        const auto& anchor = frame.anchors[belt];
+        const auto& [x, y] = commands[n];
+        const double level = level_span(anchor, x, y);
+        longer[n][belt] = 1.0;
+        right[n][belt] = (anchor[0] - x) / level;
+        up[n][belt] = (anchor[1] - y) / level;
+      }
+      add(longer);
+      add(right);
+      add(up);
+    }
+  }
+  return rivals;
+}
+
+/// Adds a law to the readings, and chooses the noise that gives it its strength: in units of this, beyond what
+/// anchors and any one cause explain. \throws std::runtime_error if 500 draws find no noise of 0.1 to 1 mm.
+void add_law(const BeltRecipe& recipe,
+             const std::vector<std::array<double, 2>>& commands,
+             Dice& dice,
+             BeltDraw& draw) {
+  constexpr int kDraws = 500;
+  const std::vector<FourLengths> plain = readings(draw.frame, BeltSecret{}, commands);
+  const AnchorProjection projection(draw.frame, commands);
+  const std::vector<Eigen::VectorXd> rivals = rivals_of(draw.frame, commands, plain, projection);
+  for (int n = 0; n < kDraws; ++n) {
+    BeltLaw law = drawn_belt_law(*recipe.law, commands, dice);
+    std::vector<FourLengths> added(commands.size(), FourLengths{});
+    for (std::size_t k = 0; k < commands.size(); ++k) {
+      added[k][law.belt] = value_of(
+          law, draw.frame, commands[k][0], commands[k][1], plain[k][law.belt]);
+    }
+    const Eigen::VectorXd left = projection.left_of(added);
+    double likest = 0.0;
+    for (const Eigen::VectorXd& rival : rivals)
+      likest = std::max(likest, std::abs(rival.dot(left)) / std::max(left.norm(), 1e-12));
+    const double own = left.norm() * std::sqrt(std::max(0.0, 1.0 - likest * likest));
+    if (!(own > 1e-3)) continue;
+    law.strength = dice.log_uniform(recipe.least_law, recipe.most_law);
+    const bool slopes = law.family == BeltLawFamily::slope_from_x || law.family == BeltLawFamily::slope_from_y;
+    const double size = dice.log_uniform(0.5, 6.0) * (slopes ? 4.0 : 1.0);
+    draw.noise_mm = size * own / law.strength;
+    if (draw.noise_mm < 0.1 || draw.noise_mm > 1.0) continue;
+    law.size_mm = size * dice.sign();
+    for (std::size_t k = 0; k < commands.size(); ++k)
+      draw.lengths_mm[k][law.belt] += law.size_mm * added[k][law.belt];
+    draw.secret.law = std::move(law);
+    return;
+  }
+  throw std::runtime_error("draw_belts: no law fits");
 }
 
 BeltSecret drawn_secret(const BeltRecipe& recipe, int visits, Dice& dice) {
@@ -199,7 +260,12 @@ BeltDraw draw_belts(const BeltRecipe& recipe, std::uint64_t seed) {
       for (std::size_t i = 0; i < 4; ++i) change[n][i] = draw.lengths_mm[n][i] - change[n][i];
     }
     draw.secret.strength = dice.log_uniform(recipe.least_strength, recipe.most_strength);
-    draw.noise_mm = beyond_the_fit(draw.frame, commands, change) / draw.secret.strength;
+    draw.noise_mm =
+        AnchorProjection(draw.frame, commands).left_of(change).norm() / draw.secret.strength;
+  }
+  if (recipe.law) {
+    Dice own(seed, "belt law");
+    add_law(recipe, commands, own, draw);
   }
   draw.pulls.assign(draw.lengths_mm.size(), recipe.pulls.front());
   for (std::size_t pass = 1; pass < recipe.pulls.size(); ++pass) {

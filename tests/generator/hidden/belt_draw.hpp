@@ -10,9 +10,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "generator/hidden/belt_law.hpp"
 #include "generator/hidden/belts.hpp"
 
 namespace chaintrue::generator {
@@ -25,6 +27,7 @@ struct BeltSecret {
   int first_visit = 0;
   double strength = 0.0;
   std::vector<std::array<int, 2>> bad;  ///< point and belt (tl, tr, bl, br) of bad readings
+  std::optional<BeltLaw> law;
 };
 
 struct BeltRecipe {
@@ -35,6 +38,10 @@ struct BeltRecipe {
   int bad_readings = 0;  ///< of one belt each, at separate points
   /// All points once with each: sizes and the strength are those of the first.
   std::vector<double> pulls = {1.0};
+  /// A law or a field as well, of a strength in this range; of recipes with one pull.
+  std::optional<BeltLawFamily> law{};
+  double least_law = 12.0;
+  double most_law = 40.0;
 };
 
 struct BeltDraw {

@@ -6,9 +6,8 @@
 #include "grid/diagnosis/diagnose.hpp"
 
 namespace chaintrue::sealed {
-namespace {
 
-grid::MeasuredBelts measured(const generator::BeltDraw& draw) {
+grid::MeasuredBelts measured_belts_of(const generator::BeltDraw& draw) {
   grid::MeasuredBelts belts;
   belts.machine.lengths = model::BeltLengths::belt;
   int order = 0;
@@ -21,6 +20,8 @@ grid::MeasuredBelts measured(const generator::BeltDraw& draw) {
   }
   return belts;
 }
+
+namespace {
 
 bool same_bad(const generator::BeltSecret& secret, const grid::diagnosis::Diagnosis& found) {
   if (found.outliers.size() != secret.bad.size()) return false;
@@ -86,7 +87,7 @@ BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t se
   trial.seed = seed;
   trial.points = static_cast<int>(draw.lengths_mm.size());
   trial.secret = draw.secret;
-  grid::MeasuredBelts belts = measured(draw);
+  grid::MeasuredBelts belts = measured_belts_of(draw);
   grid::diagnosis::DiagnosisOptions how;
   how.next_measurements = go_on;
   const auto found = grid::diagnosis::diagnose(belts, how);

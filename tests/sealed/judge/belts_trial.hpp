@@ -35,6 +35,8 @@ struct BeltsTrial {
   int proposed = 0;
   bool parted = false;
 };
+/// What the owner would have of it.
+[[nodiscard]] grid::MeasuredBelts measured_belts_of(const generator::BeltDraw& draw);
 /// `go_on`: if no single name is given, the proposed positions are measured and the diagnosis is
 /// repeated.
 [[nodiscard]] BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe,

@@ -22,13 +22,14 @@ using generator::Where;
 
 constexpr double kElongation = 0.0015;
 
-Eigen::Vector2d reading(const TrueMachine& machine, std::span<const Hidden> effects, Vec2 place) {
+Eigen::Vector2d reading(const generator::HiddenMachine& machine, Vec2 place) {
   const std::vector<generator::Visit> visit = {{place, 0}};
-  const auto rest = generator::rests(generator::altered(machine, effects), visit);
-  if (!rest) throw std::runtime_error("hidden_holes: the machine cannot reach a place near a hole");
-  const auto lengths = generator::readings(machine, effects, visit, *rest);
-  return {lengths.front()[0], lengths.front()[1]};
+  const auto lengths = machine.exact(visit);
+  if (!lengths) throw std::runtime_error("hidden_holes: the machine cannot reach a place near a hole");
+  return {lengths->front()[0], lengths->front()[1]};
 }
+
+}  // namespace
 
 const grid::MeasuredHoles& nine_holes() {
   static const grid::MeasuredHoles set =
@@ -36,31 +37,36 @@ const grid::MeasuredHoles& nine_holes() {
   return set;
 }
 
-}  // namespace
-
 // Newton's method with differences of half a millimetre.
-Vec2 place_reached(const TrueMachine& machine,
-              std::span<const Hidden> effects,
-              const model::ChainLengths& paid_out,
-              Vec2 at) {
+Vec2 place_reached(const generator::HiddenMachine& machine,
+                   const model::ChainLengths& paid_out,
+                   Vec2 at) {
   constexpr double kStepMm = 0.5;
   constexpr int kMost = 20;
   constexpr double kThereMm = 1e-3;      // compared with a noise of 0.3 mm
   constexpr double kFarMm = 0.05;        // a significant part of that noise
   const Eigen::Vector2d wanted(paid_out.left_mm, paid_out.right_mm);
   for (int step = 0; step < kMost; ++step) {
-    const Eigen::Vector2d here = reading(machine, effects, at);
+    const Eigen::Vector2d here = reading(machine, at);
     if ((wanted - here).norm() < kThereMm) break;
     Eigen::Matrix2d slope;
-    slope.col(0) = (reading(machine, effects, {at.x + kStepMm, at.y}) - here) / kStepMm;
-    slope.col(1) = (reading(machine, effects, {at.x, at.y + kStepMm}) - here) / kStepMm;
+    slope.col(0) = (reading(machine, {at.x + kStepMm, at.y}) - here) / kStepMm;
+    slope.col(1) = (reading(machine, {at.x, at.y + kStepMm}) - here) / kStepMm;
     const Eigen::Vector2d move = slope.inverse() * (wanted - here);
     at = {at.x + move.x(), at.y + move.y()};
   }
-  if (!((wanted - reading(machine, effects, at)).norm() < kFarMm)) {
+  if (!((wanted - reading(machine, at)).norm() < kFarMm)) {
     throw std::runtime_error("place_reached: no place has the lengths that were paid out");
   }
   return at;
+}
+
+Vec2 place_reached(const TrueMachine& machine,
+                   std::span<const Hidden> effects,
+                   const model::ChainLengths& paid_out,
+                   Vec2 near) {
+  return place_reached(
+      generator::HiddenMachine(TrueMachine{}, machine, {effects.begin(), effects.end()}), paid_out, near);
 }
 
 CutHoles cut_holes(const std::vector<Hidden>& effects, std::uint64_t seed) {

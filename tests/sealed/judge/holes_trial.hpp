@@ -14,10 +14,16 @@ namespace chaintrue::sealed {
 
 /// Where the hidden machine comes to rest when its controller has paid out these lengths, searched
 /// from a place near by. \throws std::runtime_error where no place has them.
+[[nodiscard]] generator::Vec2 place_reached(const generator::HiddenMachine& machine,
+                                            const model::ChainLengths& paid_out,
+                                            generator::Vec2 near);
 [[nodiscard]] generator::Vec2 place_reached(const generator::TrueMachine& machine,
                                             std::span<const generator::Hidden> effects,
                                             const model::ChainLengths& paid_out,
                                             generator::Vec2 near);
+
+/// fixtures/holes/nine_holes.json.
+[[nodiscard]] const grid::MeasuredHoles& nine_holes();
 
 /// What was measured, and the machine that cut it.
 struct CutHoles {

@@ -13,6 +13,7 @@
 #include "grid/diagnosis/law_declaration.hpp"
 #include "grid/files/grid_file.hpp"
 #include "sealed/judge/map_errors.hpp"
+#include "sealed/judge/other_laws_trials.hpp"
 #include "sealed/judge/trial.hpp"
 
 namespace chaintrue::sealed {
@@ -24,12 +25,6 @@ using grid::diagnosis::Enters;
 using grid::diagnosis::Law;
 using grid::diagnosis::LawOf;
 using grid::diagnosis::LawShape;
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 generator::Recipe recipe_of(std::string_view kind, std::uint64_t seed) {
   generator::Recipe recipe;
@@ -76,11 +71,13 @@ Enters entry_of(const HiddenLaw& law) {
   return law.component == 0 ? Enters::left : Enters::right;
 }
 
+double in_sigmas(double off, double sigma) { return std::abs(off) / std::max(sigma, 1e-9); }
+
+}  // namespace
+
 bool is_right(const HiddenLaw& law, const Law& found) {
   return is_variable_of(law, found) && found.enters == entry_of(law);
 }
-
-double in_sigmas(double off, double sigma) { return std::abs(off) / std::max(sigma, 1e-9); }
 
 std::optional<double> worst_of(const HiddenLaw& law, const Law& found) {
   const auto& p = found.parameters;
@@ -110,6 +107,19 @@ std::optional<double> worst_of(const HiddenLaw& law, const Law& found) {
       return std::nullopt;
   }
 }
+
+std::string words_of(const HiddenLaw& law, double strength) {
+  return fmt::format("{} {:.1f} size {:.2f} {} place {:.0f} extent {:.2f} dir {:.0f}",
+                     word(law.family),
+                     strength,
+                     law.size_mm,
+                     name(entry_of(law)),
+                     law.place,
+                     law.extent,
+                     law.direction_rad * 180.0 / std::numbers::pi);
+}
+
+namespace {
 
 grid::diagnosis::DiagnosisOptions verdict_alone() {
   grid::diagnosis::DiagnosisOptions how;
@@ -157,6 +167,19 @@ std::optional<LawInUse> use(const generator::SealedSet& set, const LawsTrial& tr
 
 }  // namespace
 
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+void take_laws(const grid::diagnosis::Diagnosis& found, LawsTrial& trial) {
+  trial.sentence = found.sentence;
+  if (found.unexplained) trial.laws = found.unexplained->laws;
+  trial.reported = !trial.laws.empty();
+  trial.claimed = trial.reported && trial.laws.front().probability >= grid::diagnosis::kLawClaimed;
+}
+
 const std::vector<LawsKind>& laws_kinds() {
   static const std::vector<LawsKind> kKinds = {
       {"laws", "a law of one variable", true},
@@ -168,58 +191,57 @@ const std::vector<LawsKind>& laws_kinds() {
       {"uneven", "a field that is rougher on one side", false},
       {"causes", "one listed cause", false},
       {"nothing", "nothing", false},
+      {"belts_laws", "a law of one variable in a belt", true},
+      {"belts_two", "a product of two waves in a belt", false},
+      {"belts_gaussian", "a Gaussian field in a belt", false},
+      {"belts_causes", "one listed cause of belts", false},
+      {"belts_nothing", "nothing in belts", false},
+      {"holes_laws", "a law of one variable, holes", true},
+      {"holes_two", "a product of two waves, holes", false},
+      {"holes_gaussian", "a Gaussian field, holes", false},
+      {"holes_causes", "one listed cause, holes", false},
+      {"holes_nothing", "nothing, holes", false},
   };
   return kKinds;
 }
 
 LawsTrial run_laws_trial(std::string_view kind, std::uint64_t seed, bool in_use) {
+  constexpr std::string_view kBelts = "belts_";
+  constexpr std::string_view kHoles = "holes_";
+  if (kind.starts_with(kBelts)) return run_belts_laws_trial(kind.substr(kBelts.size()), seed);
+  if (kind.starts_with(kHoles)) return run_holes_laws_trial(kind.substr(kHoles.size()), seed);
   const generator::Recipe recipe = recipe_of(kind, seed);
   const generator::SealedSet set = generator::draw_set(recipe, seed);
   LawsTrial trial;
   trial.seed = seed;
   trial.points = recipe.points;
   trial.answer = set.answer;
-  const double start = processor_seconds();
-  const auto found =
-      grid::diagnosis::diagnose(grid::files::parse_grid(set.grid_text, "sealed.json").grid, verdict_alone());
-  trial.seconds = processor_seconds() - start;
+  const auto found = timed(trial, [&] {
+    return grid::diagnosis::diagnose(grid::files::parse_grid(set.grid_text, "sealed.json").grid,
+                                     verdict_alone());
+  });
   if (!found) {
     trial.failed = true;
     return trial;
   }
-  trial.sentence = found->sentence;
   for (const NamedCause& named : named_causes(*found)) {
     for (const auto& hidden : set.answer.hidden)
       trial.cause_named = trial.cause_named || means(named, id_of(hidden));
   }
-  if (found->unexplained) trial.laws = found->unexplained->laws;
-  trial.reported = !trial.laws.empty();
-  trial.claimed =
-      trial.reported && trial.laws.front().probability >= grid::diagnosis::kLawClaimed;
+  take_laws(*found, trial);
   if (in_use && trial.claimed) trial.in_use = use(set, trial);
   if (!set.answer.law || !trial.reported) return trial;
   const HiddenLaw& law = set.answer.law->law;
-  trial.leads = is_right(law, trial.laws.front());
-  trial.in_set = std::any_of(
-      trial.laws.begin(), trial.laws.end(), [&](const Law& one) { return is_right(law, one); });
+  judge(trial, [&](const Law& one) { return is_right(law, one); });
   if (trial.leads) trial.worst_sigmas = worst_of(law, trial.laws.front());
   return trial;
 }
 
 std::string line_of(std::string_view kind, const LawsTrial& trial) {
   std::string text = fmt::format("{} {} {}", kind, trial.seed, trial.points);
-  if (trial.answer.law) {
-    const HiddenLaw& law = trial.answer.law->law;
-    text += fmt::format(" {} {:.1f} size {:.2f} {} place {:.0f} extent {:.2f} dir {:.0f}",
-                        word(law.family),
-                        trial.answer.law->delta,
-                        law.size_mm,
-                        name(entry_of(law)),
-                        law.place,
-                        law.extent,
-                        law.direction_rad * 180.0 / std::numbers::pi);
-  }
+  if (trial.answer.law) text += " " + words_of(trial.answer.law->law, trial.answer.law->delta);
   for (const auto& hidden : trial.answer.hidden) text += " " + id_of(hidden);
+  if (!trial.hidden.empty()) text += " " + trial.hidden;
   text += fmt::format(" | {}{}{}{}", trial.failed ? "failed " : "", trial.claimed ? "claimed " : "",
                       trial.leads ? "leads " : "", trial.in_set ? "in_set " : "");
   if (trial.worst_sigmas) text += fmt::format("{:.1f}s ", *trial.worst_sigmas);

@@ -4,6 +4,7 @@
 /// which law it reports, and whether that is the hidden one.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,7 +16,7 @@
 
 namespace chaintrue::sealed {
 
-/// "laws", "two", "gaussian", "matern", "stretched", "uneven", "nothing", "causes", "near_causes".
+/// "laws", "two", "gaussian", ... of points on two chains; "belts_laws", ... and "holes_laws", ... of these.
 struct LawsKind {
   std::string_view word;
   std::string_view hidden;  ///< for the table
@@ -38,7 +39,8 @@ struct LawInUse {
 struct LawsTrial {
   std::uint64_t seed = 0;
   int points = 0;
-  generator::Answer answer;
+  generator::Answer answer;  ///< of points on two chains
+  std::string hidden;        ///< of belts and holes, in words
   bool failed = false;
   std::vector<grid::diagnosis::Law> laws;
   bool reported = false;   ///< some law
@@ -53,6 +55,30 @@ struct LawsTrial {
   std::string sentence;
   std::optional<LawInUse> in_use;  ///< of a claimed law that a file can say
 };
+
+/// Sets trial.seconds to the processor time of a call.
+[[nodiscard]] double processor_seconds();
+template <class Call>
+auto timed(LawsTrial& trial, Call call) {
+  const double start = processor_seconds();
+  auto result = call();
+  trial.seconds = processor_seconds() - start;
+  return result;
+}
+/// What a diagnosis says of laws.
+void take_laws(const grid::diagnosis::Diagnosis& found, LawsTrial& trial);
+/// Variable and place of entry.
+[[nodiscard]] bool is_right(const generator::HiddenLaw& law, const grid::diagnosis::Law& found);
+/// As LawsTrial::worst_sigmas.
+[[nodiscard]] std::optional<double> worst_of(const generator::HiddenLaw& law,
+                                             const grid::diagnosis::Law& found);
+[[nodiscard]] std::string words_of(const generator::HiddenLaw& law, double strength);
+/// Whether the first law, and whether any of those reported is right.
+template <class IsRight>
+void judge(LawsTrial& trial, IsRight is_right) {
+  trial.leads = is_right(trial.laws.front());
+  trial.in_set = std::any_of(trial.laws.begin(), trial.laws.end(), is_right);
+}
 
 /// 28, 60 and 117 points in turn.
 [[nodiscard]] LawsTrial run_laws_trial(std::string_view kind, std::uint64_t seed, bool in_use = false);

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/law_held_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/diagnosis/bed_parts.hpp"
+#include "grid/diagnosis/estimate.hpp"
+#include "grid/diagnosis/law_model.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using Units = std::vector<std::size_t>;
+using Rows = std::vector<Eigen::Index>;
+
+constexpr std::size_t kFolds = 4;
+/// Values of a place or period that a part may choose among: the posterior of one is narrower than these.
+constexpr std::size_t kMostValues = 5;
+
+bool has(const Units& units, std::size_t unit) {
+  return std::find(units.begin(), units.end(), unit) != units.end();
+}
+
+/// Every fourth place.
+std::vector<Units> folds(const KeptRows& kept) {
+  std::vector<Units> result(kFolds);
+  for (std::size_t k = 0; k < kept.units().size(); ++k)
+    result[k % kFolds].push_back(kept.units()[k].unit);
+  return result;
+}
+
+class Predictor {
+ public:
+  Predictor(const Analysis& a, const LawEvidence& evidence, const WeighedLaw& law)
+      : system_(a.system),
+        marginalised_(a.comparison.marginalised_systems[evidence.marginalised]),
+        without_(a, marginalised_, evidence.sets[evidence.without_set], evidence.without_discrepancy) {
+    for (const WeighedLaw& own : evidence.laws) {
+      if (own.curve != law.curve || with_.size() == kMostValues) continue;
+      with_.emplace_back(a, marginalised_, evidence.sets[law.set], law.discrepancy);
+      const Eigen::MatrixXd columns = LawColumns(a.system).of(evidence.curves[own.curve], own.at);
+      for (Eigen::Index k = 0; k < columns.cols(); ++k)
+        with_.back().add(Eigen::VectorXd(columns.col(k)));
+    }
+  }
+
+  /// Mean squares of what is predicted wrongly, over all parts.
+  LawHeldOut::Errors errors(const std::vector<Units>& parts) const {
+    double without = 0.0;
+    double with = 0.0;
+    for (const Units& left_out : parts) {
+      Rows kept, out;
+      for (const KeptRows::Unit& unit : marginalised_.kept.units()) {
+        Rows& rows = has(left_out, unit.unit) ? out : kept;
+        for (Eigen::Index k = 0; k < unit.rows; ++k) rows.push_back(unit.at + k);
+      }
+      const auto best = std::max_element(
+          with_.begin(), with_.end(), [&](const LawModel& a, const LawModel& b) {
+            return a.log_density(kept) < b.log_density(kept);
+          });
+      without += square_mm2(without_, kept, out, left_out);
+      with += square_mm2(*best, kept, out, left_out);
+    }
+    const auto count = static_cast<double>(parts.size());
+    return {std::sqrt(without / count), std::sqrt(with / count)};
+  }
+
+ private:
+  double square_mm2(const LawModel& model, const Rows& kept, const Rows& out, const Units& units) const {
+    const Eigen::VectorXd wrong = model.left_of_prediction(kept, out);
+    Eigen::VectorXd rows = Eigen::VectorXd::Zero(system_.e.size());
+    Eigen::Index at = 0;
+    for (const KeptRows::Unit& unit : marginalised_.kept.units()) {
+      if (!has(units, unit.unit)) continue;
+      if (!unit.across)
+        rows.segment(system_.units[unit.unit].first_row, unit.rows) = wrong.segment(at, unit.rows);
+      at += unit.rows;
+    }
+    return std::pow(rms_of_units_mm(system_, marginalised_.kept, rows, units), 2);
+  }
+
+  const RegressorSystem& system_;
+  const MarginalisedSystem& marginalised_;
+  LawModel without_;
+  std::vector<LawModel> with_;
+};
+
+}  // namespace
+
+std::optional<LawHeldOut> held_out_with(const Analysis& a, const LawEvidence& evidence, const WeighedLaw& law) {
+  const std::vector<BedPart> quarters =
+      bed_parts(a.system, nothing_rejected(a.system), a.session.fewest_units);
+  if (quarters.empty()) return std::nullopt;
+  const Predictor predictor(a, evidence, law);
+  std::vector<Units> parts;
+  for (const BedPart& quarter : quarters) parts.push_back(quarter.units);
+  return LawHeldOut{
+      predictor.errors(folds(a.comparison.marginalised_systems[evidence.marginalised].kept)),
+      predictor.errors(parts)};
+}
+
+double rms_of_units_mm(const RegressorSystem& system,
+                       const KeptRows& kept,
+                       const Eigen::VectorXd& rows,
+                       const std::vector<std::size_t>& units) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const KeptRows::Unit& unit : kept.units()) {
+    if (unit.across || (!units.empty() && !has(units, unit.unit))) continue;
+    sum += error_of_unit(system, rows, unit.unit).squaredNorm();
+    // What a place's four belts leave of their checks is two numbers.
+    count += system.entries.empty() ? 1.0 : 2.0;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+}  // namespace chaintrue::grid::diagnosis

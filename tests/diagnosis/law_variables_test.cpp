@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What laws are functions of and where they enter: of four belts a law's columns are what readings with the
+/// law differ by; short waves that evenly spaced marks cannot tell from long ones are not weighed; a step over
+/// what one chain does stands between that chain's readings.
+#include "grid/diagnosis/law_variables.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "grid/belts/anchor_estimate.hpp"
+#include "grid/diagnosis/belts_system.hpp"
+#include "grid/diagnosis/law_curves.hpp"
+#include "grid/files/belts_file.hpp"
+#include "grid/synthetic/random.hpp"
+#include "tests/diagnosis/law_sessions.hpp"
+
+namespace chaintrue::grid::diagnosis::law_variables {
+namespace {
+
+using model::Belt;
+using model::kBelts;
+
+MeasuredBelts frame() {
+  return files::read_belts(CHAINTRUE_FIXTURES "/belts/thirty_one_places.json").belts;
+}
+
+// Of every variable, belt by belt: the residuals of the readings with the law, less those without.
+TEST(BeltLaws, ColumnsAreWhatReadingsWithTheLawDifferBy) {
+  const MeasuredBelts plain = frame();
+  const BeltsState state{belts::fit_anchors_robustly(plain).value(), {}};
+  constexpr double kSigmaMm = 0.4;
+  const RegressorSystem system = system_of(plain, state, {}, kSigmaMm);
+  int compared = 0;
+  for (const LawOf of : law_variables(system)) {
+    for (const LawEntrance& entrance : law_entrances(system, of)) {
+      const Belt belt = belt_of(entrance.enters).value();
+      MeasuredBelts with = plain;
+      Eigen::VectorXd column = Eigen::VectorXd::Zero(system.e.size());
+      for (std::size_t k = 0; k < with.points.size(); ++k) {
+        const std::vector<LawRows> rows = law_rows(system, k, {of, entrance.enters, 0.0});
+        ASSERT_EQ(rows.size(), 1U);
+        const double value_mm = 0.3 * std::sin(0.01 * rows.front().v);
+        with.points[k].lengths_mm[belt] += value_mm;
+        column.segment(system.units[k].first_row, 2) = value_mm * rows.front().rows;
+      }
+      const RegressorSystem read = system_of(with, state, {}, kSigmaMm);
+      // Residuals are linear in the readings: rounding of lengths of some metres.
+      EXPECT_LT((read.e - system.e - column).norm(), 1e-9) << name(of) << " " << name(entrance.enters);
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 11 * 4);
+}
+
+TEST(BeltLaws, EntrancesOfAVariableAreSharedOutAndOfABeltMostlyItsOwn) {
+  const MeasuredBelts belts = frame();
+  const RegressorSystem system = system_of(belts, {belts::fit_anchors_robustly(belts).value(), {}}, {}, 0.4);
+  for (const LawOf of : law_variables(system)) {
+    double sum = 0.0;
+    const LawEntrance* most = nullptr;
+    const std::vector<LawEntrance> entrances = law_entrances(system, of);
+    for (const LawEntrance& own : entrances) {
+      sum += own.weight;
+      if (most == nullptr || own.weight > most->weight) most = &own;
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12) << name(of);
+    if (belt_of(of)) EXPECT_EQ(belt_of(most->enters), belt_of(of)) << name(of);
+  }
+}
+
+/// Waves over the span of the shortest that is weighed.
+double most_waves(const RegressorSystem& system, LawOf of, LawShape shape) {
+  double most = 0.0;
+  for (const LawCurve& curve : law_curves(system)) {
+    if (curve.of == of && curve.shape == shape) most = std::max(most, curve.grid.back());
+  }
+  return most;
+}
+
+// Nine columns: eight gaps, of which a wave takes two at least (the sampling theorem); its second harmonic
+// as well. The lengths of a chain are not evenly spaced.
+TEST(WavesOverEvenlySpacedMarks, AreNoShorterThanTwoColumns) {
+  MeasuredGrid grid = testing_support::session_of({}, 5, 9, 6);
+  const RegressorSystem even = laws::analysed(grid).system;
+  // Half a quarter of a wave: the grid of waves; marks are within a few millimetres of their columns.
+  EXPECT_NEAR(most_waves(even, LawOf::x, LawShape::wave), 4.0, 0.26);
+  EXPECT_NEAR(most_waves(even, LawOf::x, LawShape::harmonics), 2.0, 0.13);
+  EXPECT_NEAR(most_waves(even, LawOf::y, LawShape::wave), 2.5, 0.26);
+  EXPECT_GT(most_waves(even, LawOf::length_left, LawShape::wave), 40.0);
+  // Marks that stand anywhere tell short waves too.
+  constexpr std::uint64_t kSeed = 7;
+  synthetic::Random random(kSeed);
+  for (MeasuredPoint& point : grid.points) {
+    point.mark.x_mm += 90.0 * (random.uniform() - 0.5);
+    point.mark.y_mm += 90.0 * (random.uniform() - 0.5);
+  }
+  const RegressorSystem anywhere = laws::analysed(grid).system;
+  EXPECT_GT(most_waves(anywhere, LawOf::x, LawShape::wave), 8.0) << "seed " << kSeed;
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis::law_variables

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What the five anchor coordinates and the position of each point leave of a change of four belts' readings.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "generator/hidden/belts.hpp"
+
+namespace chaintrue::generator {
+
+/// From an anchor to a position, level, mm.
+[[nodiscard]] double level_span(const std::array<double, 3>& anchor, double x, double y);
+
+class AnchorProjection {
+ public:
+  AnchorProjection(const BeltFrame& frame, const std::vector<std::array<double, 2>>& places);
+  /// Four rows a point (tl, tr, bl, br), mm.
+  [[nodiscard]] Eigen::VectorXd left_of(const std::vector<FourLengths>& change) const;
+
+ private:
+  Eigen::MatrixXd taken_;  ///< orthonormal columns
+};
+
+}  // namespace chaintrue::generator
