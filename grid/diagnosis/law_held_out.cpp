@@ -22,12 +22,48 @@ bool has(const Units& units, std::size_t unit) {
   return std::find(units.begin(), units.end(), unit) != units.end();
 }
 
+/// Distances between holes.
+bool joins_places(const RegressorSystem& system) {
+  return std::any_of(
+      system.units.begin(), system.units.end(), [](const SystemUnit& unit) { return unit.places.size() > 1; });
+}
+
 /// Every fourth place.
-std::vector<Units> folds(const KeptRows& kept) {
+std::vector<Units> folds(const RegressorSystem& system, const KeptRows& kept) {
   std::vector<Units> result(kFolds);
-  for (std::size_t k = 0; k < kept.units().size(); ++k)
-    result[k % kFolds].push_back(kept.units()[k].unit);
+  if (!joins_places(system)) {
+    for (std::size_t k = 0; k < kept.units().size(); ++k)
+      result[k % kFolds].push_back(kept.units()[k].unit);
+    return result;
+  }
+  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+    for (const KeptRows::Unit& unit : kept.units()) {
+      const auto& places = system.units[unit.unit].places;
+      if (std::any_of(places.begin(), places.end(), [&](const auto& own) { return own.place % kFolds == fold; }))
+        result[fold].push_back(unit.unit);
+    }
+  }
   return result;
+}
+
+/// A quarter of the places, those farthest towards a direction.
+Units quarter_of_places(const RegressorSystem& system, const KeptRows& kept, double towards_rad) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t p = 0; p < system.places.size(); ++p) {
+    const model::MarkPoint& mark = system.places[p].mark;
+    order.emplace_back(-(mark.x_mm * std::cos(towards_rad) + mark.y_mm * std::sin(towards_rad)), p);
+  }
+  std::sort(order.begin(), order.end());
+  order.resize(order.size() / 4);
+  Units units;
+  for (const KeptRows::Unit& unit : kept.units()) {
+    const auto& places = system.units[unit.unit].places;
+    if (std::any_of(places.begin(), places.end(), [&](const auto& own) {
+          return std::any_of(order.begin(), order.end(), [&](const auto& p) { return p.second == own.place; });
+        }))
+      units.push_back(unit.unit);
+  }
+  return units;
 }
 
 class Predictor {
@@ -93,11 +129,13 @@ std::optional<LawHeldOut> held_out_with(const Analysis& a, const LawEvidence& ev
       bed_parts(a.system, nothing_rejected(a.system), a.session.fewest_units);
   if (quarters.empty()) return std::nullopt;
   const Predictor predictor(a, evidence, law);
+  const KeptRows& kept = a.comparison.marginalised_systems[evidence.marginalised].kept;
   std::vector<Units> parts;
-  for (const BedPart& quarter : quarters) parts.push_back(quarter.units);
-  return LawHeldOut{
-      predictor.errors(folds(a.comparison.marginalised_systems[evidence.marginalised].kept)),
-      predictor.errors(parts)};
+  for (const BedPart& quarter : quarters) {
+    parts.push_back(joins_places(a.system) ? quarter_of_places(a.system, kept, quarter.towards_rad)
+                                           : quarter.units);
+  }
+  return LawHeldOut{predictor.errors(folds(a.system, kept)), predictor.errors(parts)};
 }
 
 double rms_of_units_mm(const RegressorSystem& system,

@@ -6,7 +6,8 @@
 ///   e_i^ = C_ik C_kk^-1 e_k,   C as in law_model.hpp, k the rows that are kept, i those left out
 ///
 /// Inside: every fourth of the places, four times, so that neighbours stay. Outside: the quarters of the bed on
-/// one side of a line (bed_parts.hpp), of which nothing stays. Sizes are estimated anew each time, and the place
+/// one side of a line (bed_parts.hpp), of which nothing stays. Of distances every one that ends at such a place
+/// is left out: others would tell where its hole is. Sizes are estimated anew each time, and the place
 /// or period is chosen anew among the leading values of its grid; shape and entry stay.
 ///
 /// Source: C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equation 2.25.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/law_declaration.hpp"
 #include "grid/diagnosis/law_words.hpp"

@@ -19,7 +19,7 @@
 #include "grid/synthetic/random.hpp"
 #include "tests/diagnosis/law_sessions.hpp"
 
-namespace chaintrue::grid::diagnosis::law_variables {
+namespace chaintrue::grid::diagnosis::law_places {
 namespace {
 
 using model::Belt;
@@ -104,4 +104,4 @@ TEST(WavesOverEvenlySpacedMarks, AreNoShorterThanTwoColumns) {
 }
 
 }  // namespace
-}  // namespace chaintrue::grid::diagnosis::law_variables
+}  // namespace chaintrue::grid::diagnosis::law_places

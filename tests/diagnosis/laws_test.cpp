@@ -121,7 +121,7 @@ TEST(Laws, PointsStandAboutTheCurveByTheirNoise) {
       EXPECT_LE(point.at, law.to);
       about.push_back(point.residual_mm - value_of(law, point.at));
       of_law.push_back(value_of(law, point.at));
-      left.insert(left.end(), {point.left_x_mm, point.left_y_mm});
+      left.insert(left.end(), {point.left_x_mm.value(), point.left_y_mm.value()});
     }
     for (const PointPicture& point : point_pictures(a))
       before.insert(before.end(), {point.before_mm.x(), point.before_mm.y()});

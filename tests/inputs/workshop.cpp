@@ -181,6 +181,10 @@ std::map<std::string, std::string> made_by_the_command() {
        "simulate --machine @classic.json --effects @half_turn.json --grid 9x6 --repeats 6 --order random "
        "--length-noise-mm 0.05 --position-noise-mm 0.05 "
        "--effect second_harmonic:left:amplitude_mm=0.2,phase_rad=1.2 --seed 3 -o @wave.json"},
+      {"wave_holes.json",
+       "simulate --machine @classic.json --effects @half_turn.json --holes 24 --distances 100 "
+       "--tape-sigma-mm 0.1 --hole-sigma-mm 0.05 --effect second_harmonic:left:amplitude_mm=0.3,phase_rad=1.2 "
+       "--seed 3 -o @wave_holes.json"},
       {"lattice.json",
        "simulate --machine @classic.json --grid 5x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
        "--seed 9 -o @lattice.json"},

@@ -95,7 +95,7 @@ class HolesDraw {
     throw std::runtime_error("holes: no law fits");
   }
 
-  /// A cause of usual size and a strength of 6 at least.
+  /// A cause of usual size and a strength of 3 at least.
   Hidden draw_cause() {
     constexpr int kDraws = 200;
     for (int n = 0; n < kDraws; ++n) {
@@ -104,7 +104,7 @@ class HolesDraw {
       const Hidden hidden{
           card.cause, card.sides[dice_.below(card.sides.size())], card.usual, 0.0};
       const HiddenMachine machine(TrueMachine{}, truth_, {hidden});
-      if (left_of(machine).norm() > 6.0) return hidden;
+      if (left_of(machine).norm() > 3.0) return hidden;
     }
     throw std::runtime_error("holes: no cause shows");
   }
