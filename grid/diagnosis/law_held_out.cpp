@@ -81,28 +81,34 @@ class Predictor {
     }
   }
 
-  /// Mean squares of what is predicted wrongly, over all parts.
+  /// Root mean square over all parts.
   LawHeldOut::Errors errors(const std::vector<Units>& parts) const {
     double without = 0.0;
     double with = 0.0;
+    double count = 0.0;
     for (const Units& left_out : parts) {
       Rows kept, out;
       for (const KeptRows::Unit& unit : marginalised_.kept.units()) {
         Rows& rows = has(left_out, unit.unit) ? out : kept;
         for (Eigen::Index k = 0; k < unit.rows; ++k) rows.push_back(unit.at + k);
       }
-      const auto best = std::max_element(
-          with_.begin(), with_.end(), [&](const LawModel& a, const LawModel& b) {
-            return a.log_density(kept) < b.log_density(kept);
-          });
+      // Of a part that was rejected, or that is all there is, nothing is predicted.
+      if (out.empty() || kept.empty()) continue;
       without += square_mm2(without_, kept, out, left_out);
-      with += square_mm2(*best, kept, out, left_out);
+      with += square_mm2(likeliest(kept), kept, out, left_out);
+      count += 1.0;
     }
-    const auto count = static_cast<double>(parts.size());
+    if (!(count > 0.0)) return {};
     return {std::sqrt(without / count), std::sqrt(with / count)};
   }
 
  private:
+  const LawModel& likeliest(const Rows& kept) const {
+    std::vector<double> density;
+    for (const LawModel& model : with_) density.push_back(model.log_density(kept));
+    return with_[static_cast<std::size_t>(std::max_element(density.begin(), density.end()) - density.begin())];
+  }
+
   double square_mm2(const LawModel& model, const Rows& kept, const Rows& out, const Units& units) const {
     const Eigen::VectorXd wrong = model.left_of_prediction(kept, out);
     Eigen::VectorXd rows = Eigen::VectorXd::Zero(system_.e.size());

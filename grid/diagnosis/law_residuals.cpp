@@ -33,6 +33,8 @@ std::vector<LawResidual> residuals_about(const Analysis& a,
       point.left_y_mm = left_mm.y();
     }
     for (const LawRows& own : law_rows(system, kept.unit, curve)) {
+      // Readings that cannot show the law stand nowhere.
+      if (!(own.rows.squaredNorm() > 0.0)) continue;
       point.at = own.v;
       point.residual_mm = value_of(law, own.v) +
                           own.rows.dot(left.noise.segment(kept.at, kept.rows)) / own.rows.squaredNorm();

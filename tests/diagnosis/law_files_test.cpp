@@ -235,6 +235,33 @@ TEST(LawFiles, AreConfirmedByASecondSessionOfTheMachineAndDeniedByAnother) {
   }
 }
 
+// A step over what one chain does stands between two values of that chain, whatever the other's are.
+TEST(LawFiles, AStepOfOneChainsLengthHasTheGapOfThatChain) {
+  const auto written = declaration_of(law_of(LawOf::length_left, LawShape::step, Enters::left), model::Bed{});
+  ASSERT_TRUE(written) << written.error();
+  const model::effects::Effect& effect = declared_effect(*written);
+  const Analysis a = analysed(session_of({}, 21));
+  std::vector<double> left;
+  std::vector<double> right;
+  for (const SystemPlace& place : a.system.places) {
+    left.push_back(variable_at(place, LawOf::length_left, 0.0));
+    right.push_back(variable_at(place, LawOf::length_right, 0.0));
+  }
+  std::sort(left.begin(), left.end());
+  int others = 0;
+  for (std::size_t k = 1; k < left.size(); ++k) {
+    if (!(left[k] - left[k - 1] > 1.0)) continue;
+    const double at = 0.5 * (left[k - 1] + left[k]);
+    const auto gap = gap_about(a.system, {&effect, EffectSide::left}, at);
+    ASSERT_TRUE(gap);
+    EXPECT_DOUBLE_EQ(gap->below, left[k - 1]);
+    EXPECT_DOUBLE_EQ(gap->above, left[k]);
+    others += static_cast<int>(std::count_if(
+        right.begin(), right.end(), [&](double v) { return v > gap->below && v < gap->above; }));
+  }
+  EXPECT_GT(others, 0) << "the other chain's lengths lie in these gaps";
+}
+
 // A step between two columns of marks: no reading tells where, and the map has the mean over these places.
 TEST(LawFiles, TheMapAveragesOverTheGapInWhichAStepMayStand) {
   const auto written = declaration_of(laws_found(analysed(with_step_along_x(12))).laws, model::Bed{});

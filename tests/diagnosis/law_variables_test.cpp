@@ -69,7 +69,9 @@ TEST(BeltLaws, EntrancesOfAVariableAreSharedOutAndOfABeltMostlyItsOwn) {
       if (most == nullptr || own.weight > most->weight) most = &own;
     }
     EXPECT_NEAR(sum, 1.0, 1e-12) << name(of);
-    if (belt_of(of)) EXPECT_EQ(belt_of(most->enters), belt_of(of)) << name(of);
+    if (belt_of(of)) {
+      EXPECT_EQ(belt_of(most->enters), belt_of(of)) << name(of);
+    }
   }
 }
 
