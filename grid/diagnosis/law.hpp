@@ -51,7 +51,7 @@ enum class LawOf {
   length_tr,      ///< mm
   length_bl,      ///< mm
   length_br,      ///< mm
-  angle_tl,       ///< rad, of a belt against the line of the upper or of the lower anchors
+  angle_tl,       ///< rad, of a belt against the horizontal, at its anchor
   angle_tr,       ///< rad
   angle_bl,       ///< rad
   angle_br,       ///< rad
