@@ -215,6 +215,26 @@ tl::expected<void, DiagnosisFailure> linearise_anew(const std::vector<Refinement
   return {};
 }
 
+ComparisonOptions comparison_options(const Analysis& a) {
+  ComparisonOptions compared{.steps = a.options.steps, .given_cause = a.options.given_cause};
+  // A smooth pattern is one of chain lengths over the bed.
+  compared.discrepancies = a.session.is_of_chains();
+  return compared;
+}
+
+/// From a comparison to the decision.
+void weigh_for_a_verdict(Analysis& a) {
+  const DiagnosisOptions& options = a.options;
+  test_significance(a.system, NoiseSize::stated, a);
+  // C. Bonferroni's bound.
+  a.family_wise_p = std::min(1.0, options.orders_tried * a.family_wise_p);
+  if (options.steps.average_parts && !options.given_cause) {
+    a.parts = average_over_parts(
+        a.system, noise_dof(a), nothing_rejected(a.system), a.session.fewest_units, a.comparison);
+  }
+  decide_for(options.given_cause.has_value() || a.family_wise_p < kFalseAlarm, a);
+}
+
 }  // namespace
 
 tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
@@ -224,15 +244,12 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
   a.options = options;
   if (auto done = calibrate(a); !done) return tl::unexpected(done.error());
   a.candidates = candidates(a.session);
-  ComparisonOptions compared{.steps = options.steps, .given_cause = options.given_cause};
-  // A smooth pattern is one of chain lengths over the bed.
-  compared.discrepancies = a.session.is_of_chains();
-  const std::vector<bool> none(a.session.units.size(), false);
+  ComparisonOptions compared = comparison_options(a);
   constexpr int kCalibrationRounds = 2;
   std::vector<Refinement> known;
   for (int pass = 0; pass < kCalibrationRounds; ++pass) {
     if (auto done = linearise_anew(known, pass == 0, a); !done) return tl::unexpected(done.error());
-    a.comparison = compare_models(a.system, none, compared);
+    a.comparison = compare_models(a.system, nothing_rejected(a.system), compared);
     decide_for(true, a);
     if (pass + 1 == kCalibrationRounds || a.decision.regressors.empty()) break;
     compared.kernels = best_kernels(a.comparison);
@@ -240,14 +257,14 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
     known = std::move(relinearised.refinements);
     a.state = std::move(relinearised.state);
   }
-  test_significance(a.system, NoiseSize::stated, a);
-  // C. Bonferroni's bound.
-  a.family_wise_p = std::min(1.0, options.orders_tried * a.family_wise_p);
-  if (options.steps.average_parts && !options.given_cause) {
-    a.parts =
-        average_over_parts(a.system, noise_dof(a), none, a.session.fewest_units, a.comparison);
-  }
-  decide_for(options.given_cause.has_value() || a.family_wise_p < kFalseAlarm, a);
+  weigh_for_a_verdict(a);
+  return a;
+}
+
+Analysis analyse_without(Analysis a, const Eigen::VectorXd& rows) {
+  a.system.e -= rows;
+  a.comparison = compare_models(a.system, nothing_rejected(a.system), comparison_options(a));
+  weigh_for_a_verdict(a);
   return a;
 }
 

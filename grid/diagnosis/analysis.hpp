@@ -70,4 +70,8 @@ void test_significance(const RegressorSystem& causes, NoiseSize noise, Analysis&
 [[nodiscard]] tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
                                                                const DiagnosisOptions& options);
 
+/// The causes compared and decided once more about the same state, with `rows` (whitened, one each of the
+/// system) taken out of the readings.
+[[nodiscard]] Analysis analyse_without(Analysis analysis, const Eigen::VectorXd& rows);
+
 }  // namespace chaintrue::grid::diagnosis

@@ -127,9 +127,9 @@ void decide(bool detected, BeltsAnalysis& a) {
 /// What a verdict needs beyond the comparison.
 void weigh_for_a_verdict(BeltsAnalysis& a) {
   Analysis& own = a.analysis;
-  test_significance(system_of(a.belts, {a.alone, {}}, own.candidates.testable, a.sigma_mm),
-                    NoiseSize::unknown,
-                    own);
+  RegressorSystem alone = system_of(a.belts, {a.alone, {}}, own.candidates.testable, a.sigma_mm);
+  if (a.taken_out.size() > 0) alone.e -= a.taken_out;
+  test_significance(alone, NoiseSize::unknown, own);
   if (!own.options.steps.average_parts || own.options.given_cause) return;
   own.parts = average_over_parts(own.system,
                                  own.session.noise_dof,
@@ -205,6 +205,19 @@ Analysis analysis_of_laws(const BeltsAnalysis& a) {
   });
   own.system.discrepancies = &length_discrepancies_of_laws(ordered);
   return own;
+}
+
+BeltsAnalysis analyse_without(BeltsAnalysis a, Eigen::VectorXd rows) {
+  a.analysis.system.e -= rows;
+  a.taken_out = std::move(rows);
+  compare(true, AnalysisDepth::verdict, a);
+  leave_noise_open(a.analysis.decision);
+  return a;
+}
+
+void name_nothing(BeltsAnalysis& a) {
+  decide(false, a);
+  leave_noise_open(a.analysis.decision);
 }
 
 std::vector<BeltCause> decided_causes(const Analysis& a) {

@@ -18,6 +18,7 @@ struct BeltsAnalysis {
   BeltsState state;
   double sigma_mm = 0.0;     ///< of one belt's reading, as it is whitened
   AveragedAnchors averaged;  ///< the same for a fit and a diagnosis of the same belts
+  Eigen::VectorXd taken_out;  ///< of the readings, as analyse_without() has it; else empty
   Analysis analysis;         ///< system, comparison and decision; its session has no parts
 };
 
@@ -36,6 +37,12 @@ enum class AnalysisDepth { anchors, verdict };
 
 /// The analysis as laws are weighed in it: next to patterns of single belts as well.
 [[nodiscard]] Analysis analysis_of_laws(const BeltsAnalysis& analysis);
+
+/// As analyse_without() of two chains (analysis.hpp).
+[[nodiscard]] BeltsAnalysis analyse_without(BeltsAnalysis analysis, Eigen::VectorXd rows);
+
+/// Decides anew that no cause acts.
+void name_nothing(BeltsAnalysis& analysis);
 
 /// The causes of the decision with their values as estimated.
 [[nodiscard]] std::vector<BeltCause> decided_causes(const Analysis& analysis);

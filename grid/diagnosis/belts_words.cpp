@@ -71,8 +71,10 @@ std::string improvement_words(const BeltsFindings& found) {
 /// " Besides, 0.4 mm of each reading ..."
 std::string alongside_belts_words(const Diagnosis& d) {
   if (const Law* law = claimed_law(d)) {
-    return fmt::format(
-        " Besides, what no listed cause makes: {}, {}.", in_words(*law), percent(law->probability));
+    return fmt::format(" Besides, what no listed cause makes: {}, {}.",
+                       in_words(*law),
+                       percent(law->probability)) +
+           given_law_words(d, sized_belt_cause);
   }
   if (!d.unexplained || d.unexplained->probability <= kDiscrepancyLikely) return "";
   return fmt::format(
@@ -158,7 +160,8 @@ std::string sentence(const Diagnosis& d) {
                    in_words(*law),
                    percent(law->probability),
                    average_in_words(*law, d.observations)) +
-               short_of_a_name(d);
+               (d.unexplained->causes_given_law.empty() ? short_of_a_name(d)
+                                                        : given_law_words(d, sized_belt_cause));
       }
       return fmt::format(
                  "What is left of the lengths changes smoothly from place to place, {:.2f} mm a "

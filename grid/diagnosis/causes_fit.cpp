@@ -474,7 +474,7 @@ std::vector<std::string> in_words(const CausesFit& fit) {
   if (fit.left_open_mm > 0.0) {
     sentences.push_back(
         fmt::format("{}: so the tool may be {:.2f} mm rms off, which the expected error counts.",
-                    fit.offered.empty() ? "The sizes of the causes are not known exactly"
+                    fit.offered.empty() ? "The sizes and places of the causes are not known exactly"
                                         : "What was found but is not in the map may still act",
                     fit.left_open_mm));
   }

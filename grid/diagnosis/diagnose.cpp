@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "grid/diagnosis/causes_given_law.hpp"
 #include "grid/diagnosis/declared_answers.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/gross_errors.hpp"
@@ -121,6 +123,25 @@ std::optional<ErrorSummary> tool_today(const Measured& measured) {
   return plain ? error_in_use(plain->map) : std::nullopt;
 }
 
+/// A map holds nothing that is shorter than the way between two marks: of a law that is claimed the tool
+/// misses by no less than what the law makes at these.
+void count_law(Diagnosis& d) {
+  const Law* law = claimed_law(d);
+  if (!d.tool_today || law == nullptr || d.observations != Observations::points) return;
+  d.tool_today->rms_mm = std::max(d.tool_today->rms_mm, law->rms_mm);
+  d.tool_today->maximum_mm = std::max(d.tool_today->maximum_mm, law->rms_mm);
+}
+
+/// What is named once a claimed law is known; what is not any more is no name.
+std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws, Analysis& a) {
+  const auto rows = rows_of_claimed_law(a, laws);
+  if (!rows) return {};
+  const Analysis given = analyse_without(a, *rows);
+  std::vector<CauseGivenLaw> changed = causes_that_change(a, given);
+  take_names_back(given, a, [&] { decide_for(false, a); });
+  return changed;
+}
+
 tl::expected<Analysis, DiagnosisFailure> analysed_in(const VisitingOrderFound& order,
                                                      const Measured& measured,
                                                      DiagnosisOptions options) {
@@ -150,6 +171,8 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
     }
   }
   Analysis& a = *analysis;
+  const LawsFound laws = laws_found(a);
+  std::vector<CauseGivenLaw> given_law = name_given_law(laws, a);
   Diagnosis d;
   d.visiting_order = order;
   d.observations = observations_of(a.session);
@@ -167,8 +190,8 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   d.distances = distance_pictures(a);
   d.left_over = left_over(a);
   d.unexplained = unexplained(a);
-  const LawsFound laws = laws_found(a);
   take_laws(laws.laws, d);
+  d.unexplained->causes_given_law = std::move(given_law);
   d.declared = declared_answers(a, d);
   d.budget = error_budget(a);
   const std::vector<std::string> sessions = names_of_sessions(measured);
@@ -176,6 +199,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   d.sessions = session_findings(a, sessions);
   if (options.improvement) {
     d.tool_today = tool_today(measured);
+    count_law(d);
     d.improvement = measure_improvement(a);
   }
   tell(options.progress, kPlanning);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/belts_report.hpp"
+#include "grid/diagnosis/causes_given_law.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/laws.hpp"
@@ -22,6 +23,16 @@ DiagnosisFailure failure_of(const BeltsFitFailure& failure) {
           failure.sentence()};
 }
 
+/// As of two chains (diagnose.cpp).
+std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws, BeltsAnalysis& a) {
+  auto rows = rows_of_claimed_law(a.analysis, laws);
+  if (!rows) return {};
+  const BeltsAnalysis given = analyse_without(a, *std::move(rows));
+  std::vector<CauseGivenLaw> changed = causes_that_change(a.analysis, given.analysis);
+  take_names_back(given.analysis, a.analysis, [&] { name_nothing(a); });
+  return changed;
+}
+
 }  // namespace
 
 tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
@@ -36,20 +47,23 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
   const auto alone = fit_belts(belts);
   if (!alone) return tl::unexpected(failure_of(alone.error()));
   tell(options.progress, kComparingBelts);
-  const auto analysed = analyse(belts, options);
+  auto analysed = analyse(belts, options);
   if (!analysed) return tl::unexpected(analysed.error());
   const Analysis& a = analysed->analysis;
+  const LawsFound found = laws_found(analysis_of_laws(*analysed));
+  std::vector<CauseGivenLaw> given_law = name_given_law(found, *analysed);
   const Explained given = explained(*analysed);
   Diagnosis d;
   d.observations = Observations::belts;
   d.grid_name = belts.name;
   take_findings(a, d);
   d.unexplained = unexplained(*analysed);
-  std::vector<Law> laws = laws_found(analysis_of_laws(*analysed)).laws;
+  std::vector<Law> laws = found.laws;
   for (Law& law : laws) {
     for (LawResidual& point : law.points) point.index = index_in_file(indices, point.index);
   }
   take_laws(std::move(laws), d);
+  d.unexplained->causes_given_law = std::move(given_law);
   d.bed_parts = bed_part_findings(a);
   d.outliers = bad_belts(given);
   for (Outlier& bad : d.outliers) bad.index = index_in_file(indices, bad.index);

@@ -88,6 +88,15 @@ struct LeftOver {
   double p_value = 1.0;
 };
 
+/// A cause that is named once a claimed law is known and not without it, or the other way round.
+struct CauseGivenLaw {
+  CauseId cause;
+  double probability = 0.0;  ///< given the law
+  double without_law = 0.0;
+  std::vector<ParameterEstimate> parameters;  ///< given the law; empty where it is not named then
+  std::vector<CauseId> same_as{};             ///< those that no readings of this kind can tell from it
+};
+
 /// What remains besides the causes named, with any verdict: a smooth pattern that no cause of
 /// the catalogue makes.
 struct Unexplained {
@@ -101,6 +110,8 @@ struct Unexplained {
   Enters enters = Enters::mixed;
   /// What it may be a function of, likeliest first; empty unless some law is likelier than none.
   std::vector<Law> laws;
+  /// What the likeliest law, where it is claimed, changes of what is named.
+  std::vector<CauseGivenLaw> causes_given_law;
 };
 
 /// One part of the tool's error as delivered.
@@ -340,7 +351,7 @@ struct Diagnosis {
   std::vector<Hypothesis> hypotheses;
   LeftOver left_over;
   /// How far the machine misses as it is used today: error_in_use() of the plain map of these readings,
-  /// the number that a fit begins with. Empty of drawings, of belts but where chaintrue diagnose adds it,
+  /// the number that a fit begins with; no less than what a claimed law makes at the points. Empty of drawings, of belts but where chaintrue diagnose adds it,
   /// where the readings make no map, where held-out errors were not asked for, and in older files.
   std::optional<ErrorSummary> tool_today;
   /// Empty in files written before it was said.

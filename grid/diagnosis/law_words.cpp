@@ -170,6 +170,35 @@ std::string in_words(const Law& law) {
                      entrance);
 }
 
+std::string given_law_words(const Diagnosis& d,
+                            std::string (*sized)(const CauseId&,
+                                                 const std::vector<ParameterEstimate>&)) {
+  if (!d.unexplained) return "";
+  std::vector<std::string> named, gone;
+  double sum = 0.0;
+  for (const CauseGivenLaw& own : d.unexplained->causes_given_law) {
+    std::string cause = sized(own.cause, own.parameters);
+    for (const CauseId& same : own.same_as) cause += " or " + sized(same, {});
+    if (own.parameters.empty()) {
+      gone.push_back(fmt::format(
+          "{}: {} instead of {}", cause, percent(own.probability), percent(own.without_law)));
+    } else {
+      named.push_back(fmt::format("{}: {}", cause, percent(own.probability)));
+      sum += own.probability;
+    }
+  }
+  std::string text;
+  // Of causes that act together each is likelier than not; of a set that is left one alone acts.
+  if (!named.empty()) {
+    text += fmt::format(
+        " With this law known, they also name {}.", fmt::join(named, sum > 1.0 ? ", and " : ", or "));
+  }
+  if (!gone.empty())
+    text += fmt::format(" What they would name without this law is not likely with it: {}.",
+                        fmt::join(gone, "; "));
+  return text;
+}
+
 std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& machine) {
   const double turn = machine.belt_turn_mm;
   const bool of_length = belt_of(law.of) && unit_of(law.of) == "mm";

@@ -26,6 +26,12 @@ namespace chaintrue::grid::diagnosis {
 /// "moves the tool by 0.41 mm", of distances and belts "changes a distance by": on average.
 [[nodiscard]] std::string average_in_words(const Law& law, Observations of);
 
+/// " With this law known, they also name a stretched left chain (...), 96 %." and what they would name without it;
+/// empty where the law changes no name. `sized` says a cause with its size.
+[[nodiscard]] std::string given_law_words(
+    const Diagnosis& diagnosis,
+    std::string (*sized)(const CauseId&, const std::vector<ParameterEstimate>&));
+
 /// What a period or a place is near to on this machine, as hints: whole sentences.
 [[nodiscard]] std::vector<std::string> hints_of(const Law& law, const model::Machine& machine);
 [[nodiscard]] std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& machine);

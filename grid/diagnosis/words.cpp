@@ -76,7 +76,8 @@ std::vector<std::string> bad_ones(const Diagnosis& d) {
 /// "; besides, a pattern of 0.4 mm that follows x, which no listed cause makes".
 std::string alongside_words(const Diagnosis& d) {
   if (const Law* law = claimed_law(d)) {
-    return fmt::format(" Also, what no listed cause makes: {}, {}.", in_words(*law), percent(law->probability));
+    return fmt::format(" Also, what no listed cause makes: {}, {}.", in_words(*law), percent(law->probability)) +
+           given_law_words(d, sized);
   }
   if (!d.unexplained || d.unexplained->probability <= kDiscrepancyLikely) return "";
   const Unexplained& left = *d.unexplained;
@@ -129,7 +130,8 @@ std::string unknown_words(const Diagnosis& d) {
                        name(d.observations),
                        in_words(*law),
                        percent(law->probability),
-                       average_in_words(*law, d.observations));
+                       average_in_words(*law, d.observations)) +
+           given_law_words(d, sized);
   }
   std::string text =
       !speaks_of_distances(d)
@@ -302,8 +304,11 @@ void say_what_to_do(Diagnosis& d) {
   }
   if (claimed_law(d) != nullptr && d.what_to_do.size() < 3) {
     d.what_to_do.emplace_back(
-        "Write the law to a file (chaintrue diagnose --law), measure other points, and diagnose these with "
-        "it (--effects): they confirm or deny it.");
+        d.unexplained->causes_given_law.empty()
+            ? "Write the law to a file (chaintrue diagnose --law), measure other points, and diagnose these "
+              "with it (--effects): they confirm or deny it."
+            : "Write the law to a file (chaintrue diagnose --law) and diagnose these readings again with it "
+              "(--effects): the machine file then holds what they name together with it.");
   } else if (d.verdict == Verdict::model_discrepancy && d.what_to_do.size() < 3) {
     d.what_to_do.emplace_back(
         "Use the measured map (chaintrue fit): it corrects a pattern that repeats, whatever makes "

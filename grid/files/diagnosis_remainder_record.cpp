@@ -14,6 +14,7 @@ using diagnosis::BudgetLine;
 using diagnosis::CauseId;
 using diagnosis::Enters;
 using diagnosis::ErrorBudget;
+using diagnosis::CauseGivenLaw;
 using diagnosis::Law;
 using diagnosis::LawHeldOut;
 using diagnosis::LawResidual;
@@ -157,6 +158,17 @@ const Record<Law>& law_record() {
   return record;
 }
 
+const Record<CauseGivenLaw>& cause_given_law_record() {
+  static const auto record =
+      Record<CauseGivenLaw>("a cause given a law")
+          .required("cause", &CauseGivenLaw::cause, object(cause_id_record()))
+          .required("probability", &CauseGivenLaw::probability, number(kShare))
+          .required("without_law", &CauseGivenLaw::without_law, number(kShare))
+          .sparse("same_as", &CauseGivenLaw::same_as, list(object(cause_id_record())))
+          .sparse("parameters", &CauseGivenLaw::parameters, list(object(named_estimate_record()), 1));
+  return record;
+}
+
 }  // namespace
 
 const Record<Unexplained>& unexplained_record() {
@@ -177,7 +189,8 @@ const Record<Unexplained>& unexplained_record() {
                                    Enters::x,
                                    Enters::y,
                                    Enters::mixed}))
-        .sparse("laws", &Unexplained::laws, list(object(law_record())));
+        .sparse("laws", &Unexplained::laws, list(object(law_record())))
+        .sparse("causes_given_law", &Unexplained::causes_given_law, list(object(cause_given_law_record())));
     return left;
   }();
   return record;

@@ -67,7 +67,8 @@ inline constexpr std::array kOlderDiagnoses = {
     OlderVersion{"1.7", "written before laws of what no cause explains were weighed, and test drawings diagnosed; taken to have found no law"},
     OlderVersion{"1.8", "written before the points next to a law's curve were kept and effects of one's own were answered; its laws are said without their pictures"},
     OlderVersion{"1.9", "written before a wave with its second harmonic was weighed as a law"},
-    OlderVersion{"1.10", "written before laws of holes' distances and of belts were weighed, and it was said how well a law predicts readings that were left out"}};
+    OlderVersion{"1.10", "written before laws of holes' distances and of belts were weighed, and it was said how well a law predicts readings that were left out"},
+    OlderVersion{"1.11", "written before causes were compared once more given a law; what these readings name then is not known"}};
 
 inline constexpr std::array kOlderHoles = {OlderVersion{
     "1.0",
@@ -101,7 +102,7 @@ inline constexpr Format kHolesFormat{"chaintrue_holes", "1.1", kOlderHoles};
 inline constexpr Format kBeltsFormat{"chaintrue_belts", "1.1", kOlderBelts};
 inline constexpr Format kAnchorsFormat{"chaintrue_anchors", "1.4", kOlderAnchors};
 inline constexpr Format kMapFormat{"chaintrue_map", "1.3", kOlderMaps};
-inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.11", kOlderDiagnoses};
+inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.12", kOlderDiagnoses};
 inline constexpr Format kSweepFormat{"chaintrue_sweep", "1.0"};
 inline constexpr Format kSweepSummaryFormat{"chaintrue_sweep_summary", "1.0", {}, false};
 inline constexpr Format kAnswerFormat{"chaintrue_answer", "1.0", {}, false};

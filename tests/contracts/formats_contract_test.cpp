@@ -78,11 +78,13 @@ std::string aged_map(std::string text, std::string_view) {
 /// before 1.7 no order that was found, those before 1.8 no laws, those before
 /// 1.9 no points next to these, and no answers to declared effects, and those before 1.10 no wave with its
 /// second harmonic, and those before 1.11 no laws of holes
-/// and of belts, nor how well one predicts what was left out.
+/// and of belts, nor how well one predicts what was left out, and those before 1.12 no causes given a law.
 std::string aged_diagnosis(std::string text, std::string_view version) {
   Problems problems("diagnosis.json");
   Json json = parse_json(text, problems);
   const bool has_laws = json.contains("unexplained") && json["unexplained"].contains("laws");
+  if (has_laws) json["unexplained"].erase("causes_given_law");
+  if (version == "1.11") return print_json(json);
   if (has_laws) {
     for (Json& law : json["unexplained"]["laws"]) law.erase("held_out");
   }

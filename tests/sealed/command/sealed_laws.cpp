@@ -83,16 +83,19 @@ void print_use(const std::string& hidden, const std::vector<LawsTrial>& all) {
 }
 
 void print_rows(const LawsKind& kind, const std::vector<LawsTrial>& all) {
-  Share claims, leads, in_set, claims_right, near, causes;
+  Share claims, leads, in_set, claims_right, near, wrong, wrong_given_law;
   for (const LawsTrial& t : all) {
     claims.count(t.claimed);
     leads.count(t.leads);
     in_set.count(t.in_set);
     if (t.claimed) claims_right.count(t.leads);
     if (t.worst_sigmas) near.count(*t.worst_sigmas <= 3.0);
-    causes.count(t.cause_named);
+    wrong.count(t.names.wrong);
+    wrong_given_law.count(t.names_given_law.wrong);
   }
   const std::string hidden(kind.hidden);
+  print_row(hidden, "a wrong cause named at 90 %, once the law is known", "", wrong_given_law);
+  print_row(hidden, "the same without knowing the law", "", wrong);
   if (!kind.is_law) {
     print_row(hidden, "a law claimed", "at most 2 %", claims);
     return;
@@ -104,9 +107,14 @@ void print_rows(const LawsKind& kind, const std::vector<LawsTrial>& all) {
   print_row(hidden, "place or period, and size, within three sigmas", "97 %", near);
   print_use(hidden, all);
   if (kind.word != "both") return;
-  Share both;
-  for (const LawsTrial& t : all) both.count(t.in_set && t.cause_named);
-  print_row(hidden, "the cause named", "", causes);
+  Share causes, causes_given_law, both;
+  for (const LawsTrial& t : all) {
+    causes.count(t.names.right);
+    causes_given_law.count(t.names_given_law.right);
+    both.count(t.in_set && t.names_given_law.right);
+  }
+  print_row(hidden, "the cause named, once the law is known", "", causes_given_law);
+  print_row(hidden, "the same without knowing the law", "", causes);
   print_row(hidden, "both told", "75 %", both);
 }
 

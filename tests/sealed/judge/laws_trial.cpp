@@ -167,6 +167,38 @@ std::optional<LawInUse> use(const generator::SealedSet& set, const LawsTrial& tr
 
 }  // namespace
 
+namespace {
+
+/// The names with what a claimed law adds to and takes from them.
+std::vector<NamedCause> given_law(const grid::diagnosis::Diagnosis& found, std::vector<NamedCause> named) {
+  if (!found.unexplained) return named;
+  for (const auto& own : found.unexplained->causes_given_law) {
+    if (own.parameters.empty()) {
+      std::erase_if(named, [&](const NamedCause& one) { return one.id == id_of(own.cause); });
+      continue;
+    }
+    NamedCause more{id_of(own.cause), own.probability, {}};
+    for (const auto& same : own.same_as) more.same_as.push_back(id_of(same));
+    named.push_back(std::move(more));
+  }
+  return named;
+}
+
+LawsTrial::Names worth_of(const std::vector<NamedCause>& named, const generator::Answer& answer) {
+  LawsTrial::Names names;
+  for (const NamedCause& one : named) {
+    const bool right =
+        std::any_of(answer.hidden.begin(), answer.hidden.end(), [&](const auto& hidden) {
+          return means(one, id_of(hidden));
+        });
+    names.right = names.right || right;
+    names.wrong = names.wrong || (!right && one.probability >= grid::diagnosis::kLawClaimed);
+  }
+  return names;
+}
+
+}  // namespace
+
 double processor_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -224,10 +256,9 @@ LawsTrial run_laws_trial(std::string_view kind, std::uint64_t seed, bool in_use)
     trial.failed = true;
     return trial;
   }
-  for (const NamedCause& named : named_causes(*found)) {
-    for (const auto& hidden : set.answer.hidden)
-      trial.cause_named = trial.cause_named || means(named, id_of(hidden));
-  }
+  const std::vector<NamedCause> named = named_causes(*found);
+  trial.names = worth_of(named, set.answer);
+  trial.names_given_law = worth_of(given_law(*found, named), set.answer);
   take_laws(*found, trial);
   if (in_use && trial.claimed) trial.in_use = use(set, trial);
   if (!set.answer.law || !trial.reported) return trial;

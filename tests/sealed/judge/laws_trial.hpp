@@ -50,7 +50,12 @@ struct LawsTrial {
   /// Largest distance of a place, period or size from the truth, in sigmas, of a law that leads with the
   /// right shape; empty otherwise.
   std::optional<double> worst_sigmas;
-  bool cause_named = false;  ///< of sets with a listed cause
+  /// What the causes named are worth; given_law: those named once a claimed law is known.
+  struct Names {
+    bool right = false;  ///< that which is hidden is among them
+    bool wrong = false;  ///< one of 90 % and more that is not hidden is
+  };
+  Names names, names_given_law;
   double seconds = 0.0;
   std::string sentence;
   std::optional<LawInUse> in_use;  ///< of a claimed law that a file can say

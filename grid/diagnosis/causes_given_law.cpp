@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/causes_given_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/findings.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// Where no cause is as likely alone none will be named: of what is named at 90 % the odds are eighty times
+/// these, and only two causes that hide each other gain as much together.
+constexpr double kHardlyLikely = 0.1;
+
+/// Whether some cause is worth a second comparison, by its evidence alone.
+bool may_name_a_cause(const Analysis& a, const Eigen::VectorXd& rows) {
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const Eigen::VectorXd e = marginalised.e - reduced(marginalised, rows);
+  const NoiseDensity noise(noise_dof(a), marginalised.kept.size());
+  const SingleScores scores = single_scores(a.system, marginalised, noise, e, true);
+  const double beforehand = log_odds_of_another(a.system, {}, false);
+  const double least = std::log(kHardlyLikely / (1.0 - kHardlyLikely));
+  return std::any_of(scores.log_factor.begin(), scores.log_factor.end(), [&](double factor) {
+    return factor + beforehand > least;
+  });
+}
+
+std::vector<CauseId> named(const Analysis& a) {
+  std::vector<CauseId> causes;
+  for (const std::size_t index : a.decision.listed)
+    causes.push_back(a.decision.classes[index].front());
+  return causes;
+}
+
+bool holds(const Analysis& a, const CauseId& cause) {
+  return std::any_of(a.decision.listed.begin(), a.decision.listed.end(), [&](std::size_t index) {
+    const CauseClass& members = a.decision.classes[index];
+    return std::find(members.begin(), members.end(), cause) != members.end();
+  });
+}
+
+}  // namespace
+
+std::optional<Eigen::VectorXd> rows_of_claimed_law(const Analysis& a, const LawsFound& laws) {
+  if (laws.laws.empty() || laws.laws.front().probability < kLawClaimed) return std::nullopt;
+  const LawsFound::Heaviest& first = laws.heaviest.front();
+  const LawEvidence& evidence = laws.evidence[first.evidence];
+  const WeighedLaw& law = evidence.laws[first.law];
+  Eigen::VectorXd rows = LawColumns(a.system).of(evidence.curves[law.curve], law.at) * law.amplitude;
+  if (a.decision.listed.empty() && !may_name_a_cause(a, rows)) return std::nullopt;
+  return rows;
+}
+
+std::vector<CauseGivenLaw> causes_that_change(const Analysis& without_law, const Analysis& given_law) {
+  std::vector<CauseGivenLaw> changed;
+  for (Cause& cause : causes_found(given_law)) {
+    if (holds(without_law, cause.cause)) continue;
+    changed.push_back({cause.cause,
+                       cause.probability,
+                       probability_of(without_law, cause.cause),
+                       std::move(cause.parameters)});
+    for (SameCause& same : cause.same_as) changed.back().same_as.push_back(same.cause);
+  }
+  for (const CauseId& cause : named(without_law)) {
+    if (holds(given_law, cause)) continue;
+    changed.push_back(
+        {cause, probability_of(given_law, cause), probability_of(without_law, cause), {}});
+  }
+  return changed;
+}
+
+void take_names_back(const Analysis& given_law,
+                     Analysis& a,
+                     const std::function<void()>& name_nothing) {
+  const auto is_lost = [&](std::size_t index) {
+    const CauseId& cause = a.decision.classes[index].front();
+    return !holds(given_law, cause) && probability_of(given_law, cause) < kLikelierThanNot;
+  };
+  std::vector<CauseId> lost;
+  for (const std::size_t index : a.decision.listed) {
+    if (is_lost(index)) lost.push_back(a.decision.classes[index].front());
+  }
+  if (lost.empty()) return;
+  if (lost.size() == a.decision.listed.size()) {
+    name_nothing();
+  } else if (a.decision.verdict == Verdict::several_causes) {
+    std::erase_if(a.decision.regressors, [&](int k) {
+      return std::any_of(lost.begin(), lost.end(), [&](const CauseId& cause) {
+        return same_class(a, regressor(a, k).cause, cause);
+      });
+    });
+    std::erase_if(a.decision.listed, is_lost);
+    if (a.decision.listed.size() == 1) a.decision.verdict = Verdict::named;
+    estimate_decided(a);
+  }
+  for (ClassProbability& one : a.decision.marginal) {
+    const CauseId& cause = a.decision.classes[one.index].front();
+    if (std::find(lost.begin(), lost.end(), cause) != lost.end())
+      one.probability = probability_of(given_law, cause);
+  }
+  std::stable_sort(a.decision.marginal.begin(),
+                   a.decision.marginal.end(),
+                   [](const ClassProbability& x, const ClassProbability& y) {
+                     return x.probability > y.probability;
+                   });
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The causes that readings name once a law is known: the law as its best context has it is taken out of
+/// them, and the causes are compared once more (analysis.hpp, belts_analysis.hpp).
+///
+/// A law that nobody listed is so much noise to a comparison that does not know it: it hides causes that
+/// act alongside it, and sometimes looks like one. What is known only nearly is taken as known: of a law of
+/// strength 12 a twelfth is left in the readings, less than their noise at any one of them.
+///
+/// \code
+///   if (const auto rows = rows_of_claimed_law(analysis, laws)) {
+///     const Analysis given = analyse_without(analysis, *rows);
+///     changed = causes_that_change(analysis, given);
+///     take_names_back(given, analysis, [&] { decide_for(false, analysis); });
+///   }
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/laws.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// What the likeliest law adds to the readings, whitened; nothing where none is claimed, and where no cause
+/// could become a name or lose it without the law.
+[[nodiscard]] std::optional<Eigen::VectorXd> rows_of_claimed_law(const Analysis& analysis,
+                                                                 const LawsFound& laws);
+
+/// Those that one of two comparisons names and the other does not: first what is named given the law.
+[[nodiscard]] std::vector<CauseGivenLaw> causes_that_change(const Analysis& without_law,
+                                                            const Analysis& given_law);
+
+/// Names that the law makes less likely than not are no longer names: of several those, of all that are
+/// named `name_nothing` decides anew. Their probabilities become those given the law.
+void take_names_back(const Analysis& given_law,
+                     Analysis& analysis,
+                     const std::function<void()>& name_nothing);
+
+}  // namespace chaintrue::grid::diagnosis
