@@ -263,7 +263,9 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
 
 Analysis analyse_without(Analysis a, const Eigen::VectorXd& rows) {
   a.system.e -= rows;
-  a.comparison = compare_models(a.system, nothing_rejected(a.system), comparison_options(a));
+  ComparisonOptions compared = comparison_options(a);
+  compared.kernels = best_kernels(a.comparison);
+  a.comparison = compare_models(a.system, nothing_rejected(a.system), compared);
   weigh_for_a_verdict(a);
   return a;
 }

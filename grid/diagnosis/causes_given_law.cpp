@@ -63,6 +63,9 @@ std::vector<CauseGivenLaw> causes_that_change(const Analysis& without_law, const
                        std::move(cause.parameters)});
     for (SameCause& same : cause.same_as) changed.back().same_as.push_back(same.cause);
   }
+  std::stable_sort(changed.begin(), changed.end(), [](const CauseGivenLaw& x, const CauseGivenLaw& y) {
+    return x.probability > y.probability;
+  });
   for (const CauseId& cause : named(without_law)) {
     if (holds(given_law, cause)) continue;
     changed.push_back(

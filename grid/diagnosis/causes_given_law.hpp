@@ -31,7 +31,8 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] std::optional<Eigen::VectorXd> rows_of_claimed_law(const Analysis& analysis,
                                                                  const LawsFound& laws);
 
-/// Those that one of two comparisons names and the other does not: first what is named given the law.
+/// Those that one of two comparisons names and the other does not: first what is named given the law, the
+/// likeliest first.
 [[nodiscard]] std::vector<CauseGivenLaw> causes_that_change(const Analysis& without_law,
                                                             const Analysis& given_law);
 

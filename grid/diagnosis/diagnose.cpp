@@ -172,7 +172,6 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   }
   Analysis& a = *analysis;
   const LawsFound laws = laws_found(a);
-  std::vector<CauseGivenLaw> given_law = name_given_law(laws, a);
   Diagnosis d;
   d.visiting_order = order;
   d.observations = observations_of(a.session);
@@ -182,6 +181,9 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
     d.notes.push_back(std::move(*refused));
     d.stability.reset();
   }
+  const std::size_t named = a.decision.listed.size();
+  std::vector<CauseGivenLaw> given_law = name_given_law(laws, a);
+  if (d.stability && a.decision.listed.size() != named) d.stability = examine_stability(a);
   take_findings(a, d);
   d.settings = settings_found(a);
   d.outliers = outliers_found(a);

@@ -86,6 +86,24 @@ TEST(CausesGivenLaw, WhereNoCauseCouldBeNamedTheyAreNotComparedAgain) {
   EXPECT_FALSE(rows_of_claimed_law(a, laws));
 }
 
+// As if the friction were the law: it is then no cause, and no probability says so.
+TEST(CausesGivenLaw, WhatOnlyTheLawMadeLikelyIsNoName) {
+  Analysis a = analysed(with_friction(0.6));
+  ASSERT_EQ(a.decision.listed.size(), 1U);
+  const int column = a.decision.regressors.front();
+  const CauseId cause = a.system.regressors[static_cast<std::size_t>(column)].cause;
+  const Analysis given = analyse_without(a, a.system.g.col(column) * a.estimate.coefficient(0));
+  const std::vector<CauseGivenLaw> changed = causes_that_change(a, given);
+  ASSERT_EQ(changed.size(), 1U);
+  EXPECT_EQ(changed.front().cause, cause);
+  EXPECT_THAT(changed.front().parameters, IsEmpty());
+  EXPECT_GE(changed.front().without_law, kLawClaimed);
+  take_names_back(given, a, [&] { decide_for(false, a); });
+  EXPECT_THAT(a.decision.listed, IsEmpty());
+  EXPECT_THAT(causes_found(a), IsEmpty());
+  EXPECT_LT(probability_of(a, cause), 0.1);
+}
+
 // A little weaker than what shows under the wave.
 TEST(CausesGivenLaw, WhatTheLawHidesIsSaid) {
   const Diagnosis found = diagnose(with_wave(with_friction(0.24)), testing_support::verdict_alone()).value();
@@ -93,8 +111,9 @@ TEST(CausesGivenLaw, WhatTheLawHidesIsSaid) {
   ASSERT_FALSE(found.unexplained->causes_given_law.empty()) << found.sentence;
   const CauseGivenLaw& own = found.unexplained->causes_given_law.front();
   EXPECT_EQ(own.cause.effect->id, "direction_hysteresis");
-  EXPECT_GE(own.probability, kNamedAlone);
-  EXPECT_LT(own.without_law, kNamedAlone);
+  EXPECT_GE(own.probability, kLawClaimed) << found.sentence;
+  EXPECT_LT(own.without_law, own.probability);
+  EXPECT_THAT(found.causes, IsEmpty());
   // Four sigmas: once in ten thousand sessions.
   EXPECT_NEAR(own.parameters.front().value, 0.24, 4.0 * own.parameters.front().sigma);
   EXPECT_THAT(found.sentence, HasSubstr("With this law known, they also name "));

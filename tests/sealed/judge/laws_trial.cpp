@@ -282,6 +282,13 @@ std::string line_of(std::string_view kind, const LawsTrial& trial) {
     if (law.of == LawOf::across) text += fmt::format(" dir {:.0f}", law.direction_deg);
     for (const auto& p : law.parameters)
       text += fmt::format(" {}={:.2f}+-{:.2f}", p.parameter, p.value, p.sigma);
+    if (law.held_out) {
+      text += fmt::format(" left out {:.3f}/{:.3f} a quarter {:.3f}/{:.3f}",
+                          law.held_out->inside.with_mm,
+                          law.held_out->inside.without_mm,
+                          law.held_out->outside.with_mm,
+                          law.held_out->outside.without_mm);
+    }
   }
   if (trial.in_use) {
     const auto said = [](const std::optional<LawInUse::Says>& says) {
