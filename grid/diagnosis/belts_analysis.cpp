@@ -58,32 +58,6 @@ void leave_noise_open(Decision& decision) {
     decision.verdict = Verdict::nothing_found;
 }
 
-/// The likeliest pattern without any cause; false where none was weighed.
-bool take_pattern_alone(const ModelComparison& comparison, Decision& decision) {
-  const auto alone = std::find_if(
-      comparison.models.begin(), comparison.models.end(), [](const CandidateModel& model) {
-        return model.discrepancy >= 0 && model.regressors.empty();
-      });
-  if (alone == comparison.models.end()) return false;
-  decision.best_discrepancy = alone->discrepancy;
-  decision.marginalised = alone->marginalised;
-  decision.discrepancy_left = true;
-  return true;
-}
-
-/// Where the strongest cause is no more than noise does by chance, none is named, whatever a pattern
-/// with it seems to leave for it.
-void take_names_back(const ModelComparison& comparison, Decision& decision) {
-  if (decision.listed.empty() && decision.regressors.empty()) return;
-  decision.listed.clear();
-  decision.regressors.clear();
-  decision.discrepancy_left = false;
-  decision.verdict =
-      decision.discrepancy > kDiscrepancyLikely && take_pattern_alone(comparison, decision)
-          ? Verdict::model_discrepancy
-          : Verdict::nothing_found;
-}
-
 /// By how much the readings make the odds of a cause given a pattern larger than they are beforehand;
 /// infinity where the pattern alone is out of the question.
 double spoken_for(const Analysis& a, const CauseClass& members) {
@@ -112,14 +86,16 @@ void take_expected_back(BeltsAnalysis& a) {
   if (decision.verdict != Verdict::named || !(decision.discrepancy > kDiscrepancyLikely)) return;
   if (decision.marginal.front().probability >= kNamedAlone) return;
   const CauseClass& named = decision.classes[decision.listed.front()];
-  if (spoken_for(a.analysis, named) < kSpokenFor) take_names_back(a.analysis.comparison, decision);
+  if (spoken_for(a.analysis, named) < kSpokenFor) withdraw_names(a.analysis.comparison, decision);
 }
 
 /// Decision, and the estimate of its causes: given the pattern that it holds, if any.
 void decide(bool detected, BeltsAnalysis& a) {
   Analysis& own = a.analysis;
   own.decision = decide_for_leaders(own.system, own.comparison, nothing_rejected(own.system), detected);
-  if (!detected) take_names_back(own.comparison, own.decision);
+  // Where the strongest cause is no more than noise does by chance, none is named, whatever a pattern with
+  // it seems to leave for it.
+  if (!detected) withdraw_names(own.comparison, own.decision);
   take_expected_back(a);
   estimate_decided(own);
 }
@@ -213,11 +189,6 @@ BeltsAnalysis analyse_without(BeltsAnalysis a, Eigen::VectorXd rows) {
   compare(true, AnalysisDepth::verdict, a);
   leave_noise_open(a.analysis.decision);
   return a;
-}
-
-void name_nothing(BeltsAnalysis& a) {
-  decide(false, a);
-  leave_noise_open(a.analysis.decision);
 }
 
 std::vector<BeltCause> decided_causes(const Analysis& a) {

@@ -41,9 +41,6 @@ enum class AnalysisDepth { anchors, verdict };
 /// As analyse_without() of two chains (analysis.hpp).
 [[nodiscard]] BeltsAnalysis analyse_without(BeltsAnalysis analysis, Eigen::VectorXd rows);
 
-/// Decides anew that no cause acts.
-void name_nothing(BeltsAnalysis& analysis);
-
 /// The causes of the decision with their values as estimated.
 [[nodiscard]] std::vector<BeltCause> decided_causes(const Analysis& analysis);
 

@@ -74,9 +74,7 @@ std::vector<CauseGivenLaw> causes_that_change(const Analysis& without_law, const
   return changed;
 }
 
-void take_names_back(const Analysis& given_law,
-                     Analysis& a,
-                     const std::function<void()>& name_nothing) {
+void take_names_back(const Analysis& given_law, Analysis& a) {
   const auto is_lost = [&](std::size_t index) {
     const CauseId& cause = a.decision.classes[index].front();
     return !holds(given_law, cause) && probability_of(given_law, cause) < kLikelierThanNot;
@@ -87,7 +85,7 @@ void take_names_back(const Analysis& given_law,
   }
   if (lost.empty()) return;
   if (lost.size() == a.decision.listed.size()) {
-    name_nothing();
+    withdraw_names(a.comparison, a.decision);
   } else if (a.decision.verdict == Verdict::several_causes) {
     std::erase_if(a.decision.regressors, [&](int k) {
       return std::any_of(lost.begin(), lost.end(), [&](const CauseId& cause) {
@@ -96,8 +94,8 @@ void take_names_back(const Analysis& given_law,
     });
     std::erase_if(a.decision.listed, is_lost);
     if (a.decision.listed.size() == 1) a.decision.verdict = Verdict::named;
-    estimate_decided(a);
   }
+  estimate_decided(a);
   for (ClassProbability& one : a.decision.marginal) {
     const CauseId& cause = a.decision.classes[one.index].front();
     if (std::find(lost.begin(), lost.end(), cause) != lost.end())

@@ -11,13 +11,12 @@
 ///   if (const auto rows = rows_of_claimed_law(analysis, laws)) {
 ///     const Analysis given = analyse_without(analysis, *rows);
 ///     changed = causes_that_change(analysis, given);
-///     take_names_back(given, analysis, [&] { decide_for(false, analysis); });
+///     take_names_back(given, analysis);
 ///   }
 /// \endcode
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -36,10 +35,8 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] std::vector<CauseGivenLaw> causes_that_change(const Analysis& without_law,
                                                             const Analysis& given_law);
 
-/// Names that the law makes less likely than not are no longer names: of several those, of all that are
-/// named `name_nothing` decides anew. Their probabilities become those given the law.
-void take_names_back(const Analysis& given_law,
-                     Analysis& analysis,
-                     const std::function<void()>& name_nothing);
+/// Names that the law makes less likely than not are no longer names: of several those alone. Their
+/// probabilities become those given the law.
+void take_names_back(const Analysis& given_law, Analysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

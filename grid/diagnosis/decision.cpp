@@ -334,4 +334,32 @@ Decision decide(const RegressorSystem& system,
   return Decider(system, comparison, excluded, std::move(classes)).run(detected);
 }
 
+namespace {
+
+/// The likeliest pattern without any cause; false where none was weighed.
+bool take_pattern_alone(const ModelComparison& comparison, Decision& decision) {
+  const auto alone = std::find_if(
+      comparison.models.begin(), comparison.models.end(), [](const CandidateModel& model) {
+        return model.discrepancy >= 0 && model.regressors.empty();
+      });
+  if (alone == comparison.models.end()) return false;
+  decision.best_discrepancy = alone->discrepancy;
+  decision.marginalised = alone->marginalised;
+  decision.discrepancy_left = true;
+  return true;
+}
+
+}  // namespace
+
+void withdraw_names(const ModelComparison& comparison, Decision& decision) {
+  if (decision.listed.empty() && decision.regressors.empty()) return;
+  decision.listed.clear();
+  decision.regressors.clear();
+  decision.discrepancy_left = false;
+  decision.verdict =
+      decision.discrepancy > kDiscrepancyLikely && take_pattern_alone(comparison, decision)
+          ? Verdict::model_discrepancy
+          : Verdict::nothing_found;
+}
+
 }  // namespace chaintrue::grid::diagnosis

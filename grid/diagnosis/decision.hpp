@@ -53,4 +53,7 @@ struct Decision {
                               bool detected,
                               std::vector<CauseClass> classes);
 
+/// Names nothing: what is left is a pattern that no cause makes, or nothing. Probabilities stay.
+void withdraw_names(const ModelComparison& comparison, Decision& decision);
+
 }  // namespace chaintrue::grid::diagnosis

@@ -138,7 +138,7 @@ std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws, Analysis& a) {
   if (!rows) return {};
   const Analysis given = analyse_without(a, *rows);
   std::vector<CauseGivenLaw> changed = causes_that_change(a, given);
-  take_names_back(given, a, [&] { decide_for(false, a); });
+  take_names_back(given, a);
   return changed;
 }
 

@@ -29,7 +29,7 @@ std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws, BeltsAnalysis& 
   if (!rows) return {};
   const BeltsAnalysis given = analyse_without(a, *std::move(rows));
   std::vector<CauseGivenLaw> changed = causes_that_change(a.analysis, given.analysis);
-  take_names_back(given.analysis, a.analysis, [&] { name_nothing(a); });
+  take_names_back(given.analysis, a.analysis);
   return changed;
 }
 
