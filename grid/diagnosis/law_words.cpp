@@ -194,7 +194,7 @@ std::string given_law_words(const Diagnosis& d,
         " With this law known, they also name {}.", fmt::join(named, sum > 1.0 ? ", and " : ", or "));
   }
   if (!gone.empty())
-    text += fmt::format(" What they would name without this law is not likely with it: {}.",
+    text += fmt::format(" What they would name without this law is less likely with it: {}.",
                         fmt::join(gone, "; "));
   return text;
 }
