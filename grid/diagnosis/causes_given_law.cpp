@@ -27,13 +27,6 @@ bool may_name_a_cause(const Analysis& a, const Eigen::VectorXd& rows) {
   });
 }
 
-std::vector<CauseId> named(const Analysis& a) {
-  std::vector<CauseId> causes;
-  for (const std::size_t index : a.decision.listed)
-    causes.push_back(a.decision.classes[index].front());
-  return causes;
-}
-
 bool holds(const Analysis& a, const CauseId& cause) {
   return std::any_of(a.decision.listed.begin(), a.decision.listed.end(), [&](std::size_t index) {
     const CauseClass& members = a.decision.classes[index];
@@ -66,7 +59,8 @@ std::vector<CauseGivenLaw> causes_that_change(const Analysis& without_law, const
   std::stable_sort(changed.begin(), changed.end(), [](const CauseGivenLaw& x, const CauseGivenLaw& y) {
     return x.probability > y.probability;
   });
-  for (const CauseId& cause : named(without_law)) {
+  for (const std::size_t index : without_law.decision.listed) {
+    const CauseId& cause = without_law.decision.classes[index].front();
     if (holds(given_law, cause)) continue;
     changed.push_back(
         {cause, probability_of(given_law, cause), probability_of(without_law, cause), {}});

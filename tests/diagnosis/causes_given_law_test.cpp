@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/law_words.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "tests/diagnosis/law_sessions.hpp"
 
