@@ -94,8 +94,8 @@ void print_rows(const LawsKind& kind, const std::vector<LawsTrial>& all) {
     wrong_given_law.count(t.names_given_law.wrong);
   }
   const std::string hidden(kind.hidden);
-  print_row(hidden, "a wrong cause named at 90 %, once the law is known", "", wrong_given_law);
-  print_row(hidden, "the same without knowing the law", "", wrong);
+  print_row(hidden, "a wrong cause named at 90 %, or given the law", "", wrong_given_law);
+  print_row(hidden, "a wrong cause named at 90 %", "", wrong);
   if (!kind.is_law) {
     print_row(hidden, "a law claimed", "at most 2 %", claims);
     return;
@@ -113,8 +113,8 @@ void print_rows(const LawsKind& kind, const std::vector<LawsTrial>& all) {
     causes_given_law.count(t.names_given_law.right);
     both.count(t.in_set && t.names_given_law.right);
   }
-  print_row(hidden, "the cause named, once the law is known", "", causes_given_law);
-  print_row(hidden, "the same without knowing the law", "", causes);
+  print_row(hidden, "the cause named, or given the law", "", causes_given_law);
+  print_row(hidden, "the cause named", "", causes);
   print_row(hidden, "both told", "75 %", both);
 }
 
