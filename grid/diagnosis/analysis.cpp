@@ -228,6 +228,9 @@ void weigh_for_a_verdict(Analysis& a) {
   test_significance(a.system, NoiseSize::stated, a);
   // C. Bonferroni's bound.
   a.family_wise_p = std::min(1.0, options.orders_tried * a.family_wise_p);
+  // An average has no weights that hold without some of the readings.
+  if (!options.given_cause)
+    a.sessions = session_posteriors(a.system, noise_dof(a), a.session.fewest_units, a.comparison);
   if (options.steps.average_parts && !options.given_cause) {
     a.parts = average_over_parts(
         a.system, noise_dof(a), nothing_rejected(a.system), a.session.fewest_units, a.comparison);

@@ -30,6 +30,8 @@ struct Analysis {
   std::vector<std::pair<CauseId, double>> tested;
   /// What quarters of the bed make of it; empty where there is no pattern, or no such parts.
   std::vector<PartPosterior> parts;
+  /// What each session makes of it by itself; empty of a single one.
+  std::vector<SessionPosterior> sessions;
   Decision decision;
   /// Of the discrepancy that the decision leaves; null where it leaves none.
   std::shared_ptr<const DiscrepancyNoise> noise;

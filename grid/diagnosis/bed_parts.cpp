@@ -190,6 +190,30 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
   return result;
 }
 
+std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system,
+                                                 double noise_dof,
+                                                 std::size_t fewest,
+                                                 const ModelComparison& comparison) {
+  std::vector<std::size_t> units;  // of each session
+  for (const SystemUnit& unit : system.units) {
+    if (units.size() <= unit.observation) units.resize(unit.observation + 1, 0);
+    ++units[unit.observation];
+  }
+  std::vector<SessionPosterior> result;
+  if (units.size() < 2) return result;
+  for (std::size_t session = 0; session < units.size(); ++session) {
+    if (units[session] < std::max<std::size_t>(fewest, 1)) continue;
+    BedPart others;
+    for (std::size_t u = 0; u < system.units.size(); ++u) {
+      if (system.units[u].observation != session) others.units.push_back(u);
+    }
+    result.push_back({session, units[session],
+                      posterior_without(system, noise_dof, comparison, std::move(others))});
+  }
+  if (result.size() < 2) result.clear();
+  return result;
+}
+
 PartPosterior posterior_without(const RegressorSystem& system,
                                 double noise_dof,
                                 const ModelComparison& comparison,

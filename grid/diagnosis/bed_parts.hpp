@@ -64,7 +64,19 @@ struct PartPosterior {
                                                             std::size_t fewest,
                                                             ModelComparison& comparison);
 
-/// What the comparison's models say without these units, the rest counted as it is.
+/// What each session's readings say by themselves; those of fewer than `fewest` units are left out, and the result is
+/// empty where that leaves fewer than two. \pre The comparison's weights are those of all readings, not averaged.
+struct SessionPosterior {
+  std::size_t session = 0;  ///< into the observations
+  std::size_t units = 0;
+  PartPosterior posterior;
+};
+[[nodiscard]] std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system,
+                                                               double noise_dof,
+                                                               std::size_t fewest,
+                                                               const ModelComparison& comparison);
+
+/// What the comparison's models say without these units, the rest counted as it is. \pre As session_posteriors().
 [[nodiscard]] PartPosterior posterior_without(const RegressorSystem& system,
                                               double noise_dof,
                                               const ModelComparison& comparison,

@@ -211,7 +211,10 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
     if (d.next_measurements.empty()) d.next_measurements = next_for_laws(a, laws);
   }
   put_into_words(a, d);
-  if (d.visiting_order) d.notes.insert(d.notes.begin(), in_words(*d.visiting_order));
+  if (d.visiting_order) {
+    const std::string session = measured.files().size() > 1 ? measured.files().front().name : "";
+    d.notes.insert(d.notes.begin(), in_words(*d.visiting_order, session));
+  }
   note_zeros(sessions, a, d);
   state_input(measured, d);
   return d;

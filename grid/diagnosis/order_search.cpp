@@ -23,13 +23,29 @@ namespace {
 constexpr double kLeastModelShare = 0.01;
 constexpr std::size_t kMostModels = 5;
 
+/// The first file, where it is a grid and no grid has an order.
 const MeasuredGrid* grid_without_order(const Measured& measured) {
-  if (measured.files().size() != 1) return nullptr;
-  const MeasuredGrid* grid = measured.files().front().grid();
-  if (grid == nullptr) return nullptr;
-  const bool numbered = std::any_of(
-      grid->points.begin(), grid->points.end(), [](const MeasuredPoint& point) { return point.order.has_value(); });
-  return numbered ? nullptr : grid;
+  if (measured.files().empty()) return nullptr;
+  for (const MeasuredGrid* grid : measured.grids()) {
+    const bool numbered = std::any_of(
+        grid->points.begin(), grid->points.end(), [](const MeasuredPoint& point) { return point.order.has_value(); });
+    if (numbered) return nullptr;
+  }
+  return measured.files().front().grid();
+}
+
+/// That grid without the other files, where its marks have any order.
+std::optional<Measured> grid_alone(const Measured& measured) {
+  const MeasuredGrid* grid = grid_without_order(measured);
+  if (grid == nullptr) return std::nullopt;
+  Measured alone;
+  alone.add({measured.files().front().name, *grid});
+  const std::vector<VisitingOrder> orders = line_by_line_orders();
+  const bool has_lines = std::any_of(orders.begin(), orders.end(), [&](const VisitingOrder& order) {
+    return visited_in(alone, order).has_value();
+  });
+  if (!has_lines) return std::nullopt;
+  return alone;
 }
 
 /// The points by place, so that the order of the file's rows is of no account.
@@ -153,15 +169,15 @@ double log_order_factor(const RegressorSystem& columns, const GivenModel& model,
 
 }  // namespace
 
-std::string in_words(const VisitingOrderFound& found) {
+std::string in_words(const VisitingOrderFound& found, const std::string& session) {
   const std::string order = found.corner_known
                                 ? grid::in_words(found.order)
                                 : fmt::format("{} in {}", found.order.serpentine ? "there and back" : "one way",
                                               found.order.rows ? "rows" : "columns");
   return fmt::format(
-      "Nobody wrote down in which order the marks were visited. The readings say it: {} ({}). If that is not "
+      "Nobody wrote down in which order the marks{} were visited. The readings say it: {} ({}). If that is not "
       "so, write the order down, or name it with --assume-order.",
-      order, percent(found.probability));
+      session.empty() ? "" : " of " + session, order, percent(found.probability));
 }
 
 std::vector<double> order_probabilities(const Measured& measured, const Analysis& a) {
@@ -190,6 +206,14 @@ std::vector<double> order_probabilities(const Measured& measured, const Analysis
 }
 
 std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured, const Analysis& analysis) {
+  if (measured.files().size() > 1) {
+    const auto first = grid_alone(measured);
+    if (!first) return std::nullopt;
+    auto session = observations_of(*first);
+    if (!session) return std::nullopt;
+    const auto own = analyse(*std::move(session), analysis.options);
+    return own ? find_visiting_order(*first, *own) : std::nullopt;
+  }
   const std::vector<double> probabilities = order_probabilities(measured, analysis);
   const std::vector<VisitingOrder> orders = line_by_line_orders();
   const auto best = static_cast<std::size_t>(
@@ -221,6 +245,7 @@ std::optional<Measured> visited_in(const Measured& measured, const VisitingOrder
   for (std::size_t k = 0; k < places.size(); ++k) numbered.points[places[k]].order = (*numbers)[k];
   Measured result;
   result.add({measured.files().front().name, std::move(numbered)});
+  for (std::size_t k = 1; k < measured.files().size(); ++k) result.add(measured.files()[k]);
   return result;
 }
 

@@ -29,16 +29,17 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// An order that the readings of one grid without numbers of visits say at least kOrderFound; its corner only
+/// An order that the readings of a grid without numbers of visits say at least kOrderFound; its corner only
 /// where no mark was measured again, which somebody may have done between any two others. Nothing where
-/// the grid has an order, its marks stand in no lines, or more than the grid was measured.
+/// a grid has an order, or its marks stand in no lines. Of several files the first, whose order alone has a part in
+/// a diagnosis, is analysed by itself with the options of `analysis`; nothing where it is no grid.
 [[nodiscard]] std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured,
                                                                     const Analysis& analysis);
 
-/// p(o) of each of line_by_line_orders(); 0 for those that the marks do not have.
+/// p(o) of each of line_by_line_orders(); 0 for those that the marks do not have. \pre one file.
 [[nodiscard]] std::vector<double> order_probabilities(const Measured& measured, const Analysis& analysis);
 
-/// With the visits of a grid that has no order numbered in this one; nothing where the marks do not have it.
+/// With the visits of the first grid numbered in this order, where no grid has one; nothing where the marks do not have it.
 /// Marks measured again come last, by place.
 [[nodiscard]] std::optional<Measured> visited_in(const Measured& measured, const VisitingOrder& order);
 

@@ -171,19 +171,12 @@ std::vector<PartFinding> bed_part_findings(const Analysis& a) {
 std::vector<PartFinding> session_findings(const Analysis& a,
                                           const std::vector<std::string>& names) {
   std::vector<PartFinding> result;
-  if (a.decision.listed.empty() || a.session.parts.size() < 2) return result;
-  for (std::size_t own = 0; own < a.session.parts.size() && own < names.size(); ++own) {
-    BedPart others;
-    std::size_t units = 0;
-    for (std::size_t u = 0; u < a.session.units.size(); ++u) {
-      if (a.session.units[u].part != own) others.units.push_back(u);
-      else ++units;
-    }
-    if (units < a.session.fewest_units || others.units.empty()) continue;
-    PartFinding one = finding_of(
-        a, posterior_without(a.system, noise_dof(a), a.comparison, std::move(others)));
-    one.session = names[own];
-    one.units = units;
+  if (a.decision.listed.empty()) return result;
+  for (const SessionPosterior& own : a.sessions) {
+    if (own.session >= names.size()) continue;  // direct readings that came with a file
+    PartFinding one = finding_of(a, own.posterior);
+    one.session = names[own.session];
+    one.units = own.units;
     result.push_back(std::move(one));
   }
   if (result.size() < 2) result.clear();

@@ -16,7 +16,8 @@ struct VisitingOrderFound {
   bool corner_known = true;
 };
 
-/// "Nobody wrote down in which order the marks were visited; the readings say: ... (99.8 %)."
-[[nodiscard]] std::string in_words(const VisitingOrderFound& found);
+/// "Nobody wrote down in which order the marks were visited. The readings say it: ... (99.8 %). ..." With the name of
+/// a session "the marks of C.json".
+[[nodiscard]] std::string in_words(const VisitingOrderFound& found, const std::string& session = {});
 
 }  // namespace chaintrue::grid::diagnosis

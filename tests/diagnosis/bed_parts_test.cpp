@@ -245,5 +245,65 @@ TEST(Sessions, SayWhatIsCommonAndWhatIsOneSessions) {
                                  "not in D.json (2 %)")));
 }
 
+TEST(Sessions, ACopyOfAnotherIsRefused) {
+  Measured both;
+  both.add({"one.json", session_of({}, 11)});
+  both.add({"two.json", session_of({}, 11)});
+  const auto d = diagnose(both, verdict_alone());
+  ASSERT_FALSE(d);
+  EXPECT_EQ(d.error().sentence(),
+            "two.json holds the same readings as one.json, to the last digit: a copy adds nothing. Leave it out");
+}
+
+// Of two files without numbers of visits, the first driven there and back in columns by a machine with friction.
+TEST(Sessions, TheOrderOfTheFirstIsFoundInItsReadings) {
+  synthetic::SyntheticSpec spec;
+  spec.design.columns = 9;
+  spec.design.rows = 6;
+  spec.order = synthetic::VisitingOrder::serpentine_columns;
+  spec.noise = {.length_mm = 0.1, .position_mm = 0.2};
+  spec.stated = StatedNoise{0.1, 0.2, 12.0};
+  spec.hidden = {{"direction_hysteresis", "left", {{"half_width_mm", 0.4}}}};
+  Measured both;
+  for (const char* name : {"one.json", "two.json"}) {
+    MeasuredGrid grid = synthetic::generate(model::Machine{}, spec).value().grid;
+    for (MeasuredPoint& point : grid.points) point.order.reset();
+    both.add({name, std::move(grid)});
+    spec.order = synthetic::VisitingOrder::random;
+    ++spec.seed;
+  }
+  const auto d = diagnose(both, verdict_alone());
+  ASSERT_TRUE(d) << d.error().sentence();
+  ASSERT_TRUE(d->visiting_order) << d->sentence;
+  EXPECT_FALSE(d->visiting_order->order.rows);
+  EXPECT_TRUE(d->visiting_order->order.serpentine);
+  EXPECT_THAT(d->notes.front(), HasSubstr("in which order the marks of one.json were visited"));
+  ASSERT_FALSE(d->causes.empty()) << d->sentence;
+  EXPECT_EQ(d->causes.front().cause.effect->id, "direction_hysteresis");
+  const Measured first{{"one.json", *both.grids().front()}};
+  const auto alone = diagnose(first, verdict_alone());
+  ASSERT_TRUE(alone && alone->visiting_order);
+  EXPECT_EQ(alone->visiting_order->probability, d->visiting_order->probability);
+}
+
+// Where the probabilities are averaged over parts of the bed, each session's are still those of its readings.
+TEST(Sessions, AreWeighedByThemselvesBesideAPattern) {
+  const auto session = [](const std::vector<model::AppliedEffect>& hidden, std::uint64_t seed) {
+    return with_ridge(session_of(hidden, seed, 8, 5), 1.5, 100.0);
+  };
+  Measured both;
+  both.add({"one.json", session({kLongLeftOfParts}, 11)});
+  both.add({"two.json", session({kLongLeftOfParts}, 12)});
+  const auto d = diagnose(both, verdict_alone());
+  ASSERT_TRUE(d) << d.error().sentence();
+  ASSERT_EQ(d->sessions.size(), 2U) << d->sentence;
+  for (const PartFinding& own : d->sessions) {
+    ASSERT_EQ(own.named.size(), 1U);
+    EXPECT_EQ(own.units, 46U);  // 40 marks, six of them twice
+    EXPECT_GT(own.named.front().probability, 0.9) << own.session << ": " << own.named.front().effect;
+    EXPECT_EQ(own.likeliest.effect, own.named.front().effect);
+  }
+}
+
 }  // namespace
 }  // namespace chaintrue::grid::diagnosis

@@ -128,6 +128,10 @@ TEST(Curves, CountNamesFromTheSurestOn) {
   EXPECT_EQ(at_most_wrong(method, 1).right, 2);
   EXPECT_THAT(curves_table({method}),
               testing::HasSubstr("| by hand | 33 | 33 | 33 | 33 | 33 | 67 | 0.5 | 67 | 50 |"));
+  // The axes begin at (60, 340) and are 300 long: 0 and 50 false names in 100 sets, a third and two thirds right.
+  const std::string picture = curves_svg({{"By hand", {method}}});
+  EXPECT_THAT(picture, testing::HasSubstr("<polyline points=\"60.0,240.0 360.0,140.0 \""));
+  EXPECT_THAT(picture, testing::HasSubstr("<circle cx=\"360.0\" cy=\"140.0\""));
 }
 
 TEST(Curves, NamesOfOneScoreComeTogether) {

@@ -26,9 +26,9 @@ TrialOptions ablation_options(Mix mix) {
 // Signatures that are not projected have most of their norm in common with the settings'.
 TEST(Ablation, WithoutProjectionCausesAreMistaken) {
   TrialOptions o = ablation_options(Mix::single);
-  EXPECT_THAT(seeds_without(trials(o, 9100, 20), leads_right), ElementsAre(9108, 9113));
+  EXPECT_THAT(seeds_without(trials(o, 9103, 11), leads_right), ElementsAre(9108, 9113));
   o.steps.project_settings = false;
-  EXPECT_THAT(seeds_without(trials(o, 9100, 20), leads_right), ElementsAre(9103, 9108, 9109, 9113));
+  EXPECT_THAT(seeds_without(trials(o, 9103, 11), leads_right), ElementsAre(9103, 9108, 9109, 9113));
 }
 
 // A beam 150 mm above the bed: at its top centre the chains are horizontal. An error of the mark
@@ -43,10 +43,10 @@ TEST(Ablation, WithoutWhiteningLessIsFound) {
   const auto names_it_alone = [](const Trial& t) {
     return t.verdict == grid::diagnosis::Verdict::named && leads_right(t);
   };
-  EXPECT_THAT(seeds_without(trials(o, 9600, 16), names_it_alone), ElementsAre(9602, 9605, 9608));
+  EXPECT_THAT(seeds_without(trials(o, 9601, 8), names_it_alone), ElementsAre(9602, 9605, 9608));
   o.steps.whiten = false;
-  EXPECT_THAT(seeds_without(trials(o, 9600, 16), names_it_alone),
-              ElementsAre(9601, 9602, 9603, 9605, 9606, 9608, 9610, 9611, 9612));
+  EXPECT_THAT(seeds_without(trials(o, 9601, 8), names_it_alone),
+              ElementsAre(9601, 9602, 9603, 9605, 9606, 9608));
 }
 
 // The noise is three times the stated one. An estimate from the fit alone does not detect it.
@@ -65,9 +65,9 @@ TEST(Ablation, WithoutTheNoisesAnchorWrongNoiseIsNotSeen) {
 TEST(Ablation, WithoutARobustStartSlipsMakeCauses) {
   const auto silent = [](const Trial& t) { return !names_something(t); };
   TrialOptions o = ablation_options(Mix::bad_points);
-  EXPECT_THAT(seeds_without(trials(o, 9400, 10), silent), IsEmpty());
+  EXPECT_THAT(seeds_without(trials(o, 9400, 6), silent), IsEmpty());
   o.steps.robust = false;
-  EXPECT_EQ(seeds_without(trials(o, 9400, 10), silent).size(), 10u);
+  EXPECT_EQ(seeds_without(trials(o, 9400, 6), silent).size(), 6u);
 }
 
 // Freely chosen places fit noise better than they should: the best of many is penalised only if the

@@ -16,15 +16,15 @@ using testing::ElementsAre;
 // Outcomes are frozen by their seeds: a rate of a few dozen sets hides a change.
 TEST(SealedBelts, WhatIsProposedPartsCausesThatAreLeftOpen) {
   std::vector<std::uint64_t> proposed, parted;
-  for (std::uint64_t seed = 1101; seed < 1125; ++seed) {
+  for (std::uint64_t seed = 1101; seed < 1113; ++seed) {
     const BeltsTrial trial =
         run_belts_trial({.effect = "", .least_strength = 6.0, .most_strength = 9.0}, seed, true);
     if (trial.proposed > 0) proposed.push_back(seed);
     if (trial.parted) parted.push_back(seed);
   }
   EXPECT_THAT(proposed,
-              ElementsAre(1101, 1102, 1104, 1107, 1108, 1113, 1119, 1120, 1123, 1124));
-  EXPECT_THAT(parted, ElementsAre(1102, 1104, 1107, 1108, 1119, 1120, 1123, 1124));
+              ElementsAre(1101, 1102, 1104, 1107, 1108));
+  EXPECT_THAT(parted, ElementsAre(1102, 1104, 1107, 1108));
 }
 
 TEST(SealedBelts, APatternThatIsTheAnswerHasASize) {

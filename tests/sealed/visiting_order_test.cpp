@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <random>
 
 #include "generator/hidden/draw.hpp"
@@ -26,9 +27,8 @@ using grid::diagnosis::VisitingOrderFound;
 
 bool is_long() { return std::getenv("CHAINTRUE_LONG") != nullptr; }
 
-grid::MeasuredGrid without_numbers(const generator::Recipe& recipe, std::uint64_t seed) {
-  grid::MeasuredGrid grid =
-      grid::files::parse_grid(generator::draw_set(recipe, seed).grid_text, "sealed.json").grid;
+grid::MeasuredGrid without_numbers(const generator::SealedSet& set) {
+  grid::MeasuredGrid grid = grid::files::parse_grid(set.grid_text, "sealed.json").grid;
   for (grid::MeasuredPoint& point : grid.points) point.order.reset();
   return grid;
 }
@@ -52,6 +52,8 @@ struct Counts {
   int right = 0;
   int wrong = 0;
   int sets = 0;
+  /// Of those whose cause is of strength 7 and more: right ones, and all, by points.
+  std::map<int, std::pair<int, int>> strong;
 };
 
 Counts count(Order order, std::optional<Cause> cause, int sets, std::uint64_t first_seed) {
@@ -63,13 +65,18 @@ Counts count(Order order, std::optional<Cause> cause, int sets, std::uint64_t fi
     recipe.points = kPoints[k % 3];
     recipe.order = order;
     recipe.cause = cause;
-    const auto found = found_in(without_numbers(recipe, first_seed + static_cast<std::uint64_t>(k)));
+    const generator::SealedSet set = generator::draw_set(recipe, first_seed + static_cast<std::uint64_t>(k));
+    const auto found = found_in(without_numbers(set));
     ++counts.sets;
+    const bool is_strong = cause && set.answer.delta.front() >= 7.0;
+    if (is_strong) ++counts.strong[recipe.points].second;
     if (!found) continue;
     const VisitingOrder truth = drawn(order);
     EXPECT_FALSE(found->corner_known);  // marks were measured again
     const bool same = found->order.rows == truth.rows && found->order.serpentine == truth.serpentine;
-    ++(same && order != Order::random ? counts.right : counts.wrong);
+    const bool is_right = same && order != Order::random;
+    ++(is_right ? counts.right : counts.wrong);
+    if (is_strong && is_right) ++counts.strong[recipe.points].first;
   }
   return counts;
 }
@@ -78,28 +85,37 @@ Counts count(Order order, std::optional<Cause> cause, int sets, std::uint64_t fi
 /// every mark, so that the order shows in the first marks of the lines alone.
 struct Frozen {
   Order order;
+  Cause cause;
   int found = 0;
 };
 
-class OfFriction : public testing::TestWithParam<Frozen> {};
+class OfWhatDepends : public testing::TestWithParam<Frozen> {};
 
-// Friction of strength 6 to 22, six marks measured again in between.
-TEST_P(OfFriction, TheOrderIsFoundAsOftenAsFrozen) {
+// Friction or drift of strength 6 to 22, six marks measured again in between.
+TEST_P(OfWhatDepends, TheOrderIsFoundAsOftenAsFrozen) {
   const int sets = is_long() ? 200 : 6;
-  const Counts counts = count(GetParam().order, Cause::direction_hysteresis, sets, 7100);
-  std::printf("%d right, %d wrong of %d\n", counts.right, counts.wrong, counts.sets);
+  const Counts counts = count(GetParam().order, GetParam().cause, sets, 7100);
+  std::printf("%d right, %d wrong of %d; of strength 7 and more", counts.right, counts.wrong, counts.sets);
+  for (const auto& [points, own] : counts.strong)
+    std::printf(", %d points: %d of %d", points, own.first, own.second);
+  std::printf("\n");
   EXPECT_LE(rate_bounds_95(GetParam().found, 200).lower, rate_bounds_95(counts.right, counts.sets).upper);
   // One in fifty, or what chance makes of that in so many sets.
   EXPECT_GE(0.02, rate_bounds_95(counts.wrong, counts.sets).lower);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sealed,
-                         OfFriction,
-                         testing::Values(Frozen{Order::rows, 82},
-                                         Frozen{Order::columns, 39},
-                                         Frozen{Order::serpentine_rows, 137},
-                                         Frozen{Order::serpentine_columns, 166}),
-                         [](const auto& frozen) { return std::string(word(frozen.param.order)); });
+                         OfWhatDepends,
+                         testing::Values(Frozen{Order::rows, Cause::direction_hysteresis, 82},
+                                         Frozen{Order::columns, Cause::direction_hysteresis, 39},
+                                         Frozen{Order::serpentine_rows, Cause::direction_hysteresis, 137},
+                                         Frozen{Order::serpentine_columns, Cause::direction_hysteresis, 166},
+                                         Frozen{Order::rows, Cause::drift, 0},
+                                         Frozen{Order::serpentine_columns, Cause::drift, 0}),
+                         [](const auto& frozen) {
+                           return std::string(frozen.param.cause == Cause::drift ? "drift_" : "friction_") +
+                                  std::string(word(frozen.param.order));
+                         });
 
 TEST(Sealed, NoOrderIsFoundWhereMarksWereVisitedAtRandom) {
   const Counts counts = count(Order::random, Cause::direction_hysteresis, is_long() ? 200 : 6, 7400);
@@ -119,7 +135,7 @@ TEST(Sealed, CausesAreOfTheOrderThatWasFound) {
   recipe.order = Order::serpentine_columns;
   recipe.cause = Cause::direction_hysteresis;
   recipe.delta = 14.0;
-  grid::MeasuredGrid grid = without_numbers(recipe, 7800);
+  grid::MeasuredGrid grid = without_numbers(generator::draw_set(recipe, 7800));
   grid::diagnosis::DiagnosisOptions options;
   options.improvement = options.next_measurements = options.stability = false;
   const auto d = grid::diagnosis::diagnose(grid, options);

@@ -6,11 +6,13 @@
 ///
 ///   baselines --each 30                                           # sealed sets, of each kind
 ///   baselines --each 0 --scan C.csv --scan D.csv --draws 36       # real scans
+///   baselines --each 30 --scan C.csv --chart curves.svg           # both, as a picture
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <fstream>
 #include <map>
 
 #include "generator/hidden/draw.hpp"
@@ -39,6 +41,7 @@ struct Arguments {
   std::string references = CHAINTRUE_FIXTURES "/planted/references.txt";
   std::uint64_t seed = 1;
   std::size_t draws = 36;
+  std::string chart;
 };
 
 /// Thresholds: the F of 4 that textbooks and packages enter at, a weight of one half, any coefficient, and
@@ -48,6 +51,7 @@ std::vector<Method> methods() {
           {"BIC, all sets of three", 0.5},
           {"LASSO, ten folds", 0.0},
           {"diagnosis without a pattern", 0.9},
+          {"diagnosis, all readings at once", 0.9},
           {"diagnosis", 0.9}};
 }
 
@@ -55,15 +59,18 @@ std::vector<Method> methods() {
 std::vector<Scores> scores_of(const grid::MeasuredGrid& grid) {
   const planted::Prepared prepared = planted::prepare(grid);
   const planted::Regression data = planted::regression_of(prepared);
-  Scores own;
-  for (const planted::Claim& claim : planted::claims_of(planted::diagnosed(grid))) {
-    own[claim.members.front()] = claim.probability;
-  }
+  const auto claimed = [&](bool average_parts) {
+    Scores own;
+    for (const planted::Claim& claim : planted::claims_of(planted::diagnosed(grid, average_parts)))
+      own[claim.members.front()] = claim.probability;
+    return own;
+  };
   return {planted::stepwise_scores(data),
           planted::bic_scores(data),
           planted::lasso_scores(data),
           planted::scores_without_discrepancy(prepared),
-          own};
+          claimed(false),
+          claimed(true)};
 }
 
 void add(const grid::MeasuredGrid& grid,
@@ -115,7 +122,7 @@ std::vector<Method> on_scans(const Arguments& arguments) {
   return all;
 }
 
-void print(const char* title, const std::vector<Method>& all) {
+void print(const std::string& title, const std::vector<Method>& all) {
   fmt::print(stderr, "\n");
   fmt::print("{}: {} sets, {} causes\n\n{}\n",
              title,
@@ -138,10 +145,14 @@ int main(int argc, char** argv) {
   app.add_option("--references", arguments.references, "Diagnoses of the whole scans, frozen");
   app.add_option("--seed", arguments.seed, "Of the first draw; each has the next");
   app.add_option("--draws", arguments.draws, "Of each scan");
+  app.add_option("--chart", arguments.chart, "Right names over false ones as a picture, to this SVG file");
   CLI11_PARSE(app, argc, argv);
   try {
-    if (arguments.each > 0) print("Sealed sets", on_sealed_sets(arguments));
-    if (!arguments.scans.empty()) print("Real scans with a cause added", on_scans(arguments));
+    std::vector<planted::CurveGroup> groups;
+    if (arguments.each > 0) groups.push_back({"Sealed sets", on_sealed_sets(arguments)});
+    if (!arguments.scans.empty()) groups.push_back({"Real scans with a cause added", on_scans(arguments)});
+    for (const planted::CurveGroup& group : groups) print(group.title, group.methods);
+    if (!arguments.chart.empty()) std::ofstream(arguments.chart, std::ios::binary) << planted::curves_svg(groups);
     return 0;
   } catch (const std::exception& trouble) {
     fmt::print(stderr, "{}\n", trouble.what());

@@ -92,4 +92,101 @@ std::string curves_table(const std::vector<Method>& methods) {
   return text;
 }
 
+namespace {
+
+constexpr double kMostWrong = 50.0;  // in 100 sets
+constexpr double kPanel = 300.0;     // width and height of the axes
+constexpr double kLeft = 60.0;
+constexpr double kTop = 40.0;
+constexpr double kPitch = kPanel + 80.0;
+constexpr std::array kColours = {"#888888", "#d95f02", "#7570b3", "#66a61e", "#e7298a", "#1b4f9c"};
+
+/// Where a panel has a share of right names at so many false ones.
+class Panel {
+ public:
+  Panel(const Method& method, double left) : method_(method), left_(left) {}
+  [[nodiscard]] std::string at(const CurvePoint& point) const {
+    const double wrong = std::min(kMostWrong, 100.0 * point.wrong / method_.sets);
+    const double right = static_cast<double>(point.right) / method_.hidden;
+    return fmt::format("{:.1f},{:.1f}", left_ + kPanel * wrong / kMostWrong, kTop + kPanel * (1.0 - right));
+  }
+
+ private:
+  const Method& method_;
+  double left_;
+};
+
+std::string curve_of(const Method& method, double left, const char* colour) {
+  const Panel panel(method, left);
+  std::string points;
+  const int most = static_cast<int>(kMostWrong * method.sets / 100.0);
+  CurvePoint last{-1, 0};
+  for (int wrong = 0; wrong <= most; ++wrong) {
+    CurvePoint here = at_most_wrong(method, wrong);
+    if (here.right == last.right && wrong != most) continue;
+    last = here;
+    points += panel.at({here.right, wrong}) + " ";
+  }
+  std::string text =
+      fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", points, colour);
+  const CurvePoint usual = at_threshold(method, method.usual);
+  if (100.0 * usual.wrong <= kMostWrong * method.sets) {
+    const std::string at = panel.at(usual);
+    const std::size_t comma = at.find(',');
+    text += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"4\" fill=\"{}\"/>\n",
+                        at.substr(0, comma), at.substr(comma + 1), colour);
+  }
+  return text;
+}
+
+std::string axes_at(double left, const std::string& title) {
+  std::string text = fmt::format(
+      "<rect x=\"{:g}\" y=\"{:g}\" width=\"{:g}\" height=\"{:g}\" fill=\"none\" stroke=\"#444\"/>\n"
+      "<text x=\"{:g}\" y=\"{:g}\" text-anchor=\"middle\" font-weight=\"bold\">{}</text>\n"
+      "<text x=\"{:g}\" y=\"{:g}\" text-anchor=\"middle\">false names in 100 sets</text>\n",
+      left, kTop, kPanel, kPanel, left + 0.5 * kPanel, kTop - 14.0, title, left + 0.5 * kPanel, kTop + kPanel + 36.0);
+  for (int tick = 0; tick <= 5; ++tick) {
+    const double x = left + kPanel * tick / 5.0;
+    const double y = kTop + kPanel * (1.0 - tick / 5.0);
+    text += fmt::format(
+        "<line x1=\"{0:g}\" y1=\"{1:g}\" x2=\"{2:g}\" y2=\"{1:g}\" stroke=\"#ddd\"/>\n"
+        "<text x=\"{3:g}\" y=\"{4:g}\" text-anchor=\"middle\">{5:g}</text>\n"
+        "<text x=\"{6:g}\" y=\"{7:g}\" text-anchor=\"end\">{8}</text>\n",
+        left, y, left + kPanel, x, kTop + kPanel + 16.0, kMostWrong * tick / 5.0, left - 6.0, y + 4.0, 20 * tick);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string curves_svg(const std::vector<CurveGroup>& groups) {
+  const double width = kLeft + kPitch * static_cast<double>(groups.size());
+  const double below = kTop + kPanel + 56.0;
+  const std::size_t methods = groups.empty() ? 0 : groups.front().methods.size();
+  const double height = below + 18.0 * static_cast<double>(methods) + 8.0;
+  std::string text = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:g} {:g}\" font-family=\"sans-serif\" "
+      "font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
+      "<text transform=\"translate(16 {:g}) rotate(-90)\" text-anchor=\"middle\">right names, % of the hidden "
+      "causes</text>\n",
+      width, height, kTop + 0.5 * kPanel);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const double left = kLeft + kPitch * static_cast<double>(g);
+    text += axes_at(left, groups[g].title);
+    for (std::size_t k = 0; k < groups[g].methods.size(); ++k) {
+      const Method& method = groups[g].methods[k];
+      if (method.sets > 0 && method.hidden > 0) text += curve_of(method, left, kColours[k % kColours.size()]);
+    }
+  }
+  for (std::size_t k = 0; k < methods; ++k) {
+    const double y = below + 18.0 * static_cast<double>(k);
+    text += fmt::format(
+        "<line x1=\"{0:g}\" y1=\"{1:g}\" x2=\"{2:g}\" y2=\"{1:g}\" stroke=\"{3}\" stroke-width=\"2\"/>\n"
+        "<text x=\"{4:g}\" y=\"{5:g}\">{6}</text>\n",
+        kLeft, y, kLeft + 30.0, kColours[k % kColours.size()], kLeft + 38.0, y + 4.0,
+        groups.front().methods[k].name);
+  }
+  return text + "</svg>\n";
+}
+
 }  // namespace chaintrue::planted

@@ -48,4 +48,13 @@ struct CurvePoint {
 /// usual threshold gives.
 [[nodiscard]] std::string curves_table(const std::vector<Method>& methods);
 
+/// Methods on the same sets.
+struct CurveGroup {
+  std::string title;
+  std::vector<Method> methods;
+};
+/// As SVG, a panel a group: right names, in % of the hidden ones, over false ones in 100 sets, up to 50; a dot where
+/// the usual threshold stands.
+[[nodiscard]] std::string curves_svg(const std::vector<CurveGroup>& groups);
+
 }  // namespace chaintrue::planted

@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kDenied = 0.5;
 constexpr double kBorneOut = 0.9;
+/// Below it nothing is claimed: of the dozens of causes nearly all are as unlikely as they should be.
+constexpr double kLeastClaim = 0.1;
 constexpr double kWasAbsent = 0.2;
 constexpr double kIsPresent = 0.8;
 const std::string kPlain = ":plain";
@@ -222,6 +224,20 @@ sealed::RateBounds clustered_bounds(const std::vector<Cluster>& clusters) {
           std::min(1.0, std::max(binomial.upper, rate + off))};
 }
 
+sealed::Calibration claims_held_against(const std::vector<Outcome>& outcomes,
+                                        const std::vector<Reference>& references) {
+  sealed::Calibration result;
+  for (const Outcome& o : outcomes) {
+    for (const Claim& claim : claims_in(o)) {
+      const bool planted = !o.hidden.empty() && claim.means(o.hidden.front());
+      const double there = probability_in(whole_scan(o, references), claim);
+      if (claim.probability >= kLeastClaim && (planted || there > kBorneOut || there < kDenied))
+        result.add(claim.probability, planted || there > kBorneOut);
+    }
+  }
+  return result;
+}
+
 std::string planted_table(const std::vector<Outcome>& outcomes,
                           const std::vector<Reference>& references) {
   std::vector<std::string> scans;
@@ -260,7 +276,10 @@ std::string planted_table(const std::vector<Outcome>& outcomes,
       text += " | | |\n";
     }
   }
-  return text;
+  const sealed::Calibration calibration = claims_held_against(outcomes, references);
+  return text + fmt::format("\nStated probabilities, {} claims whose truth is known: calibration error {:.3f}\n",
+                            calibration.claims(),
+                            calibration.error());
 }
 
 const std::vector<sealed::RateRow>& planted_rows() {

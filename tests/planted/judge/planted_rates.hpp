@@ -18,6 +18,7 @@
 
 #include "planted/judge/scan.hpp"
 #include "sealed/judge/binomial.hpp"
+#include "sealed/judge/calibration.hpp"
 #include "sealed/judge/rates.hpp"
 
 namespace chaintrue::planted {
@@ -47,6 +48,11 @@ struct Cluster {
 /// section 9A: the ratio estimate of a sample of clusters). 0 to 1 for a single scan, which says nothing
 /// about another.
 [[nodiscard]] sealed::RateBounds clustered_bounds(const std::vector<Cluster>& clusters);
+
+/// Of all claims of 0.1 and more whose truth is known: right are the planted cause and what the whole scan bears out,
+/// wrong what it denies.
+[[nodiscard]] sealed::Calibration claims_held_against(const std::vector<Outcome>& outcomes,
+                                                      const std::vector<Reference>& references);
 
 /// As Markdown: each scan, all together, binomial bounds and those clustered by scan.
 [[nodiscard]] std::string planted_table(const std::vector<Outcome>& outcomes,

@@ -134,11 +134,12 @@ Scan read_scan(const std::filesystem::path& scan, const std::filesystem::path& g
   return result;
 }
 
-grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid) {
+grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid, bool average_parts) {
   grid::diagnosis::DiagnosisOptions options;
   options.improvement = false;
   options.next_measurements = false;
   options.accept_class = true;
+  options.steps.average_parts = average_parts;
   auto found = grid::diagnosis::diagnose(grid, options);
   if (!found) throw std::runtime_error(found.error().sentence());
   return std::move(*found);

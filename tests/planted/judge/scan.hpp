@@ -50,6 +50,7 @@ struct DrawOptions {
                                 std::uint64_t seed,
                                 const DrawOptions& options = {});
 
-[[nodiscard]] grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid);
+/// `average_parts` false: with the probabilities of all readings at once (grid/diagnosis/bed_parts.hpp).
+[[nodiscard]] grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid, bool average_parts = true);
 
 }  // namespace chaintrue::planted

@@ -90,9 +90,13 @@ void about_one(const std::vector<Trial>& trials, Rows& rows) {
            }));
   rows.add("exact name, all", share_of(trials, leads_right));
   bins_of_delta(trials, rows);
+}
+
+void about_claims(const std::vector<Trial>& trials, Rows& rows) {
   const Honesty h = honesty(trials);
+  if (h.calibration.claims() == 0) return;
   rows.add("calibration error of stated probabilities",
-           fmt::format("{:.3f} over {} claims", h.calibration_error, h.claims));
+           fmt::format("{:.3f} over {} claims", h.calibration.error(), h.calibration.claims()));
   rows.add("claims of 95 % or more that are right", h.sure_right);
 }
 
@@ -230,27 +234,15 @@ std::string text(const Share& share) {
 }
 
 Honesty honesty(const std::vector<Trial>& trials) {
-  struct Bin {
-    double claimed = 0.0;
-    int right = 0;
-    int count = 0;
-  };
-  std::array<Bin, 10> bins{};
   Honesty result;
   for (const Trial& t : trials) {
-    const bool claims = t.verdict == Verdict::named || t.verdict == Verdict::named_set;
-    if (!claims || t.causes.empty()) continue;
-    const double p = t.causes.front().probability;
-    Bin& bin = bins[std::min<std::size_t>(9, static_cast<std::size_t>(10.0 * p))];
-    bin.claimed += p;
-    bin.right += leads_right(t) ? 1 : 0;
-    ++bin.count;
-    ++result.claims;
-    if (p >= 0.95) result.sure_right.count(leads_right(t));
-  }
-  for (const Bin& bin : bins) {
-    if (result.claims > 0) {
-      result.calibration_error += std::abs(bin.claimed - bin.right) / result.claims;
+    if (!names_something(t)) continue;
+    for (const NamedCause& named : t.causes) {
+      const bool right = std::any_of(t.hidden.begin(), t.hidden.end(), [&](const std::string& id) {
+        return means(named, id);
+      });
+      result.calibration.add(named.probability, right);
+      if (named.probability >= 0.95) result.sure_right.count(right);
     }
   }
   return result;
@@ -291,6 +283,7 @@ std::string markdown(const TrialOptions& options, const std::vector<Trial>& tria
       rows.add("false name", share_of(trials, names_something));
       break;
   }
+  about_claims(trials, rows);
   if (!trials.front().answer.pattern) {
     rows.add("a pattern told that is not there", share_of(trials, tells_pattern));
   }

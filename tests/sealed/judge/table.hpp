@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sealed/judge/calibration.hpp"
 #include "sealed/judge/trial.hpp"
 
 namespace chaintrue::sealed {
@@ -22,11 +23,9 @@ struct Share {
 };
 [[nodiscard]] std::string text(const Share& share);
 
-/// Mean difference between the stated probability of the best causes and their rate of being right,
-/// in ten bins; and that rate for probabilities of 0.95 or more.
+/// Of every cause that is named, alone, among several or in a set; and how often those of 0.95 and more act.
 struct Honesty {
-  double calibration_error = 0.0;
-  int claims = 0;
+  Calibration calibration;
   Share sure_right;
 };
 [[nodiscard]] Honesty honesty(const std::vector<Trial>& trials);

@@ -157,7 +157,7 @@ std::string page_of(const FittedAnchors& anchors,
   return report::render_html(document);
 }
 
-void add_types(py::module_& module) {
+void add_map_types(py::module_& module) {
   using grid::CompensationMap;
   py::class_<CompensationMap>(module, "Map")
       .def_property_readonly("name", [](const CompensationMap& map) { return map.contents().name; })
@@ -219,7 +219,7 @@ py::tuple reply(Parse parse) {
 }  // namespace
 
 void add_maps(py::module_& module) {
-  add_types(module);
+  add_map_types(module);
   module.def("fit", fit);
   module.def("fit_belts", fit_belts);
   module.def("parse_map", [](const std::string& text, const std::string& file) {

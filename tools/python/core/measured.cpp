@@ -91,7 +91,7 @@ py::tuple answer(files::ReadBelts read) { return answer(read, read.belts); }
 py::tuple answer(files::ReadMachine read) { return answer(read, read.machine); }
 py::tuple answer(files::ReadHoles read) { return answer(read, read); }
 
-void add_types(py::module_& module) {
+void add_measured_types(py::module_& module) {
   py::class_<model::Machine>(module, "Machine")
       .def_readonly("name", &model::Machine::name)
       .def("text", [](const model::Machine& machine) { return files::write_machine(machine); });
@@ -121,7 +121,7 @@ void add_types(py::module_& module) {
 }  // namespace
 
 void add_measured(py::module_& module) {
-  add_types(module);
+  add_measured_types(module);
   module.def("read_machine", [](const std::string& path) {
     return read_from_files([&] { return answer(files::read_machine_with_warnings(path)); });
   });
