@@ -152,6 +152,30 @@ tl::expected<Analysis, DiagnosisFailure> analysed_in(const VisitingOrderFound& o
   return analyse(*std::move(session), options);
 }
 
+/// An analysis, and the order of visits that it found and goes by.
+struct AnalysedInOrder {
+  Analysis analysis;
+  std::optional<VisitingOrderFound> order;
+};
+
+tl::expected<AnalysedInOrder, DiagnosisFailure> analysed_in_order(const Measured& measured,
+                                                                  ObservationSet session,
+                                                                  const DiagnosisOptions& options) {
+  const bool has_several = measured.files().size() > 1;
+  std::optional<VisitingOrderFound> order;
+  if (has_several && (order = find_order_of_first(measured, options))) {
+    if (auto ordered = analysed_in(*order, measured, options))
+      return AnalysedInOrder{*std::move(ordered), order};
+  }
+  auto analysis = analyse(std::move(session), options);
+  if (!analysis) return tl::unexpected(analysis.error());
+  if (!has_several && (order = find_visiting_order(measured, *analysis))) {
+    if (auto ordered = analysed_in(*order, measured, options))
+      return AnalysedInOrder{*std::move(ordered), order};
+  }
+  return AnalysedInOrder{*std::move(analysis), std::nullopt};
+}
+
 }  // namespace
 
 tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
@@ -160,17 +184,9 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   if (!session) return tl::unexpected(session.error());
   if (const auto slip = suspected_slip(measured)) return tl::unexpected(*slip);
   tell(options.progress, kComparing);
-  auto analysis = analyse(*std::move(session), options);
-  if (!analysis) return tl::unexpected(analysis.error());
-  auto order = find_visiting_order(measured, *analysis);
-  if (order) {
-    if (auto ordered = analysed_in(*order, measured, options)) {
-      analysis = std::move(ordered);
-    } else {
-      order.reset();
-    }
-  }
-  Analysis& a = *analysis;
+  auto analysed = analysed_in_order(measured, *std::move(session), options);
+  if (!analysed) return tl::unexpected(analysed.error());
+  auto& [a, order] = *analysed;
   const LawsFound laws = laws_found(a);
   Diagnosis d;
   d.visiting_order = order;

@@ -205,15 +205,16 @@ std::vector<double> order_probabilities(const Measured& measured, const Analysis
   return result;
 }
 
+std::optional<VisitingOrderFound> find_order_of_first(const Measured& measured, const DiagnosisOptions& options) {
+  const auto first = grid_alone(measured);
+  if (!first) return std::nullopt;
+  auto session = observations_of(*first);
+  if (!session) return std::nullopt;
+  const auto own = analyse(*std::move(session), options);
+  return own ? find_visiting_order(*first, *own) : std::nullopt;
+}
+
 std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured, const Analysis& analysis) {
-  if (measured.files().size() > 1) {
-    const auto first = grid_alone(measured);
-    if (!first) return std::nullopt;
-    auto session = observations_of(*first);
-    if (!session) return std::nullopt;
-    const auto own = analyse(*std::move(session), analysis.options);
-    return own ? find_visiting_order(*first, *own) : std::nullopt;
-  }
   const std::vector<double> probabilities = order_probabilities(measured, analysis);
   const std::vector<VisitingOrder> orders = line_by_line_orders();
   const auto best = static_cast<std::size_t>(

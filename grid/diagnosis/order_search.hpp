@@ -31,10 +31,14 @@ namespace chaintrue::grid::diagnosis {
 
 /// An order that the readings of a grid without numbers of visits say at least kOrderFound; its corner only
 /// where no mark was measured again, which somebody may have done between any two others. Nothing where
-/// a grid has an order, or its marks stand in no lines. Of several files the first, whose order alone has a part in
-/// a diagnosis, is analysed by itself with the options of `analysis`; nothing where it is no grid.
+/// the grid has an order, or its marks stand in no lines. \pre `analysis` is of this one file.
 [[nodiscard]] std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured,
                                                                     const Analysis& analysis);
+
+/// The same of the first of several files, analysed by itself: its order alone has a part in their diagnosis. Nothing
+/// where it is no grid, or another grid has an order.
+[[nodiscard]] std::optional<VisitingOrderFound> find_order_of_first(const Measured& measured,
+                                                                    const DiagnosisOptions& options);
 
 /// p(o) of each of line_by_line_orders(); 0 for those that the marks do not have. \pre one file.
 [[nodiscard]] std::vector<double> order_probabilities(const Measured& measured, const Analysis& analysis);

@@ -72,7 +72,7 @@ std::vector<Claim> claims_of(const grid::diagnosis::Diagnosis& found) {
   std::vector<Claim> claims;
   for (const auto& h : found.hypotheses) {
     const bool is_cause = h.effect != "nothing" && h.effect != "unknown" && h.effect != "noise" &&
-                          h.effect != "bad_points";
+                          h.effect != "bad_points" && h.effect != "law";
     if (!is_cause || h.probability < kLeastWritten) continue;
     Claim claim{{id_of(h)}, std::round(1e4 * h.probability) / 1e4};
     // A hypothesis has the name of its class; the table of terms has all members, with the class's
