@@ -92,6 +92,24 @@ void about_one(const std::vector<Trial>& trials, Rows& rows) {
   bins_of_delta(trials, rows);
 }
 
+/// What another threshold on a name's probability would give and take.
+void about_thresholds(const std::vector<Trial>& trials, Rows& rows) {
+  for (const double least : {0.5, 0.9, 0.95, 0.99, 0.999}) {
+    const auto names = [&](bool right) {
+      return share_of(trials, [&](const Trial& t) {
+        return names_outright(t) && std::any_of(t.causes.begin(), t.causes.end(), [&](const NamedCause& c) {
+                 const bool acts = std::any_of(t.hidden.begin(), t.hidden.end(), [&](const std::string& id) {
+                   return means(c, id);
+                 });
+                 return c.probability >= least && acts == right;
+               });
+      });
+    };
+    rows.add(fmt::format("a name of {:g} and more: right; wrong", least),
+             fmt::format("{:.1f} %; {:.1f} %", 100.0 * names(true).value(), 100.0 * names(false).value()));
+  }
+}
+
 void about_claims(const std::vector<Trial>& trials, Rows& rows) {
   const Honesty h = honesty(trials);
   if (h.calibration.claims() == 0) return;
@@ -284,6 +302,7 @@ std::string markdown(const TrialOptions& options, const std::vector<Trial>& tria
       break;
   }
   about_claims(trials, rows);
+  about_thresholds(trials, rows);
   if (!trials.front().answer.pattern) {
     rows.add("a pattern told that is not there", share_of(trials, tells_pattern));
   }
