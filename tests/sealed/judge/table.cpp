@@ -303,7 +303,8 @@ std::string markdown(const TrialOptions& options, const std::vector<Trial>& tria
   }
   about_claims(trials, rows);
   about_thresholds(trials, rows);
-  if (!trials.front().answer.pattern) {
+  const bool hides_pattern = trials.front().answer.pattern || options.recipe.kind == Mix::unlisted;
+  if (!hides_pattern) {
     rows.add("a pattern told that is not there", share_of(trials, tells_pattern));
   }
   about_errors(trials, rows);
