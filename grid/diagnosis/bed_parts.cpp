@@ -201,14 +201,15 @@ std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system,
   }
   std::vector<SessionPosterior> result;
   if (units.size() < 2) return result;
+  const Downdating downdating(system, comparison, noise_dof, followed_of(system));
   for (std::size_t session = 0; session < units.size(); ++session) {
     if (units[session] < std::max<std::size_t>(fewest, 1)) continue;
     BedPart others;
     for (std::size_t u = 0; u < system.units.size(); ++u) {
       if (system.units[u].observation != session) others.units.push_back(u);
     }
-    result.push_back({session, units[session],
-                      posterior_without(system, noise_dof, comparison, std::move(others))});
+    const std::vector<double> own = downdating.probabilities_without(others.units, CountAs::themselves);
+    result.push_back({session, units[session], summary(system, downdating.followed(), own, std::move(others))});
   }
   if (result.size() < 2) result.clear();
   return result;
