@@ -308,6 +308,7 @@ TEST(Sessions, AreWeighedByThemselvesBesideAPattern) {
   both.add({"two.json", session({kLongLeftOfParts}, 12)});
   const auto d = diagnose(both, verdict_alone());
   ASSERT_TRUE(d) << d.error().sentence();
+  ASSERT_FALSE(d->bed_parts.empty()) << "nothing was averaged: " << d->sentence;
   ASSERT_EQ(d->sessions.size(), 2U) << d->sentence;
   for (const PartFinding& own : d->sessions) {
     ASSERT_EQ(own.named.size(), 1U);
