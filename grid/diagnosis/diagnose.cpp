@@ -228,8 +228,8 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   }
   put_into_words(a, d);
   if (d.visiting_order) {
-    const std::string session = measured.files().size() > 1 ? measured.files().front().name : "";
-    d.notes.insert(d.notes.begin(), in_words(*d.visiting_order, session));
+    const std::string whose = measured.files().size() > 1 ? measured.files().front().name : "";
+    d.notes.insert(d.notes.begin(), in_words(*d.visiting_order, whose));
   }
   note_zeros(sessions, a, d);
   state_input(measured, d);
