@@ -1,341 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file
-/// Files, machine and messages of `chaintrue gcode`.
 #include "tools/cli/gcode_job.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
 
-#include "grid/belts/belt_map.hpp"
-#include "grid/files/anchors_file.hpp"
 #include "grid/files/file_identity.hpp"
 #include "grid/files/input_error.hpp"
-#include "grid/files/parse_double.hpp"
 #include "grid/files/sha256.hpp"
 #include "grid/files/sources.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/map/map_for_settings.hpp"
-#include "grid/map/map_in_frame.hpp"
-#include "grid/plotter/plotter_map.hpp"
-#include "model/belts/belt_controller.hpp"
-#include "model/plotter/plotter_commands.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/cli/settings_file.hpp"
-#include "tools/cli/start_plotter.hpp"
 
 namespace chaintrue::cli {
-namespace {
 
 using grid::files::InputError;
-using grid::files::InputProblem;
 
-struct KindName {
-  std::string_view name;
-  model::ControllerKind kind;
-};
-
-constexpr KindName kKinds[] = {
-    {"maslow_classic", model::ControllerKind::maslow_classic},
-    {"holey", model::ControllerKind::holey},
-    {"fluidnc_wallplotter", model::ControllerKind::fluidnc_wallplotter},
-    {"ideal", model::ControllerKind::ideal},
-};
-
-constexpr std::string_view kFourBeltsName = "maslow4";
-constexpr std::string_view kMarlinName = "marlin";
-
-bool number(std::string_view text, double& value) {
-  const auto [end, error] =
-      grid::files::parse_double(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
-}
+namespace {
 
 int exit_code(gcode::ProblemName name) {
   return gcode::kind(name) == gcode::ProblemKind::bad_input ? kBadInput : kNotSupportedOrOutside;
 }
 
 }  // namespace
-
-gcode::Dialect GcodeOptions::dialect() const {
-  gcode::Dialect dialect;
-  dialect.skip_deletable_blocks = skip_deletable;
-  dialect.tools_have_no_diameter = tools_have_no_diameter;
-  dialect.passes_plotter_codes = map_file && map_file->kind == FileKind::plotter;
-  dialect.step_budget = step_budget;
-  return dialect;
-}
-
-model::BedPoint GcodeOptions::home_mm() const {
-  const std::string_view text = home;
-  const std::size_t comma = text.find(',');
-  model::BedPoint point;
-  if (comma == std::string_view::npos || !number(text.substr(0, comma), point.x_mm) ||
-      !number(text.substr(comma + 1), point.y_mm)) {
-    throw InputError(
-        {{"--home", "", home, "two numbers in mm with a comma between, such as 120,-40"}});
-  }
-  return point;
-}
-
-const gcode::Firmware* stated_firmware(std::string_view name) {
-  if (name == kFourBeltsName) return &gcode::firmware_of_four_belts();
-  if (name == kMarlinName) return &gcode::firmware(model::PlotterFirmware::marlin);
-  const auto kind = controller_kind(name);
-  return kind ? &gcode::firmware(*kind) : nullptr;
-}
-
-std::optional<model::ControllerKind> controller_kind(std::string_view name) {
-  for (const KindName& kind : kKinds) {
-    if (kind.name == name) return kind.kind;
-  }
-  return std::nullopt;
-}
-
-namespace {
-
-interp::Rectangle rectangle_of(const model::Bed& bed) {
-  return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
-}
-
-/// That of the anchors, where commands count from at 0, 0.
-interp::Rectangle rectangle_of(const model::BeltMachine& machine) {
-  const auto& anchors = machine.anchors;
-  const model::FramePoint centre = model::centre_of(machine);
-  return {std::min(anchors.tl.x_mm, anchors.bl.x_mm) - centre.x_mm,
-          std::max(anchors.tr.x_mm, anchors.br.x_mm) - centre.x_mm,
-          std::min(anchors.bl.y_mm, anchors.br.y_mm) - centre.y_mm,
-          std::max(anchors.tl.y_mm, anchors.tr.y_mm) - centre.y_mm};
-}
-
-/// By the names that a Maslow 4 has for them.
-std::vector<grid::files::NamedSetting> settings_of(const model::BeltMachine& machine) {
-  std::vector<grid::files::NamedSetting> settings;
-  for (const model::Belt belt : model::kBelts) {
-    const model::Anchor& anchor = machine.anchors[belt];
-    for (const auto& [axis, value] : {std::pair('X', anchor.x_mm), std::pair('Y', anchor.y_mm)})
-      settings.push_back(
-          {fmt::format("{}{}", model::name(belt), axis), fmt::format("{:.4f}", value)});
-  }
-  settings.push_back({"Scale_X", fmt::format("{:.6g}", machine.scale_x)});
-  settings.push_back({"Scale_Y", fmt::format("{:.6g}", machine.scale_y)});
-  return settings;
-}
-
-GcodeController controller_of_belts(const GcodeOptions& options, const GcodeTarget& target) {
-  if (!options.controller.empty() && options.controller != kFourBeltsName) {
-    throw InputError({{"--controller",
-                       "",
-                       options.controller,
-                       "\"maslow4\", or to be left out: anchors of four belts are of a Maslow 4"}});
-  }
-  const model::BeltMachine believed =
-      options.machine.empty() ? *target.belts_in_force() : read_belt_machine_input(options.machine);
-  return {std::make_unique<const model::BeltController>(believed),
-          &gcode::firmware_of_four_belts(),
-          std::nullopt,
-          rectangle_of(believed),
-          {},
-          settings_of(believed)};
-}
-
-interp::Rectangle rectangle_of(const grid::SetPlotter& set) {
-  const model::DrawingArea& area = set.machine.area;
-  const model::BedPoint& by = set.pins_middle;
-  return {area.left_mm + by.x_mm,
-          area.right_mm + by.x_mm,
-          area.bottom_mm + by.y_mm,
-          area.top_mm + by.y_mm};
-}
-
-/// By the names that a chaintrue_plotter file has for them.
-std::vector<grid::files::NamedSetting> settings_of(const grid::SetPlotter& set) {
-  const model::PlotterMachine& m = set.machine;
-  return {{"firmware", std::string(model::name(set.firmware))},
-          {"pin_spacing_mm", fmt::format("{:.4f}", m.pin_spacing_mm)},
-          {"pin_rise_mm", fmt::format("{:.4f}", m.pin_rise_mm)},
-          {"zero", fmt::format("{:.4f} {:.4f}", m.zero_mm.left_mm, m.zero_mm.right_mm)},
-          {"scale",
-           fmt::format("{:.6f} {:.6f}", m.scale_mm_per_m.left_mm, m.scale_mm_per_m.right_mm)}};
-}
-
-/// What the controller of a V-plotter holds now.
-GcodeController controller_of_plotter(const GcodeOptions& options, const GcodeTarget& target) {
-  const grid::SetPlotter set = options.machine.empty()
-                                   ? target.plotter()->set
-                                   : load_plotter(open_input(options.machine)).plotter.set;
-  if (set.firmware != target.plotter()->set.firmware) {
-    throw InputError({{options.machine,
-                       "/set/firmware",
-                       std::string(model::name(set.firmware)),
-                       fmt::format("\"{}\", as in {}",
-                                   model::name(target.plotter()->set.firmware),
-                                   options.map)}});
-  }
-  const auto firmware = std::make_shared<gcode::Firmware>(gcode::firmware(set.firmware));
-  if (firmware->pieces_per_second > 0.0) firmware->pieces_per_second = set.segments_per_second;
-  if (!options.controller.empty() && options.controller != firmware->name) {
-    throw InputError({{"--controller",
-                       "",
-                       options.controller,
-                       fmt::format("\"{}\", or to be left out: the plotter's file says what its "
-                                   "controller is",
-                                   firmware->name)}});
-  }
-  return {std::make_unique<const model::PlotterController>(
-              set.firmware, set.machine, set.pins_middle),
-          firmware.get(),
-          std::nullopt,
-          rectangle_of(set),
-          {},
-          settings_of(set),
-          firmware};
-}
-
-model::Machine believed_machine(const GcodeOptions& options, const grid::CompensationMap& map) {
-  if (!options.machine.empty()) return read_machine_input(options.machine);
-  const auto stated = grid::stated_machine(map);
-  if (!options.settings.empty()) {
-    const SettingsFile now = read_settings_file(options.settings);
-    const auto in_place = controller_kind(options.controller);
-    return stated ? with_settings(*stated, now, in_place ? &*in_place : nullptr) : now.read.machine;
-  }
-  if (stated) return *stated;
-  throw InputError({{options.map,
-                     "",
-                     "",
-                     fmt::format("a map that knows its machine; this one does not, so say with {} "
-                                 "what the controller believes",
-                                 options.machine_option)}});
-}
-
-/// Where --controller names another than the map was measured with.
-void say_other_controller(const grid::CompensationMap& map, model::ControllerKind kind) {
-  if (map.machine() == nullptr || map.machine()->controller.kind == kind) return;
-  fmt::print(stderr,
-             "The map was measured with the controller {}; --controller {} takes its place.\n",
-             name_of(map.machine()->controller.kind),
-             name_of(kind));
-}
-
-GcodeController controller_of(const GcodeOptions& options, const GcodeTarget& target) {
-  if (target.plotter() != nullptr) return controller_of_plotter(options, target);
-  if (target.map() == nullptr) return controller_of_belts(options, target);
-  if (options.controller == kMarlinName) {
-    throw InputError({{"--controller",
-                       "",
-                       options.controller,
-                       "a controller of a router: Marlin's is of a V-plotter, whose drawing's fit takes "
-                       "the map's place"}});
-  }
-  model::Machine machine = believed_machine(options, *target.map());
-  if (const auto kind = controller_kind(options.controller)) {
-    say_other_controller(*target.map(), *kind);
-    machine.controller.kind = *kind;
-  }
-  return {model::make_controller_kinematics(machine),
-          &gcode::firmware(machine.controller.kind),
-          gcode::clamp_box(machine),
-          rectangle_of(machine.bed),
-          gcode::half_play_mm(machine),
-          grid::files::settings_in_force(machine)};
-}
-
-}  // namespace
-
-GcodeTarget::GcodeTarget(const GcodeOptions& options) : GcodeTarget(of_any(options)) {}
-
-GcodeTarget::GcodeTarget(Parts parts)
-    : source_(std::move(parts.source)),
-      target_(std::move(parts.target)),
-      on_trust_(std::move(parts.on_trust)),
-      in_belts_mm_(std::move(parts.in_belts_mm)) {}
-
-const grid::CompensationMap* GcodeTarget::map() const {
-  const auto* map = std::get_if<std::unique_ptr<const grid::CompensationMap>>(&source_);
-  return map == nullptr ? nullptr : map->get();
-}
-
-const grid::KnownPlotter* GcodeTarget::plotter() const {
-  return std::get_if<grid::KnownPlotter>(&source_);
-}
-
-const model::BeltMachine* GcodeTarget::belts_in_force() const {
-  return std::get_if<model::BeltMachine>(&source_);
-}
-
-GcodeTarget::Parts GcodeTarget::of_any(const GcodeOptions& options) {
-  if (options.map_file->kind == FileKind::anchors) return of_belts(options);
-  return options.map_file->kind == FileKind::plotter ? of_plotter(options) : of_map(options);
-}
-
-GcodeTarget::Parts GcodeTarget::of_plotter(const GcodeOptions& options) {
-  const grid::KnownPlotter plotter = load_plotter(*options.map_file).plotter;
-  return {plotter, load_plotter_map(*options.map_file, plotter), ""};
-}
-
-GcodeTarget::Parts GcodeTarget::of_belts(const GcodeOptions& options) {
-  const grid::files::FittedAnchors found = load_anchors(*options.map_file);
-  const grid::HolesWithBelts* holes = found.holes ? &*found.holes : nullptr;
-  if (holes == nullptr && !found.fit.coordinates.front().stated_mm) {
-    OptionProblems problems;
-    problems.add("--map",
-                 options.map,
-                 "anchors fitted to a file that states those in force: where commands count from "
-                 "follows from them (import maslow4 --settings maslow.yaml)");
-    problems.throw_if_any();
-  }
-  auto map = std::make_unique<const grid::BeltMap>(found.fit, holes);
-  std::unique_ptr<const grid::LengthMap> in_belts_mm;
-  if (!found.fit.scale) {
-    grid::BeltsFit taken_as_true = found.fit;
-    taken_as_true.scale = grid::BeltScale{};
-    in_belts_mm = std::make_unique<const grid::BeltMap>(taken_as_true, holes);
-    fmt::print(stderr,
-               "The scale is not known: parts come out as true as a turn of the encoder is {:g} mm "
-               "of belt. One long taped distance, or holes, tells it.\n",
-               found.fit.machine.belt_turn_mm);
-  }
-  const model::BeltMachine in_force = map->in_force();
-  return {in_force, std::move(map), "", std::move(in_belts_mm)};
-}
-
-GcodeTarget::Parts GcodeTarget::of_map(const GcodeOptions& options) {
-  if (options.controller == kFourBeltsName) {
-    throw InputError({{options.map,
-                       "/file_type",
-                       "",
-                       "\"chaintrue_anchors\", as chaintrue fit makes of belts: a Maslow 4 goes by "
-                       "these in place of a map"}});
-  }
-  LoadedMap loaded = load_map(*options.map_file);
-  auto map = std::make_unique<const grid::CompensationMap>(std::move(loaded.map));
-  auto target = std::make_unique<const grid::MapInFrame>(
-      *map, options.frame == "bed" ? grid::MapFrame::bed : grid::MapFrame::marks);
-  return {std::move(map), std::move(target), std::move(loaded.on_trust)};
-}
-
-GcodeMachine::GcodeMachine(const GcodeOptions& options)
-    : target_(options),
-      controller_(controller_of(options, target_)),
-      corrector_(target_.target(), *controller_.kinematics, *controller_.firmware) {}
-
-interp::Rectangle sheet_of(const GcodeOptions& options) {
-  if (options.machine.empty()) return rectangle_of(model::Bed{});
-  const FileKind kind = open_input(options.machine).kind;
-  if (kind == FileKind::plotter)
-    return rectangle_of(load_plotter(open_input(options.machine)).plotter.set);
-  const bool of_belts = kind == FileKind::belts || kind == FileKind::anchors;
-  return of_belts ? rectangle_of(read_belt_machine_input(options.machine))
-                  : rectangle_of(read_machine_input(options.machine).bed);
-}
 
 void check_limits(const GcodeOptions& options, OptionProblems& problems) {
   const double least_mm = gcode::least_tolerance_mm(options.decimals);

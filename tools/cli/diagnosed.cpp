@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/diagnosed.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "grid/belts/belts_error.hpp"
+#include "grid/diagnosis/anchors_with_causes.hpp"
+#include "grid/diagnosis/diagnose.hpp"
+#include "grid/files/belts_file.hpp"
+#include "grid/files/drawing_file.hpp"
+#include "tools/cli/assumed_order.hpp"
+#include "tools/cli/effect_argument.hpp"
+#include "tools/cli/option_rules.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/progress.hpp"
+
+namespace chaintrue::cli {
+
+namespace files = grid::files;
+using grid::diagnosis::Diagnosis;
+
+namespace {
+
+void assume_order(const DiagnoseCommand& command, grid::MeasuredGrid& measured) {
+  if (command.assume_order.empty()) return;
+  OptionProblems problems;
+  if (std::any_of(measured.points.begin(), measured.points.end(), [](const auto& point) {
+        return point.order.has_value();
+      })) {
+    problems.add("--assume-order",
+                 command.assume_order,
+                 "to be left out, since these points say in which order they were visited");
+    problems.throw_if_any();
+  }
+  const auto numbers = grid::visit_numbers(measured.points, *order_from_word(command.assume_order));
+  if (!numbers) {
+    problems.add("--assume-order", command.assume_order, numbers.error());
+    problems.throw_if_any();
+  }
+  for (std::size_t i = 0; i < measured.points.size(); ++i) measured.points[i].order = (*numbers)[i];
+}
+
+std::string sentence_of(const std::string& path, const grid::diagnosis::DiagnosisFailure& failure) {
+  return fmt::format("{}: {}", files::name_in_messages(path), failure.sentence());
+}
+
+/// "28 points and 20 distances"
+std::string counted(const grid::Measured& measured) {
+  std::size_t points = 0;
+  std::size_t distances = 0;
+  for (const auto* own : measured.grids()) points += own->points.size();
+  for (const auto* set : measured.holes()) distances += set->distances.size();
+  if (distances == 0) return fmt::format("{} points", points);
+  if (points == 0) return fmt::format("{} distances", distances);
+  return fmt::format("{} points and {} distances", points, distances);
+}
+
+/// The cost grows with the square of the number and more (docs/reliability.md): these take half a
+/// minute, and more would name nothing else.
+constexpr std::size_t kMostDiagnosed = 1200;
+
+/// Empty where there are not too many.
+std::string too_many_to_diagnose(const grid::Measured& measured) {
+  std::size_t units = 0;
+  for (const auto* own : measured.grids()) units += own->points.size();
+  for (const auto* set : measured.holes()) units += set->distances.size();
+  if (units <= kMostDiagnosed) return {};
+  return fmt::format(
+      "{} are more than a diagnosis takes ({}): leave some out, evenly over the bed, and keep "
+      "those that were measured twice; chaintrue fit takes them all",
+      counted(measured),
+      kMostDiagnosed);
+}
+
+/// Readings better than the simulation is computed over a bed.
+void note_fine_readings(const grid::Measured& measured, Diagnosis& found) {
+  constexpr double kFinestMm = 0.01;
+  for (const auto* own : measured.grids()) {
+    if (!own->noise || own->noise->length_mm >= kFinestMm) continue;
+    found.notes.push_back(
+        fmt::format("You said that the readings are good to {} mm, finer than the simulation can "
+                    "compute over a bed; {} mm was used instead.",
+                    own->noise->length_mm,
+                    kFinestMm));
+  }
+}
+
+DiagnosisOutcome diagnosis_of(const DiagnoseCommand& command, const grid::Measured& measured) {
+  grid::diagnosis::DiagnosisOptions options;
+  options.seed = command.seed;
+  options.order_assumed = !command.assume_order.empty();
+  options.accept_class = command.accept_class;
+  options.progress = shown_progress();
+  auto found = grid::diagnosis::diagnose(measured, options);
+  if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
+  if (found->grid_name.empty()) found->grid_name = file_name(command.input.grid);
+  return *std::move(found);
+}
+
+/// How well what was found predicts the grid of --held-out.
+tl::expected<grid::diagnosis::Transfer, std::string> held_out(const DiagnoseCommand& command,
+                                                              const grid::MeasuredGrid& measured,
+                                                              const Diagnosis& found) {
+  GridInput other = command.input;
+  other.grid = command.held_out;
+  const grid::MeasuredGrid to = read_grid_input(other);
+  auto transferred = grid::diagnosis::transfer(measured, found, to);
+  if (!transferred) return tl::unexpected(sentence_of(command.held_out, transferred.error()));
+  if (transferred->to.empty())
+    transferred->to = to.name.empty() ? file_name(command.held_out) : to.name;
+  return *std::move(transferred);
+}
+
+/// The number that a fit of the same belts begins with.
+std::optional<grid::ErrorSummary> tool_today(const grid::MeasuredBelts& belts) {
+  const auto fit = grid::diagnosis::fit_with_causes(belts);
+  const auto error = fit ? grid::error_of_belts(*fit) : std::nullopt;
+  return error ? error->today : std::nullopt;
+}
+
+}  // namespace
+
+std::string file_name(const std::string& path) {
+  return path == "-" ? "standard input" : std::filesystem::path(path).filename().string();
+}
+
+DiagnosisOutcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
+  if (grid::MeasuredGrid* own = measured.first_grid()) assume_order(command, *own);
+  if (const std::string sentence = too_many_to_diagnose(measured); !sentence.empty()) {
+    return tl::unexpected(
+        fmt::format("{}: {}", files::name_in_messages(command.input.grid), sentence));
+  }
+  auto found = diagnosis_of(command, measured);
+  if (!found) return found;
+  note_fine_readings(measured, *found);
+  if (!command.assume_order.empty()) {
+    found->notes.insert(found->notes.begin(),
+                        fmt::format("The visiting order was not measured but assumed: {}, lines "
+                                    "from the top left.",
+                                    command.assume_order));
+  }
+  if (command.held_out.empty()) return found;
+  auto transferred = held_out(command, *measured.first_grid(), *found);
+  if (!transferred) return tl::unexpected(transferred.error());
+  found->transferred = *std::move(transferred);
+  return found;
+}
+
+DiagnosisOutcome diagnosed_belts(const DiagnoseCommand& command, const InputFile& file) {
+  const std::vector<std::size_t> without = points_left_out(command.without);
+  const files::ReadBelts read = load_belts(file, "a diagnosis", without);
+  // Twice as many take four times as long (docs/maslow4.md).
+  constexpr std::size_t kMostPlaces = 2000;
+  if (read.belts.points.size() > kMostPlaces) {
+    return tl::unexpected(
+        fmt::format("{}: {} places are more than a diagnosis takes ({}): leave some out, evenly "
+                    "over the sheet; "
+                    "chaintrue fit takes them all",
+                    file.name,
+                    read.belts.points.size(),
+                    kMostPlaces));
+  }
+  grid::diagnosis::DiagnosisOptions options;
+  options.seed = command.seed;
+  options.progress = shown_progress();
+  auto found = grid::diagnosis::diagnose(
+      read.belts, files::indices_without(read.belts.points.size(), without), options);
+  if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
+  if (found->grid_name.empty()) found->grid_name = file_name(command.input.grid);
+  found->tool_today = tool_today(read.belts);
+  return *std::move(found);
+}
+
+DiagnosisOutcome diagnosed_drawing(const DiagnoseCommand& command, const InputFile& file) {
+  grid::diagnosis::DiagnosisOptions options;
+  options.seed = command.seed;
+  options.progress = shown_progress();
+  auto found = grid::diagnosis::diagnose(files::parse_drawing(file.text, file.name), options);
+  if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
+  if (found->grid_name.empty()) found->grid_name = file_name(command.input.grid);
+  return *std::move(found);
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// From the options of `chaintrue diagnose` and what was read to a diagnosis.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/diagnosis/diagnosis.hpp"
+#include "tools/cli/grid_input.hpp"
+#include "tools/cli/input_file.hpp"
+
+namespace chaintrue::cli {
+
+struct DiagnoseCommand {
+  GridInput input;
+  TapeInput tape;
+  std::vector<std::string> with;
+  std::string output;
+  std::string report;
+  std::string extended_machine;
+  std::string corrected_grid;
+  std::string law;
+  std::string held_out;
+  std::string before;
+  std::string assume_order;
+  bool accept_class = false;
+  std::string without;  ///< points of belts, from 1
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
+/// Or the sentence why there is none.
+using DiagnosisOutcome = tl::expected<grid::diagnosis::Diagnosis, std::string>;
+
+/// Grids and holes; an order that was assumed is put into `measured`.
+[[nodiscard]] DiagnosisOutcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured);
+/// Belts are diagnosed by themselves, on the machine in their own file.
+[[nodiscard]] DiagnosisOutcome diagnosed_belts(const DiagnoseCommand& command, const InputFile& file);
+/// A test drawing is diagnosed by itself, on the plotter in its own file.
+[[nodiscard]] DiagnosisOutcome diagnosed_drawing(const DiagnoseCommand& command,
+                                                 const InputFile& file);
+
+/// Without its folders.
+[[nodiscard]] std::string file_name(const std::string& path);
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/diagnosis_files.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "grid/diagnosis/law_declaration.hpp"
+#include "grid/files/effect_file.hpp"
+#include "grid/files/grid_file.hpp"
+#include "grid/files/input_error.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/map/corrected_data.hpp"
+#include "tools/cli/diagnosis_words.hpp"
+
+namespace chaintrue::cli {
+
+namespace files = grid::files;
+using grid::diagnosis::Diagnosis;
+
+std::string corrected_grid_text(const Diagnosis& found,
+                                grid::MeasuredGrid measured,
+                                bool order_assumed) {
+  measured.machine = found.extended_machine;
+  measured.machine->effects.insert(measured.machine->effects.end(),
+                                   found.data_corrections.begin(),
+                                   found.data_corrections.end());
+  auto corrected = grid::corrected_data(measured);
+  if (!corrected)
+    throw files::InputError({{"corrected grid", "", "", corrected.error().sentence()}});
+  for (auto& point : corrected->grid.points) {
+    if (order_assumed) point.order.reset();
+  }
+  return files::write_grid(corrected->grid);
+}
+
+std::string extended_machine_text(const Diagnosis& found, const std::string& source) {
+  std::string named;
+  for (const auto& cause : found.causes) {
+    named += fmt::format("{}{}", named.empty() ? "" : "; ", cause_title(cause.cause));
+  }
+  std::vector<std::string> comments = {
+      fmt::format("Made by chaintrue diagnose from {}: settings calibrated, named: {}.",
+                  source,
+                  named.empty() ? "nothing" : named)};
+  for (const auto& correction : found.data_corrections) {
+    comments.push_back(
+        fmt::format("Not in here, because it belongs to the data: {}.", cause_title(correction)));
+  }
+  return files::write_machine(found.extended_machine, comments);
+}
+
+tl::expected<std::string, std::string> law_text(const Diagnosis& found) {
+  const std::vector<grid::diagnosis::Law> none;
+  const auto declaration = grid::diagnosis::declaration_of(
+      found.unexplained ? found.unexplained->laws : none, found.extended_machine.bed);
+  if (!declaration) return tl::unexpected(declaration.error());
+  return files::write_effect(*declaration);
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The options of `chaintrue gcode`, and which map, machine and controller they name.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "grid/files/controller_settings.hpp"
+#include "grid/map/compensation_map.hpp"
+#include "grid/plotter/found_plotter.hpp"
+#include "tools/cli/input_file.hpp"
+#include "tools/cli/verb.hpp"
+#include "tools/gcode/compensator.hpp"
+
+namespace chaintrue::cli {
+
+struct GcodeOptions {
+  Verb verb;
+  std::string program;
+  std::string other;  ///< verify: the file that is run
+  std::string map;
+  /// Of --map; opened before any verb begins.
+  std::optional<InputFile> map_file;
+  std::string machine;
+  /// What a message calls the option of `machine`, with others in its place.
+  std::string machine_option = "--machine or --settings";
+  /// What the controller holds now.
+  std::string settings;
+  std::string controller;
+  std::string frame = "marks";
+  std::string home = "0,0";
+  std::string output = "-";
+  std::string report;  ///< compensate: a page with a picture
+  double tolerance_mm = 0.05;
+  double every_mm = 10.0;
+  double largest_correction_mm = 30.0;
+  double steepest_correction = 0.05;
+  int decimals = 3;
+  std::uint64_t step_budget = gcode::Dialect{}.step_budget;
+  bool keep_rapids_whole = false;
+  bool home_is_zero = false;
+  bool skip_deletable = false;
+  bool tools_have_no_diameter = false;
+  bool no_verify = false;  ///< compensate: write without having run the output
+  bool forced = false;     ///< compensate: even with a map that is not to be cut with
+  bool json = false;
+
+  [[nodiscard]] gcode::Dialect dialect() const;
+  /// Of --home. \throws InputError where it is no pair of numbers.
+  [[nodiscard]] model::BedPoint home_mm() const;
+};
+
+/// Of --controller; empty where it is not given.
+[[nodiscard]] std::optional<model::ControllerKind> controller_kind(std::string_view name);
+/// That of --controller, a Maslow 4 and Marlin among them; null where nothing is stated.
+[[nodiscard]] const gcode::Firmware* stated_firmware(std::string_view name);
+
+/// The map, the fit of four belts or the plotter that a drawing found, that a program aims at.
+class GcodeTarget {
+ public:
+  /// Of --map. \throws InputError for a bad file.
+  explicit GcodeTarget(const GcodeOptions& options);
+  [[nodiscard]] const grid::LengthMap& target() const { return *target_; }
+  /// That with an error but for the scale, of four belts whose scale nobody taped; else null.
+  [[nodiscard]] const grid::LengthMap* in_belts_mm() const { return in_belts_mm_.get(); }
+  /// Null of four belts and of a V-plotter.
+  [[nodiscard]] const grid::CompensationMap* map() const;
+  /// Null of all but a V-plotter.
+  [[nodiscard]] const grid::KnownPlotter* plotter() const;
+  /// The machine that was in force when they were measured; null of all but four belts.
+  [[nodiscard]] const model::BeltMachine* belts_in_force() const;
+  /// As LoadedMap::on_trust.
+  [[nodiscard]] const std::string& on_trust() const { return on_trust_; }
+
+ private:
+  using Source = std::variant<std::unique_ptr<const grid::CompensationMap>,
+                              model::BeltMachine,
+                              grid::KnownPlotter>;
+  struct Parts {
+    Source source;
+    std::unique_ptr<const grid::LengthMap> target;
+    std::string on_trust;
+    std::unique_ptr<const grid::LengthMap> in_belts_mm = nullptr;
+  };
+  explicit GcodeTarget(Parts parts);
+  static Parts of_map(const GcodeOptions& options);
+  static Parts of_belts(const GcodeOptions& options);
+  static Parts of_plotter(const GcodeOptions& options);
+  static Parts of_any(const GcodeOptions& options);
+
+  Source source_;
+  std::unique_ptr<const grid::LengthMap> target_;
+  std::string on_trust_;
+  std::unique_ptr<const grid::LengthMap> in_belts_mm_;
+};
+
+/// What the machine's controller does with a program.
+struct GcodeController {
+  std::unique_ptr<const model::ControllerKinematics> kinematics;
+  const gcode::Firmware* firmware;
+  /// Empty where it does not clamp.
+  std::optional<gcode::ClampBox> clamp_box;
+  /// Where programs may go: the bed, the frame of the anchors of four belts, a plotter's drawing area.
+  interp::Rectangle sheet;
+  /// Of the machine that the map was extended with; none of belts and plotters.
+  model::ChainLengths half_play_mm;
+  /// What it believes, for the header of what is compensated.
+  std::vector<grid::files::NamedSetting> settings;
+  /// Where its firmware has a setting of its own; then `firmware` is this.
+  std::shared_ptr<const gcode::Firmware> with_settings = nullptr;
+};
+
+/// Map, machine and controller, which belong together.
+class GcodeMachine {
+ public:
+  /// \throws InputError for bad files, or where neither map nor --machine says what the controller
+  /// believes.
+  explicit GcodeMachine(const GcodeOptions& options);
+  [[nodiscard]] const grid::LengthMap& target() const { return target_.target(); }
+  /// As GcodeTarget::in_belts_mm().
+  [[nodiscard]] const grid::LengthMap* in_belts_mm() const { return target_.in_belts_mm(); }
+  /// Null of four belts and of a V-plotter.
+  [[nodiscard]] const grid::CompensationMap* map() const { return target_.map(); }
+  [[nodiscard]] const grid::KnownPlotter* plotter() const { return target_.plotter(); }
+  [[nodiscard]] const gcode::Corrector& corrector() const { return corrector_; }
+  [[nodiscard]] const GcodeController& controller() const { return controller_; }
+  [[nodiscard]] const std::string& on_trust() const { return target_.on_trust(); }
+
+ private:
+  GcodeTarget target_;
+  GcodeController controller_;
+  gcode::Corrector corrector_;
+};
+
+/// Where programs of --machine may go; without it the usual bed. \throws InputError.
+[[nodiscard]] interp::Rectangle sheet_of(const GcodeOptions& options);
+
+}  // namespace chaintrue::cli
