@@ -33,7 +33,7 @@ Pose pose_of(const EquilibriumConstants& m, const EquilibriumState& q, BedPoint 
 
 /// Newton on (1) and (2) from `q`. \returns iterations, or 0 where it did not converge.
 template <bool kRotates>
-int settle_inverse(const EquilibriumConstants& m, BedPoint p, EquilibriumState& q) {
+int converge_inverse(const EquilibriumConstants& m, BedPoint p, EquilibriumState& q) {
   for (int n = 1; n <= kMaxIterations; ++n) {
     const PerSide<ChainTerms> t = terms_of(m, q);
     Attachments a;
@@ -75,15 +75,15 @@ template <bool kRotates>
 PoseResult EquilibriumKinematics<kRotates>::inverse(BedPoint point) const {
   if (const auto failure = domain_failure(limits_of(m_), point)) return tl::unexpected(*failure);
   EquilibriumState q = straight_start(m_, point);
-  int iterations = settle_inverse<kRotates>(m_, point, q);
+  int iterations = converge_inverse<kRotates>(m_, point, q);
   if (iterations == 0) {
-    iterations = settle_by_walking(
+    iterations = converge_by_continuation(
         m_,
         point,
         q,
         [this](BedPoint p) { return straight_start(m_, p); },
         [this](BedPoint p, EquilibriumState& state) {
-          return settle_inverse<kRotates>(m_, p, state);
+          return converge_inverse<kRotates>(m_, p, state);
         });
   }
   if (iterations == 0) return tl::unexpected(why_not_converged(m_, point));

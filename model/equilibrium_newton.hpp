@@ -83,21 +83,21 @@ bool advance(const EquilibriumConstants& m, const EquilibriumStep& step, Equilib
 /// Continuation from below the beam's middle to the point in steps that Newton can follow: the branch
 /// of solutions with taut chains, where a cold start finds none.
 /// \param start  State(BedPoint): the cold start
-/// \param settle int(BedPoint, State&): iterations, or 0
-template <class State, class Start, class Settle>
-int settle_by_walking(
-    const EquilibriumConstants& m, BedPoint p, State& q, Start start, Settle settle) {
+/// \param converge int(BedPoint, State&): iterations, or 0
+template <class State, class Start, class Converge>
+int converge_by_continuation(
+    const EquilibriumConstants& m, BedPoint p, State& q, Start start, Converge converge) {
   const MotorPosition &l = m.motors.left, &r = m.motors.right;
   const BedPoint middle{0.5 * (l.x_mm + r.x_mm),
                         std::min(p.y_mm, 0.5 * (l.y_mm + r.y_mm) - 0.2 * (r.x_mm - l.x_mm))};
   q = start(middle);
-  int total = settle(middle, q);
+  int total = converge(middle, q);
   if (total == 0) return 0;
   double reached = 0.0, stride = 0.25;
   while (reached < 1.0) {
     const double next = std::min(1.0, reached + stride);
     State trial = q;
-    const int n = settle(
+    const int n = converge(
         {middle.x_mm + next * (p.x_mm - middle.x_mm), middle.y_mm + next * (p.y_mm - middle.y_mm)},
         trial);
     total += n;

@@ -161,7 +161,7 @@ SpatialState spatial_start(const Spatial& q, BedPoint p) {
 }
 
 template <bool kRotates>
-int settle_inverse(const Spatial& q, BedPoint p, SpatialState& x) {
+int converge_inverse(const Spatial& q, BedPoint p, SpatialState& x) {
   const EquilibriumConstants& m = q.m;
   for (int n = 1; n <= kMaxIterations; ++n) {
     const PerSide<SpatialTerms> t = terms_of(q, x);
@@ -242,14 +242,14 @@ PoseResult SpatialKinematics<kRotates>::inverse(BedPoint point) const {
   if (const auto failure = domain_failure(limits_of(m_), point)) return tl::unexpected(*failure);
   const Spatial q(m_, cos_tilt_, sin_tilt_);
   SpatialState x = spatial_start(q, point);
-  int iterations = settle_inverse<kRotates>(q, point, x);
+  int iterations = converge_inverse<kRotates>(q, point, x);
   if (iterations == 0) {
-    iterations = settle_by_walking(
+    iterations = converge_by_continuation(
         m_,
         point,
         x,
         [&q](BedPoint p) { return spatial_start(q, p); },
-        [&q](BedPoint p, SpatialState& state) { return settle_inverse<kRotates>(q, p, state); });
+        [&q](BedPoint p, SpatialState& state) { return converge_inverse<kRotates>(q, p, state); });
   }
   if (iterations == 0) return tl::unexpected(why_not_converged(m_, point));
   const PerSide<SpatialTerms> t = terms_of(q, x);

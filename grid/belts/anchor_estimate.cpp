@@ -211,7 +211,8 @@ std::optional<AnchorFit> first_fit(const MeasuredBelts& belts, Readings which) {
 
 observation::BeltLengthReadings readings_of(const MeasuredBelts& belts,
                                             const Counting& counting,
-                                            double sigma_mm) {
+                                            double sigma_mm,
+                                            const std::vector<model::FramePoint>& about) {
   std::vector<observation::LengthsAtPlace> places;
   bool ordered = !belts.points.empty();
   const std::optional<BeltPull> reference = reference_pull(belts);
@@ -229,6 +230,7 @@ observation::BeltLengthReadings readings_of(const MeasuredBelts& belts,
     }
     place.visit.order = point.order.value_or(0);
     place.visit.pull = pull_over(reference, point);
+    if (!about.empty()) place.about = model::ToolPosition{about.at(k).x_mm, about.at(k).y_mm};
     ordered = ordered && point.order.has_value();
     places.push_back(std::move(place));
   }

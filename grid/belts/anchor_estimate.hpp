@@ -23,10 +23,14 @@
 
 namespace chaintrue::grid::belts {
 
-/// Readings that count, and the distances; units are places of which three or four count.
-[[nodiscard]] observation::BeltLengthReadings readings_of(const MeasuredBelts& belts,
-                                                          const Counting& counting,
-                                                          double sigma_mm = 1.0);
+/// Readings that count, and the distances; units are places of which three or four count. `about` has a
+/// position of each point to linearise about, or is empty. \throws std::invalid_argument with both distances and
+/// positions.
+[[nodiscard]] observation::BeltLengthReadings readings_of(
+    const MeasuredBelts& belts,
+    const Counting& counting,
+    double sigma_mm = 1.0,
+    const std::vector<model::FramePoint>& about = {});
 
 /// Four belts at a state of which nothing is known beforehand; with a scale where there are
 /// distances.

@@ -47,7 +47,7 @@ tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const Measu
         "agree: fit belts, and check against those anchors");
   }
   std::vector<model::AppliedEffect> effects;
-  for (const CauseBesideAnchors& cause : fit.causes)
+  for (const CauseInAnchorFit& cause : fit.causes)
     effects.push_back({cause.effect, cause.side, cause.parameters});
   const auto mechanism =
       model::make_belt_mechanism(belts::with_anchors(belts.machine, belts::anchors_of(fit.machine)))

@@ -182,9 +182,9 @@ std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
   std::vector<NowherePoint> result;
   const model::BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
-    int aside = 0;
-    for (const Belt belt : kBelts) aside += frame.counting[k][belt] ? 0 : 1;
-    if (aside < 2) continue;
+    int rejected = 0;
+    for (const Belt belt : kBelts) rejected += frame.counting[k][belt] ? 0 : 1;
+    if (rejected < 2) continue;
     const auto place = belts::nearest_place(
         machine, belts.points[k], model::PerBelt<bool>{true, true, true, true});
     double residual_mm = 0.0;
@@ -345,8 +345,8 @@ std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
     const double far_mm = std::max((has_company ? kFarForAll : kFarOff) * *by_belts_mm[i],
                                    kSigmas * sigma_of(untaped, view, belts.distances[i]));
     const double gross_mm = kFarForAll * *by_belts_mm[i];
-    const double off_mm = std::abs(taped_mm - *by_belts_mm[i]);
-    if (off_mm < std::min(far_mm, gross_mm)) continue;
+    const double difference_mm = std::abs(taped_mm - *by_belts_mm[i]);
+    if (difference_mm < std::min(far_mm, gross_mm)) continue;
     result.push_back({i, *by_belts_mm[i], question_of(taped_mm, *by_belts_mm[i])});
   }
   return result;

@@ -7,12 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/holes_estimate.hpp"
-#include "grid/estimation/estimate.hpp"
+#include "grid/belts/taped_state.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/precondition.hpp"
 #include "grid/statistics.hpp"
@@ -27,186 +26,16 @@ namespace {
 using belts::HolesEstimate;
 using belts::kAnchorUnknowns;
 using belts::kFrameUnknowns;
-using belts::TapedNoise;
-using belts::TapedRows;
+using belts::TapedMarginal;
+using belts::TapedState;
 
 tl::unexpected<BeltsFitFailure> joint_failure(BeltsFitFailure::Reason reason,
                                               std::string sentence) {
   return tl::unexpected(BeltsFitFailure{reason, std::move(sentence)});
 }
 
-/// Where the fit stands.
-struct State {
-  belts::FrameState frame;
-  TapedRows rows;
-  belts::WithoutHoles without_holes;
-  TapedNoise noise;
-  std::vector<bool> counting;
-};
-
-/// (2) and (3) about a state.
-struct Marginal {
-  Eigen::VectorXd residual_mm;  ///< r_b
-  Eigen::MatrixXd inverse;      ///< V^-1
-  double log_likelihood = 0.0;
-  std::vector<bool> counting;
-
-  [[nodiscard]] double left_out_mm(Eigen::Index k) const {
-    return (inverse.row(k) * residual_mm)(0) / inverse(k, k);
-  }
-  /// The tape's own and that of what the others predict; what kept a rejected distance from
-  /// counting is no part of it.
-  [[nodiscard]] double left_out_sigma_mm(Eigen::Index k) const {
-    const double added = counting[static_cast<std::size_t>(k)] ? 0.0 : belts::kRejectedMm2;
-    return std::sqrt(1.0 / inverse(k, k) - added);
-  }
-};
-
-Marginal marginal(const HolesEstimate& frame,
-                  const std::vector<BeltHoles>& sets,
-                  const State& at,
-                  const TapedNoise& noise,
-                  const std::vector<bool>& counting) {
-  Marginal result;
-  result.counting = counting;
-  result.residual_mm = frame.about_the_belts(at.rows, at.frame);
-  const Eigen::Index count = result.residual_mm.size();
-  const Eigen::MatrixXd v =
-      belts::taped_covariance(sets, at.rows, noise, counting) +
-      at.rows.by_frame * at.without_holes.covariance * at.rows.by_frame.transpose();
-  const Eigen::LLT<Eigen::MatrixXd> factor(v);
-  result.inverse = factor.solve(Eigen::MatrixXd::Identity(count, count));
-  result.log_likelihood = -0.5 * result.residual_mm.dot(result.inverse * result.residual_mm) -
-                          factor.matrixLLT().diagonal().array().log().sum();
-  return result;
-}
-
-/// Fewest degrees of freedom that any set states of its noise.
-double noise_dof(const std::vector<BeltHoles>& sets) {
-  double least = sets.front().set.noise_dof;
-  for (const BeltHoles& set : sets) least = std::min(least, set.set.noise_dof);
-  return least;
-}
-
-/// Of the logarithm of a scaled inverse chi square about one.
-double log_prior(double factor, double dof) {
-  return -dof * std::log(factor) - 0.5 * dof / (factor * factor);
-}
-
-double extent_mm(const std::vector<model::MarkPoint>& marks) {
-  double widest = 0.0;
-  for (const model::MarkPoint& a : marks) {
-    for (const model::MarkPoint& b : marks)
-      widest = std::max(widest, std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm));
-  }
-  return widest;
-}
-
-/// The likeliest noise on the grid, and what it is worth summed over the grid.
-struct Chosen {
-  TapedNoise noise;
-  double best = -std::numeric_limits<double>::infinity();
-  std::vector<double> all;
-
-  void see(const TapedNoise& candidate, double log_posterior) {
-    all.push_back(log_posterior);
-    if (log_posterior <= best) return;
-    best = log_posterior;
-    noise = candidate;
-  }
-  [[nodiscard]] double mean() const {
-    double sum = 0.0;
-    for (const double one : all) sum += std::exp(one - best);
-    return best + std::log(sum / static_cast<double>(all.size()));
-  }
-};
-
-TapedNoise likeliest_noise(const HolesEstimate& frame,
-                           const std::vector<BeltHoles>& sets,
-                           const State& at,
-                           double dof) {
-  // A factor of 1.19 a step, from 0.6 to 4: with fifteen degrees of freedom one sigma is 1.2.
-  constexpr double kStep = 0.175;
-  constexpr int kFirst = -3;
-  constexpr int kLast = 8;
-  // From less than a tape reads to what belts do that stretch by half a hundredth.
-  constexpr double kSizesMm[] = {0.2, 0.4, 0.8, 1.6, 3.2, 6.4};
-  // Of the distance between the outermost holes: below a quarter nine holes tell nothing of it.
-  constexpr double kReaches[] = {0.25, 0.5, 1.0};
-  const double extent = extent_mm(at.rows.marks);
-  Chosen without;
-  Chosen with;
-  for (int step = kFirst; step <= kLast; ++step) {
-    const double factor = std::exp(kStep * step);
-    const double prior = log_prior(factor, dof);
-    const auto worth = [&](const TapedNoise& noise) {
-      return prior + marginal(frame, sets, at, noise, at.counting).log_likelihood;
-    };
-    const TapedNoise none{factor, 0.0, 1.0};
-    without.see(none, worth(none));
-    for (const double size : kSizesMm) {
-      for (const double reach : kReaches) {
-        const TapedNoise smooth{factor, size, reach * extent};
-        with.see(smooth, worth(smooth));
-      }
-    }
-  }
-  return with.mean() - without.mean() > estimation::kSurfaceEvidence ? with.noise : without.noise;
-}
-
-/// Iterates with the noise as it is; false where it does not converge.
-bool converge(const HolesEstimate& frame, const std::vector<BeltHoles>& sets, State& state) {
-  const auto there = frame.converged(
-      state.frame, belts::taped_covariance(sets, state.rows, state.noise, state.counting));
-  if (!there) return false;
-  auto rows = belts::taped_rows(sets, there->anchors, there->log_scale);
-  if (!rows) return false;
-  state.without_holes = frame.without_holes(*there);
-  state.frame = *there;
-  state.rows = *std::move(rows);
-  return true;
-}
-
-/// The worst distance beyond kBadDistanceSigmas; empty where all fit.
-std::optional<std::size_t> worst_of(const HolesEstimate& frame,
-                                    const std::vector<BeltHoles>& sets,
-                                    const State& state) {
-  const Marginal now = marginal(frame, sets, state, state.noise, state.counting);
-  std::optional<std::size_t> worst;
-  double most = estimation::kBadDistanceSigmas;
-  for (std::size_t k = 0; k < state.counting.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    const double sigmas = std::abs(now.left_out_mm(row)) / now.left_out_sigma_mm(row);
-    if (!state.counting[k] || sigmas <= most) continue;
-    most = sigmas;
-    worst = k;
-  }
-  return worst;
-}
-
-std::optional<State> converged_state(const HolesEstimate& frame,
-                                     const std::vector<BeltHoles>& sets) {
-  const belts::FrameState& first = frame.alone().state;
-  auto rows = belts::taped_rows(sets, first.anchors, first.log_scale);
-  if (!rows) return std::nullopt;
-  State state{first, *std::move(rows), {}, {}, {}};
-  state.counting.assign(static_cast<std::size_t>(state.rows.residual_mm.size()), true);
-  const double dof = noise_dof(sets);
-  if (!converge(frame, sets, state)) return std::nullopt;
-  const auto most = static_cast<std::size_t>(static_cast<double>(state.counting.size()) / 3.0);
-  for (std::size_t aside = 0; aside <= most; ++aside) {
-    state.noise = likeliest_noise(frame, sets, state, dof);
-    if (!converge(frame, sets, state)) return std::nullopt;
-    const auto worst = worst_of(frame, sets, state);
-    if (!worst) return state;
-    state.counting[*worst] = false;
-    if (!converge(frame, sets, state)) return std::nullopt;
-  }
-  return std::nullopt;
-}
-
 void fill_frame(const MeasuredBelts& measured,
-                const State& state,
+                const TapedState& state,
                 const Eigen::MatrixXd& covariance,
                 BeltsFit& fit) {
   fit.machine = belts::with_anchors(measured.machine, state.frame.anchors);
@@ -245,7 +74,7 @@ void fill_frame(const MeasuredBelts& measured,
 /// Of x and, where there is one, of the displacement at its places; and the displacement itself.
 Eigen::MatrixXd posterior(const HolesEstimate& frame,
                           const std::vector<BeltHoles>& sets,
-                          const State& state,
+                          const TapedState& state,
                           std::optional<DisplacementParts>& displacement) {
   const Eigen::MatrixXd& g = state.rows.by_mark;
   const Eigen::MatrixXd alone = state.without_holes.covariance;
@@ -267,7 +96,7 @@ Eigen::MatrixXd posterior(const HolesEstimate& frame,
     }
     by_unknown.rightCols(moved) = g;
   }
-  const Marginal now = marginal(frame, sets, state, state.noise, state.counting);
+  const TapedMarginal now = marginal(frame, sets, state, state.noise, state.counting);
   const Eigen::MatrixXd cross = prior * by_unknown.transpose();
   if (smooth) {
     const Eigen::VectorXd mean = cross * (now.inverse * now.residual_mm);
@@ -279,7 +108,7 @@ Eigen::MatrixXd posterior(const HolesEstimate& frame,
 
 /// Where the edges say that the first set's sheet lies.
 std::optional<Eigen::Vector3d> sheet_by_edges(const std::vector<BeltHoles>& sets,
-                                              const State& state,
+                                              const TapedState& state,
                                               const MeasuredHoles& first) {
   const observation::SheetPrior measured = observation::sheet_measured(first);
   if (!measured.knows_x || !measured.knows_y || !measured.knows_rotation) return std::nullopt;
@@ -292,9 +121,9 @@ std::optional<Eigen::Vector3d> sheet_by_edges(const std::vector<BeltHoles>& sets
 
 void fill_distances(const HolesEstimate& frame,
                     const std::vector<BeltHoles>& sets,
-                    const State& state,
+                    const TapedState& state,
                     HolesWithBelts& found) {
-  const Marginal now = marginal(frame, sets, state, state.noise, state.counting);
+  const TapedMarginal now = marginal(frame, sets, state, state.noise, state.counting);
   std::vector<double> left_out;
   Eigen::Index row = 0;
   for (std::size_t s = 0; s < sets.size(); ++s) {
@@ -362,7 +191,7 @@ tl::expected<BeltsAndHolesFit, BeltsFitFailure> joined(const MeasuredBelts& meas
                                                        const std::vector<BeltHoles>& sets,
                                                        const HolesEstimate& frame,
                                                        BeltsFit alone) {
-  const auto state = converged_state(frame, sets);
+  const auto state = belts::converged_state(frame, sets);
   if (!state) {
     return joint_failure(
         BeltsFitFailure::Reason::tape_contradicts,

@@ -58,11 +58,11 @@ std::optional<BeltsError> error_of_belts(const BeltsFit& fit, const HolesWithBel
                                 : std::nullopt;
   double squares_mm2 = 0.0;
   for (const model::BedPoint at : places) {
-    double off_mm = map.tool_sigma_mm(at);
-    if (displacement) off_mm = std::hypot(off_mm, displacement->at({at.x_mm, at.y_mm}).norm());
-    squares_mm2 += off_mm * off_mm;
-    if (off_mm <= error.expected.maximum_mm) continue;
-    error.expected.maximum_mm = off_mm;
+    double error_mm = map.tool_sigma_mm(at);
+    if (displacement) error_mm = std::hypot(error_mm, displacement->at({at.x_mm, at.y_mm}).norm());
+    squares_mm2 += error_mm * error_mm;
+    if (error_mm <= error.expected.maximum_mm) continue;
+    error.expected.maximum_mm = error_mm;
     error.worst_at = at;
   }
   error.expected.rms_mm = std::sqrt(squares_mm2 / static_cast<double>(places.size()));

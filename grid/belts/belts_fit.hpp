@@ -93,7 +93,7 @@ struct BeltScale {
 };
 
 /// What acts besides the anchors: it is taken out of the readings of a fit.
-struct CauseBesideAnchors {
+struct CauseInAnchorFit {
   std::string effect;  ///< of the belts' table
   std::string side;    ///< a belt, "all", or empty
   std::map<std::string, double> parameters;
@@ -118,7 +118,7 @@ struct BeltsFit {
   std::optional<BeltPrediction>
       half_left_out;  ///< either half by the other; with ten places and more
   /// Residuals, places and predictions are of readings without these; rms_mm is of the readings alone.
-  std::vector<CauseBesideAnchors> causes;
+  std::vector<CauseInAnchorFit> causes;
 };
 
 enum class BeltsFitReason {

@@ -20,7 +20,6 @@ ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state) 
   ReadingLines lines;
   lines.residual_mm.setZero(rows);
   lines.by_place.setZero(rows, 2);
-  lines.by_anchor.setZero(rows, kAnchorUnknowns);
   const model::BeltMachine machine = with_anchors(belts.machine, state.anchors);
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     for (const Belt belt : kBelts) {
@@ -29,10 +28,6 @@ ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state) 
       const Eigen::Index row = row_of(k, belt);
       lines.residual_mm[row] = belts.points[k].lengths_mm[belt] - reading->length_mm;
       lines.by_place.row(row) = reading->by_place;
-      // A length depends on the place less the anchor; bl, and the y of br, are 0 in this frame.
-      if (belt == Belt::tl) lines.by_anchor.row(row).segment<2>(0) = -reading->by_place;
-      if (belt == Belt::tr) lines.by_anchor.row(row).segment<2>(2) = -reading->by_place;
-      if (belt == Belt::br) lines.by_anchor(row, 4) = -reading->by_place.x();
     }
   }
   return lines;

@@ -36,7 +36,6 @@ namespace chaintrue::grid::belts {
 struct ReadingLines {
   Eigen::VectorXd residual_mm;  ///< read less predicted
   Eigen::MatrixX2d by_place;    ///< d(predicted)/d(place)
-  Eigen::Matrix<double, Eigen::Dynamic, kAnchorUnknowns> by_anchor;
 };
 [[nodiscard]] ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state);
 

@@ -29,10 +29,10 @@ std::optional<OtherFrame> suspected_other_frame(const MeasuredBelts& belts,
   const double far_mm = upper_mm > kUpperMm ? kFarWithCommandsMm : kFarMm;
   std::optional<OtherFrame> found;
   for (Eigen::Index i = 0; i < belts::kAnchorUnknowns; ++i) {
-    const double off_mm = std::abs(frame.state.anchors[i] - stated[i]);
+    const double difference_mm = std::abs(frame.state.anchors[i] - stated[i]);
     const double variance = view.covariance()(i, i);
-    if (!(variance > 0.0) || off_mm < far_mm || off_mm < kSigmas * std::sqrt(variance)) continue;
-    if (found && off_mm <= std::abs(found->fitted_mm - found->stated_mm)) continue;
+    if (!(variance > 0.0) || difference_mm < far_mm || difference_mm < kSigmas * std::sqrt(variance)) continue;
+    if (found && difference_mm <= std::abs(found->fitted_mm - found->stated_mm)) continue;
     found = {kNames[static_cast<std::size_t>(i)], stated[i], frame.state.anchors[i], upper_mm};
   }
   return found;

@@ -83,7 +83,7 @@ tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
 void drop_invisible(const MarginalisedSystem& marginalised, Analysis& a) {
   std::vector<CauseId> visible;
   for (const CauseId& cause : a.candidates.testable) {
-    if (can_be_seen(a.system, marginalised, cause)) {
+    if (is_observable(a.system, marginalised, cause)) {
       visible.push_back(cause);
     } else {
       NotTestable& hidden = a.candidates.not_testable.emplace_back();
@@ -137,7 +137,7 @@ double noise_dof(const Analysis& a) {
   return a.options.steps.anchor_noise ? a.session.noise_dof : kNothingKnown;
 }
 
-bool can_be_seen(const RegressorSystem& system,
+bool is_observable(const RegressorSystem& system,
                  const MarginalisedSystem& marginalised,
                  const CauseId& cause) {
   double most = 0.0;

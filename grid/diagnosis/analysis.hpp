@@ -54,7 +54,7 @@ void estimate_decided(Analysis& analysis);
 [[nodiscard]] double noise_dof(const Analysis& analysis);
 
 /// Whether a cause could show at some size that it may have, the settings free.
-[[nodiscard]] bool can_be_seen(const RegressorSystem& system,
+[[nodiscard]] bool is_observable(const RegressorSystem& system,
                                const MarginalisedSystem& marginalised,
                                const CauseId& cause);
 

@@ -75,8 +75,8 @@ std::optional<Eigen::MatrixXd> take_distances(const MeasuredBelts& without_cause
 }
 
 /// Within what the effect's parameter may be: an average over models may lie a little outside.
-CauseBesideAnchors beside_anchors(const AveragedCause& own) {
-  CauseBesideAnchors result;
+CauseInAnchorFit cause_in_fit(const AveragedCause& own) {
+  CauseInAnchorFit result;
   result.effect = own.cause.cause.effect->id;
   result.side = name(own.cause.cause.side);
   for (std::size_t i = 0; i < own.cause.values.size(); ++i) {
@@ -90,12 +90,12 @@ CauseBesideAnchors beside_anchors(const AveragedCause& own) {
 }
 
 /// A fit, with what it leaves for holes.
-struct FitBesideCauses {
+struct AnchorsWithCauses {
   BeltsByThemselves alone;
   MeasuredBelts without_causes;
 };
 
-tl::expected<FitBesideCauses, BeltsFitFailure> fit_beside_causes(const MeasuredBelts& belts) {
+tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(const MeasuredBelts& belts) {
   auto alone = fit_belts(belts);
   if (!alone) return tl::unexpected(alone.error());
   auto analysed = analyse(belts, {}, AnalysisDepth::anchors);
@@ -104,10 +104,10 @@ tl::expected<FitBesideCauses, BeltsFitFailure> fit_beside_causes(const MeasuredB
         BeltsFitFailure{BeltsFitFailure::Reason::no_frame, analysed.error().sentence()});
   }
   const AveragedAnchors& averaged = analysed->averaged;
-  std::vector<CauseBesideAnchors> causes;
+  std::vector<CauseInAnchorFit> causes;
   std::vector<BeltCause> sizes;
   for (const AveragedCause& own : averaged.causes) {
-    causes.push_back(beside_anchors(own));
+    causes.push_back(cause_in_fit(own));
     sizes.push_back(own.cause);
   }
   AnchorFit frame = analysed->state.frame;
@@ -123,7 +123,7 @@ tl::expected<FitBesideCauses, BeltsFitFailure> fit_beside_causes(const MeasuredB
     if (!with_scale) {
       const auto as_read = belts::fit_anchors_robustly(belts);
       const Eigen::MatrixXd own = FitDiagnostics(belts, *as_read).covariance();
-      return FitBesideCauses{{*std::move(alone), *as_read, own}, belts};
+      return AnchorsWithCauses{{*std::move(alone), *as_read, own}, belts};
     }
     covariance = *with_scale;
   }
@@ -133,21 +133,21 @@ tl::expected<FitBesideCauses, BeltsFitFailure> fit_beside_causes(const MeasuredB
   fit.rms_mm = alone->rms_mm;
   Explained explained{{frame, sizes}, {}};
   fit.half_left_out = prediction_by_halves(analysed->belts, explained);
-  return FitBesideCauses{{std::move(fit), std::move(frame), std::move(covariance)},
+  return AnchorsWithCauses{{std::move(fit), std::move(frame), std::move(covariance)},
                          std::move(without_causes)};
 }
 
 }  // namespace
 
 tl::expected<BeltsFit, BeltsFitFailure> fit_with_causes(const MeasuredBelts& belts) {
-  return fit_beside_causes(belts).map(
-      [](FitBesideCauses found) { return std::move(found.alone.fit); });
+  return fit_anchors_with_causes(belts).map(
+      [](AnchorsWithCauses found) { return std::move(found.alone.fit); });
 }
 
 tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_with_causes_and_holes(
     const MeasuredBelts& belts, const std::vector<BeltHoles>& sets) {
   if (belts.points.empty()) return fit_belts_and_holes(belts, sets);
-  auto found = fit_beside_causes(belts);
+  auto found = fit_anchors_with_causes(belts);
   if (!found) return tl::unexpected(found.error());
   return fit_belts_and_holes(found->without_causes, sets, std::move(found->alone));
 }

@@ -26,7 +26,7 @@ constexpr double kMoreLikelyThanNot = 0.5;
 /// That belts or anchors give with the pull: every published frame's do.
 constexpr double kGives = 0.9;
 /// Each further cause of a set has a fifth of its weight, as kPriorOfTwo to kPriorOfOne.
-constexpr double kWeightBesideOthers = 0.2;
+constexpr double kWeightGivenOthers = 0.2;
 
 /// Odds of a cause at its usual size against none, for sigmas: as large as it takes for 95 % intervals
 /// to hold 92 % and more. Those that the readings show plainly need none. A belt's zero hides behind the
@@ -225,19 +225,19 @@ class Averaging {
     const bool smooth = model.discrepancy >= 0;
     double change = log_prior(system_, {}, smooth) - log_prior(system_, model.regressors, smooth);
     bool gives = false;
-    bool beside_others = false;
+    bool given_others = false;
     for (const int index : model.regressors) {
       const Regressor& own = system_.regressors[static_cast<std::size_t>(index)];
       if (own.expected) {
         change += std::log(share_of_expected(own.cause.effect->id));
-        if (gives) change += std::log(kWeightBesideOthers);
+        if (gives) change += std::log(kWeightGivenOthers);
         gives = true;
         continue;
       }
       change += own.log_prior - std::log(share_of_effect_.at(own.cause.effect)) +
                 std::log(odds_of(own.cause));
-      if (beside_others) change += std::log(kWeightBesideOthers);
-      beside_others = true;
+      if (given_others) change += std::log(kWeightGivenOthers);
+      given_others = true;
     }
     return change + std::log(gives ? kGives : 1.0 - kGives);
   }

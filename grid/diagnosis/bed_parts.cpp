@@ -215,13 +215,4 @@ std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system,
   return result;
 }
 
-PartPosterior posterior_without(const RegressorSystem& system,
-                                double noise_dof,
-                                const ModelComparison& comparison,
-                                BedPart left_out) {
-  const Downdating downdating(system, comparison, noise_dof, followed_of(system));
-  const std::vector<double> own = downdating.probabilities_without(left_out.units, CountAs::themselves);
-  return summary(system, downdating.followed(), own, std::move(left_out));
-}
-
 }  // namespace chaintrue::grid::diagnosis

@@ -76,10 +76,4 @@ struct SessionPosterior {
                                                                std::size_t fewest,
                                                                const ModelComparison& comparison);
 
-/// What the comparison's models say without these units, the rest counted as it is. \pre As session_posteriors().
-[[nodiscard]] PartPosterior posterior_without(const RegressorSystem& system,
-                                              double noise_dof,
-                                              const ModelComparison& comparison,
-                                              BedPart left_out);
-
 }  // namespace chaintrue::grid::diagnosis

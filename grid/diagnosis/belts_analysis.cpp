@@ -142,7 +142,7 @@ void drop_hidden(BeltsAnalysis& a) {
       marginalise(own.system, nothing_rejected(own.system), own.options.steps);
   std::vector<CauseId> visible;
   for (const CauseId& cause : own.candidates.testable) {
-    if (can_be_seen(own.system, marginalised, cause)) {
+    if (is_observable(own.system, marginalised, cause)) {
       visible.push_back(cause);
     } else {
       NotTestable& hidden = own.candidates.not_testable.emplace_back();
@@ -171,6 +171,7 @@ void move_state(BeltsAnalysis& a) {
 
 belts::Counting decided_counting(const BeltsAnalysis& a) {
   return counting_of(
+      a.analysis.system,
       a.analysis.comparison.marginalised_systems[a.analysis.decision.marginalised].outliers);
 }
 

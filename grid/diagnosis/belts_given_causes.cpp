@@ -88,26 +88,32 @@ bool moved(const Eigen::VectorXd& change,
   return converged;
 }
 
-/// (1): changes of the five anchor coordinates, then of the values.
+/// (1), in millimetres: changes of the five anchor coordinates, then of the values.
 Eigen::VectorXd least_squares(const MeasuredBelts& without_causes,
                               const belts::AnchorFit& frame,
                               const Eigen::MatrixXd& columns) {
-  const belts::ReadingLines lines = belts::reading_lines(without_causes, frame.state);
-  const Eigen::Index unknowns = belts::kAnchorUnknowns + columns.cols();
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(unknowns);
-  Eigen::MatrixXd design(4, unknowns);
-  for (std::size_t k = 0; k < without_causes.points.size(); ++k) {
-    const Eigen::MatrixXd q = checks_of(lines, k, frame.counting[k]);
-    if (q.cols() == 0) continue;
-    const Eigen::Index row = belts::row_of(k, Belt::tl);
-    design.leftCols<belts::kAnchorUnknowns>() = lines.by_anchor.middleRows<4>(row);
-    design.rightCols(columns.cols()) = columns.middleRows<4>(row);
-    const Eigen::MatrixXd own = q.transpose() * design;
-    normal += own.transpose() * own;
-    gradient += own.transpose() * (q.transpose() * lines.residual_mm.segment<4>(row));
+  const LinearisedBelts all = linearise(without_causes, frame.state, frame.counting, 1.0);
+  Eigen::MatrixXd design(all.system.e.size(), belts::kAnchorUnknowns + columns.cols());
+  design.leftCols<belts::kAnchorUnknowns>() = all.system.by_setting;
+  for (std::size_t u = 0; u < all.points.size(); ++u) {
+    const SystemUnit& unit = all.system.units[u];
+    design.rightCols(columns.cols()).middleRows(unit.first_row, unit.rows) =
+        unit.by_reading * columns.middleRows<4>(belts::row_of(all.points[u], Belt::tl));
   }
-  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(normal).solve(gradient);
+  const Eigen::MatrixXd normal = design.transpose() * design;
+  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(normal).solve(
+      design.transpose() * all.system.e);
+}
+
+/// Positions to linearise about; of a point that the machine cannot reach there, a gross one, the frame's middle.
+std::vector<model::FramePoint> reachable(const model::Mechanism& mechanism,
+                                         std::vector<model::FramePoint> places) {
+  for (model::FramePoint& at : places) {
+    if (mechanism.predict({at.x_mm, at.y_mm}, {}, model::Derivatives::by_position)) continue;
+    const model::ToolPosition middle = mechanism.extent().centre();
+    at = {middle.x_mm, middle.y_mm};
+  }
+  return places;
 }
 
 }  // namespace
@@ -153,22 +159,19 @@ MeasuredBelts without_effects(const MeasuredBelts& belts,
   return without_causes;
 }
 
-Eigen::MatrixXd checks_of(const belts::ReadingLines& lines,
-                          std::size_t point,
-                          const model::PerBelt<bool>& counting) {
-  std::vector<Eigen::Index> rows;
-  for (const Belt belt : kBelts) {
-    if (counting[belt]) rows.push_back(static_cast<Eigen::Index>(belt));
-  }
-  const auto count = static_cast<Eigen::Index>(rows.size());
-  if (count < 3) return Eigen::MatrixXd(4, 0);
-  const Eigen::MatrixXd by_place =
-      lines.by_place.middleRows<4>(belts::row_of(point, Belt::tl))(rows, Eigen::all);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(by_place);
-  const Eigen::MatrixXd whole = qr.householderQ() * Eigen::MatrixXd::Identity(count, count);
-  Eigen::MatrixXd q = Eigen::MatrixXd::Zero(4, count - 2);
-  q(rows, Eigen::all) = whole.rightCols(count - 2);
-  return q;
+LinearisedBelts linearise(const MeasuredBelts& belts,
+                          const belts::FrameState& state,
+                          const belts::Counting& counting,
+                          double sigma_mm) {
+  MeasuredBelts untaped = belts;
+  untaped.distances.clear();
+  const auto mechanism = belts::mechanism_at(untaped, state);
+  const auto readings = std::make_shared<const observation::BeltLengthReadings>(belts::readings_of(
+      untaped, counting, sigma_mm, reachable(*mechanism, state.places)));
+  const ObservationSet set = estimation::observation_set({}, {readings}, mechanism);
+  LinearisedBelts result{linearise(set, estimation::stated_state(set), {}).value(), {}};
+  for (const NumberedUnit& unit : set.units) result.points.push_back(unit.index);
+  return result;
 }
 
 std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,

@@ -5,13 +5,12 @@
 /// Private to grid/diagnosis.
 ///
 /// Notation
-///   r_k, J_a, J_p  of the readings of place k: read less predicted, and d(predicted) by anchors and
-///        by the place (reading_lines)
-///   g_j  d(read)/d(size of cause j), a secant about the size at hand
-///   Q_k  of the readings of place k that count: an orthonormal basis of what no place makes,
-///        Q_k' J_p = 0. A place whose four readings count has two such directions, its two checks
+///   e, A  rows of the readings that count, places projected out, and what anchors do to them (1 of
+///         linearised_system.hpp)
+///   D     what a millimetre of each reading adds to them
+///   g_j   d(read)/d(size of cause j), a secant about the size at hand
 ///
-///   min sum_k |Q_k' (r_k - J_a da - sum_j g_j ds_j)|^2                                      (1)
+///   min |e - A da - sum_j D g_j ds_j|^2                                                     (1)
 ///
 /// Source: G. Golub and V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413, for unknowns that are
 /// projected out.
@@ -24,6 +23,7 @@
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
 #include "grid/diagnosis/cause_id.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 #include "model/belts/effects/belt_effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -50,10 +50,16 @@ struct BeltCause {
                                             const std::vector<BeltCause>& causes,
                                             const belts::FrameState& state);
 
-/// Q of a place: 4 x (readings that count less 2), rows of readings that do not count 0.
-[[nodiscard]] Eigen::MatrixXd checks_of(const belts::ReadingLines& lines,
-                                        std::size_t point,
-                                        const model::PerBelt<bool>& counting);
+/// The readings that count about a state, without regressors, each unit a point of which three or four
+/// count.
+struct LinearisedBelts {
+  RegressorSystem system;
+  std::vector<std::size_t> points;  ///< of each unit
+};
+[[nodiscard]] LinearisedBelts linearise(const MeasuredBelts& belts,
+                                        const belts::FrameState& state,
+                                        const belts::Counting& counting,
+                                        double sigma_mm);
 
 /// Anchors, places and sizes at rest.
 struct FitGivenCauses {

@@ -102,15 +102,13 @@ class Gathering {
   std::optional<int> next_visit_;
 };
 
+/// Its rows come with what is predicted there.
 Candidate candidate_of(MeasurementKind kind,
                        std::string what,
                        model::BedPoint command,
-                       const std::vector<Belt>& pulled,
-                       std::size_t place) {
+                       const std::vector<Belt>& pulled) {
   Candidate candidate{{kind, std::move(what), "", model::identity_placement(command), 0.0}, {}, 2};
   candidate.measurement.pulled = pulled;
-  const auto row = 2 * static_cast<Eigen::Index>(place);
-  candidate.rows = {row, row + 1};
   return candidate;
 }
 
@@ -140,8 +138,7 @@ void add_places(const BeltsAnalysis& a, Gathering& gathering, std::vector<Candid
         all.push_back(candidate_of(MeasurementKind::point,
                                    fmt::format("a further place{}", way.words),
                                    command,
-                                   way.pulled,
-                                   all.size()));
+                                   way.pulled));
       }
     }
   }
@@ -164,16 +161,28 @@ void add_revisits(const BeltsAnalysis& a,
         fmt::format("point {} once more", index_in_file(indices, k) + 1),
         point.commanded.value_or(model::BedPoint{std::round(at.x_mm - centre.x_mm) + 0.0,
                                                  std::round(at.y_mm - centre.y_mm) + 0.0}),
-        point.pulled.value_or(std::vector<Belt>{}),
-        all.size()));
+        point.pulled.value_or(std::vector<Belt>{})));
   }
 }
 
-std::vector<Alternative> predicted_at(const BeltsAnalysis& a, const NextPlaces& next) {
+/// What each alternative predicts of places to come, and the rows of each place.
+struct PredictedPlaces {
+  std::vector<Alternative> alternatives;
+  std::vector<std::vector<Eigen::Index>> rows;
+};
+
+PredictedPlaces predicted_at(const BeltsAnalysis& a, const NextPlaces& next) {
   const RegressorSystem system = system_of(next.belts, next.state, {}, a.sigma_mm);
-  return alternatives_about(a.analysis, system, [&](const Regressor& own) {
+  PredictedPlaces predicted;
+  predicted.alternatives = alternatives_about(a.analysis, system, [&](const Regressor& own) {
     return std::optional(column_of(next.belts, next.state, system, {own.cause, own.values}));
   });
+  predicted.rows.resize(system.units.size());
+  for (std::size_t u = 0; u < system.units.size(); ++u) {
+    for (Eigen::Index row = 0; row < system.units[u].rows; ++row)
+      predicted.rows[system.entries[u].point].push_back(system.units[u].first_row + row);
+  }
+  return predicted;
 }
 
 /// Of every place once more, the last one first, pulled so many times as hard as before.
@@ -183,7 +192,7 @@ std::optional<double> all_once_more(const BeltsAnalysis& a, double times = 1.0) 
   for (std::size_t k = a.belts.points.size(); k-- > 0;)
     gathering.add(a.state.frame.state.places[k], a.belts.points[k].pulled, a.belts.points[k].pull);
   gathering.count_visits();
-  const std::vector<Alternative> alternatives = predicted_at(a, gathering.take());
+  const std::vector<Alternative> alternatives = predicted_at(a, gathering.take()).alternatives;
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(alternatives.front().mean.size()));
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
   return expected_discrimination(alternatives, rows).named_alone;
@@ -214,10 +223,11 @@ BeltsNext next_measurements(const BeltsAnalysis& a, const PointIndices& indices)
   std::vector<Candidate> candidates;
   add_places(a, gathering, candidates);
   add_revisits(a, indices, gathering, candidates);
-  result.measurements =
-      most_telling(predicted_at(a, gathering.take()),
-                   std::move(candidates),
-                   a.analysis.decision.verdict == Verdict::named);
+  const PredictedPlaces predicted = predicted_at(a, gathering.take());
+  for (std::size_t k = 0; k < candidates.size(); ++k) candidates[k].rows = predicted.rows[k];
+  result.measurements = most_telling(predicted.alternatives,
+                                     std::move(candidates),
+                                     a.analysis.decision.verdict == Verdict::named);
   result.all_once_more = all_once_more(a);
   result.second_pass = second_pass(a, result);
   return result;

@@ -21,8 +21,6 @@ double share_of_expected(std::string_view effect) {
 
 namespace {
 
-/// Nothing is stated of the anchors: a metre is as good as nothing.
-constexpr double kAnchorSigmaMm = 1000.0;
 /// How well one sigma of a belt's reading is known before any is read: hardly.
 constexpr double kNoiseDof = 2.0;
 /// Visits at which something may set in, spread over the session: neighbours of 24 have a collinearity of 0.97,
@@ -234,6 +232,29 @@ BeltsCandidates candidates(const MeasuredBelts& belts) {
   return result;
 }
 
+namespace {
+
+LengthEntry entry_of(const MeasuredBelts& belts,
+                     const belts::FrameState& state,
+                     std::size_t index) {
+  const BeltPoint& point = belts.points[index];
+  const model::FramePoint where = state.places[index];
+  const model::BeltMachine frame = belts::with_anchors(belts.machine, state.anchors);
+  LengthEntry entry;
+  entry.point = index;
+  entry.x_mm = where.x_mm;
+  entry.y_mm = where.y_mm;
+  entry.visit = static_cast<double>(point.order.value_or(0));
+  for (const Belt belt : kBelts) {
+    entry.length_mm.push_back(point.lengths_mm[belt]);
+    entry.angle_rad.push_back(std::atan2(std::abs(where.y_mm - frame.anchors[belt].y_mm),
+                                         std::abs(where.x_mm - frame.anchors[belt].x_mm)));
+  }
+  return entry;
+}
+
+}  // namespace
+
 RegressorSystem system_of(const MeasuredBelts& belts,
                           const BeltsState& state,
                           const std::vector<CauseId>& causes,
@@ -242,47 +263,23 @@ RegressorSystem system_of(const MeasuredBelts& belts,
   constexpr Eigen::Index kFewestChecks = 3;
   // Two bad readings of a place, and of neighbouring places, can mask one another.
   constexpr std::size_t kBeyondTheBest = 8;
-  const std::size_t count = belts.points.size();
-  const auto rows = 2 * static_cast<Eigen::Index>(count);
-  const belts::ReadingLines lines = belts::reading_lines(belts, state.frame.state);
-  const model::BeltMachine frame = belts::with_anchors(belts.machine, state.frame.state.anchors);
-  RegressorSystem system;
-  system.e.resize(rows);
-  system.by_setting.resize(rows, belts::kAnchorUnknowns);
+  const belts::Counting all(belts.points.size(), {true, true, true, true});
+  LinearisedBelts linearised = linearise(belts, state.frame.state, all, sigma_mm);
+  RegressorSystem system = std::move(linearised.system);
   bool ordered = false;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Eigen::Index row = 2 * static_cast<Eigen::Index>(k);
-    const Eigen::Index reading = belts::row_of(k, Belt::tl);
-    const BeltPoint& point = belts.points[k];
-    const model::FramePoint where = state.frame.state.places[k];
-    LengthEntry entry{where.x_mm, where.y_mm, static_cast<double>(point.order.value_or(0)), {}};
-    for (const Belt belt : kBelts) {
-      entry.length_mm.push_back(point.lengths_mm[belt]);
-      entry.angle_rad.push_back(std::atan2(std::abs(where.y_mm - frame.anchors[belt].y_mm),
-                                           std::abs(where.x_mm - frame.anchors[belt].x_mm)));
-    }
-    entry.by_length = checks_of(lines, k, {true, true, true, true}).transpose() / sigma_mm;
-    system.e.segment<2>(row) = entry.by_length * lines.residual_mm.segment<4>(reading);
-    system.by_setting.middleRows<2>(row) = entry.by_length * lines.by_anchor.middleRows<4>(reading);
+  for (std::size_t u = 0; u < system.units.size(); ++u) {
+    const SystemUnit& unit = system.units[u];
     for (Eigen::Index belt = 0; belt < 4; ++belt)
-      system.groups.push_back({row, 2, Eigen::Vector2d(entry.by_length.col(belt))});
-    system.units.push_back({.first_row = row,
-                            .rows = 2,
-                            .whitening = estimation::UnitWhitening::projected(
-                                Eigen::MatrixXd::Identity(2, 2), sigma_mm)});
-    system.unit_of_row.insert(system.unit_of_row.end(), 2, static_cast<int>(k));
-    system.entries.push_back(std::move(entry));
-    ordered = ordered || point.order.has_value();
+      system.groups.push_back({unit.first_row, 2, Eigen::Vector2d(unit.by_reading.col(belt))});
+    system.entries.push_back(entry_of(belts, state.frame.state, linearised.points[u]));
+    ordered = ordered || belts.points[linearised.points[u]].order.has_value();
   }
-  system.setting = Eigen::VectorXd::Zero(belts::kAnchorUnknowns);
-  system.expected_change = system.setting;
-  system.sigma = Eigen::VectorXd::Constant(belts::kAnchorUnknowns, kAnchorSigmaMm);
   system.noise_dof = kNoiseDof;
   system.limits = {.fewest_rows = belts::kAnchorUnknowns + kFewestChecks,
                    .beyond_the_best = kBeyondTheBest};
   system.prior = prior_of_belts();
   system.discrepancies = &length_discrepancies(ordered);
-  system.g = RegressorColumns(rows);
+  system.g = RegressorColumns(system.e.size());
   Columns columns(belts, state, system);
   for (const CauseId& cause : causes) columns.add(cause);
   return system;
@@ -294,18 +291,21 @@ Eigen::VectorXd column_of(const MeasuredBelts& belts,
                           const BeltCause& cause) {
   const Eigen::VectorXd added = added_by(belts, {cause}, state.frame.state);
   Eigen::VectorXd column(system.e.size());
-  for (std::size_t k = 0; k < system.entries.size(); ++k) {
-    column.segment<2>(2 * static_cast<Eigen::Index>(k)) =
-        system.entries[k].by_length * added.segment<4>(belts::row_of(k, Belt::tl));
+  for (std::size_t u = 0; u < system.units.size(); ++u) {
+    column.segment(system.units[u].first_row, system.units[u].rows) =
+        system.units[u].by_reading *
+        added.segment<4>(belts::row_of(system.entries[u].point, Belt::tl));
   }
   return column;
 }
 
-belts::Counting counting_of(const std::vector<bool>& rejected) {
-  belts::Counting counting(rejected.size() / 4);
-  for (std::size_t k = 0; k < counting.size(); ++k) {
-    for (const Belt belt : kBelts)
-      counting[k][belt] = !rejected[4 * k + static_cast<std::size_t>(belt)];
+belts::Counting counting_of(const RegressorSystem& system, const std::vector<bool>& rejected) {
+  belts::Counting counting(system.entries.size());
+  for (std::size_t u = 0; u < counting.size(); ++u) {
+    for (const Belt belt : kBelts) {
+      counting[system.entries[u].point][belt] =
+          !rejected[4 * u + static_cast<std::size_t>(belt)];
+    }
   }
   return counting;
 }

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Four belts as a linearised system: from here on there are rows and units, and no word of belts.
-/// Private to grid/diagnosis.
+/// What a diagnosis of four belts adds to their linearised system: single readings as outlier groups, what is
+/// known beforehand, and a regressor for each cause at every place where it may set in. Private to
+/// grid/diagnosis.
 ///
-/// Each place whose coordinates nobody knows leaves two checks of its four readings (belts_given_causes.hpp),
-/// which are a unit of two rows Q' (...). A single reading e_b of belt b spoils the direction Q' e_b of
-/// them, an outlier group each; two readings of a place take both.
-///
-/// The five anchor coordinates are the settings, of which nothing is stated. Noise is sigma for each
-/// reading of each belt.
+/// A place leaves two checks of its four readings, a unit of two rows (observation/belt_lengths.hpp). A
+/// single reading spoils one direction of them, an outlier group each; two readings of a place take both. The
+/// five anchor coordinates are the settings, of which nothing is stated.
 #pragma once
 
 #include <string_view>
@@ -49,7 +47,8 @@ struct BeltsCandidates {
                                         const RegressorSystem& system,
                                         const BeltCause& cause);
 
-/// Of each reading, whether these flags of a system's outlier groups leave it.
-[[nodiscard]] belts::Counting counting_of(const std::vector<bool>& rejected);
+/// Of each reading, whether these flags of the system's outlier groups leave it.
+[[nodiscard]] belts::Counting counting_of(const RegressorSystem& system,
+                                          const std::vector<bool>& rejected);
 
 }  // namespace chaintrue::grid::diagnosis

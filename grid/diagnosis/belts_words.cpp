@@ -185,13 +185,13 @@ std::string sentence(const Diagnosis& d) {
 /// Lengths that count from the belt's end: known by the offset that all four need.
 std::string left_out_arms(const MeasuredBelts& belts, const Diagnosis& d) {
   // Of arm and extension: a tape finds the arm to less.
-  constexpr double kAlike = 0.1;
+  constexpr double kEqualWithin = 0.1;
   const double reach = model::reach_mm(belts.machine);
   for (const Cause& c : d.causes) {
     if (c.cause.effect->id != "belt_zero" || c.cause.side != model::effects::EffectSide::all)
       continue;
     const double offset = c.parameters.front().value;
-    if (std::abs(offset + reach) < kAlike * reach &&
+    if (std::abs(offset + reach) < kEqualWithin * reach &&
         belts.machine.lengths != model::BeltLengths::belt) {
       return fmt::format(
           "The lengths leave arm and extension out ({:.0f} mm by the settings, all are {:.0f} mm too "

@@ -70,7 +70,7 @@ std::map<FactorisationKey, std::vector<CandidateModel>> models_to_follow(
 }
 
 /// Columns that lay in the rows left out alone are nothing, and not what rounding makes of the difference.
-void clear_unseen_columns(const NormalEquations& before, NormalEquations& equations) {
+void clear_unobserved_columns(const NormalEquations& before, NormalEquations& equations) {
   for (Eigen::Index i = 0; i < equations.gg.rows(); ++i) {
     if (equations.gg(i, i) > kNothingLeft * before.gg(i, i)) continue;
     equations.gg.row(i).setZero();
@@ -201,7 +201,7 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
   equations.ee -= found.col(0).squaredNorm();
   equations.ge.noalias() -= found.rightCols(c).transpose() * found.col(0);
   equations.gg.noalias() -= found.rightCols(c).transpose() * found.rightCols(c);
-  clear_unseen_columns(factorised.equations, equations);
+  clear_unobserved_columns(factorised.equations, equations);
   equations.log_det += 2.0 * Eigen::MatrixXd(block.matrixL()).diagonal().array().log().sum();
   // Beside a discrepancy the sizes are expected as of all points.
   if (factorised.discrepancy < 0) {

@@ -3,13 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/cause_parameters.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/normal_plot.hpp"
 #include "model/effects/catalogue.hpp"
@@ -25,168 +23,6 @@ constexpr double kSettingOff = 3.0;    // sigmas: 1 in 370 for each setting
 /// Length of a column before the settings take their share.
 double raw_length(const Analysis& a, int column) {
   return length_in_noise(a.system, marginalised_system(a).kept, a.system.g.col(column));
-}
-
-double circular(double difference, const EffectParameter& p) {
-  const bool turns = p.upper - p.lower >= 2.0 * std::numbers::pi;
-  return turns ? std::remainder(difference, 2.0 * std::numbers::pi) : difference;
-}
-
-/// What a cause adds, whitened, changes with its place, per unit of the place; empty where the
-/// machine cannot have such an effect.
-std::optional<Eigen::VectorXd> slope_by_place(const Analysis& a,
-                                              const Regressor& own,
-                                              std::size_t which) {
-  // Of a radian: central differences of a wave are right to h^2 / 6, rounding to 1e-16 / h.
-  constexpr double kStep = 1e-3;
-  std::vector<double> values = own.values;
-  values[which] = own.values[which] + kStep;
-  const auto above = signature(a.session, a.state, a.system, own.cause, values);
-  values[which] = own.values[which] - kStep;
-  const auto below = signature(a.session, a.state, a.system, own.cause, values);
-  if (!above || !below) return std::nullopt;
-  return (*above - *below) / (2.0 * kStep);
-}
-
-/// The same with each setting, n x q. A wave along a chain moves along it with the chain's length: a
-/// motor that is off by half a millimetre moves the wave of a sprocket by 3 degrees. Nothing where
-/// the machine cannot be so.
-Eigen::MatrixXd slope_by_settings(const Analysis& a, const Regressor& own) {
-  // Of a sigma: central differences of a wave of 60 mm are right to 1e-7 for a motor known to 3 mm.
-  constexpr double kStep = 1e-3;
-  Eigen::MatrixXd slope =
-      Eigen::MatrixXd::Zero(a.system.by_setting.rows(), a.system.setting.size());
-  for (Eigen::Index column = 0; column < a.session.setting_columns(); ++column) {
-    const double step = kStep * a.system.sigma(column);
-    const auto at = [&](double change) -> std::optional<Eigen::VectorXd> {
-      Eigen::VectorXd settings = a.system.setting;
-      settings(column) += change;
-      const auto state = moved_to(a.session, a.state, settings);
-      if (!state) return std::nullopt;
-      const auto there = linearise(a.session, *state, a.options.steps);
-      if (!there) return std::nullopt;
-      return signature(a.session, *state, *there, own.cause, own.values);
-    };
-    const auto above = at(step);
-    const auto below = at(-step);
-    if (above && below) slope.col(column) = (*above - *below) / (2.0 * step);
-  }
-  return slope;
-}
-
-/// From a continuous place to the nearest other one that was tried.
-double step_of_places(const Analysis& a, const Regressor& own, std::size_t which) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Regressor& other : a.system.regressors) {
-    if (!(other.cause == own.cause)) continue;
-    const double step = std::abs(other.values[which] - own.values[which]);
-    if (step > 0.0) least = std::min(least, step);
-  }
-  return std::isfinite(least) ? least : 0.0;
-}
-
-/// Of a continuous place by the curvature of the likelihood, settings and all coefficients of the
-/// fit free.
-double fitted_place_sigma(const Analysis& a,
-                          int column,
-                          std::size_t which,
-                          const Estimate& fitted,
-                          double coefficient,
-                          const Eigen::VectorXd& slope) {
-  const Regressor& own = regressor(a, column);
-  const EffectParameter& place = own.cause.effect->parameters[which];
-  const MarginalisedSystem& marginalised = marginalised_system(a);
-  const RegressorSystem& system = a.system;
-  const Eigen::Index settings = system.setting.size();
-  const auto free = static_cast<Eigen::Index>(fitted.free.size());
-  Eigen::MatrixXd design(marginalised.kept.size(), settings + free + 1);
-  Eigen::VectorXd sigma(settings + free + 1);
-  design.leftCols(settings) =
-      marginalised.kept.of(system.by_setting + coefficient * slope_by_settings(a, own));
-  sigma.head(settings) = system.sigma;
-  for (Eigen::Index k = 0; k < free; ++k) {
-    const int other = fitted.regressors[fitted.free[static_cast<std::size_t>(k)]];
-    design.col(settings + k) = marginalised.kept(system.g.col(other));
-    sigma(settings + k) = wide_coefficient_sigma(system, marginalised, other);
-  }
-  design.col(settings + free) = coefficient * marginalised.kept(slope);
-  // Beforehand any value between the bounds is as likely, and a phase goes round.
-  const double range = place.name.ends_with("_rad")
-                           ? std::min(place.upper - place.lower, 2.0 * std::numbers::pi)
-                           : place.upper - place.lower;
-  sigma(settings + free) = range / std::sqrt(12.0);
-  if (a.noise) a.noise->llt.matrixL().solveInPlace(design);
-  const Eigen::MatrixXd scaled = design * sigma.asDiagonal();
-  Eigen::MatrixXd normal = scaled.transpose() * scaled / fitted.noise_square;
-  normal.diagonal().array() += 1.0;
-  const Eigen::Index last = settings + free;
-  const Eigen::VectorXd column_of_inverse =
-      normal.llt().solve(Eigen::VectorXd::Unit(last + 1, last));
-  // Beside a discrepancy the place is the best of those tried (relinearise.cpp), off by up to half a
-  // step either way.
-  const double step = a.noise ? step_of_places(a, own, which) : 0.0;
-  return std::hypot(sigma(last) * std::sqrt(column_of_inverse(last)), step / std::sqrt(12.0));
-}
-
-/// How well the data say where a cause sets in: the scatter of that parameter over the models, about a value.
-double place_scatter(const Analysis& a, int column, std::size_t which, double about) {
-  const Regressor& own = regressor(a, column);
-  const EffectParameter& place = own.cause.effect->parameters[which];
-  double weight = 0.0;
-  double square = 0.0;
-  for (const CandidateModel& model : a.comparison.models) {
-    for (const int k : model.regressors) {
-      const Regressor& other = regressor(a, k);
-      if (!(other.cause == own.cause)) continue;
-      const double p = a.comparison.probability(model);
-      const double off = circular(other.values[which] - about, place);
-      weight += p;
-      square += p * off * off;
-    }
-  }
-  return weight > 0.0 ? std::sqrt(square / weight) : 0.0;
-}
-
-Eigen::Index position_of(const Estimate& e, int column) {
-  const auto found = std::find(e.regressors.begin(), e.regressors.end(), column);
-  return static_cast<Eigen::Index>(found - e.regressors.begin());
-}
-
-/// The models hold a continuous place at a few values only: where one of them has all the weight their scatter
-/// says nothing of how far the place may lie from it.
-ParameterEstimate estimated_place(
-    const Analysis& a, int column, std::size_t which, const Estimate& fitted, double coefficient) {
-  const Regressor& own = regressor(a, column);
-  const EffectParameter& place = own.cause.effect->parameters[which];
-  ParameterEstimate result{std::string(place.name), own.values[which], 0.0};
-  double width = 0.0;
-  if (!place.integer) {
-    const auto slope = slope_by_place(a, own, which);
-    const bool is_step = slope && slope->isZero();
-    if (slope && !is_step) width = fitted_place_sigma(a, column, which, fitted, coefficient, *slope);
-    // No reading tells where between two of them a step stands.
-    if (const auto gap = is_step ? gap_about(a.system, own.cause, result.value) : std::nullopt) {
-      result.value = 0.5 * (gap->below + gap->above);
-      width = (gap->above - gap->below) / std::sqrt(12.0);
-    }
-  }
-  result.sigma = std::max(place_scatter(a, column, which, result.value), width);
-  return result;
-}
-
-std::vector<ParameterEstimate> parameters(const Analysis& a, int column, const Estimate& fitted) {
-  const Regressor& d = regressor(a, column);
-  const Eigen::Index at = position_of(fitted, column);
-  const double coefficient = fitted.coefficient(at);
-  const double sigma = fitted.coefficient_sigma(at);
-  std::vector<ParameterEstimate> result;
-  const auto& described = d.cause.effect->parameters;
-  result.push_back({std::string(described.front().name),
-                    size_at(d, coefficient),
-                    std::abs(size_slope(d, coefficient)) * sigma});
-  for (std::size_t k = 1; k < described.size(); ++k)
-    result.push_back(estimated_place(a, column, k, fitted, coefficient));
-  return result;
 }
 
 double marginal(const Analysis& a, std::size_t index) {
@@ -216,7 +52,7 @@ Cause describe(const Analysis& a, std::size_t index) {
     set.push_back(column);
     const Estimate fitted = estimate_with(a, set);
     const Eigen::Index at = position_of(fitted, column);
-    auto found = parameters(a, column, fitted);
+    auto found = parameters_of(a, column, fitted);
     if (member == members.front()) {
       const double length = marginalised_system(a).g.col(column).norm();
       cause.signal_to_noise = std::abs(fitted.coefficient(at)) * length;
@@ -384,56 +220,6 @@ std::vector<CalibratedSetting> settings_found(const Analysis& a) {
     one.off = std::abs(one.calibrated - one.stated) > kSettingOff * scatter;
     result.push_back(one);
   }
-  return result;
-}
-
-namespace {
-
-/// What all others together know of a unit of one row leaves it as far off as this.
-Outlier outlying_distance(const Analysis& a, const NumberedUnit& own, const SystemUnit& unit) {
-  const Eigen::Index row = unit.first_row;
-  // All that the others know of its holes is in the prediction, with what they leave open.
-  const Eigen::RowVectorXd by_setting = a.system.by_setting.row(row);
-  const double variance = a.estimate.noise_square +
-                          by_setting.dot(a.estimate.setting_covariance * by_setting.transpose());
-  const double off = a.estimate.left_given_discrepancy(row);
-  Outlier outlier;
-  outlier.of = Observations::distances;
-  outlier.index = own.index;
-  outlier.residual_mm = off * unit.sigma();
-  outlier.distance = std::abs(off) / std::sqrt(variance);
-  return outlier;
-}
-
-Outlier outlying_point(const Analysis& a, const NumberedUnit& own, const SystemUnit& unit) {
-  const Eigen::Vector2d chains = unit.unwhitened(a.estimate.left_given_discrepancy);
-  Outlier outlier;
-  outlier.index = own.index;
-  outlier.shift_mm = tool_shift(a.system.places[unit.places.front().place], chains);
-  const Eigen::Vector2d whitened = unit.whitening * chains;
-  outlier.distance = whitened.norm() / std::sqrt(a.estimate.noise_square);
-  return outlier;
-}
-
-}  // namespace
-
-std::vector<Outlier> outliers_found(const Analysis& a) {
-  std::vector<bool> outliers = marginalised_system(a).outliers;
-  // A link counted wrong is an outlier with a name.
-  reject_slips(a, outliers);
-  std::vector<Outlier> result;
-  for (std::size_t u = 0; u < outliers.size(); ++u) {
-    if (!outliers[u]) continue;
-    const SystemUnit& unit = a.system.units[u];
-    result.push_back(unit.reads_chains ? outlying_point(a, a.session.units[u], unit)
-                                       : outlying_distance(a, a.session.units[u], unit));
-    const ObservationPart& part = a.session.parts[a.session.units[u].part];
-    if (&part.observation->kind() == &observation::drawn_measures)
-      result.back().of = Observations::drawing;
-  }
-  std::sort(result.begin(), result.end(), [](const Outlier& x, const Outlier& y) {
-    return std::pair(x.of, x.index) < std::pair(y.of, y.index);
-  });
   return result;
 }
 

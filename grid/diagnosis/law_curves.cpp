@@ -41,7 +41,7 @@ class CurveList {
     double most = 0.0;
     for (const LawEntrance& entrance : law_entrances(system_, of))
       most = std::max(most, start_.span() / shortest_wave(of, entrance.enters, start_.span()));
-    most_waves_told_ = most_waves_told(most);
+    most_resolvable_waves_ = most_resolvable_waves(most);
     for (const LawEntrance& entrance : law_entrances(system_, of)) {
       start_.enters = entrance.enters;
       add_shapes(weight * entrance.weight);
@@ -105,7 +105,7 @@ class CurveList {
 
   /// Waves over the span beyond which evenly spaced values mistake one for a longer one: half of the
   /// first number of waves that all of them see nearly in the same phase (the sampling theorem).
-  [[nodiscard]] double most_waves_told(double most) const {
+  [[nodiscard]] double most_resolvable_waves(double most) const {
     // 0.97: a strength of 12 parts two such waves by less than three sigmas, 12 sqrt(1 - 0.97^2).
     constexpr double kSamePhase = 0.97;
     constexpr double kFirst = 1.5;  // fewer waves than one are nearly in phase everywhere
@@ -122,7 +122,7 @@ class CurveList {
   void add_waves(LawShape shape, double step, double weight) {
     const double harmonic = shape == LawShape::harmonics ? 2.0 : 1.0;
     const double most =
-        std::min(start_.span() / shortest_wave(start_.of, start_.enters, start_.span()), most_waves_told_) /
+        std::min(start_.span() / shortest_wave(start_.of, start_.enters, start_.span()), most_resolvable_waves_) /
         harmonic;
     std::vector<double> grid;
     std::vector<double> mass;
@@ -140,7 +140,7 @@ class CurveList {
 
   const RegressorSystem& system_;
   std::vector<double> values_;
-  double most_waves_told_ = 0.0;
+  double most_resolvable_waves_ = 0.0;
   LawCurve start_;
   std::vector<LawCurve> curves_;
 };

@@ -23,8 +23,9 @@ std::vector<LawResidual> residuals_about(const Analysis& a,
     const SystemUnit& unit = system.units[kept.unit];
     if (kept.across || (!of_belts && !unit.reads_chains)) continue;
     LawResidual point;
-    point.index = kept.unit;
-    if (!of_belts) {
+    if (of_belts) {
+      point.index = system.entries[kept.unit].point;
+    } else {
       Eigen::VectorXd rows = Eigen::VectorXd::Zero(system.e.size());
       rows.segment(unit.first_row, unit.rows) = left.unexplained.segment(kept.at, kept.rows);
       const Eigen::Vector2d left_mm = error_of_unit(system, rows, kept.unit);

@@ -213,7 +213,8 @@ std::vector<LawRows> law_rows(const RegressorSystem& system, std::size_t unit, c
   if (!system.entries.empty()) {
     const LengthEntry& entry = system.entries[unit];
     const auto belt = static_cast<Eigen::Index>(belt_of(term.enters).value());
-    return {{variable_at(entry, term.of, term.direction_rad), entry.by_length.col(belt)}};
+    return {{variable_at(entry, term.of, term.direction_rad),
+             system.units[unit].by_reading.col(belt)}};
   }
   std::vector<LawRows> all;
   for (const observation::PlaceColumns& own : system.units[unit].places) {

@@ -71,12 +71,12 @@ struct OutlierLimits {
   std::size_t beyond_the_best = std::numeric_limits<std::size_t>::max();
 };
 
-/// How the lengths of a mechanism at a place move a unit's rows.
+/// Where a unit's lengths were read; what they do to its rows is the unit's by_reading.
 struct LengthEntry {
-  double x_mm = 0.0;  ///< where the tool was
+  std::size_t point = 0;  ///< into the file's points
+  double x_mm = 0.0;      ///< where the tool was
   double y_mm = 0.0;
-  double visit = 0.0;         ///< its number; 0 where the order is not known
-  Eigen::MatrixXd by_length;  ///< rows x lengths, whitened
+  double visit = 0.0;     ///< its number; 0 where the order is not known
   std::vector<double> length_mm{};  ///< of each, as read
   std::vector<double> angle_rad{};  ///< of each at its anchor, against the horizontal; 0 to pi / 2
 };

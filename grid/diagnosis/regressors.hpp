@@ -48,22 +48,6 @@ void add_regressors(const ObservationSet& session,
                                                        CauseId cause,
                                                        const std::vector<double>& values);
 
-/// Where or when an effect sets in; null of one that has no place.
-[[nodiscard]] const model::effects::EffectParameter* place_parameter(const model::effects::Effect& effect);
-
-/// What that place is compared with.
-[[nodiscard]] model::effects::PlaceVariable variable_of_place(const model::effects::Effect& effect,
-                                                              const model::effects::EffectParameter& place);
-/// Between the nearest places of the tool to either side of it, in that variable: a step at one place between them
-/// is the same at all readings as one at another. Nothing where none is on a side, and for phases.
-struct PlaceGap {
-  double below = 0.0;
-  double above = 0.0;
-};
-[[nodiscard]] std::optional<PlaceGap> gap_about(const RegressorSystem& system,
-                                                CauseId cause,
-                                                double place);
-
 /// Size of a cause at a coefficient of its regressor.
 [[nodiscard]] double size_at(const Regressor& regressor, double coefficient);
 /// d(size)/d(coefficient) there.

@@ -73,10 +73,10 @@ std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stabil
   if (!reading) return std::nullopt;
   const ClassProbability leader = a.decision.marginal.front();
   const CauseId cause = a.decision.classes[leader.index].front();
-  std::vector<bool> aside(a.session.units.size(), false);
-  aside[reading->unit] = true;
+  std::vector<bool> excluded(a.session.units.size(), false);
+  excluded[reading->unit] = true;
   a.comparison = compare_models(a.system,
-                                aside,
+                                excluded,
                                 {.steps = a.options.steps,
                                  .kernels = best_kernels(a.comparison),
                                  .given_cause = a.options.given_cause});

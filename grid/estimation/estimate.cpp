@@ -26,10 +26,10 @@ constexpr int kSoftRounds = 4;
 /// A step of 3e-3 stated sigmas changes no length by more than some 1e-3 mm. Where places follow
 /// from what is estimated, holes lie where the last step put them; distances converge more slowly, one
 /// of them being rejected at a time.
-Settling settling_of(const EstimationInput& input, bool places_move) {
+ConvergenceRule convergence_rule_of(const EstimationInput& input, bool places_move) {
   if (input.fixed_weights) return {12, 1e-6, true, 0};
-  return places_move ? Settling{40, 1e-3, true, kSoftRounds + 2}
-                     : Settling{25, 3e-3, false, kSoftRounds + 2};
+  return places_move ? ConvergenceRule{40, 1e-3, true, kSoftRounds + 2}
+                     : ConvergenceRule{25, 3e-3, false, kSoftRounds + 2};
 }
 
 EstimationFailure failure_of(const interp::FitFailure& refusal) {
@@ -57,7 +57,7 @@ Estimator::Fit Estimator::solve(const Eigen::VectorXd& weights,
   return *std::move(fit);
 }
 
-double Estimator::step_to(const State& next, const Settling& settling) const {
+double Estimator::step_to(const State& next, const ConvergenceRule& rule) const {
   double step = 0.0;
   const Unknowns& unknowns = problem_->unknowns();
   for (Eigen::Index i = 0; i < unknowns.settings(); ++i) {
@@ -71,7 +71,7 @@ double Estimator::step_to(const State& next, const Settling& settling) const {
     step = std::max(step, std::abs(next.settings[i] - state_.settings[i]) / sigma);
   }
   for (const Side side : model::kSides) {
-    if (!settling.scales_count || unknowns.scales() == 0) break;
+    if (!rule.scales_count || unknowns.scales() == 0) break;
     step = std::max(step,
                     std::abs(next.surface.scale[side] - state_.surface.scale[side]) / kScaleSigma);
   }
@@ -190,16 +190,16 @@ tl::expected<void, EstimationFailure> Estimator::approach() {
 }
 
 tl::expected<void, EstimationFailure> Estimator::converge() {
-  Settling settling = settling_of(input_, problem_->places_move());
-  if (input_.most_passes > 0) settling.most_passes = input_.most_passes;
+  ConvergenceRule rule = convergence_rule_of(input_, problem_->places_move());
+  if (input_.most_passes > 0) rule.most_passes = input_.most_passes;
   converged_ = false;
   Smoothing smoothing = Smoothing::choose;
-  for (int pass = 0; pass < settling.most_passes; ++pass) {
+  for (int pass = 0; pass < rule.most_passes; ++pass) {
     WorkStep work = input_.step;
     work.pass = pass + 1;
     tell(input_.progress, work);
     // Once all but the smoothing has converged, the iteration that chooses it may be the last.
-    const bool last = pass + 1 == settling.most_passes;
+    const bool last = pass + 1 == rule.most_passes;
     const bool perhaps_last = converged_ || last || !problem_->has_surface();
     if (perhaps_last) smoothing = Smoothing::choose;
     if (!is_linearised_) {
@@ -215,11 +215,11 @@ tl::expected<void, EstimationFailure> Estimator::converge() {
     if (!fit) return tl::unexpected(fit.error());
     fit_ = *std::move(fit);
     State next = problem_->state_of(fit_);
-    const double step = step_to(next, settling);
+    const double step = step_to(next, rule);
     state_ = std::move(next);
     const Eigen::VectorXd solved_with = weights_;
     converged_ =
-        !update_weights(pass) && step < settling.step_sigmas && pass + 1 >= settling.fewest_rounds;
+        !update_weights(pass) && step < rule.step_sigmas && pass + 1 >= rule.fewest_rounds;
     if (perhaps_last && (converged_ || last)) {
       // What is reported of the units belongs to the weights that the fit was solved with.
       weights_ = solved_with;
@@ -267,9 +267,9 @@ tl::expected<Estimate, EstimationFailure> Estimator::run() {
   return result();
 }
 
-MachineKnowledge stated_knowledge(const model::Machine& machine) {
-  MachineKnowledge knowledge;
-  knowledge.covariance = Eigen::MatrixXd::Zero(kMachineUnknowns, kMachineUnknowns);
+ParameterKnowledge stated_knowledge(const model::Machine& machine) {
+  ParameterKnowledge knowledge{Eigen::VectorXd::Zero(kMachineUnknowns),
+                               Eigen::MatrixXd::Zero(kMachineUnknowns, kMachineUnknowns)};
   for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) {
     const double sigma =
         std::max(model::stated_sigma(machine, model::kMachineSettings[static_cast<std::size_t>(i)]),

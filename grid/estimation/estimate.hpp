@@ -75,13 +75,14 @@ inline constexpr std::size_t kFewestSingleRows = 5;
 /// The order of the machine's own unknowns: model::kMachineSettings, the left scale, the right one.
 inline constexpr Eigen::Index kMachineUnknowns = model::kMachineSettings.size() + 2;
 
-/// What is known of the machine: deviations from the stated settings, scales from none.
-struct MachineKnowledge {
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(kMachineUnknowns);
-  Eigen::MatrixXd covariance;  ///< kMachineUnknowns squared
+/// What is known of a mechanism's parameters, as deviations from what was stated; of two chains, of both scales as
+/// well, which come last.
+struct ParameterKnowledge {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
 };
 /// The machine's stated uncertainty, and kScaleSigma of each scale.
-[[nodiscard]] MachineKnowledge stated_knowledge(const model::Machine& machine);
+[[nodiscard]] ParameterKnowledge stated_knowledge(const model::Machine& machine);
 
 enum class SurfaceUse {
   none,
@@ -120,7 +121,7 @@ struct EstimationInput {
   int intervals_x = 0;
   int intervals_y = 0;
   /// In place of what the machine states.
-  std::optional<MachineKnowledge> knowledge;
+  std::optional<ParameterKnowledge> knowledge;
   /// Of each unit, 0: rejected; no reweighting then, and settings converge to 1e-6 sigmas.
   std::optional<Eigen::VectorXd> fixed_weights;
   /// Single readings are searched for outliers; with fixed_weights alone.
@@ -191,7 +192,7 @@ struct Estimate {
   bool has_surface = false;
   double surface_log_evidence = 0.0;  ///< of the surface over none, where it was asked for
   Eigen::MatrixXd covariance;         ///< of all that a map is made of, columns.total() squared
-  MachineKnowledge knowledge;         ///< of the machine's own unknowns, afterwards
+  ParameterKnowledge knowledge;         ///< of the parameters, afterwards
   double noise_factor = 1.0;          ///< the noise found, as a multiple of the one that went in
   double effective_parameters = 0.0;
   std::vector<UnitEstimate> units;  ///< of readings that may be outliers

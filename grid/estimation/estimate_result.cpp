@@ -80,7 +80,7 @@ tl::expected<void, EstimationFailure> Estimator::fill_observations(Estimate& est
       }
     }
     for (std::size_t i = 0; i < line->places.size(); ++i) {
-      const observation::PlaceState& place = line->places[i];
+      const observation::ChainPlaceState& place = line->places[i];
       own.places.push_back({as_stated_[k][i], place.mark, place.by_mark, place.reading.lengths});
     }
     const Eigen::Index count = observation.nuisance_sigma().size();

@@ -19,7 +19,7 @@
 namespace chaintrue::grid::estimation {
 
 /// When the passes end.
-struct Settling {
+struct ConvergenceRule {
   int most_passes;
   double step_sigmas;  ///< of the stated sigmas
   bool scales_count;
@@ -54,7 +54,7 @@ class Estimator {
   [[nodiscard]] std::optional<Shift> best_rejected() const;
   [[nodiscard]] bool converge_without(RejectedReadings rejected);
   void reject_readings();
-  [[nodiscard]] double step_to(const State& next, const Settling& settling) const;
+  [[nodiscard]] double step_to(const State& next, const ConvergenceRule& rule) const;
   [[nodiscard]] bool update_weights(int pass);
   [[nodiscard]] std::optional<std::size_t> worst_alone() const;
   tl::expected<void, EstimationFailure> choose_surface();

@@ -67,7 +67,7 @@ struct SystemUnit {
 struct SystemPlace {
   std::size_t observation = 0;
   std::size_t place = 0;  ///< into the observation's
-  observation::PlaceState state;
+  observation::ChainPlaceState state;
   model::MarkPoint mark;  ///< as it was written, or commanded
   int order = 0;
   bool ordered = false;  ///< chains were read here, at this visit

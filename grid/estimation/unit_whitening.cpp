@@ -29,18 +29,10 @@ UnitWhitening::UnitWhitening(const Eigen::MatrixXd& covariance) {
   }
 }
 
-UnitWhitening UnitWhitening::projected(const Eigen::Ref<const Eigen::MatrixXd>& q, double sigma) {
-  UnitWhitening result;
-  result.matrix_ = q.transpose() / sigma;
-  return result;
-}
-
 UnitWhitening::Matrix UnitWhitening::inverse() const {
-  if (rows() == 1 && readings() == 1) return matrix_.cwiseInverse();
-  if (rows() == 2 && readings() == 2) return Eigen::Matrix2d(matrix_).inverse();
-  if (rows() == readings())
-    return matrix_.triangularView<Eigen::Lower>().solve(Matrix::Identity(rows(), rows()));
-  return matrix_.transpose() * (matrix_ * matrix_.transpose()).llt().solve(Matrix::Identity(rows(), rows()));
+  if (rows() == 1) return matrix_.cwiseInverse();
+  if (rows() == 2) return Eigen::Matrix2d(matrix_).inverse();
+  return matrix_.triangularView<Eigen::Lower>().solve(Matrix::Identity(rows(), rows()));
 }
 
 }  // namespace chaintrue::grid::estimation

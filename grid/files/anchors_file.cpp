@@ -173,20 +173,20 @@ const Record<StatedBeltPrediction>& both_predictions_record() {
 }
 
 /// Of the belts' table, with values that it may have.
-void check_cause(const Cursor& at, CauseBesideAnchors& cause) {
+void check_cause(const Cursor& at, CauseInAnchorFit& cause) {
   const std::vector<model::AppliedEffect> applied = {{cause.effect, cause.side, cause.parameters}};
   for (const model::MachineProblem& problem : model::belts::problems_of(applied))
     at.problems().add(at.pointer() + problem.parameter.substr(2), problem.value, problem.expected);
 }
 
-const Record<CauseBesideAnchors>& cause_beside_record() {
+const Record<CauseInAnchorFit>& cause_in_fit_record() {
   static const auto record =
-      Record<CauseBesideAnchors>("a cause with the anchors")
-          .required("effect", &CauseBesideAnchors::effect, text())
-          .sparse("side", &CauseBesideAnchors::side, one_of({"tl", "tr", "bl", "br", "all"}))
-          .required("parameters", &CauseBesideAnchors::parameters, dictionary(number(kAnyNumber)))
-          .required("sigma", &CauseBesideAnchors::sigma, number(kAnyNumber))
-          .required("probability", &CauseBesideAnchors::probability, number(kShare))
+      Record<CauseInAnchorFit>("a cause with the anchors")
+          .required("effect", &CauseInAnchorFit::effect, text())
+          .sparse("side", &CauseInAnchorFit::side, one_of({"tl", "tr", "bl", "br", "all"}))
+          .required("parameters", &CauseInAnchorFit::parameters, dictionary(number(kAnyNumber)))
+          .required("sigma", &CauseInAnchorFit::sigma, number(kAnyNumber))
+          .required("probability", &CauseInAnchorFit::probability, number(kShare))
           .check(check_cause);
   return record;
 }
@@ -229,7 +229,7 @@ void add_fit(Record<BeltsFit>& record) {
                 both_predictions_record().write({fit.one_left_out, fit.half_left_out}));
           })
       .optional("scale", &BeltsFit::scale, object(scale_record()))
-      .sparse("causes", &BeltsFit::causes, list(object(cause_beside_record())))
+      .sparse("causes", &BeltsFit::causes, list(object(cause_in_fit_record())))
       .sparse("bad", &BeltsFit::bad, list(object(bad_record())))
       .custom(
           "bad_points",

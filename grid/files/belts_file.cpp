@@ -102,7 +102,7 @@ ReadBelts parse_belts(const std::string& text,
     problems.throw_if_any();
     leave_out(without, read.belts, problems);
   }
-  const PointIndices indices = indices_beside(read.belts.points.size(), without);
+  const PointIndices indices = indices_without(read.belts.points.size(), without);
   const BeltPlaces places{"/points",
                           [&indices](std::size_t index, std::string_view field) {
                             const std::size_t place = index_in_file(indices, index);
@@ -123,7 +123,7 @@ ReadBelts parse_belts(const std::string& text, const std::string& file) {
   return parse_belts(text, file, {});
 }
 
-PointIndices indices_beside(std::size_t kept, const std::vector<std::size_t>& without) {
+PointIndices indices_without(std::size_t kept, const std::vector<std::size_t>& without) {
   PointIndices indices;
   if (without.empty()) return indices;
   for (std::size_t i = 0; indices.size() < kept; ++i) {

@@ -67,7 +67,7 @@ struct ReadBelts {
                                     const std::string& file,
                                     const std::vector<std::size_t>& without);
 /// Of the points that are kept without these.
-[[nodiscard]] PointIndices indices_beside(std::size_t kept,
+[[nodiscard]] PointIndices indices_without(std::size_t kept,
                                           const std::vector<std::size_t>& without);
 /// "7,12" of an option, numbers of `what`. \throws InputError where these are not numbers from 1 on.
 [[nodiscard]] std::vector<std::size_t> point_numbers_of(

@@ -61,7 +61,7 @@ Json strength_json(const synthetic::StrengthAt& at) {
   return {{"points", at.columns * at.rows},
           {"delta_at_usual_size", s.signal_to_noise},
           {"share_left_by_calibration", s.share_left},
-          {"seen_from", s.seen_size},
+          {"seen_from", s.detectable_size},
           {"named_from", s.named_size ? Json(*s.named_size) : Json(nullptr)},
           {"nearest_rival", s.nearest ? rival_json(*s.nearest) : Json(nullptr)},
           {"same_as", inseparable}};

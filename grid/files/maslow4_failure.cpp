@@ -34,9 +34,9 @@ double spread(const std::vector<double>& readings_mm) {
 }
 
 /// Whole turns that a length is off by; 0 where it is none.
-int whole_turns(double off_mm, double turn_mm, double within_mm = kWholeTurnMm) {
-  const double turns = std::round(std::abs(off_mm) / turn_mm);
-  const bool is_whole = std::abs(std::abs(off_mm) - turns * turn_mm) < within_mm;
+int whole_turns(double excess_mm, double turn_mm, double within_mm = kWholeTurnMm) {
+  const double turns = std::round(std::abs(excess_mm) / turn_mm);
+  const bool is_whole = std::abs(std::abs(excess_mm) - turns * turn_mm) < within_mm;
   return is_whole ? static_cast<int>(turns) : 0;
 }
 
@@ -59,7 +59,7 @@ std::string where(const RunStopped& stopped) {
 }
 
 /// What the single readings show, and what makes that; empty where there are none.
-std::string seen_in_readings(const RunStopped& stopped, double turn_mm) {
+std::string shown_by_readings(const RunStopped& stopped, double turn_mm) {
   Belt worst = Belt::tl;
   int apart = 0;
   for (const Belt belt : kBelts) {
@@ -96,7 +96,7 @@ std::string seen_in_readings(const RunStopped& stopped, double turn_mm) {
 }
 
 /// What the places that were read show against where the machine was sent.
-std::string seen_against_commands(const MeasuredBelts& belts) {
+std::string shown_by_commands(const MeasuredBelts& belts) {
   // Anchors in force are off by less; a belt that counts from elsewhere is not.
   constexpr double kFarMm = 20.0;
   const auto found = against_commands(belts);
@@ -116,17 +116,17 @@ std::string seen_against_commands(const MeasuredBelts& belts) {
     if (off(belt) > kFarMm) ++far;
   }
   if (far != 1) return "";
-  const double off_mm = found->median_mm[worst];
-  const int turns = whole_turns(off_mm, belts.machine.belt_turn_mm, kWholeTurnOfCommandsMm);
+  const double excess_mm = found->median_mm[worst];
+  const int turns = whole_turns(excess_mm, belts.machine.belt_turn_mm, kWholeTurnOfCommandsMm);
   return fmt::format(
       " The {} belt reads {:.0f} mm {} than the settings have it where the machine was sent, the "
       "others "
       "agree: {} makes that. Retract it, extend it anew and measure again.",
       model::words(worst),
-      std::abs(off_mm),
-      off_mm > 0.0 ? "longer" : "shorter",
+      std::abs(excess_mm),
+      excess_mm > 0.0 ? "longer" : "shorter",
       turns > 0      ? fmt::format("{}, lost or gained,", turns_in_words(turns))
-      : off_mm > 0.0 ? "a slack belt, or an anchor nearer than in the settings,"
+      : excess_mm > 0.0 ? "a slack belt, or an anchor nearer than in the settings,"
                      : "an anchor that is farther than in the settings, or an arm that catches,");
 }
 
@@ -203,7 +203,7 @@ std::string words_of(const RunStopped& stopped, const MeasuredBelts& belts) {
   if (!stopped.said.empty()) text += fmt::format("; it said {}", shortened(stopped.said));
   text += ".";
   const std::string found =
-      seen_in_readings(stopped, belts.machine.belt_turn_mm) + seen_against_commands(belts);
+      shown_by_readings(stopped, belts.machine.belt_turn_mm) + shown_by_commands(belts);
   text += found.empty() ? std::string(by_kind(stopped.kind)) : found;
   const std::size_t count = belts.points.size();
   if (count >= kFewestBeltPoints) {

@@ -23,7 +23,7 @@ bool same(const ScannedReading& a, const ScannedReading& b) {
 }
 
 /// `list` begins with `points`, or the other way round.
-bool begins_alike(const std::vector<ScannedReading>& points,
+bool begins_equally(const std::vector<ScannedReading>& points,
                   const std::vector<ScannedReading>& list) {
   const auto shared = static_cast<std::ptrdiff_t>(std::min(points.size(), list.size()));
   return std::equal(points.begin(), points.begin() + shared, list.begin(), same);
@@ -119,7 +119,7 @@ class Scanner {
   void join_longer_list() {
     if (runs_.size() < 2 || !runs_.back().points.empty()) return;
     ScannedRun& before = runs_[runs_.size() - 2];
-    if (before.points.size() > list_.size() || !begins_alike(before.points, list_)) return;
+    if (before.points.size() > list_.size() || !begins_equally(before.points, list_)) return;
     ScannedRun& own = runs_.back();
     for (const auto& [waypoint, at] : own.commanded) before.commanded[waypoint] = at;
     for (auto& [waypoint, lengths] : own.thrown_away_mm)
@@ -137,7 +137,7 @@ class Scanner {
     if (list_.empty()) return;
     join_longer_list();
     std::vector<ScannedReading>& points = run().points;
-    if (begins_alike(points, list_)) {
+    if (begins_equally(points, list_)) {
       for (std::size_t i = 0; i < list_.size(); ++i) {
         if (i >= points.size()) {
           points.push_back(list_[i]);

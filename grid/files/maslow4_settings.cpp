@@ -20,8 +20,8 @@ using model::BeltMachine;
 double scale_of(const BeltScale& scale) { return 1.0 / scale.factor; }
 
 bool is_in_force(const BeltMachine& machine, const BeltScale& scale) {
-  constexpr double kSeenSigmas = 2.0;
-  const double detectable = kSeenSigmas * scale.sigma;
+  constexpr double kDetectableSigmas = 2.0;
+  const double detectable = kDetectableSigmas * scale.sigma;
   return std::abs(machine.scale_x - scale_of(scale)) < detectable &&
          std::abs(machine.scale_y - scale_of(scale)) < detectable;
 }

@@ -114,7 +114,7 @@ mode_t rights_for(const struct stat* old) {
   return 0666U & ~mask;
 }
 
-std::string unpredictable_name_beside(const fs::path& target) {
+std::string unpredictable_name_next_to(const fs::path& target) {
   std::random_device bits;
   const std::uint64_t number = (static_cast<std::uint64_t>(bits()) << 32U) | bits();
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
@@ -140,7 +140,7 @@ constexpr std::size_t kPiece = std::size_t{1} << 18U;
 
 PendingFile::PendingFile(fs::path path) : path_(std::move(path)), target_(file_behind(path_)) {
   if (target_.empty()) return;
-  temporary_ = unpredictable_name_beside(target_);
+  temporary_ = unpredictable_name_next_to(target_);
   slot_ = claim_slot(temporary_);
   descriptor_ =
       ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);

@@ -29,10 +29,10 @@ std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates,
   WholeFinding finding{
       best.from_row, best.sentence, std::move(found), best.is_doubtful, best.account.median_mm};
   // Two accounts this near each other are both reported.
-  constexpr double kAlike = 3.0;
+  constexpr double kEquallyLikely = 3.0;
   for (std::size_t i = 1; i < candidates.size(); ++i) {
     const Candidate& other = candidates[i];
-    if (best.account.log_likelihood - other.account.log_likelihood > kAlike) break;
+    if (best.account.log_likelihood - other.account.log_likelihood > kEquallyLikely) break;
     if (other.sentence == best.sentence || other.from_row != best.from_row) continue;
     finding.mistake += fmt::format("; or {}", other.sentence);
     break;

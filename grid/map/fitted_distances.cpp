@@ -17,12 +17,12 @@ using model::MarkPoint;
 /// A tape's zero offset is spoken of from here on: one sound file of 370 has as much.
 constexpr double kTapeZeroSigmas = 3.0;
 
-ErrorSummary summary_of(const std::vector<FittedDistance>& distances, bool with_set_aside) {
+ErrorSummary summary_of(const std::vector<FittedDistance>& distances, bool with_rejected) {
   ErrorSummary summary;
   double squares = 0.0;
   std::size_t count = 0;
   for (const FittedDistance& distance : distances) {
-    if (distance.rejected && !with_set_aside) continue;
+    if (distance.rejected && !with_rejected) continue;
     squares += distance.left_out_mm * distance.left_out_mm;
     summary.maximum_mm = std::max(summary.maximum_mm, std::abs(distance.left_out_mm));
     ++count;
@@ -31,7 +31,7 @@ ErrorSummary summary_of(const std::vector<FittedDistance>& distances, bool with_
   return summary;
 }
 
-void note_set_aside(const MeasuredHoles& set,
+void note_rejected(const MeasuredHoles& set,
                     const FittedDistances& fit,
                     std::vector<std::string>& notes) {
   std::map<std::size_t, int> at_hole;
@@ -135,7 +135,7 @@ DistancesUsed distances_used(const std::vector<FittedDistance>& distances, doubl
 
 std::vector<std::string> distance_notes(const MeasuredHoles& set, const FittedDistances& fit) {
   std::vector<std::string> notes;
-  note_set_aside(set, fit, notes);
+  note_rejected(set, fit, notes);
   if (const auto tape_zero = suspected_tape_zero_offset_mm(set)) {
     notes.push_back(
         fmt::format("All distances are about {:.1f} mm {} than commanded, short ones like long "

@@ -32,7 +32,7 @@ namespace chaintrue::grid {
 
 struct JointFitOptions {
   /// In place of what the machine states.
-  std::optional<estimation::MachineKnowledge> knowledge{};
+  std::optional<estimation::ParameterKnowledge> knowledge{};
   /// What the map does beyond the points.
   OutsideRule outside{};
   Progress progress{};

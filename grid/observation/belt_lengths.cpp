@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <numeric>
@@ -28,23 +27,10 @@ std::vector<LengthsAtPlace> sorted_readings(std::vector<LengthsAtPlace> places) 
   return places;
 }
 
-bool counts(const LengthsAtPlace& place, Eigen::Index length) {
-  return place.counting.empty() || place.counting.at(static_cast<std::size_t>(length));
-}
-
 Eigen::Index counting_lengths(const LengthsAtPlace& place) {
   Eigen::Index count = 0;
-  for (Eigen::Index i = 0; i < place.lengths_mm.size(); ++i) count += counts(place, i) ? 1 : 0;
+  for (Eigen::Index i = 0; i < place.lengths_mm.size(); ++i) count += place.counts(i) ? 1 : 0;
   return count;
-}
-
-/// Lengths that the position is found from; empty: all.
-std::vector<bool> deciding_lengths(const LengthsAtPlace& place) {
-  if (place.rejected.empty()) return place.counting;
-  std::vector<bool> deciding;
-  for (Eigen::Index i = 0; i < place.lengths_mm.size(); ++i)
-    deciding.push_back(counts(place, i) && !place.rejected.at(static_cast<std::size_t>(i)));
-  return deciding;
 }
 
 }  // namespace
@@ -107,8 +93,8 @@ void BeltLengthReadings::join_places() {
       place->index = number_of.at(place->index);
       left_out = left_out || place->index == none || !is_found(place->index);
       if (left_out) continue;
-      if (readings_[place->index].known)
-        throw precondition("a distance to point {}, whose position is known",
+      if (readings_[place->index].known || readings_[place->index].about)
+        throw precondition("a distance to point {}, whose position is given",
                            readings_[place->index].name);
       if (at) root[root_of(place->index)] = root_of(*at);
       at = place->index;
@@ -158,7 +144,7 @@ void BeltLengthReadings::number_rows(const Block& block, std::vector<double>& me
     if (is_known) {
       const LengthsAtPlace& own = readings_[place];
       for (Eigen::Index i = 0; i < own.lengths_mm.size(); ++i) {
-        if (counts(own, i)) measured.push_back(own.lengths_mm[i]);
+        if (own.counts(i)) measured.push_back(own.lengths_mm[i]);
       }
     } else {
       measured.insert(measured.end(), static_cast<std::size_t>(units_.back().rows), 0.0);
@@ -166,144 +152,7 @@ void BeltLengthReadings::number_rows(const Block& block, std::vector<double>& me
   }
 }
 
-double BeltLengthReadings::distance_weight(std::size_t distance) const {
-  const double ratio = noise_.length_mm / distances_[distance].sigma_mm;
-  return ratio * ratio;
-}
-
-/// Where a distance's ends stand among a block's places.
-std::array<std::optional<std::size_t>, 2> BeltLengthReadings::slots_of(const Block& block,
-                                                                       std::size_t distance) const {
-  const auto slot_of = [&](const TapeEnd& end) -> std::optional<std::size_t> {
-    const auto* place = std::get_if<AtPlace>(&end);
-    if (place == nullptr) return std::nullopt;
-    const auto at = std::lower_bound(block.places.begin(), block.places.end(), place->index);
-    return static_cast<std::size_t>(at - block.places.begin());
-  };
-  return {slot_of(distances_[distance].from), slot_of(distances_[distance].to)};
-}
-
-tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
-    const View& view,
-    const Block& block,
-    std::vector<model::ToolPosition> positions,
-    bool with_parameters) const {
-  const auto wanted = with_parameters ? model::Derivatives::by_position_and_parameter
-                                      : model::Derivatives::by_position;
-  const auto lengths = static_cast<Eigen::Index>(view.mechanism->lengths().size());
-  const auto places = static_cast<Eigen::Index>(block.places.size());
-  const Eigen::Index rows = lengths * places + static_cast<Eigen::Index>(block.distances.size());
-  const Eigen::Index parameters = with_parameters ? view.mechanism->values().size() : 0;
-  BlockLine line{std::move(positions),
-                 Eigen::VectorXd(rows),
-                 Eigen::MatrixXd::Zero(rows, 2 * places),
-                 Eigen::MatrixXd::Zero(rows, parameters),
-                 Eigen::VectorXd(rows)};
-  for (Eigen::Index p = 0; p < places; ++p) {
-    const std::size_t place = block.places[static_cast<std::size_t>(p)];
-    const LengthsAtPlace& own = readings_[place];
-    const auto at =
-        view.mechanism->predict(line.positions[static_cast<std::size_t>(p)], own.visit, wanted);
-    if (!at) return tl::unexpected(at.error().at(place));
-    const auto here = Eigen::seqN(lengths * p, lengths);
-    line.residual_mm(here) = own.lengths_mm - at->lengths_mm;
-    line.by_position.block(lengths * p, 2 * p, lengths, 2) = at->by_position;
-    if (with_parameters) line.by_parameter.middleRows(lengths * p, lengths) = at->by_parameter;
-    for (Eigen::Index i = 0; i < lengths; ++i)
-      line.weight[lengths * p + i] = counts(own, i) ? 1.0 : 0.0;
-  }
-  Eigen::Index row = lengths * places;
-  for (const std::size_t k : block.distances) {
-    const auto slots = slots_of(block, k);
-    std::array<model::ToolPosition, 2> ends;
-    for (std::size_t e = 0; e < 2; ++e) {
-      if (slots[e]) ends[e] = line.positions[*slots[e]];
-    }
-    const auto own = distance_line(*view.mechanism, distances_[k], ends);
-    if (!own) {
-      return tl::unexpected(own.error().at(block.places.empty() ? 0 : block.places.front()));
-    }
-    line.residual_mm[row] = distances_[k].distance_mm - own->predicted_mm;
-    for (std::size_t e = 0; e < 2; ++e) {
-      if (slots[e])
-        line.by_position.block<1, 2>(row, 2 * static_cast<Eigen::Index>(*slots[e])) +=
-            own->by_end[e];
-    }
-    if (with_parameters) line.by_parameter.row(row) = own->by_parameter;
-    line.weight[row++] = distance_weight(k);
-  }
-  return line;
-}
-
-/// Of places that distances join: by Gauss and Newton from where lengths alone put each.
-tl::expected<void, Unreachable> BeltLengthReadings::find_positions(const View& view,
-                                                                   const Block& block,
-                                                                   BlockLine& line) const {
-  // Distances that agree to some millimetres converge as lengths do, by 1e-3 a step.
-  constexpr int kMostSteps = 100;
-  constexpr double kConvergedMm = 1e-9;
-  for (int step = 0; step < kMostSteps; ++step) {
-    const Eigen::MatrixXd weighed = line.weight.asDiagonal() * line.by_position;
-    const Eigen::VectorXd move = (weighed.transpose() * line.by_position)
-                                     .ldlt()
-                                     .solve(weighed.transpose() * line.residual_mm);
-    if (!move.allFinite()) break;
-    std::vector<model::ToolPosition> next = line.positions;
-    for (std::size_t p = 0; p < next.size(); ++p) {
-      next[p].x_mm += move[2 * static_cast<Eigen::Index>(p)];
-      next[p].y_mm += move[2 * static_cast<Eigen::Index>(p) + 1];
-    }
-    auto there = line_at(view, block, std::move(next), line.by_parameter.cols() > 0);
-    if (!there) return tl::unexpected(there.error());
-    line = *std::move(there);
-    if (move.norm() < kConvergedMm) return {};
-  }
-  constexpr model::MechanismReason kNotConverged{"not_converged",
-                                                 "no position was found for these lengths"};
-  return tl::unexpected(Unreachable(kNotConverged, block.places.front()));
-}
-
-tl::expected<BlockLine, Unreachable> BeltLengthReadings::block_line(const View& view,
-                                                                    const Block& block,
-                                                                    bool with_parameters) const {
-  std::vector<model::ToolPosition> positions;
-  for (const std::size_t place : block.places) {
-    const LengthsAtPlace& own = readings_[place];
-    if (own.known) {
-      positions.push_back(*own.known);
-      continue;
-    }
-    // From where all lengths together put it, from the middle where they put it nowhere.
-    const std::vector<bool> deciding = deciding_lengths(own);
-    auto position = view.mechanism->locate(own.lengths_mm, own.visit);
-    if (!position || !deciding.empty()) {
-      position = model::locate_by_newton(*view.mechanism,
-                                         own.lengths_mm,
-                                         own.visit,
-                                         position ? *position : view.mechanism->extent().centre(),
-                                         deciding);
-    }
-    if (!position) return tl::unexpected(position.error().at(place));
-    positions.push_back(*position);
-  }
-  auto line = line_at(view, block, std::move(positions), with_parameters);
-  if (!line || block.distances.empty() || block.places.empty()) return line;
-  if (auto found = find_positions(view, block, *line); !found) return tl::unexpected(found.error());
-  return line;
-}
-
-tl::expected<model::ToolPosition, model::MechanismFailure> BeltLengthReadings::position_of(
-    const View& view, std::size_t place) const {
-  const Block alone{{place}, {}};
-  const bool is_joined = block_of_.at(place) < blocks_.size();
-  const Block& block = is_joined ? blocks_[block_of_[place]] : alone;
-  const auto line = block_line(view, block, false);
-  if (!line) return tl::unexpected(line.error().reason);
-  const auto at = std::find(block.places.begin(), block.places.end(), place);
-  return line->positions[static_cast<std::size_t>(at - block.places.begin())];
-}
-
-/// The same of four lengths that all count at one place, which most places are: without a matrix
+/// As rows_of() of four lengths that all count at one place, which most places are: without a matrix
 /// whose size is not known beforehand.
 BeltLengthReadings::BlockRows BeltLengthReadings::rows_of_four(const BlockLine& line) const {
   const Eigen::Matrix<double, 4, 2> by_position = line.by_position;
@@ -379,7 +228,7 @@ tl::expected<BeltLengthReadings::UnitLine, Unreachable> BeltLengthReadings::line
     by_length = Eigen::MatrixXd::Zero(rows->predicted.size(), own.lengths_mm.size());
     Eigen::Index row = 0;
     for (Eigen::Index i = 0; i < own.lengths_mm.size(); ++i)
-      if (counts(own, i)) by_length(row++, i) = 1.0;
+      if (own.counts(i)) by_length(row++, i) = 1.0;
   }
   return UnitLine{std::move(rows->predicted),
                   std::move(rows->by_parameter),

@@ -55,6 +55,13 @@ struct LengthsAtPlace {
   std::optional<model::ToolPosition> known = std::nullopt;
   /// Lengths that count and that the position is found without; empty: none.
   std::vector<bool> rejected = {};
+  /// Of a position that nobody measured: q to linearise about. The residuals are those there, to first order
+  /// the same whatever q is near by. Empty: q of (1).
+  std::optional<model::ToolPosition> about = std::nullopt;
+
+  [[nodiscard]] bool counts(Eigen::Index length) const {
+    return counting.empty() || counting.at(static_cast<std::size_t>(length));
+  }
 };
 
 /// One sigma of a length, and of a known position on each axis.
@@ -75,7 +82,8 @@ struct BlockLine {
 class BeltLengthReadings final : public Observation {
  public:
   /// Sorts the places: by visit where the order is known, else by lengths. Distances name places by
-  /// LengthsAtPlace::index. \throws std::invalid_argument for a sigma that is not positive.
+  /// LengthsAtPlace::index. \throws std::invalid_argument for a sigma that is not positive, and for a
+  /// distance to a place that is known or has a position to linearise about.
   BeltLengthReadings(std::vector<LengthsAtPlace> places,
                      bool ordered,
                      BeltNoise noise,
@@ -124,7 +132,7 @@ class BeltLengthReadings final : public Observation {
                                                             std::size_t unit,
                                                             bool with_parameters) const;
 
-  /// Where a view puts the tool at a place: where it is known to be, or q of (1).
+  /// Where a view puts the tool at a place: where it is known to be, or q.
   [[nodiscard]] tl::expected<model::ToolPosition, model::MechanismFailure> position_of(
       const View& view, std::size_t place) const;
   /// In the order of places().

@@ -100,7 +100,7 @@ tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
     const model::MarkPoint place = frame.place(places_[i].mark);
     const auto reading = view.chains().at(view.sheet.to_bed(place));
     if (!reading) return tl::unexpected(model::mechanism_failure(reading.error()).at(i));
-    PlaceState state{*reading, places_[i].mark, reading->position_jacobian * view.sheet.rotation()};
+    ChainPlaceState state{*reading, places_[i].mark, reading->position_jacobian * view.sheet.rotation()};
     model::ChainLengths lengths = reading->lengths;
     if (view.correction != nullptr) {
       const auto corrected = view.correction->at(places_[i].mark, lengths, state.by_mark);

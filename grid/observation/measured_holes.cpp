@@ -82,10 +82,10 @@ std::optional<double> suspected_tape_zero_offset_mm(const MeasuredHoles& set) {
     residual_of_scale.push_back(std::abs(excess[i] - scale * commanded[i]));
     excess[i] = std::abs(excess[i] - middle);
   }
-  constexpr double kAlike = 0.25;
+  constexpr double kEqualWithin = 0.25;
   constexpr double kClearlyBetter = 0.5;
   const double spread = median(excess);
-  if (spread > kAlike * std::abs(middle) || spread > kClearlyBetter * median(residual_of_scale))
+  if (spread > kEqualWithin * std::abs(middle) || spread > kClearlyBetter * median(residual_of_scale))
     return std::nullopt;
   return middle;
 }

@@ -125,8 +125,8 @@ struct Columns {
   bool sheet = false;
 };
 
-/// A place as a view has it.
-struct PlaceState {
+/// A place of two chains as a view has it.
+struct ChainPlaceState {
   model::PointReading reading;  ///< of the machine alone
   model::MarkPoint mark;        ///< on the sheet; of a hole where the machine puts it
   Eigen::Matrix2d by_mark;      ///< d(L, R)/d(mark), corrected
@@ -154,7 +154,7 @@ struct Linearisation {
   Eigen::MatrixXd by_setting;   ///< A, n x p
   Eigen::MatrixXd by_nuisance;  ///< B, n x q
   /// Of each place; empty of a kind whose lengths no LengthCorrection corrects.
-  std::vector<PlaceState> places;
+  std::vector<ChainPlaceState> places;
   std::vector<UnitState> units;
 };
 

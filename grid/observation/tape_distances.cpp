@@ -93,9 +93,9 @@ Sorted sorted_set(const MeasuredHoles& set) {
   return result;
 }
 
-std::vector<MarkPoint> marks_of(const std::vector<PlaceState>& states) {
+std::vector<MarkPoint> marks_of(const std::vector<ChainPlaceState>& states) {
   std::vector<MarkPoint> marks;
-  for (const PlaceState& state : states) marks.push_back(state.mark);
+  for (const ChainPlaceState& state : states) marks.push_back(state.mark);
   return marks;
 }
 
@@ -246,12 +246,12 @@ void TapeDistances::state_nuisances() {
   nuisance_sigma_.tail(of_holes).setConstant(std::max(set_.hole_sigma_mm, kKnownNuisanceMm));
 }
 
-tl::expected<std::vector<PlaceState>, Unreachable> TapeDistances::placed(const View& view) const {
+tl::expected<std::vector<ChainPlaceState>, Unreachable> TapeDistances::placed(const View& view) const {
   // A correction changes by a thousandth of a hole's way, the chains' scale by 0.2 %: each turn
   // gains two digits at least, and begins within some mm.
   constexpr int kTurns = 6;
   constexpr double kConvergedMm = 1e-9;
-  std::vector<PlaceState> states;
+  std::vector<ChainPlaceState> states;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     model::BedPoint start = model::identity_placement(places_[i].mark);
     model::ChainLengths own = places_[i].lengths;
@@ -268,7 +268,7 @@ tl::expected<std::vector<PlaceState>, Unreachable> TapeDistances::placed(const V
       reading = view.chains().find(own, start);
     }
     if (!reading) return tl::unexpected(model::mechanism_failure(reading.error()).at(i));
-    PlaceState state{*reading,
+    ChainPlaceState state{*reading,
                      view.sheet.to_mark(reading->pose.position),
                      reading->position_jacobian * view.sheet.rotation()};
     if (view.correction != nullptr) {
@@ -282,7 +282,7 @@ tl::expected<std::vector<PlaceState>, Unreachable> TapeDistances::placed(const V
 }
 
 Eigen::Matrix2Xd TapeDistances::mark_by_setting(const View& view,
-                                                const PlaceState& place,
+                                                const ChainPlaceState& place,
                                                 const std::vector<model::Setting>& settings) {
   // f(sheet(m), settings) = l holds: dm = -(df/dm)^-1 df/ds ds
   const Eigen::Matrix2Xd lengths =

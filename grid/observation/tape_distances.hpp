@@ -109,10 +109,10 @@ class TapeDistances final : public Observation {
   /// In the order of places() and units().
   [[nodiscard]] const MeasuredHoles& set() const { return set_; }
   /// Where a view puts the holes with what was paid out for them.
-  [[nodiscard]] tl::expected<std::vector<PlaceState>, Unreachable> placed(const View& view) const;
+  [[nodiscard]] tl::expected<std::vector<ChainPlaceState>, Unreachable> placed(const View& view) const;
   /// How settings move a hole's mark, 2 x p.
   [[nodiscard]] static Eigen::Matrix2Xd mark_by_setting(
-      const View& view, const PlaceState& place, const std::vector<model::Setting>& settings);
+      const View& view, const ChainPlaceState& place, const std::vector<model::Setting>& settings);
 
  private:
   explicit TapeDistances(MeasuredHoles set) : set_(std::move(set)) {}

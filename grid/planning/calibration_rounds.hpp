@@ -63,7 +63,7 @@ class HolesRounds {
  private:
   model::Machine stated_;
   double worthwhile_mm_;
-  estimation::MachineKnowledge prior_;
+  estimation::ParameterKnowledge prior_;
   std::vector<ExtraReading> counted_;  ///< readings of settings that are already in prior_
   std::optional<JointFit> fit_;
   int count_ = 0;

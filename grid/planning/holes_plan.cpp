@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "grid/planning/seen_effects.hpp"
+#include "grid/planning/detectable_effects.hpp"
 #include "grid/planning/tool_error.hpp"
 #include "grid/precondition.hpp"
 
@@ -271,7 +271,7 @@ tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
       tool_sigma_mm(machine, estimation::stated_knowledge(machine).covariance);
   plan.knowledge =
       knowledge_of(prior, after, request.edges ? std::optional(error.whole) : std::nullopt);
-  plan.effects = seen_effects(plan.set);
+  plan.effects = detectable_effects(plan.set);
   return plan;
 }
 

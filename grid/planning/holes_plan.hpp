@@ -61,7 +61,7 @@ struct PlannedKnowledge {
 };
 
 /// An effect of the catalogue at its nominal strength, as observed by this set.
-struct SeenEffect {
+struct DetectableEffect {
   std::string effect;
   std::string side;
   /// Norm of its change of the distances, in sigmas, after projection on settings and scales.
@@ -79,7 +79,7 @@ struct HolesPlan {
   double expected_before_mm = 0.0;
   std::vector<PlannedKnowledge> knowledge;
   /// For the effects that can act, except drift, skips and hysteresis.
-  std::vector<SeenEffect> effects;
+  std::vector<DetectableEffect> effects;
 };
 
 /// \throws std::invalid_argument for numbers out of range.

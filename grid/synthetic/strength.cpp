@@ -210,7 +210,7 @@ EffectStrength StrengthTable::strength(const Effect& effect, EffectSide side) co
   result.share_left = own.norm > 0.0 ? result.signal_to_noise / own.norm : 0.0;
   const EffectParameter& size = effect.parameters.front();
   const double per_size = result.signal_to_noise / std::abs(size.nominal);
-  result.seen_size = kSeenAtSignalToNoise / per_size;
+  result.detectable_size = kDetectableSignalToNoise / per_size;
   // The most collinear place of each rival.
   std::vector<Rival> rivals;
   for (const Entry& other : entries_) {
@@ -231,7 +231,7 @@ EffectStrength StrengthTable::strength(const Effect& effect, EffectSide side) co
   std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) {
     return a.collinearity > b.collinearity;
   });
-  double needed = kSeenAtSignalToNoise;
+  double needed = kDetectableSignalToNoise;
   for (const Rival& rival : rivals) {
     if (rival.collinearity >= kInseparable) {
       result.inseparable.push_back(rival);

@@ -38,7 +38,7 @@
 
 namespace chaintrue::grid::synthetic {
 
-inline constexpr double kSeenAtSignalToNoise = 4.8;
+inline constexpr double kDetectableSignalToNoise = 4.8;
 inline constexpr double kInseparable = 0.9995;
 
 /// Marks of a regular grid, visited row by row.
@@ -70,8 +70,8 @@ struct EffectStrength {
   double signal_to_noise = 0.0;
   /// Share of the signature that remains after calibration.
   double share_left = 0.0;
-  /// Size of the effect's first parameter at kSeenAtSignalToNoise.
-  double seen_size = 0.0;
+  /// Size of the effect's first parameter at kDetectableSignalToNoise.
+  double detectable_size = 0.0;
   /// The rival with the most collinear signature, apart from the effect's own class.
   std::optional<Rival> nearest;
   /// Size from which it is also distinguished from the nearest rival; absent if that is out of the

@@ -54,7 +54,7 @@ tl::expected<ChainLengths, PlotterFailure> mural_lengths(const PlotterMachine& a
                                                          BedPoint command) {
   if (is_point(as_set.gondola)) throw std::invalid_argument("a mural whose gondola is a point");
   constexpr int kMostPasses = 200;
-  constexpr double kSettledRad = 1e-14;
+  constexpr double kConvergedRad = 1e-14;
   const double q = as_set.pulley_radius_mm / std::numbers::sqrt2;
   const Gondola& g = as_set.gondola;
   const MuralBot bot{as_set.pin_spacing_mm,
@@ -65,7 +65,7 @@ tl::expected<ChainLengths, PlotterFailure> mural_lengths(const PlotterMachine& a
   const double x = command.x_mm + 0.5 * bot.pins_mm, y = -command.y_mm;
   double tilt = 0.0, change = 1.0;
   MuralPose pose = pose_at(bot, x, y, tilt);
-  for (int pass = 0; pass < kMostPasses && std::abs(change) > kSettledRad; ++pass) {
+  for (int pass = 0; pass < kMostPasses && std::abs(change) > kConvergedRad; ++pass) {
     change = level_tilt(bot, pose) - tilt;
     tilt += change;
     pose = pose_at(bot, x, y, tilt);

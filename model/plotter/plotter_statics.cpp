@@ -130,7 +130,7 @@ Linear linear_at(const Statics& m, const Unknowns<double>& q, const Placed<doubl
 }
 
 /// Newton from `q`; false where it does not converge.
-bool settle(const Statics& m, const Placed<double>& at, Unknowns<double>& q) {
+bool converge(const Statics& m, const Placed<double>& at, Unknowns<double>& q) {
   for (int n = 0; n < kMostSteps; ++n) {
     const Linear linear = linear_at(m, q, at);
     const Solved step = -linear.slope.partialPivLu().solve(linear.value);
@@ -141,12 +141,12 @@ bool settle(const Statics& m, const Placed<double>& at, Unknowns<double>& q) {
 }
 
 /// From below the pins' middle to the place in steps that Newton can follow.
-bool settle_by_walking(const Statics& m, const Placed<double>& at, Unknowns<double>& q) {
+bool converge_by_continuation(const Statics& m, const Placed<double>& at, Unknowns<double>& q) {
   Placed<double> middle = at;
   middle.x = 0.0;
   middle.y = std::min(at.y, -0.3 * at.pin_spacing);
   q = straight_start(m, middle);
-  if (!settle(m, middle, q)) return false;
+  if (!converge(m, middle, q)) return false;
   constexpr double kShortest = 1e-4;
   double reached = 0.0, stride = 0.25;
   while (reached < 1.0) {
@@ -155,7 +155,7 @@ bool settle_by_walking(const Statics& m, const Placed<double>& at, Unknowns<doub
     on.x = middle.x + next * (at.x - middle.x);
     on.y = middle.y + next * (at.y - middle.y);
     Unknowns<double> trial = q;
-    if (settle(m, on, trial)) {
+    if (converge(m, on, trial)) {
       q = trial;
       reached = next;
       stride *= 1.5;
@@ -217,7 +217,7 @@ tl::expected<CordsAtRest, PlotterFailure> cords_at(const Statics& statics,
                                                    const Placed<double>& place) {
   if (const auto failure = outside(statics, place)) return tl::unexpected(*failure);
   Unknowns<double> q = straight_start(statics, place);
-  if (!settle(statics, place, q) && !settle_by_walking(statics, place, q))
+  if (!converge(statics, place, q) && !converge_by_continuation(statics, place, q))
     return tl::unexpected(PlotterReason::not_converged);
   const Unknowns<Number> at = with_derivatives(statics, q, place);
   return CordsAtRest{

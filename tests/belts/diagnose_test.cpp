@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -230,6 +231,24 @@ TEST(BeltsDiagnosis, FailsInTheWordsOfTheFit) {
   const auto found = diagnosis::diagnose(belts);
   ASSERT_FALSE(found);
   EXPECT_THAT(found.error().sentence(), HasSubstr("too few"));
+}
+
+// Without visits' numbers the rows stand in the order of the lengths.
+TEST(BeltsDiagnosis, TheOrderInTheFileChangesNothing) {
+  constexpr std::uint64_t kSeed = 6;
+  SCOPED_TRACE(kSeed);
+  MeasuredBelts belts = measured_in({{{"belt_scale", "tl", {{"scale", 0.004}}}}, kSeed});
+  for (BeltPoint& point : belts.points) point.order.reset();
+  const Diagnosis one = diagnosed(belts);
+  std::reverse(belts.points.begin(), belts.points.end());
+  const Diagnosis other = diagnosed(belts);
+  ASSERT_EQ(one.hypotheses.size(), other.hypotheses.size());
+  for (std::size_t k = 0; k < one.hypotheses.size(); ++k) {
+    EXPECT_EQ(one.hypotheses[k].effect, other.hypotheses[k].effect);
+    // Anchors are found by sums in another order before the rows are in one.
+    EXPECT_NEAR(one.hypotheses[k].probability, other.hypotheses[k].probability, 1e-9);
+  }
+  EXPECT_EQ(one.family_wise_p, other.family_wise_p);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ TEST(StretchWithHoles, AnchorsAreThoseOfTheUnstretchedFrame) {
     alone_mm.push_back(off_mm(truth, alone->belts));
     counted_mm.push_back(off_mm(truth, counted->belts));
     ASSERT_FALSE(counted->belts.causes.empty()) << "seed " << seed;
-    const CauseBesideAnchors& found = counted->belts.causes.front();
+    const CauseInAnchorFit& found = counted->belts.causes.front();
     EXPECT_EQ(found.effect, "belt_stretch");
     // Four sigmas, of eight machines.
     EXPECT_NEAR(found.parameters.at("elongation"), kStretch, 4.0 * found.sigma) << "seed " << seed;

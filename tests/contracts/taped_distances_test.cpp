@@ -147,11 +147,50 @@ TEST(TapedDistances, AnEndAtWhichTooFewLengthsCountSaysNothing) {
   EXPECT_EQ(with.rows(), 4);
 }
 
-TEST(TapedDistances, ToAPositionThatIsKnownThrows) {
-  Taped set = taped();
-  set.places[2].known = within(*set.mechanism, 0.8, 0.8);
-  EXPECT_THROW(BeltLengthReadings(set.places, false, {.length_mm = 0.5}, 15.0, set.distances),
+TEST(TapedDistances, ToAPositionThatIsGivenThrows) {
+  const Taped set = taped();
+  const model::ToolPosition given = within(*set.mechanism, 0.8, 0.8);
+  std::vector<LengthsAtPlace> known = set.places;
+  known[2].known = given;
+  EXPECT_THROW(BeltLengthReadings(known, false, {.length_mm = 0.5}, 15.0, set.distances),
                std::invalid_argument);
+  std::vector<LengthsAtPlace> about = set.places;
+  about[2].about = given;
+  EXPECT_THROW(BeltLengthReadings(about, false, {.length_mm = 0.5}, 15.0, set.distances),
+               std::invalid_argument);
+}
+
+/// By how much residuals, brought to units of noise, change where each place is linearised about a position so
+/// many millimetres off the one that its lengths give.
+double change_about(const Taped& set, double off_mm) {
+  std::vector<LengthsAtPlace> moved = set.places;
+  for (LengthsAtPlace& place : moved) {
+    place.lengths_mm[2] += 2.0;
+    const model::ToolPosition at = *set.mechanism->locate(place.lengths_mm, place.visit);
+    place.about = {at.x_mm + 0.6 * off_mm, at.y_mm - 0.8 * off_mm};
+  }
+  std::vector<LengthsAtPlace> found = moved;
+  for (LengthsAtPlace& place : found) place.about.reset();
+  const auto squares = [&](const std::vector<LengthsAtPlace>& places) {
+    const BeltLengthReadings readings(places, false, {.length_mm = 0.5}, 15.0);
+    const auto line = readings.linearise(View(set.mechanism), columns_of(readings));
+    Eigen::VectorXd lengths(static_cast<Eigen::Index>(readings.units().size()));
+    for (const Unit& unit : readings.units()) {
+      const auto own = line.value().predicted.segment(unit.first_row, unit.rows);
+      lengths[static_cast<Eigen::Index>(&unit - readings.units().data())] = own.norm();
+    }
+    return lengths;
+  };
+  return (squares(moved) - squares(found)).cwiseAbs().maxCoeff();
+}
+
+TEST(GivenPositions, ToLineariseAboutChangeTheResidualsToSecondOrderAlone) {
+  const Taped set = taped();
+  const double near = change_about(set, 2.0);
+  EXPECT_GT(near, 0.0);
+  EXPECT_LT(near, 0.02);  // 2 mm squared over a metre of belt, a few times for lengths of different directions
+  // Of a second order a quarter is left at half the way; what is left of higher orders is 2 mm over a metre.
+  EXPECT_NEAR(change_about(set, 1.0) / near, 0.25, 0.02);
 }
 
 }  // namespace

@@ -41,12 +41,12 @@ TEST(BeltLaws, ColumnsAreWhatReadingsWithTheLawDifferBy) {
       const Belt belt = belt_of(entrance.enters).value();
       MeasuredBelts with = plain;
       Eigen::VectorXd column = Eigen::VectorXd::Zero(system.e.size());
-      for (std::size_t k = 0; k < with.points.size(); ++k) {
-        const std::vector<LawRows> rows = law_rows(system, k, {of, entrance.enters, 0.0});
+      for (std::size_t u = 0; u < system.units.size(); ++u) {
+        const std::vector<LawRows> rows = law_rows(system, u, {of, entrance.enters, 0.0});
         ASSERT_EQ(rows.size(), 1U);
         const double value_mm = 0.3 * std::sin(0.01 * rows.front().v);
-        with.points[k].lengths_mm[belt] += value_mm;
-        column.segment(system.units[k].first_row, 2) = value_mm * rows.front().rows;
+        with.points[system.entries[u].point].lengths_mm[belt] += value_mm;
+        column.segment(system.units[u].first_row, 2) = value_mm * rows.front().rows;
       }
       const RegressorSystem read = system_of(with, state, {}, kSigmaMm);
       // Residuals are linear in the readings: rounding of lengths of some metres.

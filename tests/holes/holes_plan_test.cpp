@@ -12,7 +12,7 @@
 
 #include "grid/estimation/estimate.hpp"
 #include "grid/planning/calibration_rounds.hpp"
-#include "grid/planning/seen_effects.hpp"
+#include "grid/planning/detectable_effects.hpp"
 #include "grid/synthetic/random.hpp"
 #include "tests/holes/hole_sets.hpp"
 
@@ -157,9 +157,9 @@ TEST(HolesPlan, MoreDistancesAndABetterTapeTellMore) {
 }
 
 TEST(HolesPlan, SaysWhichEffectsItSees) {
-  const std::vector<SeenEffect> found = seen_effects(testing_support::nine_holes());
+  const std::vector<DetectableEffect> found = detectable_effects(testing_support::nine_holes());
   const auto find = [&found](std::string_view effect, std::string_view side) {
-    return std::find_if(found.begin(), found.end(), [&](const SeenEffect& one) {
+    return std::find_if(found.begin(), found.end(), [&](const DetectableEffect& one) {
       return one.effect == effect && one.side == side;
     });
   };
@@ -177,7 +177,7 @@ TEST(HolesPlan, WhereTheSheetLiesIsNoEffect) {
   MeasuredHoles between = testing_support::nine_holes();
   const auto sigmas_of = [](const MeasuredHoles& set) {
     std::map<std::pair<std::string, std::string>, double> sigmas;
-    for (const SeenEffect& one : seen_effects(set)) sigmas[{one.effect, one.side}] = one.sigmas;
+    for (const DetectableEffect& one : detectable_effects(set)) sigmas[{one.effect, one.side}] = one.sigmas;
     return sigmas;
   };
   MeasuredHoles placed = between;

@@ -62,7 +62,7 @@ TEST(Strength, FollowsNoiseAndPoints) {
   const StrengthTable table(machine, session, noise_of(0.2, 0.3));
   const EffectStrength s = table.strength(kink, EffectSide::left);
   // 4.5 mm/rad is the usual size.
-  EXPECT_NEAR(s.seen_size * s.signal_to_noise / 4.5, kSeenAtSignalToNoise, 1e-9);  // rounding
+  EXPECT_NEAR(s.detectable_size * s.signal_to_noise / 4.5, kDetectableSignalToNoise, 1e-9);  // rounding
   EXPECT_GT(s.share_left, 0.0);
   EXPECT_LE(s.share_left, 1.0);
   const StrengthTable twice(machine, session, noise_of(0.4, 0.6));

@@ -34,7 +34,7 @@ std::string share_in_words(double share, double sigma) {
 
 void say_what_acts(const BeltsFit& fit, Section& section) {
   if (fit.causes.empty()) return;
-  for (const grid::CauseBesideAnchors& cause : fit.causes) {
+  for (const grid::CauseInAnchorFit& cause : fit.causes) {
     if (cause.effect == model::belts::anchor_flex.id) {
       say(section,
           fmt::format("Anchors give by {:.2f} +- {:.2f} mm at the motors' pull, and these anchors go with that.",
@@ -240,7 +240,7 @@ Section agreement_section(const FittedBelts& fitted, const std::optional<grid::B
 
 namespace {
 
-report::Column rests_on(std::string heading, std::string page_heading, int width) {
+report::Column variance_share(std::string heading, std::string page_heading, int width) {
   return {.heading = std::move(heading),
           .is_number = true,
           .page_heading = std::move(page_heading),
@@ -258,10 +258,10 @@ Section fitted_anchors_section(const BeltsFit& fit) {
            {.heading = "sure to", .is_number = true, .width = 9},
            {.heading = "until now", .is_number = true, .digits = 1, .width = 11},
            {.heading = "differs", .is_number = true, .digits = 1, .has_sign = true, .width = 9},
-           rests_on("rests on tl", "", 14),
-           rests_on("tr", "on tr", 5),
-           rests_on("bl", "on bl", 5),
-           rests_on("br", "on br", 5)},
+           variance_share("rests on tl", "", 14),
+           variance_share("tr", "on tr", 5),
+           variance_share("bl", "on bl", 5),
+           variance_share("br", "on br", 5)},
       .caption = std::string(kAnchorsCaption) +
                  " Rests on: the share of its variance that comes of each belt's readings.",
       .is_headed = true};

@@ -181,7 +181,7 @@ void print_strengths(const Effect& effect, const synthetic::EffectPicture& pictu
     }
     fmt::print("  {:>6}  {:>10}  {:>14}  {}\n",
                at.columns * at.rows,
-               short_number(s.seen_size),
+               short_number(s.detectable_size),
                s.named_size ? short_number(*s.named_size) : "never",
                nearest);
   }

@@ -45,7 +45,7 @@ void read_belts_file(const InputFile& file,
                               "sessions are two fits"}});
   }
   all.belts = load_belts(file, "a fit", without).belts;
-  all.indices = files::indices_beside(all.belts->points.size(), without);
+  all.indices = files::indices_without(all.belts->points.size(), without);
 }
 
 void read_holes_file(const InputFile& file, const TapeInput& tape, BeltFiles& all) {

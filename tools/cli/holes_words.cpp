@@ -8,12 +8,12 @@
 #include <iterator>
 #include <vector>
 
-#include "grid/planning/seen_effects.hpp"
+#include "grid/planning/detectable_effects.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
-std::string effect_words(const grid::SeenEffect& effect) {
+std::string effect_words(const grid::DetectableEffect& effect) {
   return effect.side.empty() ? effect.effect : fmt::format("{} ({})", effect.effect, effect.side);
 }
 
@@ -57,7 +57,7 @@ report::Section distances_section(const grid::MeasuredHoles& set,
   return section;
 }
 
-void add_legend(const grid::estimation::MachineKnowledge& knowledge, report::Section& distances) {
+void add_legend(const grid::estimation::ParameterKnowledge& knowledge, report::Section& distances) {
   distances.blocks.emplace_back(report::Paragraph{
       fmt::format("Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % (readings "
                   "over the model's lengths).",
@@ -134,7 +134,7 @@ std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequ
   std::vector<std::string> unseen;
   std::vector<std::string> equal;
   for (std::size_t i = 0; i < plan.effects.size(); ++i) {
-    const grid::SeenEffect& effect = plan.effects[i];
+    const grid::DetectableEffect& effect = plan.effects[i];
     (effect.sigmas >= kFaintSigmas      ? clear
      : effect.sigmas >= kDoubtfulSigmas ? doubtful
                                         : unseen)

@@ -17,7 +17,7 @@ namespace chaintrue::cli {
                                                 const grid::FittedDistances& fit,
                                                 std::string_view file);
 /// What is known of the chains' scales, and what "left out" means.
-void add_legend(const grid::estimation::MachineKnowledge& knowledge, report::Section& distances);
+void add_legend(const grid::estimation::ParameterKnowledge& knowledge, report::Section& distances);
 /// "20 distances", "18 distances and 6 to the sheet's edges".
 [[nodiscard]] std::string distances_in_number(const grid::MeasuredHoles& set);
 /// The holes and what to measure, as a list for the workshop.

@@ -38,7 +38,7 @@ StatedBelts belts_of(const std::string& path) {
   if (is_fitted) {
     grid::BeltsFit fit = load_anchors(file).fit;
     stated.machine = std::move(fit.machine);
-    for (grid::CauseBesideAnchors& own : fit.causes)
+    for (grid::CauseInAnchorFit& own : fit.causes)
       stated.causes.push_back({std::move(own.effect), std::move(own.side), std::move(own.parameters)});
   } else {
     stated.machine = load_belts(file, "a simulation").belts.machine;

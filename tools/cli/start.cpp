@@ -118,8 +118,8 @@ int run_start(Verb verb, const StartCommand& command) {
     return start_template(verb, command.file);
   const InputFile file = open_settings(command.file);
   if (is_of_a_plotter(file)) {
-    const bool stays_beside = file.kind == FileKind::plotter && !verb.is_given("folder");
-    return start_plotter(verb, file, stays_beside ? "" : command.folder);
+    const bool stays_next_to_file = file.kind == FileKind::plotter && !verb.is_given("folder");
+    return start_plotter(verb, file, stays_next_to_file ? "" : command.folder);
   }
   const SettingsFile started = parse_settings_file(command.file, file.text);
   const model::Machine& machine = started.read.machine;

@@ -14,7 +14,7 @@
 
 namespace chaintrue::gcode {
 
-void ControllerCheck::Seen::see(std::size_t where, double size) {
+void ControllerCheck::Occurrences::add(std::size_t where, double size) {
   if (count++ == 0) line = where;
   worst = std::max(worst, size);
 }
@@ -22,9 +22,9 @@ void ControllerCheck::Seen::see(std::size_t where, double size) {
 void ControllerCheck::code(std::size_t line, char letter, int tenths) {
   const std::string code = letter == 'G' ? g_name(tenths) : fmt::format("M{}", tenths / 10);
   if (!knows_code(firmware_, letter, tenths)) {
-    unknown_[code].see(line);
+    unknown_[code].add(line);
   } else if (const int other = taken_for(firmware_, letter, tenths); other != tenths) {
-    misread_[fmt::format("{} as {}", code, g_name(other))].see(line);
+    misread_[fmt::format("{} as {}", code, g_name(other))].add(line);
   }
 }
 
@@ -32,16 +32,16 @@ void ControllerCheck::arc(const Move& move) {
   const Arc& arc = *move.arc;
   const double sweep = std::fabs(arc.sweep_rad);
   if (cuts_straight(firmware_, arc.start_radius_mm, sweep)) {
-    straight_arcs_.see(move.line, arc.start_radius_mm * (1.0 - std::cos(0.5 * sweep)));
+    straight_arcs_.add(move.line, arc.start_radius_mm * (1.0 - std::cos(0.5 * sweep)));
   }
   const bool upright = arc.first.z_mm != 0.0 || arc.second.z_mm != 0.0;
-  if (upright && !knows_code(firmware_, 'G', 180)) upright_arcs_.see(move.line);
-  if (std::abs(arc.turns) > 1 && firmware_.arcs != ArcRule::exact) arc_turns_.see(move.line);
+  if (upright && !knows_code(firmware_, 'G', 180)) upright_arcs_.add(move.line);
+  if (std::abs(arc.turns) > 1 && firmware_.arcs != ArcRule::exact) arc_turns_.add(move.line);
 }
 
 Result<void> ControllerCheck::move(const Move& move) {
   const double length = length_mm(move);
-  if (length == 0.0 && firmware_.phantom_moves) no_length_.see(move.line);
+  if (length == 0.0 && firmware_.phantom_moves) no_length_.add(move.line);
   if (move.kind == MoveKind::rapid || length == 0.0) return {};
   if (move.arc) {
     arc(move);
@@ -50,19 +50,19 @@ Result<void> ControllerCheck::move(const Move& move) {
   const double feed = feed_mm_per_min(move);
   const double speed_mm_per_s = feed / 60.0;
   if (firmware_.tick_s > 0.0 && length < speed_mm_per_s * firmware_.tick_s) {
-    short_ticks_.see(move.line);
+    short_ticks_.add(move.line);
   }
   // The stopping distance from the feed must be within the planned moves.
   const double stop_mm =
       firmware_.acceleration_mm_per_s2 > 0.0
           ? speed_mm_per_s * speed_mm_per_s / (2.0 * firmware_.acceleration_mm_per_s2)
           : 0.0;
-  if (length * firmware_.planned_moves < stop_mm) short_plans_.see(move.line, feed);
+  if (length * firmware_.planned_moves < stop_mm) short_plans_.add(move.line, feed);
   return {};
 }
 
 Result<void> ControllerCheck::end(std::size_t /*line*/, std::string_view /*word*/) {
-  const auto add = [&](const Seen& observed, std::string_view name, std::string sentence) {
+  const auto add = [&](const Occurrences& observed, std::string_view name, std::string sentence) {
     if (observed.count == 0) return;
     if (observed.count > 1) sentence += fmt::format(" ({} lines)", observed.count);
     findings_.add(Note{observed.line, name, std::move(sentence)});

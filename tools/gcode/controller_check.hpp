@@ -26,23 +26,23 @@ class ControllerCheck final : public Sink {
  private:
   void arc(const Move& move);
 
-  struct Seen {
+  struct Occurrences {
     std::size_t line = 0;
     std::size_t count = 0;
     double worst = 0.0;
-    void see(std::size_t where, double size = 0.0);
+    void add(std::size_t where, double size = 0.0);
   };
 
   const Firmware& firmware_;
   Findings& findings_;
-  std::map<std::string, Seen> unknown_;
-  std::map<std::string, Seen> misread_;
-  Seen straight_arcs_;
-  Seen upright_arcs_;
-  Seen arc_turns_;
-  Seen no_length_;
-  Seen short_ticks_;
-  Seen short_plans_;
+  std::map<std::string, Occurrences> unknown_;
+  std::map<std::string, Occurrences> misread_;
+  Occurrences straight_arcs_;
+  Occurrences upright_arcs_;
+  Occurrences arc_turns_;
+  Occurrences no_length_;
+  Occurrences short_ticks_;
+  Occurrences short_plans_;
 };
 
 }  // namespace chaintrue::gcode

@@ -39,7 +39,7 @@ RegressorSystem with_visible(const RegressorSystem& all, const MarginalisedSyste
   system.regressors.clear();
   std::vector<Eigen::Index> kept;
   for (std::size_t k = 0; k < all.regressors.size(); ++k) {
-    if (!can_be_seen(all, marginalised, all.regressors[k].cause)) continue;
+    if (!is_observable(all, marginalised, all.regressors[k].cause)) continue;
     kept.push_back(static_cast<Eigen::Index>(k));
     system.regressors.push_back(all.regressors[k]);
   }

@@ -110,7 +110,7 @@ def diagnose(
         raise TypeError(f"held_out is a Grid, not {type(held_out).__name__}")
     if held_out is not None and (len(grids) != 1 or holes or belts):
         raise ValueError("held_out is predicted by what one Grid alone says")
-    beside = _core.Beside(
+    alongside = _core.Alongside(
         None if before is None else before._core,
         "" if before is None else before.name,
         None if held_out is None else held_out._core,
@@ -118,11 +118,11 @@ def diagnose(
     options = {"--seed": None if seed == 1 else seed}
     sources = sources_of(*measured, before, held_out)
     if not belts:
-        core = _core.diagnose(grids, holes, seed, gain, beside)
+        core = _core.diagnose(grids, holes, seed, gain, alongside)
     elif len(belts) > 1 or grids or holes:
         raise ValueError("Belts are diagnosed by themselves, one at a time")
     else:
-        core = _core.diagnose_belts(belts[0], seed, beside)
+        core = _core.diagnose_belts(belts[0], seed, alongside)
     return Diagnosis._made(core, "diagnose", options, sources)
 
 

@@ -21,14 +21,14 @@ namespace files = grid::files;
 using grid::diagnosis::Diagnosis;
 
 /// What else is asked for.
-struct Beside {
+struct Alongside {
   std::optional<Diagnosis> before;
   std::string name_of_before;
   std::optional<grid::MeasuredGrid> held_out;
 };
 
 /// The same with what has changed since the diagnosis before.
-Diagnosis compared(Diagnosis found, const Beside& alongside) {
+Diagnosis compared(Diagnosis found, const Alongside& alongside) {
   if (alongside.before)
     found.trend = grid::diagnosis::trend(*alongside.before, found, alongside.name_of_before);
   return found;
@@ -38,7 +38,7 @@ Diagnosis diagnose(const Grids& grids,
                    const HolesRead& holes,
                    std::uint64_t seed,
                    bool improvement,
-                   const Beside& alongside) {
+                   const Alongside& alongside) {
   const py::gil_scoped_release others_may_work;
   grid::diagnosis::DiagnosisOptions options;
   options.seed = seed;
@@ -54,7 +54,7 @@ Diagnosis diagnose(const Grids& grids,
 
 Diagnosis diagnose_belts(const grid::MeasuredBelts& belts,
                          std::uint64_t seed,
-                         const Beside& alongside) {
+                         const Alongside& alongside) {
   const py::gil_scoped_release others_may_work;
   grid::diagnosis::DiagnosisOptions options;
   options.seed = seed;
@@ -79,11 +79,11 @@ void add_diagnoses(py::module_& module) {
         cli::add_made_by(provenance_of(made_by), document.sections);
         return report::render_html(document);
       });
-  py::class_<Beside>(module, "Beside")
+  py::class_<Alongside>(module, "Alongside")
       .def(py::init([](std::optional<Diagnosis> before,
                        std::string name_of_before,
                        std::optional<grid::MeasuredGrid> held_out) {
-        return Beside{std::move(before), std::move(name_of_before), std::move(held_out)};
+        return Alongside{std::move(before), std::move(name_of_before), std::move(held_out)};
       }));
   module.def("diagnose", diagnose);
   module.def("diagnose_belts", diagnose_belts);

@@ -14,6 +14,6 @@ namespace chaintrue::grid {
 /// Largest first. Effects of the paper, and those that depend on the visit, are left out: distances
 /// between holes do not depend on either. \throws std::invalid_argument for a set without a
 /// machine.
-[[nodiscard]] std::vector<SeenEffect> seen_effects(const MeasuredHoles& set);
+[[nodiscard]] std::vector<DetectableEffect> detectable_effects(const MeasuredHoles& set);
 
 }  // namespace chaintrue::grid

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/planning/seen_effects.hpp"
+#include "grid/planning/detectable_effects.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace chaintrue::grid {
 namespace {
 
 /// cos 5 degrees: signatures nearer than this need hundreds of readings to be distinguished.
-constexpr double kAlike = 0.9962;
+constexpr double kOneDirection = 0.9962;
 
 /// An effect's secant: the change of the distances at its nominal size.
 struct Secant {
@@ -24,11 +24,11 @@ struct Secant {
 };
 
 struct Pattern {
-  SeenEffect found;
+  DetectableEffect found;
   Eigen::VectorXd white;
 };
 
-bool is_seen_by_distances(const model::effects::Effect& effect) {
+bool shows_in_distances(const model::effects::Effect& effect) {
   return effect.station != model::effects::Station::paper &&
          !model::effects::depends_on_visit(effect);
 }
@@ -55,7 +55,7 @@ std::optional<Stated> stated_of(const MeasuredHoles& set) {
                     line->by_setting * prior.asDiagonal() * line->by_setting.transpose(),
                 {}};
   for (const model::effects::Effect* effect : model::effects::effects_of(*set.machine)) {
-    if (!is_seen_by_distances(*effect)) continue;
+    if (!shows_in_distances(*effect)) continue;
     for (const model::effects::EffectSide side : effect->sides) {
       model::Machine machine = *set.machine;
       machine.effects.push_back(
@@ -70,7 +70,7 @@ std::optional<Stated> stated_of(const MeasuredHoles& set) {
 
 }  // namespace
 
-std::vector<SeenEffect> seen_effects(const MeasuredHoles& set) {
+std::vector<DetectableEffect> detectable_effects(const MeasuredHoles& set) {
   const auto stated = stated_of(set);
   if (!stated) return {};
   const Eigen::LLT<Eigen::MatrixXd> factor(stated->covariance);
@@ -86,12 +86,12 @@ std::vector<SeenEffect> seen_effects(const MeasuredHoles& set) {
   std::stable_sort(patterns.begin(), patterns.end(), [](const Pattern& a, const Pattern& b) {
     return a.found.sigmas > b.found.sigmas;
   });
-  std::vector<SeenEffect> found;
+  std::vector<DetectableEffect> found;
   for (std::size_t i = 0; i < patterns.size(); ++i) {
     for (std::size_t j = 0; j < patterns.size(); ++j) {
       if (i == j) continue;
       const double together = patterns[i].found.sigmas * patterns[j].found.sigmas;
-      if (together > 0.0 && std::abs(patterns[i].white.dot(patterns[j].white)) > kAlike * together)
+      if (together > 0.0 && std::abs(patterns[i].white.dot(patterns[j].white)) > kOneDirection * together)
         patterns[i].found.same_as.push_back(j);
     }
     found.push_back(patterns[i].found);

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include "grid/diagnosis/causes_fit.hpp"
+#include "grid/diagnosis/workshop_units.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+std::string why(OfferedCause::Reason reason) {
+  switch (reason) {
+    case OfferedCause::Reason::not_sure:
+      return "it is not sure enough: chaintrue diagnose says what to measure next";
+    case OfferedCause::Reason::may_be_paper:
+      return "it may be the tape that set out the marks instead, and marks cannot tell which. "
+             "Measure a hundred links, or the tape, and give the reading; or say --accept-class if "
+             "you know that it is the chain";
+    case OfferedCause::Reason::is_paper:
+      return "the marks themselves are off: correct them, or set them out anew";
+    case OfferedCause::Reason::gains_nothing:
+      break;
+  }
+  return "the map corrects it as well without a name for it";
+}
+
+}  // namespace
+
+std::vector<std::string> in_words(const CausesFit& fit) {
+  std::vector<std::string> sentences;
+  const auto sized = [](const Cause& cause) {
+    std::string same;
+    for (const SameCause& other : cause.same_as) {
+      same += fmt::format(", or else {}{}: {}",
+                          other.cause.effect->cause,
+                          side_words(other.cause),
+                          in_workshop_units(other.cause, other.parameters.front()));
+    }
+    return fmt::format("{}{} ({}; {}{})",
+                       cause.cause.effect->cause,
+                       side_words(cause.cause),
+                       in_workshop_units(cause.cause, cause.parameters.front()),
+                       percent(cause.probability),
+                       same);
+  };
+  if (!fit.not_weighed.empty())
+    sentences.push_back("No cause was looked for: " + fit.not_weighed + ".");
+  if (!fit.built_on.empty()) {
+    std::vector<std::string> parts;
+    for (const Cause& cause : fit.built_on) parts.push_back(sized(cause));
+    sentences.push_back(
+        fmt::format("Found, and used in the map: {}. In parts of the bed that it was not made from, the map "
+                    "is right within {:.2f} mm; without {} it would be {:.2f} mm.",
+                    joined(parts, "and"),
+                    fit.held_out->with_causes_mm,
+                    fit.built_on.size() == 1 ? "this cause" : "these causes",
+                    fit.held_out->plain_mm));
+  }
+  if (sentences.empty() && fit.offered.empty())
+    sentences.emplace_back("No single cause stands out, and the map needs none.");
+  for (const OfferedCause& offered : fit.offered) {
+    sentences.push_back(fmt::format(
+        "Found, not used in the map: {}; {}.", sized(offered.cause), why(offered.reason)));
+  }
+  if (fit.left_open_mm > 0.0) {
+    sentences.push_back(
+        fmt::format("{}: so the tool may be {:.2f} mm rms off, which the expected error counts.",
+                    fit.offered.empty() ? "The sizes and places of the causes are not known exactly"
+                                        : "What was found but is not in the map may still act",
+                    fit.left_open_mm));
+  }
+  return sentences;
+}
+
+}  // namespace chaintrue::grid::diagnosis

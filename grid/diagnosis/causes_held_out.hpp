@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A map on a machine with causes against the plain one, at points in blocks of the bed that neither was
+/// fitted to: (1) of causes_fit.hpp. Private to grid/diagnosis.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "grid/diagnosis/causes_fit.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// Squared error of the tool at what one map left out, mm^2, and the block it was left out with.
+struct HeldOutSquare {
+  double plain_mm2 = 0.0;
+  double with_causes_mm2 = 0.0;
+  std::size_t block = 0;
+};
+
+/// Points that the map with causes keeps, and distances where there are no points. What it rejects is
+/// bad whatever acts; what the plain map alone rejects counts, since the causes explain it.
+[[nodiscard]] std::vector<HeldOutSquare> held_out_squares(const JointFit& plain,
+                                                          const JointFit& with_causes);
+
+[[nodiscard]] HeldOutBlocksError error_of(const std::vector<HeldOutSquare>& squares);
+
+/// D of (1) exceeds its standard error.
+[[nodiscard]] bool falls_beyond_its_error(const std::vector<HeldOutSquare>& squares);
+
+}  // namespace chaintrue::grid::diagnosis

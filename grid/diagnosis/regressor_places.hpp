@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Where or when an effect may set in, by what its place is compared with at the places of the tool. Private to
+/// grid/diagnosis.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "grid/diagnosis/regressor_system.hpp"
+#include "model/effects/declared_effect.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// Where or when an effect sets in; null of one that has no place.
+[[nodiscard]] const model::effects::EffectParameter* place_parameter(const model::effects::Effect& effect);
+
+/// What that place is compared with.
+[[nodiscard]] model::effects::PlaceVariable variable_of_place(const model::effects::Effect& effect,
+                                                              const model::effects::EffectParameter& place);
+/// Between the nearest places of the tool to either side of it, in that variable: a step at one place between them
+/// is the same at all readings as one at another. Nothing where none is on a side, and for phases.
+struct PlaceGap {
+  double below = 0.0;
+  double above = 0.0;
+};
+[[nodiscard]] std::optional<PlaceGap> gap_about(const RegressorSystem& system,
+                                                CauseId cause,
+                                                double place);
+
+/// What the place is compared with at every place of the tool, of the chain of this side or of either.
+[[nodiscard]] std::vector<double> compared_at_places(const RegressorSystem& system,
+                                                     model::effects::PlaceVariable variable,
+                                                     model::effects::EffectSide side);
+
+/// Places where an effect may set in: visits, phases of a turn, angles (or what else the place is
+/// compared with) between those of the places of the tool.
+[[nodiscard]] std::vector<double> places_to_set_in(const RegressorSystem& system, CauseId cause);
+
+/// Whether its formula steps where it sets in, so that it has no derivative by its place.
+[[nodiscard]] bool has_step(const model::effects::Effect& effect);
+
+}  // namespace chaintrue::grid::diagnosis
