@@ -96,12 +96,12 @@ ToolError tool_error(const Explained& explained,
   }
   const std::vector<FramePoint>& places = explained.given.frame.state.places;
   ToolError error;
+  error.after_mm = uncertain_mm(machine, covariance, places);
   const auto of = [&](const model::BeltMachine& by) {
-    return shape_error_mm(believed(by, machine, effects, places), places);
+    return std::hypot(shape_error_mm(believed(by, machine, effects, places), places), error.after_mm);
   };
   if (belts.machine.anchors_known) error.stated_mm = of(belts.machine);
   error.before_mm = of(alone.machine);
-  error.after_mm = uncertain_mm(machine, covariance, places);
   if (alone.scale) error.scale_mm_per_m = 1000.0 * alone.scale->sigma;
   return error;
 }

@@ -37,7 +37,7 @@ struct BeltPlacePicture {
 };
 
 /// How far off the tool is from where the machine believes it, the upper two belts deciding: over the
-/// places that were measured.
+/// places that were measured. What the readings leave uncertain of the true anchors is in each.
 struct ToolError {
   double stated_mm = 0.0;  ///< rms with the anchors as stated; 0 where none are
   double before_mm = 0.0;  ///< rms, anchors fitted alone

@@ -32,6 +32,7 @@ constexpr double kRasterMm = 10.0;
 constexpr std::size_t kRevisits = 5;
 /// Of a second pass over the first: the firmware's usual current may be raised by as much.
 constexpr double kHarder = 1.6;
+constexpr std::string_view kFurtherPlace = "a further place";
 /// All places once more are predicted for so many at most: a second.
 constexpr std::size_t kMostOnceMore = 200;
 
@@ -136,7 +137,7 @@ void add_places(const BeltsAnalysis& a, Gathering& gathering, std::vector<Candid
             gathering.add({centre.x_mm + command.x_mm, centre.y_mm + command.y_mm}, pulled);
         if (!reached) continue;
         all.push_back(candidate_of(MeasurementKind::point,
-                                   fmt::format("a further place{}", way.words),
+                                   fmt::format("{}{}", kFurtherPlace, way.words),
                                    command,
                                    way.pulled));
       }
@@ -198,6 +199,17 @@ std::optional<double> all_once_more(const BeltsAnalysis& a, double times = 1.0) 
   return expected_discrimination(alternatives, rows).named_alone;
 }
 
+/// A place that is proposed twice is to be measured twice, and says so.
+void say_what_repeats(std::vector<NextMeasurement>& proposed) {
+  for (auto own = proposed.begin(); own != proposed.end(); ++own) {
+    const bool repeats = std::any_of(proposed.begin(), own, [own](const NextMeasurement& other) {
+      return own->kind == MeasurementKind::point && other.kind == own->kind &&
+             other.mark->x_mm == own->mark->x_mm && other.mark->y_mm == own->mark->y_mm;
+    });
+    if (repeats) own->words.replace(0, kFurtherPlace.size(), "the same place again");
+  }
+}
+
 std::optional<SecondPass> second_pass(const BeltsAnalysis& a, const BeltsNext& others) {
   if (different_pulls(a.belts).size() > 1) return std::nullopt;
   const auto named_alone = all_once_more(a, kHarder);
@@ -228,6 +240,7 @@ BeltsNext next_measurements(const BeltsAnalysis& a, const PointIndices& indices)
   result.measurements = most_telling(predicted.alternatives,
                                      std::move(candidates),
                                      a.analysis.decision.verdict == Verdict::named);
+  say_what_repeats(result.measurements);
   result.all_once_more = all_once_more(a);
   result.second_pass = second_pass(a, result);
   return result;

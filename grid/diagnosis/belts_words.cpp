@@ -258,9 +258,9 @@ void say_what_to_measure(const BeltsNext& next, Diagnosis& d) {
 void say_what_to_do(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis& d) {
   const std::string arms = left_out_arms(belts, d);
   if (!arms.empty()) d.what_to_do.push_back(arms);
-  for (const Cause& c : d.causes) {
+  for (std::string& remedy : remedies(d.causes)) {
     if (d.what_to_do.size() >= 2 || d.verdict == Verdict::named_set || !arms.empty()) break;
-    d.what_to_do.emplace_back(c.cause.effect->remedy);
+    d.what_to_do.push_back(std::move(remedy));
   }
   if (!d.outliers.empty()) {
     d.what_to_do.push_back(fmt::format("Do not trust {}: let the machine measure there again.",
@@ -286,7 +286,7 @@ void say_what_to_do(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis
 std::string not_proved(const Diagnosis& d) {
   std::string text =
       d.causes.empty()
-          ? "This does not prove the machine perfect: causes smaller than their bounds below would "
+          ? "That the machine is perfect. Causes smaller than their bounds below would "
             "not have shown."
           : "Lengths show what fits, not what is: look at the part before changing it.";
   if (!d.causes.empty() && d.causes.front().rival) {

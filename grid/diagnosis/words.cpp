@@ -265,10 +265,9 @@ void say_what_to_type(Diagnosis& d) {
 
 void say_what_to_do(Diagnosis& d) {
   say_what_to_read_again(d);
-  for (const Cause& c : d.causes) {
-    if (d.what_to_do.size() < 2 && d.verdict != Verdict::named_set) {
-      d.what_to_do.emplace_back(c.cause.effect->remedy);
-    }
+  for (std::string& remedy : remedies(d.causes)) {
+    if (d.what_to_do.size() < 2 && d.verdict != Verdict::named_set)
+      d.what_to_do.push_back(std::move(remedy));
   }
   if (!d.next_measurements.empty()) {
     const NextMeasurement& first = d.next_measurements.front();
@@ -347,7 +346,7 @@ std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
                : "No cause in the catalogue explains it, but one may still act as well.";
   } else {
     text =
-        "This does not prove the machine perfect: causes smaller than their bounds below would "
+        "That the machine is perfect. Causes smaller than their bounds below would "
         "not have shown.";
   }
   text += influence_in_words(d);

@@ -214,6 +214,24 @@ std::string joined(const std::vector<std::string>& parts, std::string_view last)
   return text;
 }
 
+std::vector<std::string> remedies(const std::vector<Cause>& causes) {
+  std::vector<std::string> lines;
+  std::vector<std::string_view> said;
+  for (const Cause& cause : causes) {
+    const std::string_view remedy = cause.cause.effect->remedy;
+    if (std::find(said.begin(), said.end(), remedy) != said.end()) continue;
+    said.push_back(remedy);
+    std::vector<std::string> sides;
+    for (const Cause& other : causes) {
+      const std::string side = side_words(other.cause);
+      if (other.cause.effect->remedy == remedy && !side.empty()) sides.push_back(side.substr(1));
+    }
+    lines.push_back(sides.size() > 1 ? fmt::format("{}: {}", remedy, joined(sides, "and"))
+                                     : std::string(remedy));
+  }
+  return lines;
+}
+
 std::string reading_words(ReadingOf what, std::string_view side) {
   if (what == ReadingOf::motor_spacing) return "the distance between the motors' axes, with a tape";
   if (what == ReadingOf::beam_rise)

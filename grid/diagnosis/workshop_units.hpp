@@ -30,6 +30,10 @@ struct NameAndUnit {
 /// " on the left", " along x": after a cause; empty where it has no side.
 [[nodiscard]] std::string side_words(const CauseId& cause);
 
+/// What to do about these causes, in their order. Causes of several sides that ask for the same share a line, which
+/// says the sides.
+[[nodiscard]] std::vector<std::string> remedies(const std::vector<Cause>& causes);
+
 /// "87 %", "99.6 %", "above 99.9 %": a probability, the same in sentences and in tables.
 [[nodiscard]] std::string percent(double probability);
 

@@ -51,9 +51,9 @@ std::string WholeFinding::sentence() const {
 }
 
 std::string length_in_words(double mm) {
-  constexpr double kMetreMm = 1000.0;
+  constexpr double kOneMetreMm = 1000.0;
   if (!std::isfinite(mm)) return "out of reach";
-  return mm < kMetreMm ? fmt::format("{:.0f} mm", mm) : fmt::format("{:.1f} m", mm / kMetreMm);
+  return mm < kOneMetreMm ? fmt::format("{:.0f} mm", mm) : fmt::format("{:.1f} m", mm / kOneMetreMm);
 }
 
 }  // namespace chaintrue::grid::input_checks

@@ -91,6 +91,19 @@ TEST_F(BeltCommands, ATapedDistanceChangesTheScalesToPaste) {
   EXPECT_THAT(same.err, HasSubstr("that is in force"));
 }
 
+TEST_F(BeltCommands, AFitSaysWhichCausesItsAnchorsGoWith) {
+  const Outcome fit = run("fit " CHAINTRUE_FIXTURES "/belts/lower_belts_short.json -o short.json");
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_THAT(fit.err,
+              HasSubstr("Counted in these anchors: one belt is worn, of another make, or runs on another pulley than "
+                        "the other three at the bottom left (0.3"));
+  EXPECT_THAT(fit.err, HasSubstr(" and one belt is worn"));
+  EXPECT_THAT(fit.err, HasSubstr("at the bottom right (0.3"));
+  EXPECT_THAT(fit.err, HasSubstr("chaintrue diagnose says what to look at."));
+  EXPECT_THAT(run("fit " CHAINTRUE_FIXTURES "/belts/thirty_one_places.json -o again.json").err,
+              Not(HasSubstr("Counted in these anchors")));
+}
+
 TEST_F(BeltCommands, ADiagnosisHasItsAnchorsToPasteAndSaysWhatNoNumberTakesOut) {
   ASSERT_EQ(run("simulate --belts " + belts_ +
                 " --grid 9x9 --effect belt_stretch:-:elongation=0.006 --length-noise-mm 0.3 --seed 5 "

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 
+#include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/effects/belt_effect.hpp"
@@ -249,6 +250,28 @@ TEST(BeltsDiagnosis, TheOrderInTheFileChangesNothing) {
     EXPECT_NEAR(one.hypotheses[k].probability, other.hypotheses[k].probability, 1e-9);
   }
   EXPECT_EQ(one.family_wise_p, other.family_wise_p);
+}
+
+// With the causes nothing but this uncertainty is left of the tool's error.
+TEST(BeltsDiagnosis, WhatTheReadingsLeaveUncertainIsInEveryErrorOfTheTool) {
+  const auto read = files::read_belts(CHAINTRUE_FIXTURES "/belts/lower_belts_short.json");
+  const Diagnosis found = diagnosed(read.belts);
+  EXPECT_GT(found.belts->tool.after_mm, 0.0);
+  EXPECT_GE(found.belts->tool.before_mm, found.belts->tool.after_mm);
+  EXPECT_GE(found.belts->tool.stated_mm, found.belts->tool.after_mm);
+}
+
+TEST(BeltsDiagnosis, APlaceThatIsProposedTwiceSaysSo) {
+  const auto read = files::read_belts(CHAINTRUE_FIXTURES "/belts/lower_belts_short.json");
+  std::set<std::pair<double, double>> proposed;
+  int repeated = 0;
+  for (const diagnosis::NextMeasurement& next : diagnosed(read.belts).next_measurements) {
+    if (next.kind != diagnosis::MeasurementKind::point) continue;
+    const bool is_first = proposed.emplace(next.mark->x_mm, next.mark->y_mm).second;
+    EXPECT_THAT(next.words, HasSubstr(is_first ? "a further place" : "the same place again"));
+    repeated += is_first ? 0 : 1;
+  }
+  EXPECT_GT(repeated, 0);
 }
 
 }  // namespace

@@ -88,5 +88,23 @@ TEST(WorkshopUnits, TheSignChoosesTheWord) {
   EXPECT_EQ(worded("anchor_height", "offset_mm", -12.0, 0.0), "12 mm lower");
 }
 
+TEST(Remedies, CausesOfTwoSidesThatAskForTheSameShareALine) {
+  using model::effects::EffectSide;
+  const auto cause_of = [](const model::belts::BeltEffect& effect, EffectSide side) {
+    Cause cause;
+    cause.cause = {&model::belts::described(effect), side};
+    return cause;
+  };
+  const Cause right = cause_of(model::belts::belt_scale, EffectSide::br);
+  const Cause left = cause_of(model::belts::belt_scale, EffectSide::bl);
+  const Cause moved = cause_of(model::belts::anchor_moved, EffectSide::tl);
+  const std::string scale(right.cause.effect->remedy);
+  const std::string anchor(moved.cause.effect->remedy);
+  EXPECT_THAT(remedies({right, moved, left}),
+              testing::ElementsAre(scale + ": at the bottom right and at the bottom left", anchor));
+  EXPECT_THAT(remedies({left}), testing::ElementsAre(scale));
+  EXPECT_THAT(remedies({}), testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace chaintrue::grid::diagnosis

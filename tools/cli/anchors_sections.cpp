@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "grid/belts/scale_by_tape.hpp"
+#include "grid/diagnosis/workshop_units.hpp"
 #include "model/belts/effects/belt_effect.hpp"
 #include "tools/cli/belts_frame_chart.hpp"
 #include "tools/cli/map_words.hpp"
@@ -32,6 +33,39 @@ std::string share_in_words(double share, double sigma) {
   return fmt::format("{:.2f} +- {:.2f} %", 100.0 * share, 100.0 * sigma);
 }
 
+/// A cause by its words; empty for one that the belts' table does not have.
+std::string sized(const grid::CauseInAnchorFit& cause) {
+  const model::belts::BeltEffect* effect = model::belts::find_belt_effect(cause.effect);
+  if (effect == nullptr) return {};
+  grid::diagnosis::CauseId id{&model::belts::described(*effect)};
+  for (const model::effects::EffectSide side : id.effect->sides) {
+    if (model::effects::name(side) == cause.side) id.side = side;
+  }
+  const std::string size(id.effect->parameters.front().name);
+  return fmt::format(
+      "{}{} ({}; {})",
+      id.effect->cause,
+      grid::diagnosis::side_words(id),
+      grid::diagnosis::in_workshop_units(id, {size, cause.parameters.at(size), cause.sigma}),
+      grid::diagnosis::percent(cause.probability));
+}
+
+/// What more likely acts than not, but for what gives with the pull in every frame.
+void say_what_else_acts(const BeltsFit& fit, Section& section) {
+  constexpr double kLikely = 0.5;
+  std::vector<std::string> causes;
+  for (const grid::CauseInAnchorFit& cause : fit.causes) {
+    const bool gives =
+        cause.effect == model::belts::anchor_flex.id || cause.effect == model::belts::belt_stretch.id;
+    if (gives || !(cause.probability > kLikely)) continue;
+    if (std::string text = sized(cause); !text.empty()) causes.push_back(std::move(text));
+  }
+  if (causes.empty()) return;
+  say(section,
+      fmt::format("Counted in these anchors: {}. chaintrue diagnose says what to look at.",
+                  grid::diagnosis::joined(causes, "and")));
+}
+
 void say_what_acts(const BeltsFit& fit, Section& section) {
   if (fit.causes.empty()) return;
   for (const grid::CauseInAnchorFit& cause : fit.causes) {
@@ -46,6 +80,7 @@ void say_what_acts(const BeltsFit& fit, Section& section) {
         fmt::format("At the motors' pull belts are {} longer than they count, and these anchors go with that.",
                     share_in_words(cause.parameters.at("elongation"), cause.sigma)));
   }
+  say_what_else_acts(fit, section);
   say(section,
       "How sure each anchor is takes in what else may be wrong at its usual size, such as a belt "
       "that counts from elsewhere.",

@@ -68,11 +68,12 @@ Section belts_improvement_section(const Diagnosis& found) {
   }
   row("the tool, over the measured places", belts.tool.before_mm, belts.tool.after_mm);
   std::string text =
-      "The tool's error is against the causes named, the frame's place and turn left free";
+      "The tool's error is against the causes named, the frame's place and turn left free. What the readings leave "
+      "uncertain counts in both columns";
   text += belts.tool.scale_mm_per_m
               ? fmt::format("; what the tape leaves of the scale is {:.2f} mm in a metre.",
                             *belts.tool.scale_mm_per_m)
-              : ", in the belts' own millimetres: how long these are no belt knows.";
+              : ". It is in the belts' own millimetres: how long these are no belt knows.";
   return {"What naming it gains", {std::move(table), report::Paragraph{std::move(text)}}};
 }
 
