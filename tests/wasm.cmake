@@ -1,7 +1,7 @@
 # The tests of interp, model and grid compiled to WebAssembly, one program for each folder, under node:
 # tools/page --suite.
 set(chaintrue_wasm_rooms
-  accuracy belts contracts diagnosis effects estimation generator grid_files holes interp map model plotter sealed sweep synthetic)
+  accuracy belts contracts diagnosis effects estimation grid_files holes interp lab map model plotter sweep synthetic)
 
 # GoogleTest from the sources of its Debian package.
 set(googletest /usr/src/googletest)

@@ -13,7 +13,7 @@
 ///
 /// w_m is the evidence of the comparison with another prior. A diagnosis asks which cause acts, and
 /// holds each for rare; a sigma has to hold where one acts at its usual size, and each has the weight
-/// that makes 95 % intervals hold it then (kWeights, found by tests/sealed/command/anchor_coverage).
+/// that makes 95 % intervals hold it then (kWeights, found by tests/lab/sealed/command/anchor_coverage).
 /// Causes about which the state is linear keep the sizes that were found, however unusual; all others
 /// have their usual spread.
 ///

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A drawing's fit in a map's place: G-code for a plotter with Marlin whose gondola tilts and whose pins
-// are not level, which no setting of Marlin says. Pens hang by tests/generator.
+// are not level, which no setting of Marlin says. Pens hang by tests/lab/generator.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

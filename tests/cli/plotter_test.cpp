@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // V-plotters through the command: settings in, a test page out, what a ruler read of it in, and the
-// numbers to type in out. Pens hang by tests/generator, which shares no equation with the product.
+// numbers to type in out. Pens hang by tests/lab/generator, which shares no equation with the product.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Once better numbers are typed in, the map of --map-after is right and the one before is not. The
-// machine is the hidden side's own (tests/generator), the controller is written down here from the
+// machine is the hidden side's own (tests/lab/generator), the controller is written down here from the
 // firmware's description, and what the tool does is computed from what was written: the product's
 // models decide nothing.
 #include <fmt/format.h>

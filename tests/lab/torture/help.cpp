@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/torture/help.hpp"
+#include "torture/help.hpp"
 
 #include <regex>
 #include <sstream>
 #include <stdexcept>
 
-#include "tests/torture/invocations.hpp"
+#include "torture/invocations.hpp"
 
 namespace chaintrue::torture {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/torture/run.hpp"
+#include "torture/run.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

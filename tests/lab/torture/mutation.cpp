@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/torture/mutation.hpp"
+#include "torture/mutation.hpp"
 
 #include <fmt/format.h>
 

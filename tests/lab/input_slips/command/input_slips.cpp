@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// input_slips: spoils sessions of machines of tests/generator with every kind of gross slip, and
+/// input_slips: spoils sessions of machines of tests/lab/generator with every kind of gross slip, and
 /// prints how often reading the file names it; then sessions without one, and what was said of them.
 /// Not part of the test run; its table stands in docs/reliability.md.
 ///

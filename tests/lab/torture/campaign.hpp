@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/torture/help.hpp"
-#include "tests/torture/mutation.hpp"
-#include "tests/torture/run.hpp"
+#include "torture/help.hpp"
+#include "torture/mutation.hpp"
+#include "torture/run.hpp"
 
 namespace chaintrue::torture {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Maps on the causes that are found, against hidden machines (tests/generator): an excerpt of the
+// Maps on the causes that are found, against hidden machines (tests/lab/generator): an excerpt of the
 // command road.
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/torture/campaign.hpp"
+#include "torture/campaign.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "tests/torture/invocations.hpp"
+#include "torture/invocations.hpp"
 
 namespace chaintrue::torture {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/torture/run.hpp"
+#include "torture/run.hpp"
 
 namespace chaintrue::torture {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/torture/invocations.hpp"
+#include "torture/invocations.hpp"
 
 #include <algorithm>
 #include <array>

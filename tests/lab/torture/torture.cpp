@@ -10,7 +10,7 @@
 #include <exception>
 #include <filesystem>
 
-#include "tests/torture/campaign.hpp"
+#include "torture/campaign.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A measured session of a machine of tests/generator, of any way of measuring, and what reading its
+/// A measured session of a machine of tests/lab/generator, of any way of measuring, and what reading its
 /// file says. The machine is off its statement by usual amounts, and every second one has an effect
 /// besides.
 #pragma once
