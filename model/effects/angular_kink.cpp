@@ -10,7 +10,7 @@
 
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::angular_kink_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {
@@ -67,4 +67,4 @@ extern constinit const Effect angular_kink{
     .add = add,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::angular_kink_effect

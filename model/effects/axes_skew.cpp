@@ -7,7 +7,7 @@
 ///   x_written = x + y g                                                                     (1)
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::axes_skew_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -46,4 +46,4 @@ extern constinit const Effect axes_skew{
     .write = write,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::axes_skew_effect

@@ -9,7 +9,7 @@
 ///   a_i = a_i,stated + k T_i t_i                                                            (1)
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::beam_flex_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -48,4 +48,4 @@ extern constinit const Effect beam_flex{
     .alter = alter,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::beam_flex_effect

@@ -12,7 +12,12 @@
 
 namespace chaintrue::model::effects {
 
-#define CHAINTRUE_EFFECT(id) extern const Effect id;
+// Each effect's file has a namespace of its own, so that files compiled together may use the same names.
+#define CHAINTRUE_EFFECT(id)  \
+  namespace id##_effect {     \
+  extern const Effect id;     \
+  }                           \
+  using id##_effect::id;
 #include "model/effects/effects.def"
 #undef CHAINTRUE_EFFECT
 

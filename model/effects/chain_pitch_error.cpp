@@ -7,7 +7,7 @@
 ///   L_counted = L / (1 + e)                                                                 (1)
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::chain_pitch_error_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -45,4 +45,4 @@ extern constinit const Effect chain_pitch_error{
     .elongation = elongation,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::chain_pitch_error_effect

@@ -10,7 +10,7 @@
 
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::chain_plane_offset_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -53,4 +53,4 @@ extern constinit const Effect chain_plane_offset{
     .add = add,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::chain_plane_offset_effect

@@ -7,7 +7,7 @@
 ///   w = w_stated (1 + q)                                                                    (1)
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::chain_sag_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -47,4 +47,4 @@ extern constinit const Effect chain_sag{
     .alter = alter,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::chain_sag_effect

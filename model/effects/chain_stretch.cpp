@@ -7,7 +7,7 @@
 ///   c = c_stated + k                                                                        (1)
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::chain_stretch_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -44,4 +44,4 @@ extern constinit const Effect chain_stretch{
     .alter = alter,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::chain_stretch_effect

@@ -8,7 +8,7 @@
 ///   added = b d                                                                             (1)
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::direction_hysteresis_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -46,4 +46,4 @@ extern constinit const Effect direction_hysteresis{
     .add_by_direction = add_by_direction,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::direction_hysteresis_effect

@@ -7,7 +7,7 @@
 ///   added = d n                                                                             (1)
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::drift_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -46,4 +46,4 @@ extern constinit const Effect drift{
     .misread = misread,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::drift_effect

@@ -9,7 +9,7 @@
 ///   added = p k for n = m, otherwise 0                                                      (1)
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::link_miscount_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {
@@ -51,4 +51,4 @@ extern constinit const Effect link_miscount{
     .at_one_visit = true,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::link_miscount_effect

@@ -9,7 +9,7 @@
 
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::ring_radius_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -53,4 +53,4 @@ extern constinit const Effect ring_radius{
     .needs_machine = needs_machine,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::ring_radius_effect

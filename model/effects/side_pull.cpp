@@ -7,7 +7,7 @@
 ///   H_left - H_right = f                                                                    (1)
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::side_pull_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -45,4 +45,4 @@ extern constinit const Effect side_pull{
     .alter = alter,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::side_pull_effect

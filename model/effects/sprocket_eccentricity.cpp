@@ -12,7 +12,7 @@
 
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::sprocket_eccentricity_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {
@@ -63,4 +63,4 @@ extern constinit const Effect sprocket_eccentricity{
     .add = add,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::sprocket_eccentricity_effect

@@ -7,7 +7,7 @@
 ///   r = r_stated + d                                                                        (1)
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::sprocket_radius_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -45,4 +45,4 @@ extern constinit const Effect sprocket_radius{
     .alter = alter,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::sprocket_radius_effect

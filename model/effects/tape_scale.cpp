@@ -7,7 +7,7 @@
 ///   x_written = x (1 + s),  y_written = y (1 + s)                                           (1)
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::tape_scale_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -49,4 +49,4 @@ extern constinit const Effect tape_scale{
     .write = write,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::tape_scale_effect

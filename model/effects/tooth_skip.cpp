@@ -9,7 +9,7 @@
 ///   added = p k for n >= m, otherwise 0                                                     (1)
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::tooth_skip_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {
@@ -52,4 +52,4 @@ extern constinit const Effect tooth_skip{
     .misread = misread,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::tooth_skip_effect

@@ -8,7 +8,7 @@
 ///   added = z for n >= m, otherwise 0                                                       (1)
 #include "model/effects/sides.hpp"
 
-namespace chaintrue::model::effects {
+namespace chaintrue::model::effects::zero_shift_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {
@@ -54,4 +54,4 @@ extern constinit const Effect zero_shift{
     .misread = misread,
 };
 
-}  // namespace chaintrue::model::effects
+}  // namespace chaintrue::model::effects::zero_shift_effect

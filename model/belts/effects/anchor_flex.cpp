@@ -9,7 +9,7 @@
 ///   added = -g T                                                                            (1)
 #include "model/belts/effects/belt_effect.hpp"
 
-namespace chaintrue::model::belts {
+namespace chaintrue::model::belts::anchor_flex_effect {
 namespace {
 
 using effects::EffectParameter;
@@ -46,4 +46,4 @@ extern constinit const BeltEffect anchor_flex{
     .by_tension = true,
 };
 
-}  // namespace chaintrue::model::belts
+}  // namespace chaintrue::model::belts::anchor_flex_effect

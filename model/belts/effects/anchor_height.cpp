@@ -6,7 +6,7 @@
 ///   z += h                                                                                  (1)
 #include "model/belts/effects/belt_effect.hpp"
 
-namespace chaintrue::model::belts {
+namespace chaintrue::model::belts::anchor_height_effect {
 namespace {
 
 using effects::EffectParameter;
@@ -43,4 +43,4 @@ extern constinit const BeltEffect anchor_height{
     .alter = alter,
 };
 
-}  // namespace chaintrue::model::belts
+}  // namespace chaintrue::model::belts::anchor_height_effect

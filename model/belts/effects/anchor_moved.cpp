@@ -12,7 +12,7 @@
 
 #include "model/belts/effects/belt_effect.hpp"
 
-namespace chaintrue::model::belts {
+namespace chaintrue::model::belts::anchor_moved_effect {
 namespace {
 
 using effects::EffectParameter;
@@ -64,4 +64,4 @@ extern constinit const BeltEffect anchor_moved{
     .alter = alter,
 };
 
-}  // namespace chaintrue::model::belts
+}  // namespace chaintrue::model::belts::anchor_moved_effect

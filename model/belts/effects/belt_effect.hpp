@@ -74,7 +74,11 @@ inline constexpr BeltSide kOneBelt[] = {BeltSide::tl, BeltSide::tr, BeltSide::bl
 inline constexpr BeltSide kOneBeltOrAll[] = {
     BeltSide::tl, BeltSide::tr, BeltSide::bl, BeltSide::br, BeltSide::all};
 
-#define CHAINTRUE_BELT_EFFECT(id) extern const BeltEffect id;
+#define CHAINTRUE_BELT_EFFECT(id) \
+  namespace id##_effect {         \
+  extern const BeltEffect id;     \
+  }                               \
+  using id##_effect::id;
 #include "model/belts/effects/belt_effects.def"
 #undef CHAINTRUE_BELT_EFFECT
 

@@ -7,7 +7,7 @@
 ///   added = L / (1 + s) - L                                                                 (1)
 #include "model/belts/effects/belt_effect.hpp"
 
-namespace chaintrue::model::belts {
+namespace chaintrue::model::belts::belt_scale_effect {
 namespace {
 
 using effects::EffectParameter;
@@ -45,4 +45,4 @@ extern constinit const BeltEffect belt_scale{
     .add = add,
 };
 
-}  // namespace chaintrue::model::belts
+}  // namespace chaintrue::model::belts::belt_scale_effect

@@ -9,7 +9,7 @@
 ///   added = -e T L                                                                          (1)
 #include "model/belts/effects/belt_effect.hpp"
 
-namespace chaintrue::model::belts {
+namespace chaintrue::model::belts::belt_stretch_effect {
 namespace {
 
 using effects::EffectParameter;
@@ -54,4 +54,4 @@ extern constinit const BeltEffect belt_stretch{
     .by_tension = true,
 };
 
-}  // namespace chaintrue::model::belts
+}  // namespace chaintrue::model::belts::belt_stretch_effect

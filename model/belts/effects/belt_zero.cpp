@@ -6,7 +6,7 @@
 ///   added = z                                                                               (1)
 #include "model/belts/effects/belt_effect.hpp"
 
-namespace chaintrue::model::belts {
+namespace chaintrue::model::belts::belt_zero_effect {
 namespace {
 
 using effects::EffectParameter;
@@ -48,4 +48,4 @@ extern constinit const BeltEffect belt_zero{
     .add = add,
 };
 
-}  // namespace chaintrue::model::belts
+}  // namespace chaintrue::model::belts::belt_zero_effect

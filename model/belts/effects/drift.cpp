@@ -6,7 +6,7 @@
 ///   added = d n                                                                             (1)
 #include "model/belts/effects/belt_effect.hpp"
 
-namespace chaintrue::model::belts {
+namespace chaintrue::model::belts::drift_effect {
 namespace {
 
 using effects::EffectParameter;
@@ -43,4 +43,4 @@ extern constinit const BeltEffect drift{
     .add = add,
 };
 
-}  // namespace chaintrue::model::belts
+}  // namespace chaintrue::model::belts::drift_effect

@@ -8,7 +8,7 @@
 ///   added = p k for n >= m                                                                  (1)
 #include "model/belts/effects/belt_effect.hpp"
 
-namespace chaintrue::model::belts {
+namespace chaintrue::model::belts::tooth_skip_effect {
 namespace {
 
 using effects::EffectParameter;
@@ -53,4 +53,4 @@ extern constinit const BeltEffect tooth_skip{
     .add = add,
 };
 
-}  // namespace chaintrue::model::belts
+}  // namespace chaintrue::model::belts::tooth_skip_effect

@@ -7,7 +7,7 @@
 ///   added = z for n >= m                                                                    (1)
 #include "model/belts/effects/belt_effect.hpp"
 
-namespace chaintrue::model::belts {
+namespace chaintrue::model::belts::zero_shift_effect {
 namespace {
 
 using effects::EffectParameter;
@@ -50,4 +50,4 @@ extern constinit const BeltEffect zero_shift{
     .add = add,
 };
 
-}  // namespace chaintrue::model::belts
+}  // namespace chaintrue::model::belts::zero_shift_effect

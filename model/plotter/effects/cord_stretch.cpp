@@ -6,7 +6,7 @@
 ///   compliance += c                                                                         (1)
 #include "model/plotter/effects/plotter_effect.hpp"
 
-namespace chaintrue::model::plotter {
+namespace chaintrue::model::plotter::cord_stretch_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -47,4 +47,4 @@ extern constinit const PlotterEffect cord_stretch{
     .alter = alter,
 };
 
-}  // namespace chaintrue::model::plotter
+}  // namespace chaintrue::model::plotter::cord_stretch_effect

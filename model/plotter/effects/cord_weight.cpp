@@ -6,7 +6,7 @@
 ///   w += m                                                                                  (1)
 #include "model/plotter/effects/plotter_effect.hpp"
 
-namespace chaintrue::model::plotter {
+namespace chaintrue::model::plotter::cord_weight_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -49,4 +49,4 @@ extern constinit const PlotterEffect cord_weight{
     .alter = alter,
 };
 
-}  // namespace chaintrue::model::plotter
+}  // namespace chaintrue::model::plotter::cord_weight_effect

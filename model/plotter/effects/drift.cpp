@@ -6,7 +6,7 @@
 ///   added = d n                                                                             (1)
 #include "model/plotter/effects/plotter_effect.hpp"
 
-namespace chaintrue::model::plotter {
+namespace chaintrue::model::plotter::drift_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -46,4 +46,4 @@ extern constinit const PlotterEffect drift{
     .add = add,
 };
 
-}  // namespace chaintrue::model::plotter
+}  // namespace chaintrue::model::plotter::drift_effect

@@ -8,7 +8,7 @@
 /// It shows through what the weight does: cords that stretch, and cords that sag under a light gondola.
 #include "model/plotter/effects/plotter_effect.hpp"
 
-namespace chaintrue::model::plotter {
+namespace chaintrue::model::plotter::gondola_mass_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -48,4 +48,4 @@ extern constinit const PlotterEffect gondola_mass{
     .alter = alter,
 };
 
-}  // namespace chaintrue::model::plotter
+}  // namespace chaintrue::model::plotter::gondola_mass_effect

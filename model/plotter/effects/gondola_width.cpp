@@ -6,7 +6,7 @@
 ///   spacing += w                                                                            (1)
 #include "model/plotter/effects/plotter_effect.hpp"
 
-namespace chaintrue::model::plotter {
+namespace chaintrue::model::plotter::gondola_width_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -46,4 +46,4 @@ extern constinit const PlotterEffect gondola_width{
     .needs = needs_body,
 };
 
-}  // namespace chaintrue::model::plotter
+}  // namespace chaintrue::model::plotter::gondola_width_effect

@@ -9,7 +9,7 @@
 /// A gondola that moves down is held up.
 #include "model/plotter/effects/plotter_effect.hpp"
 
-namespace chaintrue::model::plotter {
+namespace chaintrue::model::plotter::pen_friction_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -52,4 +52,4 @@ extern constinit const PlotterEffect pen_friction{
     .alter = alter,
 };
 
-}  // namespace chaintrue::model::plotter
+}  // namespace chaintrue::model::plotter::pen_friction_effect

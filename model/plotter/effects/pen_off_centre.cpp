@@ -8,7 +8,7 @@
 /// A gondola that hangs level shifts the whole drawing; one that tilts turns the offset with it.
 #include "model/plotter/effects/plotter_effect.hpp"
 
-namespace chaintrue::model::plotter {
+namespace chaintrue::model::plotter::pen_off_centre_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -50,4 +50,4 @@ extern constinit const PlotterEffect pen_off_centre{
     .needs = needs_body,
 };
 
-}  // namespace chaintrue::model::plotter
+}  // namespace chaintrue::model::plotter::pen_off_centre_effect

@@ -44,7 +44,11 @@ struct PlotterEffect {
   std::string_view (*needs)(const PlotterMachine&) = nullptr;
 };
 
-#define CHAINTRUE_PLOTTER_EFFECT(id) extern const PlotterEffect id;
+#define CHAINTRUE_PLOTTER_EFFECT(id) \
+  namespace id##_effect {            \
+  extern const PlotterEffect id;     \
+  }                                  \
+  using id##_effect::id;
 #include "model/plotter/effects/plotter_effects.def"
 #undef CHAINTRUE_PLOTTER_EFFECT
 

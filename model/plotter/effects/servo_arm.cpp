@@ -6,7 +6,7 @@
 ///   mass_right += o                                                                         (1)
 #include "model/plotter/effects/plotter_effect.hpp"
 
-namespace chaintrue::model::plotter {
+namespace chaintrue::model::plotter::servo_arm_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -48,4 +48,4 @@ extern constinit const PlotterEffect servo_arm{
     .needs = needs_body,
 };
 
-}  // namespace chaintrue::model::plotter
+}  // namespace chaintrue::model::plotter::servo_arm_effect

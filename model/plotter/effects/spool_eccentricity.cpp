@@ -10,7 +10,7 @@
 
 #include "model/plotter/effects/plotter_effect.hpp"
 
-namespace chaintrue::model::plotter {
+namespace chaintrue::model::plotter::spool_eccentricity_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -60,4 +60,4 @@ extern constinit const PlotterEffect spool_eccentricity{
     .needs = needs_pulley,
 };
 
-}  // namespace chaintrue::model::plotter
+}  // namespace chaintrue::model::plotter::spool_eccentricity_effect

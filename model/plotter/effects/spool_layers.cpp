@@ -7,7 +7,7 @@
 ///   added = b L^2 / 2                                                                       (1)
 #include "model/plotter/effects/plotter_effect.hpp"
 
-namespace chaintrue::model::plotter {
+namespace chaintrue::model::plotter::spool_layers_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -50,4 +50,4 @@ extern constinit const PlotterEffect spool_layers{
     .add = add,
 };
 
-}  // namespace chaintrue::model::plotter
+}  // namespace chaintrue::model::plotter::spool_layers_effect

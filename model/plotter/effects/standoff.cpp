@@ -6,7 +6,7 @@
 ///   standoff += d                                                                           (1)
 #include "model/plotter/effects/plotter_effect.hpp"
 
-namespace chaintrue::model::plotter {
+namespace chaintrue::model::plotter::standoff_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {{
@@ -48,4 +48,4 @@ extern constinit const PlotterEffect standoff{
     .alter = alter,
 };
 
-}  // namespace chaintrue::model::plotter
+}  // namespace chaintrue::model::plotter::standoff_effect

@@ -8,7 +8,7 @@
 ///   added = p k for n >= m                                                                  (1)
 #include "model/plotter/effects/plotter_effect.hpp"
 
-namespace chaintrue::model::plotter {
+namespace chaintrue::model::plotter::tooth_skip_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {
@@ -51,4 +51,4 @@ extern constinit const PlotterEffect tooth_skip{
     .add = add,
 };
 
-}  // namespace chaintrue::model::plotter
+}  // namespace chaintrue::model::plotter::tooth_skip_effect

@@ -7,7 +7,7 @@
 ///   added = z for n >= m                                                                    (1)
 #include "model/plotter/effects/plotter_effect.hpp"
 
-namespace chaintrue::model::plotter {
+namespace chaintrue::model::plotter::zero_shift_effect {
 namespace {
 
 constexpr EffectParameter kParameters[] = {
@@ -49,4 +49,4 @@ extern constinit const PlotterEffect zero_shift{
     .add = add,
 };
 
-}  // namespace chaintrue::model::plotter
+}  // namespace chaintrue::model::plotter::zero_shift_effect
