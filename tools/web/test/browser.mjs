@@ -19,8 +19,9 @@ export const PATIENCE_MS = 120_000;
 const EXECUTABLES = {chrome: ["/usr/bin/chromium"], firefox: ["/usr/bin/firefox-esr", "/usr/bin/firefox"]};
 const executableOf = (browser) => EXECUTABLES[browser].find((path) => existsSync(path));
 
-/** The browsers that are installed. */
-export const browsers = Object.keys(EXECUTABLES).filter(executableOf);
+/** The browsers that are installed, or those of them that CHAINTRUE_BROWSERS lists. */
+const wanted = process.env.CHAINTRUE_BROWSERS?.split(",") ?? Object.keys(EXECUTABLES);
+export const browsers = wanted.filter(executableOf);
 
 /** A browser that does not close is killed after this. */
 const CLOSING_MS = 10_000;
