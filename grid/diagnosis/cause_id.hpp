@@ -3,14 +3,17 @@
 /// What may be named: an effect of the catalogue at a side.
 #pragma once
 
-#include "model/effects/effect.hpp"
+namespace chaintrue::model::effects {
+struct Effect;
+enum class EffectSide;
+}  // namespace chaintrue::model::effects
 
 namespace chaintrue::grid::diagnosis {
 
 /// An effect of the catalogue at a side.
 struct CauseId {
   const model::effects::Effect* effect = nullptr;
-  model::effects::EffectSide side = model::effects::EffectSide::none;
+  model::effects::EffectSide side{};  ///< EffectSide::none
   friend bool operator==(const CauseId&, const CauseId&) = default;
 };
 

@@ -28,8 +28,7 @@
 #include "grid/diagnosis/law.hpp"
 #include "grid/diagnosis/pictures.hpp"
 #include "grid/diagnosis/visiting_order_found.hpp"
-#include "grid/map/compensation_map.hpp"
-#include "grid/observation/measured_grid.hpp"
+#include "grid/map/error_summary.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::diagnosis {

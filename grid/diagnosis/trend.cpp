@@ -8,6 +8,7 @@
 
 #include "grid/diagnosis/normal.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
+#include "model/effects/effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "grid/files/anchors_file.hpp"
 #include "grid/precondition.hpp"
+#include "model/effects/effect.hpp"
 
 namespace chaintrue::grid::files {
 namespace {

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "grid/estimation/residual_surface.hpp"
+#include "grid/map/error_summary.hpp"
 #include "grid/map/lattice_residual.hpp"
 #include "grid/map/length_map.hpp"
 #include "grid/map/measured_area.hpp"
@@ -42,12 +43,6 @@ struct SettingResult {
   /// Moved by more than three of its stated sigmas: what was stated is wrong, or something else
   /// imitates it.
   bool off = false;
-};
-
-/// Root mean square and largest value of a set of errors.
-struct ErrorSummary {
-  double rms_mm = 0.0;
-  double maximum_mm = 0.0;
 };
 
 /// Errors of one way of holding points out. Chain: both chains equally. Tool: distance from where the

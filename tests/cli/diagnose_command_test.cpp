@@ -14,6 +14,7 @@
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/machine_file.hpp"
+#include "model/effects/effect.hpp"
 #include "tests/cli/command_fixture.hpp"
 #include "tests/grid_files/sample_diagnosis.hpp"
 

@@ -5,6 +5,7 @@
 
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/holes_file.hpp"
+#include "model/effects/effect.hpp"
 #include "tests/cli/command_fixture.hpp"
 
 namespace chaintrue {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/effects/effect.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_improvement.hpp"
 #include "tools/cli/diagnosis_words.hpp"

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "grid/diagnosis/workshop_units.hpp"
+#include "model/effects/effect.hpp"
 
 namespace chaintrue::cli {
 namespace {
