@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/belts/fit_report.hpp"
 #include "grid/belts/prediction.hpp"
 #include "grid/diagnosis/belts_report.hpp"
 #include "model/belts/belt_kinematics.hpp"
@@ -102,7 +103,6 @@ ToolError tool_error(const Explained& explained,
   };
   if (belts.machine.anchors_known) error.stated_mm = of(belts.machine);
   error.before_mm = of(alone.machine);
-  if (alone.scale) error.scale_mm_per_m = 1000.0 * alone.scale->sigma;
   return error;
 }
 
@@ -115,6 +115,21 @@ double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
   const MeasuredBelts without_causes = without_effects(belts, at.causes, at.frame.state);
   const Eigen::VectorXd left = belts::reading_lines(without_causes, at.frame.state).residual_mm;
   return std::sqrt(left.squaredNorm() / static_cast<double>(left.size()));
+}
+
+/// By the tape, with the causes taken out: a stretch makes the belts' millimetres longer as a scale does, and counted
+/// in both it would be taken out twice.
+std::optional<BeltScale> scale_given_causes(const MeasuredBelts& belts,
+                                            const Explained& explained,
+                                            const std::optional<BeltScale>& alone) {
+  if (belts.distances.empty()) return std::nullopt;
+  MeasuredBelts taped = explained.without_causes;
+  taped.distances = belts.distances;
+  const belts::AnchorFit& given = explained.given.frame;
+  const auto fitted = belts::fit_anchors_from(taped, given.state, given.counting);
+  if (!fitted) return alone;
+  const belts::FitDiagnostics view(taped, *fitted);
+  return belts::fit_report(taped, view, view.covariance()).scale;
 }
 
 }  // namespace
@@ -190,7 +205,8 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
   found.prediction_before = alone.half_left_out;
   found.prediction = prediction_by_halves(a.belts, explained);
   found.tool = tool_error(explained, belts, alone, found.machine, covariance);
-  found.scale = alone.scale;
+  found.scale = scale_given_causes(belts, explained, alone.scale);
+  if (found.scale) found.tool.scale_mm_per_m = 1000.0 * found.scale->sigma;
   found.firmware_fit = belts.firmware_fit;
   return found;
 }

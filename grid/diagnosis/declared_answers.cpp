@@ -8,6 +8,7 @@
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/law_model.hpp"
 #include "grid/diagnosis/regressors.hpp"
+#include "model/effects/catalogue.hpp"
 #include "model/effects/declared_effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
