@@ -233,7 +233,8 @@ Eigen::Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t uni
 }
 
 Eigen::Vector2d tool_shift(const SystemPlace& place, const Eigen::Vector2d& chain_mm) {
-  return place.state.by_mark.inverse() * chain_mm;
+  // Where chains are read too short, the model has the tool nearer to the motors than it landed.
+  return -(place.state.by_mark.inverse() * chain_mm);
 }
 
 }  // namespace chaintrue::grid::diagnosis

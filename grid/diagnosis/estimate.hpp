@@ -71,7 +71,7 @@ struct DiscrepancyNoise {
 /// The covariance of that which noise as stated makes.
 [[nodiscard]] Eigen::Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t unit);
 
-/// A chain residual as a shift of the tool [mm]: where it truly was less where the model has it.
+/// A chain residual (read minus predicted) as an error of the tool [mm]: where it landed minus where the model has it.
 [[nodiscard]] Eigen::Vector2d tool_shift(const SystemPlace& place, const Eigen::Vector2d& chain_mm);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -29,7 +29,8 @@ Outlier outlying_point(const Analysis& a, const NumberedUnit& own, const SystemU
   const Eigen::Vector2d chains = unit.unwhitened(a.estimate.left_given_discrepancy);
   Outlier outlier;
   outlier.index = own.index;
-  outlier.shift_mm = tool_shift(a.system.places[unit.places.front().place], chains);
+  // Where the tool would have to be, minus its mark.
+  outlier.shift_mm = -tool_shift(a.system.places[unit.places.front().place], chains);
   const Eigen::Vector2d whitened = unit.whitening * chains;
   outlier.distance = whitened.norm() / std::sqrt(a.estimate.noise_square);
   return outlier;

@@ -82,8 +82,8 @@ struct MapNoise {
   double factor_found = 1.0;
 };
 
-/// A measured point as the map sees it, in millimetres at the tool: how far the tool was beyond
-/// where each model thinks. As stated, of a point that gives a command, is the commanded place.
+/// A measured point as the map sees it, in millimetres at the tool: where it landed minus where each model has it. As
+/// stated, of a point that gives a command, is the commanded place.
 struct MapPoint {
   model::MarkPoint mark;
   model::ChainLengths lengths;

@@ -183,7 +183,7 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
     result.lengths = point.lengths;
     const Eigen::Vector2d chain(point.lengths.left_mm - here->lengths.left_mm,
                                 point.lengths.right_mm - here->lengths.right_mm);
-    result.mapped_mm = here->mark_jacobian.inverse() * chain;
+    result.mapped_mm = -(here->mark_jacobian.inverse() * chain);
     map.points.push_back(result);
   }
   const CompensationMap first(map);

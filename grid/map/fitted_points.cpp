@@ -10,18 +10,19 @@
 namespace chaintrue::grid {
 namespace {
 
+/// A chain residual (read minus predicted) as an error of the tool: where it landed minus where the model has it.
 Eigen::Vector2d to_tool(const Eigen::Matrix2d& mark_jacobian, const Eigen::Vector2d& chain_mm) {
-  return mark_jacobian.inverse() * chain_mm;
+  return -(mark_jacobian.inverse() * chain_mm);
 }
 
-/// How far the tool was beyond where its command sent it, on the sheet. The controller believes
-/// neither the stated machine nor the catenary: a machine that reaches its commanded places is right.
-Eigen::Vector2d beyond_mark(model::BedPoint commanded,
+/// On the sheet. The controller believes neither the stated machine nor the catenary: a machine that reaches its
+/// commanded places is right.
+Eigen::Vector2d landed_minus_sent(model::BedPoint commanded,
                             const model::SheetPlacement& sheet,
                             model::MarkPoint mark) {
   const model::BedPoint place = sheet.to_bed(mark);
   return sheet.rotation().transpose() *
-         Eigen::Vector2d(commanded.x_mm - place.x_mm, commanded.y_mm - place.y_mm);
+         Eigen::Vector2d(place.x_mm - commanded.x_mm, place.y_mm - commanded.y_mm);
 }
 
 /// Fits the placement of the sheet under the uncalibrated machine, by weighted least squares on its
@@ -44,7 +45,7 @@ model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points
       const auto row = 2 * static_cast<Eigen::Index>(i);
       const auto& commanded = good[i].commanded;
       const Eigen::Vector2d residual =
-          commanded ? line->places[i].by_mark * beyond_mark(*commanded, sheet, good[i].mark)
+          commanded ? -line->places[i].by_mark * landed_minus_sent(*commanded, sheet, good[i].mark)
                     : Eigen::Vector2d(readings.measured().segment(row, 2) -
                                       line->predicted.segment(row, 2));
       sum.add(residual, line->by_setting.middleRows(row, 2), line->units[i].covariance.inverse());
@@ -53,12 +54,12 @@ model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points
   });
 }
 
-/// How far the tool was from where the uncalibrated machine thinks: the command, or where the
-/// lengths put it; zero where that machine has no pose.
-Eigen::Vector2d tool_residual(const model::ReadingModel& model,
+/// Where the tool landed minus where the uncalibrated machine has it: the command, or where the lengths put it; zero
+/// where that machine has no pose.
+Eigen::Vector2d error_as_stated(const model::ReadingModel& model,
                               const model::SheetPlacement& sheet,
                               const LengthPoint& point) {
-  if (point.commanded) return beyond_mark(*point.commanded, sheet, point.mark);
+  if (point.commanded) return landed_minus_sent(*point.commanded, sheet, point.mark);
   const auto reading = model.at(sheet.to_bed(point.mark));
   if (!reading) return Eigen::Vector2d::Zero();
   return to_tool(reading->position_jacobian * sheet.rotation(),
@@ -115,8 +116,8 @@ std::vector<MapPoint> map_points(const std::vector<FittedPoint>& points,
     point.lengths = fitted.point.lengths;
     point.bad = fitted.bad;
     point.distance_sigmas = fitted.distance;
-    point.as_stated_mm = tool_residual(stated, {}, fitted.point);
-    point.sheet_placed_mm = tool_residual(stated, laid, fitted.point);
+    point.as_stated_mm = error_as_stated(stated, {}, fitted.point);
+    point.sheet_placed_mm = error_as_stated(stated, laid, fitted.point);
     point.mapped_mm = to_tool(fitted.mark_jacobian, fitted.residual_mm);
     point.left_out_mm = to_tool(fitted.mark_jacobian, fitted.left_out_residual_mm);
     result.push_back(point);

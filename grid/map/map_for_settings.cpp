@@ -10,13 +10,13 @@
 namespace chaintrue::grid {
 namespace {
 
-/// Where the tool is beyond where this controller takes it to be; the sheet stays where it was laid.
+/// Where the tool landed minus where this controller takes it to be; the sheet stays where it was laid.
 void tell_of(const model::ControllerKinematics& controller, MapPoint& point) {
   const auto believed = controller.command(point.lengths);
   if (!believed) return;
-  const Eigen::Vector2d beyond(believed->x_mm - point.mark.x_mm, believed->y_mm - point.mark.y_mm);
-  point.sheet_placed_mm += beyond - point.as_stated_mm;
-  point.as_stated_mm = beyond;
+  const Eigen::Vector2d error(point.mark.x_mm - believed->x_mm, point.mark.y_mm - believed->y_mm);
+  point.sheet_placed_mm += error - point.as_stated_mm;
+  point.as_stated_mm = error;
 }
 
 }  // namespace

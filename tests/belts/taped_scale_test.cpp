@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The scale by a taped distance next to belts that stretch when they are pulled.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "grid/belts/belts_fit.hpp"
+#include "grid/diagnosis/diagnose.hpp"
+#include "grid/files/anchors_file.hpp"
+#include "grid/synthetic/simulated_belts.hpp"
+#include "tests/belts/frame.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using model::Belt;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Belts that give by 0.4 %, and the diagonal of the true frame.
+MeasuredBelts stretched_and_taped() {
+  synthetic::BeltsSpec spec;
+  spec.width_share = 0.7;
+  spec.height_share = 0.6;
+  spec.noise_mm = 0.3;
+  spec.seed = 7;
+  spec.hidden = {{"belt_stretch", "", {{"elongation", 0.004}}}};
+  const model::BeltMachine truth = testing_support::truth();
+  MeasuredBelts belts = synthetic::simulate_belts(testing_support::stated(), truth, spec).value();
+  const model::Anchor& from = truth.anchors[Belt::tl];
+  const model::Anchor& to = truth.anchors[Belt::br];
+  belts.distances = {{.from = Belt::tl,
+                      .to = Belt::br,
+                      .distance_mm = std::hypot(from.x_mm - to.x_mm, from.y_mm - to.y_mm, from.z_mm - to.z_mm),
+                      .sigma_mm = 1.0}};
+  return belts;
+}
+
+TEST(BeltsDiagnosis, CountsAStretchOnceInTheScale) {
+  const MeasuredBelts belts = stretched_and_taped();
+  const auto found = diagnosis::diagnose(belts);
+  ASSERT_TRUE(found);
+  ASSERT_TRUE(found->belts && found->belts->scale);
+  const BeltScale& scale = *found->belts->scale;
+  // The tape is of the true frame, so the scale is 1; three of its sigmas.
+  EXPECT_NEAR(scale.factor, 1.0, 3.0 * scale.sigma);
+  // A stretch of 0.4 % counted a second time is far outside.
+  EXPECT_LT(scale.sigma, 0.001);
+  const auto fit = fit_belts(belts);
+  ASSERT_TRUE(fit && fit->scale);
+  EXPECT_NEAR(scale.factor, fit->scale->factor, fit->scale->sigma);
+  EXPECT_THAT(files::write_maslow4_settings(*found).text, Not(HasSubstr("Maslow_Scale")));
+}
+
+}  // namespace
+}  // namespace chaintrue::grid
