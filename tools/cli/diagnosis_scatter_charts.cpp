@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "grid/chain_rows.hpp"
-#include "model/effects/catalogue.hpp"
+#include "model/effects/effect.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/residual_scatter.hpp"
