@@ -38,8 +38,8 @@ TEST(ToolError, PointsDownWhereTheToolHangsLow) {
     EXPECT_NEAR(point.as_stated_mm.x(), 0.0, kRoundingMm);
     EXPECT_NEAR(point.as_stated_mm.y(), -kLowMm, kRoundingMm);
   }
-  const model::Controller same = stated_machine(*map)->controller;
-  for (const MapPoint& point : map_for_settings(*map, same, "").contents().points)
+  const CompensationMap same = map_for_settings(*map, stated_machine(*map)->controller, "");
+  for (const MapPoint& point : same.contents().points)
     EXPECT_NEAR(point.as_stated_mm.y(), -kLowMm, kRoundingMm);
 }
 
