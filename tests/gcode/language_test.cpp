@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "line 2: probing sideways (X, Y) ends at a place that only the machine knows "
                 "(unsupported_code)"},
         Refusal{"F10\nG0 Z5\nG38.2 Z-5\nG92 Z0",
-                "line 4, column 5: after probing only the machine knows its height, so Z cannot be "
+                "line 4, column 5: after probing or G53 only the machine knows its height, so Z cannot be "
                 "set from it here (unsupported_code)"},
         Refusal{"M190 S60", "line 1, column 2: M190 is not known (unknown_code)"},
         Refusal{"F100 G1 X1 E2",

@@ -278,6 +278,14 @@ Result<void> Compensator::word(const PassedWord& word) {
                               word.text,
                               corrector_.firmware().name));
   }
+  if (word.text.starts_with("G53") && !knows_code(corrector_.firmware(), 'G', 530)) {
+    return refuse(ProblemName::not_emittable,
+                  {word.line, 0},
+                  fmt::format("{}: {} does not know G53 and would take the height for one above the "
+                              "work; write a safe height of the work (G0 Z...)",
+                              word.text,
+                              corrector_.firmware().name));
+  }
   note_unknown(word);
   return findings_.problem_count > 0 ? Result<void>{} : emitter_.word(word);
 }

@@ -206,6 +206,11 @@ Result<void> Emitter::word(const PassedWord& word) {
   }
   put_line(text);
   if (text == "M6") put_mark();
+  // A height in the machine's frame: the next one of the work is written whatever it is, and so is the next feed.
+  if (code == "G53") {
+    z_.reset();
+    feed_.clear();
+  }
   return {};
 }
 

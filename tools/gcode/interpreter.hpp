@@ -141,6 +141,8 @@ class Interpreter {
   Result<void> move(const Block& block, int motion);
   Result<Axes> target(const Block& block) const;
   Result<Axes> machine_target(const Block& block) const;
+  Result<void> machine_height(const Block& block, int motion);
+  Result<void> check_height(const Block& block, const Axes& machine) const;
   Result<void> polar(const Block& block, Axes& program) const;
   Result<void> straight(const Block& block, MoveKind kind, const Axes& machine);
   Result<void> arc(const Block& block, bool clockwise);
@@ -178,7 +180,8 @@ class Interpreter {
   bool home_known_[2] = {false, false};
   bool noted_[4] = {false, false, false, false};
   bool units_stated_ = false;
-  bool z_unknown_ = false;  ///< after probing
+  bool z_unknown_ = false;      ///< after probing, and after a height in the machine's own frame
+  bool z_is_machine_ = false;  ///< the latter
 };
 
 }  // namespace chaintrue::gcode

@@ -3,11 +3,13 @@
 /// G0, G1, G2, G3 and probing: from words to moves in the machine frame.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string_view>
 
 #include "tools/gcode/interpreter.hpp"
+#include "tools/gcode/word_text.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -39,6 +41,14 @@ void name_axes(const Block& block, Move& move) {
   move.names_z = move.to.z_mm != move.from.z_mm || block.has('z') || upright;
 }
 
+/// G53 with Z alone: a height above the machine's switch or stop, which no work offset reaches.
+bool is_machine_height(const Block& block) {
+  if (!block.is(GGroup::once, 530) || !block.has('z')) return false;
+  return std::none_of(kAxisLetters.begin(), kAxisLetters.end(), [&](char letter) {
+    return letter != 'z' && block.has(letter);
+  });
+}
+
 }  // namespace
 
 Move Interpreter::basic_move(std::size_t line, MoveKind kind, const Axes& to) const {
@@ -58,6 +68,7 @@ Result<void> Interpreter::move(const Block& block, int motion) {
     case 0:
     case 10: {
       modes_.motion = motion;
+      if (is_machine_height(block)) return machine_height(block, motion);
       const auto machine = target(block);
       if (!machine) return tl::unexpected(machine.error());
       return straight(block, motion == 0 ? MoveKind::rapid : MoveKind::feed, *machine);
@@ -104,6 +115,39 @@ Result<Axes> Interpreter::machine_target(const Block& block) const {
   return machine;
 }
 
+/// Passed as it is: what it is in the work's frame only the machine knows.
+Result<void> Interpreter::machine_height(const Block& block, int motion) {
+  std::string text = with_value(motion == 0 ? "G53 G0 Z" : "G53 G1 Z", length(block, 'z'));
+  if (motion != 0) {
+    if (modes_.feed_mode == FeedMode::inverse_time) {
+      return refuse(ProblemName::unsupported_code,
+                    block.start(),
+                    "a height in the machine's frame (G53) takes a feed rate in mm/min or inch/min");
+    }
+    text += with_value(" F", modes_.feed);
+  }
+  z_unknown_ = z_is_machine_ = true;
+  return sink_.word({block.line, text});
+}
+
+/// A slope begins at a height that is known.
+Result<void> Interpreter::check_height(const Block& block, const Axes& machine) const {
+  if (!block.has('z') || !z_unknown_) return {};
+  if (modes_.incremental) {
+    return refuse(ProblemName::unsupported_code,
+                  block.place('z'),
+                  "after probing or G53 only the machine knows its height, so Z cannot step from it "
+                  "(G91) here");
+  }
+  if (z_is_machine_ && (machine[0] != machine_[0] || machine[1] != machine_[1])) {
+    return refuse(ProblemName::unsupported_code,
+                  block.place('z'),
+                  "after a height in the machine's frame (G53) Z moves by itself first, without X "
+                  "and Y: from where, only the machine knows");
+  }
+  return {};
+}
+
 /// @ is the distance from the program's zero in XY, ^ the angle in degrees.
 Result<void> Interpreter::polar(const Block& block, Axes& program) const {
   if (modes_.plane != 170) {
@@ -131,13 +175,8 @@ Result<void> Interpreter::polar(const Block& block, Axes& program) const {
 }
 
 Result<void> Interpreter::straight(const Block& block, MoveKind kind, const Axes& machine) {
-  if (z_unknown_ && modes_.incremental && block.has('z')) {
-    return refuse(
-        ProblemName::unsupported_code,
-        block.place('z'),
-        "after probing only the machine knows its height, so Z cannot step from it (G91) here");
-  }
-  if (block.has('z')) z_unknown_ = false;
+  CHAINTRUE_GCODE_TRY(check_height(block, machine));
+  if (block.has('z')) z_unknown_ = z_is_machine_ = false;
   Move move = basic_move(block.line, kind, machine);
   name_axes(block, move);
   CHAINTRUE_GCODE_TRY(sink_.move(move));
@@ -163,6 +202,7 @@ Result<void> Interpreter::probe(const Block& block) {
   }
   CHAINTRUE_GCODE_TRY(straight(block, MoveKind::probe, *machine));
   z_unknown_ = true;
+  z_is_machine_ = false;
   for (int i = 0; i < 3; ++i)
     parameters_.set(parameter::kProbe + i, machine_[static_cast<std::size_t>(i)]);
   return {};
@@ -185,7 +225,7 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
   if (z_unknown_ && modes_.plane != 170) {
     return refuse(ProblemName::unsupported_code,
                   block.start(),
-                  "after probing only the machine knows where an upright arc (G18, G19) starts");
+                  "after probing or G53 only the machine knows where an upright arc (G18, G19) starts");
   }
   const auto machine = target(block);
   if (!machine) return tl::unexpected(machine.error());
@@ -229,7 +269,8 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
   arc.end_height_mm = end[plane.normal] - start[plane.normal];
   Move move = basic_move(block.line, MoveKind::arc, *machine);
   move.arc = arc;
-  if (block.has('z')) z_unknown_ = false;
+  CHAINTRUE_GCODE_TRY(check_height(block, *machine));
+  if (block.has('z')) z_unknown_ = z_is_machine_ = false;
   name_axes(block, move);
   CHAINTRUE_GCODE_TRY(sink_.move(move));
   machine_ = *machine;

@@ -113,7 +113,7 @@ Result<void> Interpreter::needs_known_z(const Block& block) const {
   if (!z_unknown_ || !block.has('z')) return {};
   return refuse(ProblemName::unsupported_code,
                 block.place('z'),
-                "after probing only the machine knows its height, so Z cannot be set from it here");
+                "after probing or G53 only the machine knows its height, so Z cannot be set from it here");
 }
 
 Result<void> Interpreter::set_system(const Block& block) {
