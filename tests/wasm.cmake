@@ -1,7 +1,4 @@
-# The tests of interp, model and grid compiled to WebAssembly, one program for each folder, under node:
-# tools/page --suite.
-set(chaintrue_wasm_rooms
-  accuracy belts contracts diagnosis effects estimation grid_files holes interp lab map model plotter sweep synthetic)
+# The tests of interp, model and grid compiled to WebAssembly, under node: tools/page --suite.
 
 # GoogleTest from the sources of its Debian package.
 set(googletest /usr/src/googletest)
@@ -12,11 +9,10 @@ foreach(library gtest gmock)
   file(CREATE_LINK /usr/include/${library} ${page_headers}/${library} SYMBOLIC)
 endforeach()
 add_library(chaintrue_googletest STATIC EXCLUDE_FROM_ALL
-  ${googletest}/googletest/src/gtest-all.cc ${googletest}/googlemock/src/gmock-all.cc ${CMAKE_CURRENT_LIST_DIR}/wasm_main.cc)
+  ${googletest}/googletest/src/gtest-all.cc ${googletest}/googlemock/src/gmock-all.cc)
 target_include_directories(chaintrue_googletest SYSTEM PUBLIC ${page_headers} PRIVATE ${googletest}/googletest ${googletest}/googlemock)
 target_compile_features(chaintrue_googletest PUBLIC cxx_std_20)
 add_library(GTest::gmock ALIAS chaintrue_googletest)
-add_library(GTest::gtest_main ALIAS chaintrue_googletest)
 
 # Tests that start the command or threads: there are neither processes nor threads in one module.
 function(chaintrue_leave_out_processes list)
@@ -34,10 +30,9 @@ add_custom_target(wasm_suite)
 find_program(CHAINTRUE_NODE node REQUIRED)
 
 # Without the linker's own optimiser: it takes longer than the tests gain.
-function(chaintrue_test_under_node target)
+function(chaintrue_run_under_node target)
   target_link_options(${target} PRIVATE -O0 -sASSERTIONS=0 -sENVIRONMENT=node -sNODERAWFS -sWASM_ASYNC_COMPILATION=0 -sEXIT_RUNTIME -sALLOW_MEMORY_GROWTH
     -sTOTAL_STACK=8388608)
   set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON CROSSCOMPILING_EMULATOR ${CHAINTRUE_NODE})
   add_dependencies(wasm_suite ${target})
-  add_test(NAME ${target} COMMAND ${target} --gtest_brief=1)
 endfunction()

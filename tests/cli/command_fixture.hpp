@@ -4,26 +4,17 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
+
+#include "tests/support/files.hpp"
+#include "tests/support/process.hpp"
 
 namespace chaintrue::testing_support {
 
-struct Outcome {
-  int code = -1;
-  std::string out;
-  std::string err;
-};
-
-inline std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+inline std::string content_of(const std::filesystem::path& path) { return read_text(path); }
 
 /// A map, a diagnosis or anchors without where they come from, and without the hash of that.
 inline std::string without_origin(std::string text) {
@@ -34,23 +25,12 @@ inline std::string without_origin(std::string text) {
 
 class CommandFixture : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = std::filesystem::temp_directory_path() / "chaintrue-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   [[nodiscard]] Outcome run(const std::string& arguments) const {
     return run_line("chaintrue " + arguments);
   }
   /// Runs any shell line in the folder.
   [[nodiscard]] Outcome run_line(const std::string& shell) const {
-    const std::string line = "cd " + folder_.string() +
-                             " && PATH=$(dirname " CHAINTRUE_COMMAND "):$PATH && { " + shell +
-                             "\n} >out.txt 2>err.txt";
-    const int status = std::system(line.c_str());
-    return {WEXITSTATUS(status), content_of(folder_ / "out.txt"), content_of(folder_ / "err.txt")};
+    return testing_support::run_line(folder_, shell);
   }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
@@ -59,7 +39,11 @@ class CommandFixture : public testing::Test {
     return std::filesystem::exists(folder_ / name);
   }
 
-  std::filesystem::path folder_;
+ private:
+  TemporaryFolder temporary_;
+
+ protected:
+  std::filesystem::path folder_ = temporary_.path();
 };
 
 }  // namespace chaintrue::testing_support

@@ -16,7 +16,7 @@
 #include "grid/files/machine_file.hpp"
 #include "model/effects/effect.hpp"
 #include "tests/cli/command_fixture.hpp"
-#include "tests/grid_files/sample_diagnosis.hpp"
+#include "tests/support/sample_diagnosis.hpp"
 
 namespace chaintrue {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "model/kinematics.hpp"
+#include "tests/support/random.hpp"
 
 namespace chaintrue::model {
 namespace {
@@ -81,16 +81,10 @@ INSTANTIATE_TEST_SUITE_P(Every, KinematicsLaws, testing::ValuesIn(kinds()), [](c
 });
 
 /// Points of the classic bed, identical in every run.
-class BedPoints {
+class BedPoints : public testing_support::Random {
  public:
-  explicit BedPoints(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double from, double to) {
-    return from + (to - from) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
+  using Random::Random;
   BedPoint next() { return {uniform(-1219.2, 1219.2), uniform(-609.6, 609.6)}; }
-
- private:
-  std::mt19937_64 engine_;
 };
 
 constexpr std::uint64_t kSeed = 20260115;

@@ -5,14 +5,14 @@
 #include <cstring>
 #include <functional>
 #include <ostream>
-#include <random>
 #include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "interp/surface_methods.hpp"
-#include "tests/in_threads.hpp"
+#include "tests/support/in_threads.hpp"
+#include "tests/support/random.hpp"
 
 namespace chaintrue::interp {
 
@@ -22,15 +22,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1234;
 
-class Random {
- public:
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-
- private:
-  std::mt19937_64 engine_{kSeed};
-};
+using testing_support::Random;
 
 struct Grid {
   std::vector<double> x, y;

@@ -17,7 +17,7 @@
 #include "grid/diagnosis/regressors.hpp"
 #include "model/effects/catalogue.hpp"
 #include "tests/diagnosis/law_sessions.hpp"
-#include "tests/normal_numbers.hpp"
+#include "tests/support/random.hpp"
 
 namespace chaintrue::grid::diagnosis::laws {
 namespace {
@@ -154,17 +154,17 @@ TEST(Laws, WhatIsProposedPartsALawFromItsRivals) {
     };
     // All marks that are proposed, read as the others were.
     const model::ReadingModel machine(*grid.machine);
-    chaintrue::testing_support::NormalNumbers noise(seed);
+    chaintrue::testing_support::Random random(seed);
     for (const NextMeasurement& one : next) {
       if (!one.mark) continue;
       MeasuredPoint point = grid.points.front();
       point.mark = *one.mark;
       point.order = static_cast<int>(grid.points.size());
-      const model::MarkPoint truth{one.mark->x_mm + 0.3 * noise(), one.mark->y_mm + 0.3 * noise()};
+      const model::MarkPoint truth{one.mark->x_mm + 0.3 * random.normal(), one.mark->y_mm + 0.3 * random.normal()};
       const auto reading = machine.at(model::identity_placement(truth)).value();
       point.lengths = reading.pose.lengths;
-      point.lengths->left_mm += step(truth, reading) + 0.2 * noise();
-      point.lengths->right_mm += 0.2 * noise();
+      point.lengths->left_mm += step(truth, reading) + 0.2 * random.normal();
+      point.lengths->right_mm += 0.2 * random.normal();
       grid.points.push_back(point);
     }
     const double before = of_step(found.laws), after = of_step(laws_found(analysed(grid)).laws);

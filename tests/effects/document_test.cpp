@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-#include <string>
-
 #include "model/effects/catalogue.hpp"
+#include "tests/support/files.hpp"
 
 namespace chaintrue::model::effects {
 namespace {
 
 // Written by `chaintrue effects --markdown > docs/effects.md`.
 TEST(Document, IsTheCatalogueAsItStands) {
-  std::ifstream in(std::string(CHAINTRUE_FIXTURES) + "/../docs/effects.md");
-  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  EXPECT_EQ(text, catalogue_document());
+  EXPECT_EQ(testing_support::read_text(CHAINTRUE_FIXTURES "/../docs/effects.md"), catalogue_document());
 }
 
 }  // namespace

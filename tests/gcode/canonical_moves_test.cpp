@@ -138,7 +138,7 @@ std::vector<std::string> files() {
 INSTANTIATE_TEST_SUITE_P(Corpus, CanonicalMoves, testing::ValuesIn(files()), test_name);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(CanonicalMoves);
 
-TEST(Corpus, IsThere) {
+TEST(CorpusPrograms, Exist) {
   if (!std::filesystem::exists(kCorpus)) GTEST_SKIP() << "no real G-code files at " << kCorpus;
   EXPECT_GE(files().size(), 37U);
 }

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "grid/files/input_error.hpp"
-#include "tests/grid_files/sample_diagnosis.hpp"
+#include "tests/support/sample_diagnosis.hpp"
 
 namespace chaintrue::grid::files {
 namespace {

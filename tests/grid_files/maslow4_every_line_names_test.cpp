@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A damaged log never names a cause at 0.9 that the whole log has below 0.5. An excerpt of a few
 // seconds; every fifth line of every log, some minutes:
-//   build/tests/grid_files_tests --gtest_also_run_disabled_tests --gtest_filter='EveryLineNames.*'
+//   build/tests/files_tests --gtest_also_run_disabled_tests --gtest_filter='EveryLineNames.*'
 #include <gtest/gtest.h>
 
 #include <map>

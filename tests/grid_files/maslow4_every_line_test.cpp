@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Logs cut at a line, and with a line deleted, doubled or garbled: an answer or a plain refusal.
 // An excerpt of a few seconds; every line of every log:
-//   build/tests/grid_files_tests --gtest_also_run_disabled_tests --gtest_filter='EveryLine.*'
+//   build/tests/files_tests --gtest_also_run_disabled_tests --gtest_filter='EveryLine.*'
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/in_threads.hpp"
+#include "tests/support/in_threads.hpp"
 #include "tests/interp/truths.hpp"
 
 namespace chaintrue::interp {

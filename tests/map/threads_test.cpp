@@ -7,7 +7,7 @@
 
 #include "grid/files/map_file.hpp"
 #include "grid/map/fit.hpp"
-#include "tests/in_threads.hpp"
+#include "tests/support/in_threads.hpp"
 #include "tests/map/synthetic_grid.hpp"
 
 namespace chaintrue {

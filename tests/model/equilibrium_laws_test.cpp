@@ -5,30 +5,24 @@
 
 #include <cmath>
 #include <functional>
-#include <random>
 #include <vector>
 
 #include "model/catenary.hpp"
 #include "model/kinematics.hpp"
+#include "tests/support/random.hpp"
 
 namespace chaintrue::model {
 namespace {
 
 constexpr std::uint64_t kLawSeed = 4711;
 
-class Random {
+class Random : public testing_support::Random {
  public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double from, double to) {
-    return from + (to - from) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
+  using testing_support::Random::Random;
   double logarithmic(double from, double to) {
     return std::exp(uniform(std::log(from), std::log(to)));
   }
   BedPoint bed() { return {uniform(-1219.2, 1219.2), uniform(-609.6, 609.6)}; }
-
- private:
-  std::mt19937_64 engine_;
 };
 
 EquilibriumParameters classic(Feed feed = Feed::over_top) {

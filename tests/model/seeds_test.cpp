@@ -4,11 +4,11 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "model/chain_formulas.hpp"
 #include "model/controllers/payout.hpp"
 #include "model/formula_kinematics.hpp"
+#include "tests/support/random.hpp"
 
 namespace chaintrue::model {
 namespace {
@@ -41,10 +41,10 @@ TEST(Seeds, WrapExampleIsReproducedWithTheFirmwaresRadiusOfItsTime) {
 TEST(Seeds, ArccosArcsinAndArctangentAreOneWrap) {
   constexpr std::uint64_t kSeed = 5;
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);
-  std::mt19937_64 engine(kSeed);
+  testing_support::Random random(kSeed);
   for (int n = 0; n < 300; ++n) {
-    const double u = 200.0 + 3000.0 * static_cast<double>(engine() >> 11) * 0x1p-53;
-    const double y = 100.0 + 1800.0 * static_cast<double>(engine() >> 11) * 0x1p-53;
+    const double u = random.uniform(200.0, 3200.0);
+    const double y = random.uniform(100.0, 1900.0);
     const double r = 10.2, d = std::hypot(u, y);
     const auto over = straight_chain(u, y, r, 1.0), off = straight_chain(u, y, r, -1.0);
     // Rounding of an angle near pi/2 in acos: 1e-15 * sqrt, times the radius; 1e-12 of the length.

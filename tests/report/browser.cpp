@@ -2,16 +2,14 @@
 #include "tests/report/browser.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
+
+#include "tests/support/files.hpp"
 
 #ifndef CHAINTRUE_BROWSER
 #define CHAINTRUE_BROWSER ""
@@ -20,28 +18,8 @@
 namespace chaintrue::report::testing {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// A temporary folder, removed with its owner.
-class TemporaryFolder {
- public:
-  TemporaryFolder() : path_((fs::temp_directory_path() / "chaintrue-report-XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr)
-      throw std::runtime_error("no temporary folder can be made at " + path_);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] std::string operator/(std::string_view name) const {
-    return fmt::format("{}/{}", path_, name);
-  }
-
- private:
-  std::string path_;
-};
+using testing_support::read_text;
+using testing_support::TemporaryFolder;
 
 /// Opens "page.html" of the folder without network, in a new profile.
 std::string browser_command(const TemporaryFolder& folder, std::string_view options) {
@@ -56,11 +34,6 @@ std::string browser_command(const TemporaryFolder& folder, std::string_view opti
       folder / "page.html",
       folder / "dom",
       folder / "log");
-}
-
-std::string read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// The pieces of text between begin and end, both left out.

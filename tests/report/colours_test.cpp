@@ -6,12 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
 
+#include "tests/support/files.hpp"
 #include "tools/report/bed_chart.hpp"
 #include "tools/report/embedded.hpp"
 
@@ -61,8 +60,8 @@ TEST(Colours, OfThePagesStyleAreThoseOfTheCharts) {
 }
 
 TEST(Colours, OfPythonsPlotsAreThoseOfTheCharts) {
-  std::ifstream file(CHAINTRUE_FIXTURES "/../tools/python/chaintrue/_plots.py");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text =
+      testing_support::read_text(CHAINTRUE_FIXTURES "/../tools/python/chaintrue/_plots.py");
   ASSERT_FALSE(text.empty());
   for (const auto& [name, colour] : {std::pair("BEFORE", kBeforeColor),
                                      std::pair("AFTER", kAfterColor),

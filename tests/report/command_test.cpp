@@ -5,17 +5,15 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <future>
-#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "tests/report/browser.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/process.hpp"
 
 namespace chaintrue::report::testing {
 namespace {
@@ -27,43 +25,30 @@ constexpr int kBadInput = 3;
 
 class ReportCommand : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              fmt::format("chaintrue_report_{}", test->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] std::string path(const char* name) const { return (folder_ / name).string(); }
-  /// Runs the command with its messages going to the file "log"; returns the exit code.
+  [[nodiscard]] std::string path(const char* name) const { return folder_ / name; }
+  /// Returns the exit code; its messages are in "err.txt".
   [[nodiscard]] int run(const std::string& arguments) const {
-    const std::string command =
-        fmt::format("'{}' {} 2>'{}'", CHAINTRUE_COMMAND, arguments, path("log"));
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return testing_support::run_line(folder_.path(), "chaintrue " + arguments).code;
   }
   [[nodiscard]] std::string text_of(const char* name) const {
-    std::ifstream file(path(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    return testing_support::read_text(path(name));
   }
   void fit_demo_grid() const {
     ASSERT_EQ(
         run(fmt::format(
             "fit '{}/grids/seven_by_four.json' -o '{}'", CHAINTRUE_FIXTURES, path("map.json"))),
         0)
-        << text_of("log");
+        << text_of("err.txt");
   }
 
  private:
-  std::filesystem::path folder_;
+  testing_support::TemporaryFolder folder_;
 };
 
 TEST_F(ReportCommand, OfTheDemoGridIsSoundInTheBrowser) {
   fit_demo_grid();
   ASSERT_EQ(run(fmt::format("report '{}' -o '{}'", path("map.json"), path("report.html"))), 0)
-      << text_of("log");
+      << text_of("err.txt");
   if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
   const Visit visited = visit(text_of("report.html"));
   EXPECT_THAT(problems_of(visited), IsEmpty());
@@ -131,7 +116,7 @@ TEST_F(ReportCommand, OnPaperNoChartIsSplitAndNothingIsCutAtTheSide) {
                             path("diagnosis.html"),
                             path("out"))),
             0)
-      << text_of("log");
+      << text_of("err.txt");
   ASSERT_EQ(run(fmt::format("report '{}' -o '{}'", path("map.json"), path("map.html"))), 0);
   ASSERT_EQ(run(fmt::format(
                 "report '{}' --certificate -o '{}'", path("map.json"), path("certificate.html"))),
@@ -177,7 +162,7 @@ TEST_F(ReportCommand, ADiagnosisIsPrintedOnAFewSheets) {
                             path("diagnosis.html"),
                             path("out"))),
             0)
-      << text_of("log");
+      << text_of("err.txt");
   const std::string html = text_of("diagnosis.html");
   EXPECT_THAT(html, HasSubstr("What is folded on the screen is not printed"));
   const int sheets = printed_sheets(html, kPapers[0]);
@@ -190,7 +175,7 @@ TEST_F(ReportCommand, TheSheetsOfAnEveningAreOnePageEach) {
   ASSERT_EQ(run(fmt::format(
                 "start '{}/good/groundcontrol_ring.ini' '{}'", CHAINTRUE_FIXTURES, path("shop"))),
             0)
-      << text_of("log");
+      << text_of("err.txt");
   std::vector<std::pair<std::string, std::future<int>>> printed;
   for (const char* name : {"shop/marks.html", "shop/holes.html"}) {
     for (const Paper& paper : kPapers) {
@@ -208,7 +193,7 @@ TEST_F(ReportCommand, OfAFileThatIsNoMapWritesNothing) {
       run(fmt::format(
           "report '{}/grids/seven_by_four.json' -o '{}'", CHAINTRUE_FIXTURES, path("report.html"))),
       kBadInput);
-  EXPECT_THAT(text_of("log"), HasSubstr("chaintrue_map"));
+  EXPECT_THAT(text_of("err.txt"), HasSubstr("chaintrue_map"));
   EXPECT_FALSE(std::filesystem::exists(path("report.html")));
 }
 
@@ -217,7 +202,7 @@ TEST_F(ReportCommand, WithoutAPlaceToWriteSaysSo) {
   EXPECT_EQ(run(fmt::format(
                 "report '{}' -o '{}/nowhere/report.html'", path("map.json"), path("map.json"))),
             kBadInput);
-  EXPECT_THAT(text_of("log"), HasSubstr("nowhere/report.html"));
+  EXPECT_THAT(text_of("err.txt"), HasSubstr("nowhere/report.html"));
 }
 
 }  // namespace

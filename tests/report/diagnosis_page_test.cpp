@@ -4,19 +4,17 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "model/reading_model.hpp"
-#include "tests/grid_files/sample_diagnosis.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/process.hpp"
+#include "tests/support/sample_diagnosis.hpp"
 #include "tests/holes/hole_sets.hpp"
 #include "tests/report/browser.hpp"
 
@@ -33,33 +31,16 @@ using ::testing::Not;
 
 class DiagnosisPage : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              fmt::format("chaintrue_diagnosis_{}", test->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   [[nodiscard]] std::string page_of(const Diagnosis& found) const {
     std::ofstream(folder_ / "diagnosis.json") << grid::files::write_diagnosis(found);
-    const std::string command = fmt::format("'{}' report '{}' -o '{}' 2>'{}'",
-                                            CHAINTRUE_COMMAND,
-                                            (folder_ / "diagnosis.json").string(),
-                                            (folder_ / "page.html").string(),
-                                            (folder_ / "log").string());
-    const int status = std::system(command.c_str());
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << text_of("log");
-    return text_of("page.html");
-  }
-  [[nodiscard]] std::string text_of(const char* name) const {
-    std::ifstream file(folder_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    const testing_support::Outcome ran =
+        testing_support::run_line(folder_.path(), "chaintrue report diagnosis.json -o page.html");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return testing_support::read_text(folder_ / "page.html");
   }
 
  private:
-  std::filesystem::path folder_;
+  testing_support::TemporaryFolder folder_;
 };
 
 // The visible part before scrolling, with the mandatory line.

@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "grid/planning/holes_plan.hpp"
-#include "tests/normal_numbers.hpp"
+#include "tests/support/random.hpp"
 
 namespace chaintrue::report::testing {
 namespace {
@@ -66,11 +66,11 @@ TEST(HoleLabels, OfRandomHolesCannotBeReadAsANeighbours) {
   constexpr double kApart = 55.0, kHigh = 450.0;
   for (unsigned seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
-    testing_support::NormalNumbers normal(seed);
+    testing_support::Random random(seed);
     std::vector<DrawnHole> holes;
     for (int tries = 0; tries < 400 && holes.size() < 20; ++tries) {
-      const double x = kLeft + 0.5 * kWide * (1.0 + std::tanh(normal()));
-      const double y = 60.0 + 0.5 * kHigh * (1.0 + std::tanh(normal()));
+      const double x = kLeft + 0.5 * kWide * (1.0 + std::tanh(random.normal()));
+      const double y = 60.0 + 0.5 * kHigh * (1.0 + std::tanh(random.normal()));
       const bool fits = std::all_of(holes.begin(), holes.end(), [&](const DrawnHole& other) {
         return std::hypot(other.x - x, other.y - y) >= kApart;
       });

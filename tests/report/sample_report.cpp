@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tests/normal_numbers.hpp"
+#include "tests/support/random.hpp"
 
 namespace chaintrue::report::testing {
 namespace {
@@ -15,21 +15,21 @@ constexpr double kBedHeightMm = 1219.2;
 constexpr double kNoiseMm = 0.15;
 
 std::vector<ReportPoint> sample_points() {
-  testing_support::NormalNumbers normal(20240607);
+  testing_support::Random random(20240607);
   std::vector<ReportPoint> points;
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 7; ++column) {
       ReportPoint point;
       point.name = fmt::format("point {}", points.size() + 1);
-      point.x_mm = -1100.0 + 2200.0 * column / 6 + 4.0 * normal();
-      point.y_mm = -500.0 + 1000.0 * row / 3 + 4.0 * normal();
+      point.x_mm = -1100.0 + 2200.0 * column / 6 + 4.0 * random.normal();
+      point.y_mm = -500.0 + 1000.0 * row / 3 + 4.0 * random.normal();
       const double u = point.x_mm / kBedWidthMm, v = point.y_mm / kBedHeightMm;
-      const ToolVector after{kNoiseMm * normal(), kNoiseMm * normal()};
+      const ToolVector after{kNoiseMm * random.normal(), kNoiseMm * random.normal()};
       point.after = after;
       point.before =
           ToolVector{6.0 * u - 2.0 * u * v + after.x_mm, 1.5 + 9.0 * u * u - 4.0 * v + after.y_mm};
       point.held_out =
-          ToolVector{1.5 * after.x_mm + 0.05 * normal(), 1.5 * after.y_mm + 0.05 * normal()};
+          ToolVector{1.5 * after.x_mm + 0.05 * random.normal(), 1.5 * after.y_mm + 0.05 * random.normal()};
       point.held_out_sigmas = std::hypot(after.x_mm, after.y_mm) / kNoiseMm;
       points.push_back(point);
     }

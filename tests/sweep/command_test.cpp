@@ -11,24 +11,21 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "tests/support/files.hpp"
 
 namespace chaintrue {
 namespace {
 
 namespace fs = std::filesystem;
+using testing_support::read_text;
 
 const std::string kCommand = CHAINTRUE_COMMAND;
 const std::string kMpirun = CHAINTRUE_MPIRUN;
 const std::string kSpec = std::string(CHAINTRUE_FIXTURES) + "/sweeps/quick.json";
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 fs::path fresh_folder(const std::string& name) {
   const fs::path folder = fs::path(::testing::TempDir()) /
@@ -56,8 +53,8 @@ int finish(pid_t child) {
 }
 
 std::string results(const fs::path& folder) {
-  return text_of(folder / "results.csv") + text_of(folder / "summary.json") +
-         text_of(folder / "report.html");
+  return read_text(folder / "results.csv") + read_text(folder / "summary.json") +
+         read_text(folder / "report.html");
 }
 
 class SweepCommand : public ::testing::Test {

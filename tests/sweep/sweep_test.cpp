@@ -5,26 +5,22 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include "grid/files/input_error.hpp"
 #include "grid/files/sweep_file.hpp"
 #include "grid/files/sweep_store.hpp"
 #include "grid/sweep/run_sweep.hpp"
+#include "tests/support/files.hpp"
 
 namespace chaintrue::grid::sweep {
 namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using testing_support::read_text;
 
 const std::string kSpecs = std::string(CHAINTRUE_FIXTURES) + "/sweeps/";
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 // The test's own folder, empty at its start.
 fs::path fresh_folder(const std::string& name) {
@@ -35,7 +31,7 @@ fs::path fresh_folder(const std::string& name) {
 
 std::string results_of(const files::ReadSweep& read, const fs::path& folder) {
   write_results(read.spec, files::ResultStore(folder, read.hash, cells(read.spec)), folder);
-  return text_of(folder / "results.csv") + text_of(folder / "summary.json");
+  return read_text(folder / "results.csv") + read_text(folder / "summary.json");
 }
 
 std::uint64_t run_in(const fs::path& folder, const files::ReadSweep& read, const SweepRun& run) {
@@ -88,7 +84,7 @@ TEST(SweepSpec, ReportsEveryProblemWithItsPlace) {
 TEST(SweepSpec, TellsOnceWhatAMachineFileDoesNotSay) {
   const fs::path folder = fresh_folder("assumed");
   fs::create_directories(folder);
-  const std::string machine = text_of(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json");
+  const std::string machine = read_text(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json");
   const std::size_t at = machine.find("\"uncertainty\"");
   ASSERT_NE(at, std::string::npos);
   const std::size_t end = machine.find('}', at) + 1;
@@ -122,8 +118,7 @@ TEST(SweepSpec, TakesEffectsOfOnesOwn) {
   const files::ReadSweep read = files::read_sweep(folder / "s.json", {own});
   EXPECT_EQ(read.spec.machines.front().truth.declared.size(), 1U);
   // The same cells under another effect of this name are others.
-  std::ifstream in(own);
-  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  std::string text = read_text(own);
   text.replace(text.find("4 * pi"), 6, "6 * pi");
   std::ofstream(folder / "other.json") << text;
   EXPECT_NE(files::read_sweep(folder / "s.json", {(folder / "other.json").string()}).hash, read.hash);
@@ -180,7 +175,7 @@ TEST(Sweep, GoesOnFromAPartTornAnywhere) {
   const std::string whole = whole_run(read, "untorn", 2);
   const fs::path part = fs::path("parts") / "shard-1-of-1.cells";
   const std::string complete =
-      text_of(fresh_folder("none").parent_path() / "chaintrue_sweep_untorn" / part);
+      read_text(fresh_folder("none").parent_path() / "chaintrue_sweep_untorn" / part);
   ASSERT_EQ(complete.size(), 64U * 9U);
   for (const std::size_t length : {0U, 63U, 65U, 300U, 511U, 575U}) {
     SCOPED_TRACE(length);
@@ -199,7 +194,7 @@ TEST(Sweep, IgnoresARecordWhoseChecksumIsWrong) {
   const std::string whole = whole_run(read, "sound", 2);
   const fs::path folder = fs::path(::testing::TempDir()) / "chaintrue_sweep_sound";
   const fs::path part = folder / "parts" / "shard-1-of-1.cells";
-  std::string bytes = text_of(part);
+  std::string bytes = read_text(part);
   bytes[64 * 3 + 20] = static_cast<char>(bytes[64 * 3 + 20] ^ 1);
   std::ofstream(part, std::ios::binary) << bytes;
   EXPECT_EQ(files::ResultStore(folder, read.hash, cells(read.spec)).finished(), 7U);

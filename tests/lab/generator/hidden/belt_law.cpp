@@ -8,10 +8,9 @@
 namespace chaintrue::generator {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// Of belt for one turn of the motor's 22 teeth.
 constexpr double kTurnMm = 43.975;
-constexpr int kWavesOfField = 160;
+constexpr int kWavesOfBeltField = 160;
 
 }  // namespace
 
@@ -39,17 +38,17 @@ double value_of(const BeltLaw& law, const BeltFrame& frame, double x, double y, 
     case BeltLawFamily::slope_from_y:
       return slope(y);
     case BeltLawFamily::ripple_of_length:
-      return std::sin(2.0 * kPi * length_mm / law.extent + law.phase);
+      return std::sin(2.0 * std::numbers::pi * length_mm / law.extent + law.phase);
     case BeltLawFamily::ripple_of_angle: {
       const auto& anchor = frame.anchors[law.belt];
       const double angle = std::atan2(std::abs(y - anchor[1]), std::abs(x - anchor[0]));
-      return std::sin(2.0 * kPi * angle / law.extent + law.phase);
+      return std::sin(2.0 * std::numbers::pi * angle / law.extent + law.phase);
     }
     case BeltLawFamily::ripple_along_x:
-      return std::sin(2.0 * kPi * x / law.extent + law.phase);
+      return std::sin(2.0 * std::numbers::pi * x / law.extent + law.phase);
     case BeltLawFamily::product_of_two:
-      return std::sin(2.0 * kPi * x / law.extent + law.phase) *
-             std::cos(2.0 * kPi * y / law.extent + 2.0 * law.phase);
+      return std::sin(2.0 * std::numbers::pi * x / law.extent + law.phase) *
+             std::cos(2.0 * std::numbers::pi * y / law.extent + 2.0 * law.phase);
     case BeltLawFamily::gaussian_field:
       break;
   }
@@ -66,7 +65,7 @@ BeltLaw drawn_belt_law(BeltLawFamily family,
   law.family = family;
   law.belt = dice.below(4);
   law.sign = dice.sign();
-  law.phase = dice.uniform(-kPi, kPi);
+  law.phase = dice.uniform(-std::numbers::pi, std::numbers::pi);
   const bool along_y = family == BeltLawFamily::slope_from_y;
   const std::size_t axis = along_y ? 1 : 0;
   const auto [low, high] = std::minmax_element(
@@ -86,11 +85,11 @@ BeltLaw drawn_belt_law(BeltLawFamily family,
       break;
     case BeltLawFamily::gaussian_field:
       law.extent = dice.log_uniform(180.0, 600.0);
-      for (int k = 0; k < kWavesOfField; ++k) {
+      for (int k = 0; k < kWavesOfBeltField; ++k) {
         law.waves.push_back({dice.normal() / law.extent,
                              dice.normal() / law.extent,
-                             dice.uniform(-kPi, kPi),
-                             std::sqrt(2.0 / kWavesOfField)});
+                             dice.uniform(-std::numbers::pi, std::numbers::pi),
+                             std::sqrt(2.0 / kWavesOfBeltField)});
       }
       break;
     default:

@@ -12,7 +12,6 @@
 namespace chaintrue::generator {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 
 /// Effects that a mix draws from; zero_shift, the last, is asked for by name alone, so that the frozen
 /// sets stay what they are.
@@ -142,7 +141,7 @@ std::optional<SizedEffect> draw_effect(const Yardstick& yardstick, Cause cause, 
       continue;
     }
     effect.size = c.lower < 0.0 ? dice.sign() : 1.0;
-    if (c.place == Place::phase) effect.place = dice.uniform(-kPi, kPi);
+    if (c.place == Place::phase) effect.place = dice.uniform(-std::numbers::pi, std::numbers::pi);
     if (c.place == Place::visit) {
       // A tenth of the session at least on either side, or the shift is bad readings.
       const auto count = yardstick.visits().size();
@@ -252,7 +251,7 @@ std::vector<HiddenMachine::Note> written_down(const Recipe& recipe,
                                               NoiseLevel noise,
                                               Dice& dice) {
   const bool heavy = recipe.kind == Mix::heavy;
-  const double towards = dice.uniform(-kPi, kPi);
+  const double towards = dice.uniform(-std::numbers::pi, std::numbers::pi);
   const auto draw = [&] { return heavy ? dice.heavy_tailed() : dice.normal(); };
   const auto rounded = [&](double value) {
     return recipe.kind == Mix::rounded ? 0.5 * std::round(2.0 * value) : value;
@@ -290,7 +289,7 @@ void slip(std::vector<HiddenMachine::Note>& notes, Answer& answer, Dice& dice) {
     };
     if (std::any_of(answer.bad_points.begin(), answer.bad_points.end(), near)) continue;
     answer.bad_points.push_back(i);
-    const double far = dice.uniform(8.0, 20.0), angle = dice.uniform(-kPi, kPi);
+    const double far = dice.uniform(8.0, 20.0), angle = dice.uniform(-std::numbers::pi, std::numbers::pi);
     notes[i].mark.x += far * std::cos(angle);
     notes[i].mark.y += far * std::sin(angle);
   }

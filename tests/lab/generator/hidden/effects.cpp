@@ -8,7 +8,6 @@
 namespace chaintrue::generator {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 
 std::array<CauseCard, kCauses> make_cards() {
   using enum Nature;
@@ -163,7 +162,7 @@ std::vector<Lengths> readings(const TrueMachine& machine,
         if (e.cause == Cause::chain_plane_offset) {
           length += std::hypot(rest.free_mm, e.size) - rest.free_mm;
         } else if (e.cause == Cause::sprocket_eccentricity) {
-          length += e.size * std::sin(2.0 * kPi * rest.length_mm / turn_mm + e.place);
+          length += e.size * std::sin(2.0 * std::numbers::pi * rest.length_mm / turn_mm + e.place);
         } else if (e.cause == Cause::angular_kink) {
           length += e.size * std::max(0.0, rest.angle_rad - e.place);
         }

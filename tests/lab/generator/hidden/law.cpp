@@ -9,9 +9,8 @@
 namespace chaintrue::generator {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kHalfWidth = 1200.0;
-constexpr double kHalfHeight = 600.0;
+constexpr double kMarksHalfWidth = 1200.0;
+constexpr double kMarksHalfHeight = 600.0;
 constexpr int kWavesOfField = 160;
 
 /// A frequency of a field whose correlation falls over `length`: of the Gaussian covariance normal; of
@@ -37,7 +36,7 @@ void draw_waves(HiddenLaw& law, Dice& dice) {
     const double along = law.family == LawFamily::matern_field ? longer * dice.normal() : longer;
     law.waves.push_back({c * along - s * other,
                          s * along + c * other,
-                         dice.uniform(-kPi, kPi),
+                         dice.uniform(-std::numbers::pi, std::numbers::pi),
                          std::sqrt(2.0 / kWavesOfField)});
   }
 }
@@ -49,20 +48,20 @@ HiddenLaw drawn(LawFamily family, Dice& dice) {
   law.component = dice.below(2);
   law.chain = dice.below(2);
   law.sign = dice.sign();
-  law.phase = dice.uniform(-kPi, kPi);
-  law.direction_rad = dice.uniform(0.0, kPi);
+  law.phase = dice.uniform(-std::numbers::pi, std::numbers::pi);
+  law.direction_rad = dice.uniform(0.0, std::numbers::pi);
   switch (family) {
     case LawFamily::step_along_x:
     case LawFamily::slope_from_x:
-      law.place = dice.uniform(-0.6 * kHalfWidth, 0.6 * kHalfWidth);
+      law.place = dice.uniform(-0.6 * kMarksHalfWidth, 0.6 * kMarksHalfWidth);
       break;
     case LawFamily::step_along_y:
     case LawFamily::slope_from_y:
-      law.place = dice.uniform(-0.6 * kHalfHeight, 0.6 * kHalfHeight);
+      law.place = dice.uniform(-0.6 * kMarksHalfHeight, 0.6 * kMarksHalfHeight);
       break;
     case LawFamily::slope_oblique:
       // Neither nearly along x nor along y.
-      law.direction_rad = (dice.uniform() < 0.5 ? 0.0 : 0.5 * kPi) + dice.uniform(0.35, 1.22);
+      law.direction_rad = (dice.uniform() < 0.5 ? 0.0 : 0.5 * std::numbers::pi) + dice.uniform(0.35, 1.22);
       law.place = dice.uniform(-300.0, 300.0);
       break;
     case LawFamily::ripple_of_length:
@@ -132,18 +131,18 @@ double law_value(const HiddenLaw& law, const PatternSite& site) {
     case LawFamily::slope_oblique:
       return slope(p.x * std::cos(law.direction_rad) + p.y * std::sin(law.direction_rad));
     case LawFamily::ripple_of_length:
-      return std::sin(2.0 * kPi * site.length_mm[law.chain] / law.extent + law.phase);
+      return std::sin(2.0 * std::numbers::pi * site.length_mm[law.chain] / law.extent + law.phase);
     case LawFamily::ripple_of_angle:
-      return std::sin(2.0 * kPi * site.angle_rad[law.chain] / law.extent + law.phase);
+      return std::sin(2.0 * std::numbers::pi * site.angle_rad[law.chain] / law.extent + law.phase);
     case LawFamily::ripple_along_x:
-      return std::sin(2.0 * kPi * p.x / law.extent + law.phase);
+      return std::sin(2.0 * std::numbers::pi * p.x / law.extent + law.phase);
     case LawFamily::drop_at_edge: {
-      const double inside = law.chain == 0 ? kHalfWidth - law.sign * p.x : kHalfHeight - law.sign * p.y;
+      const double inside = law.chain == 0 ? kMarksHalfWidth - law.sign * p.x : kMarksHalfHeight - law.sign * p.y;
       return std::exp(-inside / law.extent);
     }
     case LawFamily::product_of_two:
-      return std::sin(2.0 * kPi * p.x / law.extent + law.phase) *
-             std::cos(2.0 * kPi * p.y / law.extent + 2.0 * law.phase);
+      return std::sin(2.0 * std::numbers::pi * p.x / law.extent + law.phase) *
+             std::cos(2.0 * std::numbers::pi * p.y / law.extent + 2.0 * law.phase);
     default:
       break;
   }

@@ -8,12 +8,12 @@
 namespace chaintrue::generator {
 namespace {
 
-constexpr std::size_t kSettings = 6;
+constexpr std::size_t kOracleSettings = 6;
 
 /// The unknowns as one vector: motors, zeros, then sizes and places of the given effects.
-class Unknowns {
+class OracleUnknowns {
  public:
-  Unknowns(const HiddenMachine& machine, std::span<const Hidden> given)
+  OracleUnknowns(const HiddenMachine& machine, std::span<const Hidden> given)
       : base_(machine.truth()), given_(given.begin(), given.end()) {
     base_.wheel = WheelShape::round;
   }
@@ -34,7 +34,7 @@ class Unknowns {
       f.machine.axis[c] = {x[2 * i], x[2 * i + 1]};
       f.machine.chain_zero_mm[c] = x[4 + i];
     }
-    Eigen::Index k = kSettings;
+    Eigen::Index k = kOracleSettings;
     for (Hidden& h : f.effects) {
       const CauseCard& c = card(h.cause);
       if (size_is_free(h)) h.size = std::clamp(x[k++] * c.usual, c.lower, c.upper);
@@ -66,7 +66,7 @@ std::optional<Eigen::VectorXd> residual(const Fitted& fitted,
   const auto predicted = fitted.predict(marks, numbers);
   if (!predicted) return std::nullopt;
   const auto n = static_cast<Eigen::Index>(marks.size());
-  Eigen::VectorXd r = Eigen::VectorXd::Zero(2 * n + static_cast<Eigen::Index>(kSettings));
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(2 * n + static_cast<Eigen::Index>(kOracleSettings));
   const double l2 = record.noise.length_mm * record.noise.length_mm;
   const double p2 = record.noise.position_mm * record.noise.position_mm;
   for (std::size_t i = 0; i < marks.size(); ++i) {
@@ -113,7 +113,7 @@ std::optional<Fitted> fit_given(const HiddenMachine& machine,
   const auto yardstick =
       Yardstick::make(machine.truth(), machine.visits(), record.noise, record.sigmas);
   if (!yardstick) return std::nullopt;
-  const Unknowns unknowns(machine, given);
+  const OracleUnknowns unknowns(machine, given);
   Eigen::VectorXd x = unknowns.start();
   const auto of = [&](const Eigen::VectorXd& at) {
     return residual(unknowns.at(at), machine.stated(), record, yardstick->slopes());

@@ -12,7 +12,6 @@
 namespace chaintrue::generator {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kHalfWidthMm = 1219.2;
 constexpr double kHalfHeightMm = 609.6;
 constexpr double kLeastAngleRad = 0.1;
@@ -144,7 +143,7 @@ void draw_fold(Pattern& p, Dice& dice) {
   p.centre = {dice.uniform(-900.0, 900.0), dice.uniform(-420.0, 420.0)};
   // Oblique: at least 8 degrees from either axis.
   const auto quarter = static_cast<double>(dice.below(4));
-  p.direction_rad = 0.5 * kPi * (quarter + dice.uniform(8.0, 82.0) / 90.0) - kPi;
+  p.direction_rad = 0.5 * std::numbers::pi * (quarter + dice.uniform(8.0, 82.0) / 90.0) - std::numbers::pi;
   p.extent_mm = dice.log_uniform(10.0, 120.0);
   p.knots[fold_knot::kAhead] = 1.0;
   // -1 would be a plane without a fold.
@@ -182,7 +181,7 @@ void draw_heave(Pattern& p, Dice& dice) {
       {kHalfWidthMm, 0.0}, {0.0, kHalfHeightMm}, {-kHalfWidthMm, 0.0}, {0.0, -kHalfHeightMm}};
   const std::size_t edge = dice.below(4);
   p.centre = kEdgeMiddles[edge];
-  p.direction_rad = 0.5 * kPi * static_cast<double>(edge);
+  p.direction_rad = 0.5 * std::numbers::pi * static_cast<double>(edge);
   p.extent_mm = dice.log_uniform(150.0, 600.0);
   const bool exponential = dice.sign() > 0.0;
   p.knots[heave_knot::kPower] = exponential ? 0.0 : dice.uniform(1.0, 4.0);
@@ -198,7 +197,7 @@ void draw_patch(Pattern& p, Dice& dice) {
   } else {
     p.centre = {dice.uniform(-850.0, 850.0), dice.uniform(-400.0, 400.0)};
   }
-  p.direction_rad = dice.uniform(-kPi, kPi);
+  p.direction_rad = dice.uniform(-std::numbers::pi, std::numbers::pi);
   p.knots[patch_knot::kSlopeMm] = dice.uniform(30.0, 150.0);
 }
 

@@ -9,7 +9,6 @@
 namespace chaintrue::generator {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 
 double largest_cosine(const Signature& own, std::span<const Signature> others) {
   double most = 0.0;
@@ -42,7 +41,7 @@ double field(const Pattern& pattern, const PatternSite& site) {
     case PatternFamily::wave: {
       const double along =
           std::cos(pattern.direction_rad) * from.x + std::sin(pattern.direction_rad) * from.y;
-      return std::sin(2.0 * kPi * along / pattern.extent_mm + pattern.phase_rad);
+      return std::sin(2.0 * std::numbers::pi * along / pattern.extent_mm + pattern.phase_rad);
     }
     default:
       return other_field(pattern, site);
@@ -58,8 +57,8 @@ Pattern draw_family(PatternGroup group, Dice& dice) {
   };
   p.family = dice.sign() > 0.0 ? PatternFamily::dent : PatternFamily::wave;
   p.centre = {dice.uniform(-1000.0, 1000.0), dice.uniform(-450.0, 450.0)};
-  p.direction_rad = dice.uniform(-kPi, kPi);
-  p.phase_rad = dice.uniform(-kPi, kPi);
+  p.direction_rad = dice.uniform(-std::numbers::pi, std::numbers::pi);
+  p.phase_rad = dice.uniform(-std::numbers::pi, std::numbers::pi);
   p.extent_mm = group == PatternGroup::short_scale ? extent(90.0, 150.0, 250.0, 450.0)
                 : group == PatternGroup::broad     ? extent(400.0, 900.0, 1200.0, 3000.0)
                                                    : extent(180.0, 320.0, 500.0, 900.0);
@@ -89,7 +88,7 @@ SizedPattern draw_pattern(const Yardstick& yardstick,
   const auto rivals = rules.near ? yardstick.rivals() : std::vector<Rival>{};
   for (int n = 0; n < 20000; ++n) {
     Pattern p = draw_family(rules.group, dice);
-    const double entry = dice.uniform(-kPi, kPi);
+    const double entry = dice.uniform(-std::numbers::pi, std::numbers::pi);
     p.entry = {std::cos(entry), std::sin(entry)};
     p.height_mm = dice.uniform(1.0, 2.0);
     const auto extra = extra_lengths(p, yardstick.visits(), yardstick.at_rest());

@@ -48,7 +48,7 @@ std::array<Real, 2> both_zero(F f, std::array<Real, 2> at, std::array<Real, 2> s
 }
 
 /// At a tilt the pose with both cords as long as given.
-GondolaPose hung(const HiddenPlotter& p, Real left, Real right, Real tilt) {
+GondolaPose gondola_hung(const HiddenPlotter& p, Real left, Real right, Real tilt) {
   const Real pins = p.pin_spacing_mm - p.spacing_mm;
   const Real x = (left * left - right * right) / (2.0L * pins);
   const Real across = x + 0.5L * pins;
@@ -114,7 +114,7 @@ PenAtRest lowest_pose(const HiddenPlotter& p, double left_mm, double right_mm) {
     constexpr Real kGolden = 0.6180339887498948482L;
     constexpr int kSections = 47;  // of 2 rad: to 4e-10
     Real low = -1.0L, high = 1.0L;
-    const auto height = [&](Real t) { return mass_height(p, hung(p, left_mm, right_mm, t)); };
+    const auto height = [&](Real t) { return mass_height(p, gondola_hung(p, left_mm, right_mm, t)); };
     Real inner_low = high - kGolden * (high - low), inner_high = low + kGolden * (high - low);
     Real at_low = height(inner_low), at_high = height(inner_high);
     for (int n = 0; n < kSections; ++n) {
@@ -134,7 +134,7 @@ PenAtRest lowest_pose(const HiddenPlotter& p, double left_mm, double right_mm) {
     }
     tilt = 0.5L * (low + high);
   }
-  const GondolaPose pose = hung(p, left_mm, right_mm, tilt);
+  const GondolaPose pose = gondola_hung(p, left_mm, right_mm, tilt);
   const Real c = std::cos(tilt), s = std::sin(tilt);
   return {static_cast<double>(pose.x + p.pen_right_mm * c + p.pen_below_mm * s),
           static_cast<double>(pose.y + p.pen_right_mm * s - p.pen_below_mm * c),

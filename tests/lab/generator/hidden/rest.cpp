@@ -11,7 +11,6 @@ namespace chaintrue::generator {
 namespace {
 
 constexpr double kGravity = 9.80665;
-constexpr double kPi = std::numbers::pi;
 // A slack chain bends within a link: near a tie either tooth is accepted.
 constexpr double kSeat = 1.01;
 
@@ -67,10 +66,10 @@ struct Wheel {
 
 Wheel wheel_of(const TrueMachine& m) {
   Wheel w;
-  const double nominal = m.pitch_mm * m.teeth / (2.0 * kPi);
+  const double nominal = m.pitch_mm * m.teeth / (2.0 * std::numbers::pi);
   w.radius = nominal + m.wheel_radius_offset_mm;
   w.side = m.pitch_mm * w.radius / nominal;
-  w.tooth_rad = 2.0 * kPi / m.teeth;
+  w.tooth_rad = 2.0 * std::numbers::pi / m.teeth;
   w.corner = w.side / (2.0 * std::sin(0.5 * w.tooth_rad));
   w.sense = m.over_top ? 1.0 : -1.0;
   return w;
@@ -233,7 +232,7 @@ ChainRest state(const Setting& s, Pull p, double free_mm) {
 }
 
 double turn_of(const Setting& s, double angle_rad) {
-  return s.wheel.sense > 0.0 ? angle_rad : kPi - angle_rad;
+  return s.wheel.sense > 0.0 ? angle_rad : std::numbers::pi - angle_rad;
 }
 
 // The tooth that holds a chain is the nearest one to the chain's direction.
@@ -270,7 +269,7 @@ bool settle_on_teeth(const Setting& s, Unknowns q, Rest& rest) {
 }  // namespace
 
 std::optional<Rest> come_to_rest(const TrueMachine& machine, Vec2 bit, const Rest* near) {
-  const double in_plane = kGravity * std::cos(machine.tilt_from_vertical_deg * kPi / 180.0);
+  const double in_plane = kGravity * std::cos(machine.tilt_from_vertical_deg * std::numbers::pi / 180.0);
   Setting s{machine, wheel_of(machine), 0.0, 0.0, {}, {}};
   s.w = machine.chain_mass_kg_per_m * 1e-3 * in_plane;
   s.weight_n = machine.sled_mass_kg * in_plane;

@@ -8,7 +8,6 @@
 namespace chaintrue::generator {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kHalfWidth = 1219.2;
 constexpr double kHalfHeight = 609.6;
 
@@ -32,7 +31,7 @@ Vec2 shift(const Unlisted& what, Vec2 place) {
     }
     case Oddity::wavy_board: {
       const double d =
-          what.size_mm * std::sin(2.0 * kPi * across / what.extent_mm + what.phase_rad);
+          what.size_mm * std::sin(2.0 * std::numbers::pi * across / what.extent_mm + what.phase_rad);
       return {d * c, d * s};
     }
     case Oddity::fold: {
@@ -46,7 +45,7 @@ Vec2 shift(const Unlisted& what, Vec2 place) {
       return {std::copysign(what.size_mm * x, place.x), std::copysign(what.size_mm * y, place.y)};
     }
     case Oddity::periodic_in_x:
-      return {what.size_mm * std::sin(2.0 * kPi * place.x / what.extent_mm + what.phase_rad), 0.0};
+      return {what.size_mm * std::sin(2.0 * std::numbers::pi * place.x / what.extent_mm + what.phase_rad), 0.0};
   }
   return {};
 }
@@ -56,8 +55,8 @@ Unlisted draw_oddity(Oddity oddity, Dice& dice) {
   u.oddity = oddity;
   u.size_mm = 1.0;
   u.centre = {dice.uniform(-800.0, 800.0), dice.uniform(-350.0, 350.0)};
-  u.direction_rad = dice.uniform(-kPi, kPi);
-  u.phase_rad = dice.uniform(-kPi, kPi);
+  u.direction_rad = dice.uniform(-std::numbers::pi, std::numbers::pi);
+  u.phase_rad = dice.uniform(-std::numbers::pi, std::numbers::pi);
   switch (oddity) {
     case Oddity::dent:
       u.extent_mm = dice.uniform(200.0, 400.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/grid_files/sample_diagnosis.hpp"
+#include "tests/support/sample_diagnosis.hpp"
 
 #include <Eigen/LU>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "model/effects/catalogue.hpp"
 #include "model/reading_model.hpp"
-#include "tests/normal_numbers.hpp"
+#include "tests/support/random.hpp"
 
 namespace chaintrue::grid::testing {
 namespace {
@@ -27,22 +27,22 @@ CauseId cause(const char* id, EffectSide side = EffectSide::none) {
 /// The chains' residuals are those of a left chain that is too long; the tool's follow from them.
 std::vector<PointPicture> sample_points(const model::Machine& machine) {
   const model::ReadingModel model(machine);
-  testing_support::NormalNumbers normal(20240608);
+  testing_support::Random random(20240608);
   std::vector<PointPicture> points;
   for (int row = 0; row < 4; ++row) {
     for (int k = 0; k < 7; ++k) {
       const int column = row % 2 == 0 ? k : 6 - k;
       PointPicture point;
       point.index = points.size();
-      point.mark = {-1100.0 + 2200.0 * column / 6 + 4.0 * normal(),
-                    -500.0 + 1000.0 * row / 3 + 4.0 * normal()};
+      point.mark = {-1100.0 + 2200.0 * column / 6 + 4.0 * random.normal(),
+                    -500.0 + 1000.0 * row / 3 + 4.0 * random.normal()};
       point.order = static_cast<int>(points.size());
       const model::PointReading reading = model.at(model::identity_placement(point.mark)).value();
       point.lengths = reading.lengths;
       const double left_mm = kElongation * (2000.0 - reading.lengths.left_mm);
       point.best_mm = {left_mm, 0.0};
       point.rival_mm = {0.8 * left_mm, 0.15};
-      point.chain_after_mm = {kNoiseMm * normal(), kNoiseMm * normal()};
+      point.chain_after_mm = {kNoiseMm * random.normal(), kNoiseMm * random.normal()};
       point.chain_before_mm = point.best_mm + point.chain_after_mm;
       const Eigen::Matrix2d to_tool = reading.position_jacobian.inverse();
       point.before_mm = to_tool * point.chain_before_mm;
