@@ -8,8 +8,6 @@
 
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/repeated_pulls.hpp"
-#include "grid/diagnosis/anchors_with_causes.hpp"
-#include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/maslow4_log.hpp"
 #include "grid/files/whole_file.hpp"
 
@@ -83,70 +81,6 @@ TEST(RealBeltSets, HalfOfARebuiltFrameForetellsTheOtherAsAnotherProgramFound) {
   EXPECT_NEAR(fit->half_left_out->rms_mm, 1.92, 0.05);
 }
 
-TEST(RealBeltSets, FiveRunsOfOneFrameScatterByWhatTheirSigmasSay) {
-  const std::filesystem::path path =
-      std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "ten_runs_1_to_5.txt";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
-  const std::string text = files::read_whole_file(path);
-  constexpr int kRuns = 5;
-  std::vector<BeltsFit> fits;
-  for (int run = 1; run <= kRuns; ++run) {
-    files::Maslow4Options options;
-    options.run = run;
-    const auto import = files::parse_maslow4(text, "ten_runs.txt", options);
-    ASSERT_EQ(import.belts.points.size(), 100U);
-    fits.push_back(diagnosis::fit_with_causes(import.belts).value());
-  }
-  double ratio = 0.0;
-  for (std::size_t i = 0; i < fits.front().coordinates.size(); ++i) {
-    double mean = 0.0, said = 0.0, scatter = 0.0;
-    for (const BeltsFit& fit : fits) mean += fit.coordinates[i].fitted_mm / kRuns;
-    for (const BeltsFit& fit : fits) {
-      scatter += std::pow(fit.coordinates[i].fitted_mm - mean, 2) / (kRuns - 1);
-      said += std::pow(fit.coordinates[i].sigma_mm, 2) / kRuns;
-    }
-    ratio += scatter / said / static_cast<double>(fits.front().coordinates.size());
-  }
-  // 20 degrees of freedom: nineteen times in twenty between 0.48 and 1.71 of the variance.
-  EXPECT_GT(ratio, 0.5);
-  EXPECT_LT(ratio, 1.7);
-}
-
-TEST_P(RealBelts, AFitHasTheAnchorsOfADiagnosisAndStretchIsInIt) {
-  const auto fit = diagnosis::fit_with_causes(import_.belts);
-  ASSERT_TRUE(fit) << fit.error().sentence();
-  diagnosis::DiagnosisOptions options;
-  options.next_measurements = false;
-  const auto found = diagnosis::diagnose(import_.belts, options);
-  ASSERT_TRUE(found);
-  for (std::size_t i = 0; i < fit->coordinates.size(); ++i) {
-    EXPECT_EQ(fit->coordinates[i].fitted_mm, found->belts->coordinates[i].fitted_mm);
-    EXPECT_EQ(fit->coordinates[i].sigma_mm, found->belts->coordinates[i].sigma_mm);
-  }
-  ASSERT_FALSE(fit->causes.empty());
-  EXPECT_EQ(fit->causes.front().effect, "belt_stretch");
-  // Published frames stretch by 0.12 to 0.26 % at the pull of their motors, to 0.1 % each.
-  EXPECT_GT(fit->causes.front().parameters.at("elongation"), 0.0005);
-  EXPECT_LT(fit->causes.front().parameters.at("elongation"), 0.004);
-}
-
-TEST(RealBeltSets, MorePlacesOfOneFrameMoveItsAnchorsByNoMoreThanWasSaid) {
-  const std::filesystem::path path =
-      std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "concrete_anchors.txt";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
-  auto import = files::parse_maslow4(files::read_whole_file(path), "concrete.txt");
-  const auto all = diagnosis::fit_with_causes(import.belts);
-  import.belts.points.resize(57);
-  const auto first = diagnosis::fit_with_causes(import.belts);
-  ASSERT_TRUE(all && first);
-  for (std::size_t i = 0; i < all->coordinates.size(); ++i) {
-    // Three times what the fewer say: the others are among the more.
-    EXPECT_LT(std::abs(all->coordinates[i].fitted_mm - first->coordinates[i].fitted_mm),
-              3.0 * first->coordinates[i].sigma_mm)
-        << all->coordinates[i].name;
-  }
-}
-
 TEST(RealBeltSets, SixPlacesOfAStartAreFittedAndSaidToBeUncertain) {
   const std::filesystem::path path =
       std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / "clbm_2026-01.txt";
@@ -182,77 +116,6 @@ TEST(RealBeltSets, ATensionTestIsOnALineAndTellsTheStretchOfEachPull) {
     EXPECT_GT(pulls[i].sigma, 2e-5) << i;
     EXPECT_LT(pulls[i].sigma, 2e-4) << i;
   }
-}
-
-struct RealCause {
-  const char* name;
-  const char* file;
-  int run;
-  double rms_mm;       ///< at most, with one cause in addition to the anchors
-  double predicted_mm;  ///< at most, each half predicted by the other
-};
-void PrintTo(const RealCause& set, std::ostream* out) { *out << set.name; }
-
-/// Empty if the data are not present in this checkout.
-std::optional<diagnosis::Diagnosis> diagnosed(const char* file, int run) {
-  const std::filesystem::path path =
-      std::filesystem::path(CHAINTRUE_SHARED_DATA) / "maslow4" / file;
-  if (!std::filesystem::exists(path)) return std::nullopt;
-  files::Maslow4Options options;
-  options.run = run;
-  const auto import = files::parse_maslow4(files::read_whole_file(path), file, options);
-  return diagnosis::diagnose(import.belts).value();
-}
-
-class RealBeltCauses : public testing::TestWithParam<RealCause> {};
-
-// rms: the required figures; predicted: the required figure, otherwise no worse than anchors alone.
-INSTANTIATE_TEST_SUITE_P(Sets,
-                         RealBeltCauses,
-                         testing::Values(RealCause{"concrete", "concrete_anchors.txt", 1, 0.46, 1.37},
-                                         RealCause{"rebuilt", "frame_rebuilt.txt", 1, 0.55, 1.25},
-                                         RealCause{"mini", "mini_frame.txt", 1, 0.55, 1.81},
-                                         RealCause{"run_1", "ten_runs_1_to_5.txt", 1, 0.73, 1.60},
-                                         RealCause{"run_2", "ten_runs_1_to_5.txt", 2, 0.73, 1.60},
-                                         RealCause{"run_3", "ten_runs_1_to_5.txt", 3, 0.73, 1.60},
-                                         RealCause{"run_4", "ten_runs_1_to_5.txt", 4, 0.73, 1.60},
-                                         RealCause{"run_5", "ten_runs_1_to_5.txt", 5, 0.73, 1.60}),
-                         [](const auto& tested) { return std::string(tested.param.name); });
-
-TEST_P(RealBeltCauses, PulledBeltsStretchAndNothingElseIsNamed) {
-  const auto found = diagnosed(GetParam().file, GetParam().run);
-  if (!found) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
-  ASSERT_EQ(found->causes.size(), 1U) << found->sentence;
-  EXPECT_EQ(found->causes[0].cause.effect->id, "belt_stretch") << found->sentence;
-  EXPECT_LT(found->belts->rms_mm, GetParam().rms_mm + 0.005) << "to the digits of what is asked";
-  ASSERT_TRUE(found->belts->prediction);
-  EXPECT_LT(found->belts->prediction->rms_mm, GetParam().predicted_mm);
-  // Four owners' sets, computed by another program with the tensions of a sled of 0.3 of the pull: 0.13 to
-  // 0.26 %; with a pattern the sigma states how well they are known.
-  const auto& size = found->causes[0].parameters[0];
-  EXPECT_NEAR(size.value, 0.0019, 0.0007 + 2.0 * size.sigma);
-}
-
-TEST(RealBeltSets, RunsOfOneFrameAgreeInTheStretchWithinTheirSigmas) {
-  double square = 0.0;
-  std::optional<diagnosis::ParameterEstimate> first;
-  for (int run = 1; run <= 5; ++run) {
-    const auto found = diagnosed("ten_runs_1_to_5.txt", run);
-    if (!found) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
-    ASSERT_FALSE(found->causes.empty());
-    const auto size = found->causes[0].parameters[0];
-    if (!first) first = size;
-    square += std::pow(size.value - first->value, 2) /
-              (size.sigma * size.sigma + first->sigma * first->sigma);
-  }
-  // Four differences of about unit variance: chi-squared with 4 degrees of freedom, 1 in 1000.
-  EXPECT_LT(square, 18.5);
-}
-
-TEST(RealBeltSets, SixPlacesOfAStartGetNoName) {
-  const auto found = diagnosed("clbm_2026-01.txt", 1);
-  if (!found) GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here";
-  EXPECT_TRUE(found->causes.empty()) << found->sentence;
 }
 
 }  // namespace

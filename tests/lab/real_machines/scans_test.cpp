@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A real machine, scanned twice a day apart: the named causes are the same whichever line is left
-// out, one scan predicts the other, and an effect added to the real residuals is found. The scans
-// stay in ../shared/data; of the larger one every second mark is enough here. With CHAINTRUE_LONG
-// set in the environment every line is left out in turn. The results from all points are in
-// docs/diagnosis_rates.md.
+// out, one scan predicts the other, and an effect added to the real residuals is found
+// (docs/diagnosis_rates.md).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -76,7 +74,6 @@ class RealScans : public testing::Test {
 
 TEST_F(RealScans, BothScansNameTheBannersScale) {
   for (const char* file : {kUpper, kFull}) {
-    if (file == kFull && std::getenv("CHAINTRUE_LONG") == nullptr) continue;
     // With the whole bed's marks play is detected, but only with an assumed order; without it
     // nothing is named.
     const Diagnosis d = diagnosed(scan(file, files::VisitOrder::serpentine_columns));
@@ -97,10 +94,7 @@ TEST_F(RealScans, NamesStandWithoutAnyLine) {
       return line(columns ? p.mark.x_mm : p.mark.y_mm);
     };
     for (const MeasuredPoint& p : whole.points) lines.insert(of(p));
-    int lines_seen = 0;
     for (const int left_out : lines) {
-      // A diagnosis takes seconds: every third line, all of them with CHAINTRUE_LONG.
-      if (lines_seen++ % 3 != 0 && std::getenv("CHAINTRUE_LONG") == nullptr) continue;
       MeasuredGrid grid = whole;
       std::erase_if(grid.points, [&](const MeasuredPoint& p) { return of(p) == left_out; });
       const Diagnosis d = diagnosed(grid);
@@ -118,13 +112,6 @@ TEST_F(RealScans, OneScanPredictsTheOther) {
   const Diagnosis d = diagnosed(first);
   const auto given_cause = transfer(first, d, second);
   ASSERT_TRUE(given_cause);
-  fmt::print(
-      "predicted: {:.2f} mm as stated, {:.2f} calibrated, {:.2f} with the causes, {:.2f} with "
-      "the surface\n",
-      given_cause->uncalibrated.rms_mm,
-      given_cause->calibrated.rms_mm,
-      given_cause->extended.rms_mm,
-      given_cause->extended_and_surface.rms_mm);
   // A day apart: a pattern of the machine or of the banner is in both scans.
   EXPECT_LT(given_cause->extended.rms_mm, 0.6 * given_cause->calibrated.rms_mm);
   EXPECT_LT(given_cause->extended_and_surface.rms_mm, given_cause->extended.rms_mm);
