@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Belts and holes in one fit, on simulated machines: the accuracy of either alone, and of both
-// together.
+// Belts and holes in one fit, on simulated machines.
 #include "grid/belts/belts_and_holes.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <iostream>
 
 #include "grid/belts/belt_map.hpp"
-#include "grid/statistics.hpp"
 #include "model/belts/belt_kinematics.hpp"
 #include "tests/belts/holes_simulation.hpp"
 
 namespace chaintrue::grid {
 namespace {
 
-using belts::anchors_of;
 using model::BedPoint;
 
 /// Positions over the sheet without holes.
@@ -41,91 +37,24 @@ double error_mm(const SimulatedHoles& truth, const BeltMap& map) {
   return rms_when_laid(reached, targets());
 }
 
-MeasuredBelts without_points(MeasuredBelts belts) {
-  belts.points.clear();
-  return belts;
+TEST(BeltsAndHoles, FindTheScaleThatBeltsAloneDoNotKnow) {
+  const SimulatedHoles set = simulate_with_holes({.seed = 300});
+  const auto both = fit_belts_and_holes(set.belts, {set.holes});
+  ASSERT_TRUE(both) << "seed 300";
+  // Four sigmas: one seed in 16 000.
+  EXPECT_NEAR(both->belts.scale->factor, set.scale, 4.0 * both->belts.scale->sigma) << "seed 300";
+  EXPECT_FALSE(both->holes.displacement) << "seed 300";
 }
 
-/// Rms error of the five coordinates, in true millimetres.
-double anchors_off_mm(const SimulatedHoles& truth, const BeltsFit& fit) {
-  const double factor = fit.scale ? fit.scale->factor : 1.0;
-  const belts::AnchorVector off =
-      factor * anchors_of(fit.machine) - truth.scale * anchors_of(truth.truth);
-  return std::sqrt(off.squaredNorm() / static_cast<double>(off.size()));
-}
-
-/// Rms over many machines: of the tool over the sheet, and of the anchors.
-struct Errors {
-  std::vector<double> tool_mm;
-  std::vector<double> anchors_mm;
-  void add(const SimulatedHoles& truth, const BeltsFit& fit, const HolesWithBelts* holes) {
-    tool_mm.push_back(error_mm(truth, BeltMap(fit, holes)));
-    anchors_mm.push_back(anchors_off_mm(truth, fit));
-  }
-};
-
-struct Compared {
-  Errors belts;
-  Errors holes;
-  Errors both;
-  int bent = 0;  ///< machines for which both fits find a displacement
-};
-
-Compared compared(HolesSimulation simulation, int machines) {
-  Compared found;
-  for (int k = 0; k < machines; ++k) {
-    simulation.seed = 300 + static_cast<std::uint64_t>(k);
-    const SimulatedHoles set = simulate_with_holes(simulation);
-    const auto alone = fit_belts(set.belts);
-    const auto taped = fit_belts_and_holes(without_points(set.belts), {set.holes});
-    const auto both = fit_belts_and_holes(set.belts, {set.holes});
-    EXPECT_TRUE(alone && taped && both) << "seed " << simulation.seed;
-    if (!alone || !taped || !both) continue;
-    found.belts.add(set, *alone, nullptr);
-    found.holes.add(set, taped->belts, &taped->holes);
-    found.both.add(set, both->belts, &both->holes);
-    found.bent += both->holes.displacement ? 1 : 0;
-  }
-  std::cout << "tool, anchors, mm: belts alone " << rms(found.belts.tool_mm) << ", "
-            << rms(found.belts.anchors_mm) << "; holes alone " << rms(found.holes.tool_mm) << ", "
-            << rms(found.holes.anchors_mm) << "; both " << rms(found.both.tool_mm) << ", "
-            << rms(found.both.anchors_mm) << "; bent " << found.bent << "\n";
-  return found;
-}
-
-TEST(BeltsAndHoles, TogetherTheyBeatEither) {
-  // A few holes, and a tape held by one person.
-  const Compared found = compared({.tape_mm = 1.0, .few_holes = true}, 40);
-  // Belts do not determine the scale: 0.4 % of some 650 mm, the mean distance from the centre.
-  EXPECT_GT(rms(found.belts.tool_mm), 2.0);
-  // Several times the standard error of the rms over forty machines, which is a ninth.
-  EXPECT_LT(rms(found.both.tool_mm), 0.7 * rms(found.holes.tool_mm));
-  EXPECT_LT(rms(found.both.tool_mm), 0.4 * rms(found.belts.tool_mm));
-  EXPECT_LT(rms(found.both.anchors_mm), 0.5 * rms(found.holes.anchors_mm));
-  EXPECT_LT(rms(found.both.anchors_mm), 0.5 * rms(found.belts.anchors_mm));
-}
-
-TEST(BeltsAndHoles, WhatHangsBesideItsBeltsIsInTheMap) {
-  const Compared straight = compared({}, 20);
-  const Compared bent = compared({.unmodelled_mm = 4.0}, 20);
-  // A displacement needs odds of twenty to one: one machine in twenty shows a false one.
-  EXPECT_LE(straight.bent, 3);
-  EXPECT_GE(bent.bent, 17);
-  EXPECT_LT(rms(bent.both.tool_mm), 0.5 * rms(bent.belts.tool_mm));
-}
-
-TEST(BeltsAndHoles, SigmasAreWhatTheTruthIsOffBy) {
-  constexpr int kMachines = 60;
-  double square = 0.0;
-  for (int k = 0; k < kMachines; ++k) {
-    const SimulatedHoles set =
-        simulate_with_holes({.seed = 500 + static_cast<std::uint64_t>(k), .few_holes = true});
-    const auto fit = fit_belts_and_holes(set.belts, {set.holes});
-    ASSERT_TRUE(fit) << "seed " << 500 + k;
-    square += std::pow((fit->belts.scale->factor - set.scale) / fit->belts.scale->sigma, 2);
-  }
-  // The mean of sixty squares has a sigma of 0.18; three of these.
-  EXPECT_NEAR(square / kMachines, 1.0, 0.55);
+TEST(BeltsAndHoles, MapFollowsAToolThatHangsBesideItsBelts) {
+  const SimulatedHoles set = simulate_with_holes({.seed = 300, .unmodelled_mm = 4.0});
+  const auto alone = fit_belts(set.belts);
+  const auto both = fit_belts_and_holes(set.belts, {set.holes});
+  ASSERT_TRUE(alone && both) << "seed 300";
+  EXPECT_TRUE(both->holes.displacement) << "seed 300";
+  EXPECT_LT(error_mm(set, BeltMap(both->belts, &both->holes)),
+            0.5 * error_mm(set, BeltMap(*alone, nullptr)))
+      << "seed 300";
 }
 
 TEST(BeltsAndHoles, ADistanceReadWronglyIsSetAsideByItsEnds) {

@@ -5,9 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "grid/belts/anchor_fit.hpp"
 #include "grid/belts/belts_fit.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "tests/belts/frame.hpp"
@@ -29,12 +31,11 @@ MeasuredBelts measured(double noise_mm, std::uint64_t seed) {
       .value();
 }
 
-/// Over the part of the frame that was measured: where the tool is for commands of a controller that
-/// believes `believed`, the shift and turn that lay the sheet taken out.
-double true_error_mm(const model::BeltMachine& believed) {
+/// Over the part of the frame that was measured: where the tool of `truth` is for commands of a
+/// controller that believes `believed`, the shift and turn that lay the sheet taken out.
+double true_error_mm(const model::BeltMachine& believed, const model::BeltMachine& truth) {
   constexpr int kColumns = 20;
   constexpr int kRows = 12;
-  const model::BeltMachine truth = testing_support::truth();
   const auto& a = testing_support::stated().anchors;
   const double width = kShare * 0.5 * (a.br.x_mm + a.tr.x_mm - a.tl.x_mm);
   const double height = kShare * 0.5 * (a.tl.y_mm + a.tr.y_mm);
@@ -59,7 +60,7 @@ TEST(BeltsError, TodayIsWhatTheTrueMachineMissesBy) {
   const auto error = error_of_belts(fit);
   ASSERT_TRUE(error);
   ASSERT_TRUE(error->today);
-  const double true_mm = true_error_mm(testing_support::stated());
+  const double true_mm = true_error_mm(testing_support::stated(), testing_support::truth());
   EXPECT_GT(true_mm, 1.0) << "12 and 9 mm at two anchors";
   // Two rasters over one area, whose outer rows lie up to a tenth of it apart; what wrong anchors do grows at most with
   // the square of the distance from the middle: 1 - 0.9^2.
@@ -67,22 +68,21 @@ TEST(BeltsError, TodayIsWhatTheTrueMachineMissesBy) {
   EXPECT_GE(error->today->maximum_mm, error->today->rms_mm);
 }
 
-TEST(BeltsError, ExpectedIsWhatFittedAnchorsMissByOnAverage) {
-  constexpr int kSeeds = 20;
-  double found_mm2 = 0.0;
-  double expected_mm2 = 0.0;
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const auto fit = fit_belts(measured(0.5, seed)).value();
-    const auto error = error_of_belts(fit);
-    ASSERT_TRUE(error) << "seed " << seed;
-    found_mm2 += std::pow(true_error_mm(fit.machine), 2) / kSeeds;
-    expected_mm2 += std::pow(error->expected.rms_mm, 2) / kSeeds;
-    EXPECT_GE(error->expected.maximum_mm, error->expected.rms_mm) << "seed " << seed;
+// To first order the error is the sum of what each principal axis of the anchors' covariance moves.
+TEST(BeltsError, ExpectedIsWhatTheAnchorsUncertaintyMoves) {
+  const auto fit = fit_belts(measured(0.5, 1)).value();
+  const auto error = error_of_belts(fit);
+  ASSERT_TRUE(error);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(fit.covariance_mm2);
+  double square = 0.0;
+  for (Eigen::Index k = 0; k < axes.eigenvalues().size(); ++k) {
+    const Eigen::VectorXd moved = belts::anchors_of(fit.machine) +
+                                  std::sqrt(axes.eigenvalues()[k]) * axes.eigenvectors().col(k);
+    square += std::pow(true_error_mm(belts::with_anchors(fit.machine, moved), fit.machine), 2);
   }
-  // Some three directions of error in each of twenty frames: a mean square of 60 draws has one sigma of
-  // sqrt(2/60) = 18 %, three of them 55 %.
-  EXPECT_GT(found_mm2, 0.45 * expected_mm2);
-  EXPECT_LT(found_mm2, 1.55 * expected_mm2);
+  // Two rasters, as above.
+  EXPECT_NEAR(error->expected.rms_mm, std::sqrt(square), 0.19 * std::sqrt(square)) << "seed 1";
+  EXPECT_GE(error->expected.maximum_mm, error->expected.rms_mm);
 }
 
 TEST(BeltsError, WithoutAnchorsInForceTodayIsNotKnown) {

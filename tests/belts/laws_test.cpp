@@ -15,7 +15,6 @@
 #include "grid/diagnosis/law_declaration.hpp"
 #include "grid/diagnosis/law_words.hpp"
 #include "grid/files/belts_file.hpp"
-#include "grid/files/diagnosis_file.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -81,13 +80,6 @@ TEST(LawsOfBelts, EachPointStandsNextToTheCurve) {
   }
   // What these readings scatter by without any law: a quarter of a millimetre.
   EXPECT_LT(std::sqrt(square / static_cast<double>(law.points.size())), 0.6);
-}
-
-TEST(LawsOfBelts, TheFileSaysThemAgain) {
-  const Diagnosis found = diagnosed(with_wave(1.2));
-  const std::string text = files::write_diagnosis(found);
-  EXPECT_THAT(text, HasSubstr("\"of\": \"length_tl\""));
-  EXPECT_EQ(files::write_diagnosis(files::parse_diagnosis(text, "belts.json")), text);
 }
 
 TEST(LawsOfBelts, NoneIsFoundWhereNoneIs) {

@@ -81,18 +81,9 @@ INSTANTIATE_TEST_SUITE_P(
     InPlaceOfTheCatalogue,
     testing::Values(
         model::AppliedEffect{"tape_scale", "x", {{"scale", 0.003}}},
-        model::AppliedEffect{"axes_skew", "", {{"angle_rad", 0.004}}},
-        model::AppliedEffect{"chain_plane_offset", "", {{"distance_mm", 90.0}}},
-        model::AppliedEffect{
-            "sprocket_eccentricity", "left", {{"amplitude_mm", 1.0}, {"phase_rad", 1.0}}},
         model::AppliedEffect{
             "angular_kink", "right", {{"slope_mm_per_rad", 9.0}, {"knee_rad", 0.7}}},
-        model::AppliedEffect{"direction_hysteresis", "both", {{"half_width_mm", 0.8}}},
-        model::AppliedEffect{"chain_pitch_error", "left", {{"elongation", 0.002}}},
-        model::AppliedEffect{"drift", "both", {{"rate_mm_per_visit", 0.06}}},
-        model::AppliedEffect{"tooth_skip", "left", {{"links", 1.0}, {"first_visit", 12.0}}},
-        model::AppliedEffect{"link_miscount", "right", {{"links", -1.0}, {"visit", 9.0}}},
-        model::AppliedEffect{"zero_shift", "left", {{"shift_mm", 2.5}, {"first_visit", 15.0}}}),
+        model::AppliedEffect{"tooth_skip", "left", {{"links", 1.0}, {"first_visit", 12.0}}}),
     [](const auto& one) { return one.param.effect; });
 
 struct Example {

@@ -230,19 +230,5 @@ TEST(Diagnose, WithoutOrderTheVisitsAreNotTestable) {
   }
 }
 
-TEST(Diagnose, PointsInAnotherOrderGiveTheSameBytes) {
-  MeasuredGrid grid = session_of({{"chain_sag", "", {{"relative_weight", 0.4}}}}, 13);
-  const auto one = diagnose(grid, verdict_alone());
-  std::reverse(grid.points.begin(), grid.points.end());
-  const auto other = diagnose(grid, verdict_alone());
-  ASSERT_TRUE(one);
-  ASSERT_TRUE(other);
-  EXPECT_EQ(one->sentence, other->sentence);
-  ASSERT_EQ(one->hypotheses.size(), other->hypotheses.size());
-  for (std::size_t k = 0; k < one->hypotheses.size(); ++k) {
-    EXPECT_EQ(one->hypotheses[k].probability, other->hypotheses[k].probability) << k;
-  }
-}
-
 }  // namespace
 }  // namespace chaintrue::grid::diagnosis

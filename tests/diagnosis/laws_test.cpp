@@ -4,7 +4,6 @@
 /// list raises no false rate, weaker than a listed cause that does the same.
 #include "grid/diagnosis/laws.hpp"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,11 +12,9 @@
 
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/law_words.hpp"
-#include "grid/diagnosis/next_measurements.hpp"
 #include "grid/diagnosis/regressors.hpp"
 #include "model/effects/catalogue.hpp"
 #include "tests/diagnosis/law_sessions.hpp"
-#include "tests/support/random.hpp"
 
 namespace chaintrue::grid::diagnosis::laws {
 namespace {
@@ -132,48 +129,6 @@ TEST(Laws, PointsStandAboutTheCurveByTheirNoise) {
     EXPECT_GT(rms(of_law), 0.7 * noise_mm);
     EXPECT_LT(rms(left), 0.9 * rms(before));
   }
-}
-
-// What is proposed where a law is not sure makes the right one likelier.
-TEST(Laws, WhatIsProposedPartsALawFromItsRivals) {
-  int open = 0, likelier = 0;
-  std::string said;
-  for (std::uint64_t seed = 51; seed < 67; ++seed) {
-    const auto step = [](const model::MarkPoint& mark, const auto&) { return mark.x_mm >= 250.0 ? 1.0 : 0.0; };
-    MeasuredGrid grid = with_left(session_of({}, seed), step);
-    const Analysis a = analysed(grid);
-    const LawsFound found = laws_found(a);
-    const std::vector<NextMeasurement> next = next_for_laws(a, found);
-    if (next.empty()) continue;
-    ++open;
-    EXPECT_GE(next.back().raises_probability_to, next.front().raises_probability_to);
-    const auto of_step = [](const std::vector<Law>& laws) {
-      double p = 0.0;
-      for (const Law& law : laws) p += law.of == LawOf::x && law.enters == Enters::left ? law.probability : 0.0;
-      return p;
-    };
-    // All marks that are proposed, read as the others were.
-    const model::ReadingModel machine(*grid.machine);
-    chaintrue::testing_support::Random random(seed);
-    for (const NextMeasurement& one : next) {
-      if (!one.mark) continue;
-      MeasuredPoint point = grid.points.front();
-      point.mark = *one.mark;
-      point.order = static_cast<int>(grid.points.size());
-      const model::MarkPoint truth{one.mark->x_mm + 0.3 * random.normal(), one.mark->y_mm + 0.3 * random.normal()};
-      const auto reading = machine.at(model::identity_placement(truth)).value();
-      point.lengths = reading.pose.lengths;
-      point.lengths->left_mm += step(truth, reading) + 0.2 * random.normal();
-      point.lengths->right_mm += 0.2 * random.normal();
-      grid.points.push_back(point);
-    }
-    const double before = of_step(found.laws), after = of_step(laws_found(analysed(grid)).laws);
-    likelier += after > before ? 1 : 0;
-    said += fmt::format("seed {}: {} proposed, {:.3f} to {:.3f}\n", seed, next.size(), before, after);
-  }
-  // One in six may be misled by the noise of the new readings, as of the old.
-  EXPECT_GE(open, 3) << said;
-  EXPECT_GE(likelier, open - 1) << said;
 }
 
 TEST(Laws, NothingAndListedCausesAreNoLaw) {

@@ -128,7 +128,7 @@ std::vector<bool> one_by_one(const RegressorSystem& system, const std::vector<in
 }
 
 TEST(OutlierSearch, IsThatOfTheWholeCovariance) {
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
     synthetic::Random random(seed);
     const RegressorSystem system = random_system(random);
@@ -201,7 +201,7 @@ Eigen::MatrixXd basis_without(const Places& places, const std::vector<bool>& out
 
 // A set's weight, and that no other reading is worse, by the whole covariance.
 TEST(OutlierSearch, DirectionsAreThoseOfTheWholeCovariance) {
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
     synthetic::Random random(seed);
     const Places places = random_places(random);

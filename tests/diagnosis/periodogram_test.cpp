@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Waves along a chain: laws of the periodogram, and its level compared with noise.
+// Waves along a chain: laws of the periodogram.
 #include "grid/diagnosis/periodogram.hpp"
 
 #include <gmock/gmock.h>
@@ -119,40 +119,11 @@ TEST(Periodogram, ValuesThatAreAllAlikeHaveNoWave) {
   EXPECT_THAT(Periodogram(places, kShortestMm).power(values), testing::Each(0.0));
 }
 
-// Noise passes the level in one of a hundred sessions, as stated.
-TEST(Periodogram, NoisePassesTheLevelAsOftenAsItSays) {
-  const auto places = uneven_places(16, 34);
-  const Periodogram waves(places, kShortestMm);
-  const double level = waves.level(0.01, 999, 1);
-  constexpr int kSessions = 2000;
-  int above = 0;
-  for (int session = 0; session < kSessions; ++session) {
-    const auto power = waves.power(noise(5000 + static_cast<std::uint64_t>(session), 34));
-    if (*std::max_element(power.begin(), power.end()) > level) ++above;
-  }
-  // 20 expected; the level itself is the tenth largest of 999 draws, so that its chance is 1 %
-  // within a third: 20 +- sqrt(20 + 6.3^2), three sigma.
-  EXPECT_GE(above, 1);
-  EXPECT_LE(above, 43);
-}
-
-TEST(Periodogram, ChanceAtOnePeriodIsUniformForNoise) {
-  const auto places = uneven_places(17, 28);
-  const Periodogram waves(places, kShortestMm);
-  constexpr int kSessions = 4000;
-  std::vector<double> chances;
-  for (int session = 0; session < kSessions; ++session) {
-    const auto values = noise(9000 + static_cast<std::uint64_t>(session), 28);
-    chances.push_back(chance_at_one_period(waves.power_at(kTurnMm, values), 28));
-  }
-  std::sort(chances.begin(), chances.end());
-  double distance = 0.0;
-  for (std::size_t i = 0; i < chances.size(); ++i) {
-    distance =
-        std::max(distance, std::abs(chances[i] - (static_cast<double>(i) + 0.5) / kSessions));
-  }
-  // Kolmogorov's distance, 1 in 1000: 1.95 / sqrt(n).
-  EXPECT_LT(distance, 1.95 / std::sqrt(kSessions));
+// With two of n - 1 degrees of freedom the share of noise is a beta variable (Lomb 1976, Scargle 1982):
+// it exceeds p with chance (1 - p)^((n - 3) / 2).
+TEST(Periodogram, ChanceAtOnePeriodIsThatOfABetaVariable) {
+  EXPECT_EQ(chance_at_one_period(0.0, 28), 1.0);
+  EXPECT_NEAR(chance_at_one_period(0.3, 28), std::pow(0.7, 12.5), 1e-15);  // rounding
 }
 
 TEST(Periodogram, RefusesWhatIsNone) {

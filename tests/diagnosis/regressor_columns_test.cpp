@@ -39,24 +39,21 @@ Both both(std::uint64_t seed) {
 }
 
 TEST(RegressorColumns, AreTheMatrixThatHoldsEach) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    SCOPED_TRACE(seed);
-    const auto [shared, dense] = both(seed);
-    ASSERT_EQ(shared.cols(), dense.cols());
-    EXPECT_EQ(shared.distinct().cols(), 40);
-    const Eigen::VectorXd e = Eigen::VectorXd::LinSpaced(12, -1.0, 2.0);
-    EXPECT_LT((shared.transpose_times(e) - dense.transpose() * e).norm(), 100.0 * kRounding);
-    EXPECT_LT((shared.squared_norms() - dense.colwise().squaredNorm().transpose()).norm(),
-              1000.0 * kRounding);
-    std::vector<int> all;
-    for (int k = 0; k < static_cast<int>(dense.cols()); ++k) {
-      EXPECT_LT((shared.col(k) - dense.col(k)).norm(), kRounding) << k;
-      all.push_back(k);
-    }
-    EXPECT_LT((shared.dense(all) - dense).norm(), kRounding);
-    const std::vector<Eigen::Index> rows = {3, 7, 8};
-    EXPECT_LT((shared.column(rows, 5) - dense.col(5)(rows)).norm(), kRounding);
+  const auto [shared, dense] = both(1);
+  ASSERT_EQ(shared.cols(), dense.cols());
+  EXPECT_EQ(shared.distinct().cols(), 40);
+  const Eigen::VectorXd e = Eigen::VectorXd::LinSpaced(12, -1.0, 2.0);
+  EXPECT_LT((shared.transpose_times(e) - dense.transpose() * e).norm(), 100.0 * kRounding);
+  EXPECT_LT((shared.squared_norms() - dense.colwise().squaredNorm().transpose()).norm(),
+            1000.0 * kRounding);
+  std::vector<int> all;
+  for (int k = 0; k < static_cast<int>(dense.cols()); ++k) {
+    EXPECT_LT((shared.col(k) - dense.col(k)).norm(), kRounding) << k;
+    all.push_back(k);
   }
+  EXPECT_LT((shared.dense(all) - dense).norm(), kRounding);
+  const std::vector<Eigen::Index> rows = {3, 7, 8};
+  EXPECT_LT((shared.column(rows, 5) - dense.col(5)(rows)).norm(), kRounding);
 }
 
 TEST(RegressorColumns, SomeOfThemAndAMapOfAll) {

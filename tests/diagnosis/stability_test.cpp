@@ -149,20 +149,6 @@ TEST(Stability, OfNothingNamedThereIsNone) {
   EXPECT_FALSE(found->stability);
 }
 
-// Which points support a name depends on the marks, not on their order in the file.
-TEST(Stability, DoesNotDependOnTheOrderInTheFile) {
-  MeasuredGrid grid = session_of({kLongLeftChain}, 5);
-  const auto one = diagnose(grid, verdict_alone());
-  std::reverse(grid.points.begin(), grid.points.end());
-  const auto other = diagnose(grid, verdict_alone());
-  ASSERT_TRUE(one && other && one->stability && other->stability);
-  const std::size_t points = grid.points.size();
-  for (std::size_t i = 0; i < points; ++i) {
-    EXPECT_EQ(one->stability->removals[i].support,
-              other->stability->removals[points - 1 - i].support);
-  }
-}
-
 // One reading off by two millimetres, in a corner where a bent chain would have the same signature:
 // an effect of one point is not named.
 TEST(Stability, OnePointMakesNoName) {

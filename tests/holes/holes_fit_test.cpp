@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fit to distances: derivatives compared with differences, left-out predictions with refits,
-// the truth recovered without noise, coverage of the intervals, bad readings named.
-#include <fmt/format.h>
+// The fit to distances: left-out predictions compared with refits, the truth recovered without noise,
+// bad readings named.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,6 +60,12 @@ TEST(HolesFit, WithoutNoiseTheMapIsTheTruth) {
   for (const FittedDistance& distance : fit->distances.front().distances)
     EXPECT_NEAR(distance.measured_mm, distance.predicted_mm, 0.005) << "some sigmas of 0.001 mm";
   EXPECT_NEAR(spacing(fit->estimate.machine), spacing(made->truth), 0.1);
+  for (const std::size_t side : {0u, 1u}) {
+    const double elongation = made->truth.effects[side].parameters.at("elongation");
+    const auto scale = static_cast<Eigen::Index>(6 + side);
+    // A tenth of a millimetre of 3 m, as for the spacing.
+    EXPECT_NEAR(fit->estimate.knowledge.mean[scale], 1.0 / (1.0 + elongation) - 1.0, 3e-5);
+  }
 }
 
 TEST(HolesFit, TheSheetIsFoundFromItsEdges) {
@@ -131,97 +136,16 @@ TEST(HolesFit, ALeftOutPredictionIsThatOfAFitWithoutTheReading) {
   }
 }
 
-struct Tally {
-  int sets = 0;
-  int covered_spacing = 0;
-  int covered_scale = 0;
-  double spacing2 = 0.0;
-  double scale2 = 0.0;
-};
-
-Tally tally(const MeasuredHoles& design, int sets) {
-  Tally result;
-  for (int seed = 1; seed <= sets; ++seed) {
-    synthetic::HolesSpec spec = usual_holes(static_cast<std::uint64_t>(seed));
-    spec.scale_sigma = 0.002;  // the fit's prior
-    const auto made = synthetic::simulate_holes(design, spec);
-    const auto fit = joint_fit(made->set);
-    if (!fit) {
-      ADD_FAILURE() << "seed " << seed << ": " << fit.error().sentence();
-      continue;
-    }
-    constexpr double kTwoSided95 = 1.95996;
-    const Eigen::MatrixXd& c = fit->estimate.knowledge.covariance;
-    const double error = spacing(fit->estimate.machine) - spacing(made->truth);
-    result.covered_spacing +=
-        std::abs(error) < kTwoSided95 * std::sqrt(c(0, 0) + c(2, 2) - 2.0 * c(0, 2));
-    result.spacing2 += error * error;
-    for (Eigen::Index side = 0; side < 2; ++side) {
-      const double elongation =
-          made->truth.effects[static_cast<std::size_t>(side)].parameters.at("elongation");
-      const double off = fit->estimate.knowledge.mean[6 + side] - (1.0 / (1.0 + elongation) - 1.0);
-      result.covered_scale += std::abs(off) < kTwoSided95 * std::sqrt(c(6 + side, 6 + side));
-      result.scale2 += off * off;
-    }
-    ++result.sets;
-  }
-  return result;
-}
-
-// Nine holes, twenty distances, a tape of 0.5 mm whose zero offset is known to 3 mm: reachable
-// accuracy. With the offset known exactly the first spacing is 0.90 mm, the last scale 0.00018.
-//   hole's own error     spacing rms     scales rms
-//   0 (the tape alone)   1.05 mm         0.00017
-//   0.1 mm               1.06 mm         0.00018
-//   0.3 mm               1.10 mm         0.00023
-TEST(HolesFit, NineHolesAndTwentyDistancesTellSpacingAndScales) {
-  constexpr int kSets = 500;
-  const auto planned = [](double hole_sigma_mm) {
-    return plan_holes(classic(), {.holes = 9, .distances = 20, .hole_sigma_mm = hole_sigma_mm})
-        ->set;
-  };
-  const Tally exact = tally(planned(0.0), kSets);
-  EXPECT_LT(std::sqrt(exact.spacing2 / kSets), 1.1) << "mm, with the tape alone";
-  EXPECT_LT(std::sqrt(exact.scale2 / (2 * kSets)), 0.0005);
-  const Tally fine = tally(planned(0.1), kSets);
-  const Tally usual = tally(nine_holes(), kSets);
-  EXPECT_LT(std::sqrt(usual.spacing2 / kSets), 1.15) << "mm, with 0.3 mm of hole";
-  EXPECT_LT(std::sqrt(usual.scale2 / (2 * kSets)), 0.0005);
-  for (const Tally& one : {exact, fine, usual}) {
-    fmt::print("spacing {:.3f} mm, scales {:.5f}, covered {} and {} of {}\n",
-               std::sqrt(one.spacing2 / kSets),
-               std::sqrt(one.scale2 / (2 * kSets)),
-               one.covered_spacing,
-               one.covered_scale,
-               kSets);
-    EXPECT_GE(one.covered_spacing, 0.92 * kSets);
-    EXPECT_LE(one.covered_spacing, 0.98 * kSets);
-    EXPECT_GE(one.covered_scale, 0.92 * 2 * kSets);
-    EXPECT_LE(one.covered_scale, 0.98 * 2 * kSets);
-  }
-}
-
-TEST(HolesFit, ABadReadingIsNamedAndSetAside) {
-  int found = 0;
-  int good_lost = 0;
-  constexpr int kSets = 100;
-  for (int seed = 1; seed <= kSets; ++seed) {
-    auto made =
-        synthetic::simulate_holes(nine_holes(), usual_holes(static_cast<std::uint64_t>(seed)));
-    const std::size_t bad = static_cast<std::size_t>(seed) % made->set.distances.size();
-    made->set.distances[bad].distance_mm += seed % 2 == 0 ? 10.0 : -10.0;
-    const auto fit = joint_fit(made->set);
-    ASSERT_TRUE(fit) << "seed " << seed;
-    found += fit->distances.front().distances[bad].rejected;
-    for (std::size_t k = 0; k < fit->distances.front().distances.size(); ++k)
-      good_lost += k != bad && fit->distances.front().distances[k].rejected;
-    if (seed == 1) {
-      EXPECT_THAT(fit->map.contents().notes.front(), HasSubstr(words_of(made->set, made->set.distances[bad])));
-      EXPECT_THAT(fit->map.contents().notes.front(), HasSubstr("shorter than the others make it"));
-    }
-  }
-  EXPECT_GE(found, 95);
-  EXPECT_LE(good_lost, 12) << "of 1900: 3 by chance, and some beside a bad one";
+TEST(HolesFit, NamesABadReadingAndSetsItAside) {
+  auto made = synthetic::simulate_holes(nine_holes(), usual_holes(1));
+  made->set.distances[1].distance_mm -= 10.0;
+  const auto fit = joint_fit(made->set);
+  ASSERT_TRUE(fit) << "seed 1";
+  for (std::size_t k = 0; k < fit->distances.front().distances.size(); ++k)
+    EXPECT_EQ(fit->distances.front().distances[k].rejected, k == 1) << "seed 1, distance " << k;
+  EXPECT_THAT(fit->map.contents().notes.front(),
+              testing::AllOf(HasSubstr(words_of(made->set, made->set.distances[1])),
+                             HasSubstr("shorter than the others make it")));
 }
 
 TEST(HolesFit, AHookOffsetLeftOutIsSaidWhereTheFitFails) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checks of a map after a change of the machine: right in 95 % of cases with five points and 0.3 mm
-// of noise, and undecided where the data cannot decide. Points planned for it.
+// Checks of a map after a change of the machine, with five points and 0.3 mm of noise, and points
+// planned for it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,8 +18,7 @@
 #include "grid/planning/check_plan.hpp"
 #include "grid/synthetic/random.hpp"
 #include "model/chains/chain_mechanism.hpp"
-#include "tests/holes/hole_sets.hpp"
-#include "tests/map/synthetic_grid.hpp"
+#include "tests/holes/checked_map.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -29,152 +27,37 @@ using model::MarkPoint;
 using synthetic::Random;
 using testing::HasSubstr;
 using testing_support::classic;
+using testing_support::grow;
+using testing_support::kFive;
+using testing_support::kNoiseMm;
+using testing_support::measured_machine;
+using testing_support::MeasuredMachine;
+using testing_support::read_at;
 
-constexpr double kNoiseMm = 0.3;
-const std::vector<MarkPoint> kFive = {
-    {-1100.0, 500.0}, {1100.0, 500.0}, {0.0, 0.0}, {-1100.0, -500.0}, {1100.0, -500.0}};
-
-struct MeasuredMachine {
-  CompensationMap map;
-  model::Machine truth;
-  std::vector<MarkPoint> planned;  ///< by plan_check
-};
-
-/// A map of 28 points with usual noise, and its machine.
-MeasuredMachine measured(std::uint64_t seed) {
-  const auto session = synthetic::generate(classic(), testing_support::usual_spec(seed));
-  CompensationMap map = *fit(session->grid);
-  std::vector<MarkPoint> planned = plan_check(map, {})->marks;
-  return {std::move(map), session->answer.machine, std::move(planned)};
+const MeasuredMachine& mapped() {
+  static const MeasuredMachine one = measured_machine(1);
+  return one;
 }
 
-const std::vector<MeasuredMachine>& machines() {
-  static const std::vector<MeasuredMachine> several = [] {
-    std::vector<MeasuredMachine> made;
-    for (std::uint64_t seed = 1; seed <= 24; ++seed) made.push_back(measured(seed));
-    return made;
-  }();
-  return several;
+MeasuredGrid five_points(const model::Machine& truth, Random& random) {
+  return read_at(kFive, truth, random);
 }
 
-MeasuredGrid measured_at(const std::vector<MarkPoint>& marks,
-                         const model::Machine& machine,
-                         Random& random) {
-  const model::ReadingModel model(machine);
-  MeasuredGrid grid;
-  grid.noise = StatedNoise{kNoiseMm, 0.0, 15.0};
-  for (const MarkPoint& mark : marks) {
-    const auto reading = model.at(model::identity_placement(mark));
-    const double left_mm = reading->lengths.left_mm + kNoiseMm * random.normal();
-    const double right_mm = reading->lengths.right_mm + kNoiseMm * random.normal();
-    grid.points.push_back({mark, model::ChainLengths{left_mm, right_mm}, {}, {}});
-  }
-  return grid;
-}
-
-MeasuredGrid five_points(const model::Machine& machine, Random& random) {
-  return measured_at(kFive, machine, random);
-}
-
-struct Case {
-  const char* name;
-  CheckVerdict verdict;
-  model::Change what;
-  std::function<void(model::Machine&, Random&)> happens;
-};
-
-void grow(model::Machine& machine, const char* side) {
-  machine.effects.push_back({"chain_pitch_error", side, {{"elongation", 0.0005}}});
-}
-
-const Case kCases[] = {
-    {"Nothing", CheckVerdict::valid, model::Change::nothing, [](model::Machine&, Random&) {}},
-    {"ZerosShiftedByUpTo3mm",
-     CheckVerdict::valid_after_rezeroing,
-     model::Change::zero,
-     [](model::Machine& machine, Random& random) {
-       machine.chain_zero.left_mm += random.uniform(-3.0, 3.0);
-       machine.chain_zero.right_mm += random.uniform(-3.0, 3.0);
-     }},
-    {"OneToothSkipped",
-     CheckVerdict::valid_after_rezeroing,
-     model::Change::tooth,
-     [](model::Machine& machine, Random& random) {
-       const double skip_mm = random.uniform() < 0.5 ? -6.35 : 6.35;
-       (random.uniform() < 0.5 ? machine.chain_zero.left_mm : machine.chain_zero.right_mm) +=
-           skip_mm;
-     }},
-    {"PitchOfTheChainsGrown",
-     CheckVerdict::measure_again,
-     model::Change::pitch,
-     [](model::Machine& machine, Random&) { grow(machine, "both"); }},
-    {"PitchOfTheLeftChainGrown",
-     CheckVerdict::measure_again,
-     model::Change::pitch,
-     [](model::Machine& machine, Random&) { grow(machine, "left"); }},
-    {"PitchOfTheRightChainGrown",
-     CheckVerdict::measure_again,
-     model::Change::pitch,
-     [](model::Machine& machine, Random&) { grow(machine, "right"); }},
-};
-
-class AfterSomething : public testing::TestWithParam<Case> {};
-
-TEST_P(AfterSomething, IsRightInNineteenOfTwentyCasesAtThePlannedPoints) {
-  constexpr int kEach = 100;
-  int right = 0;
-  int named = 0;
-  int count = 0;
-  int mended = 0;
-  double new_zero2 = 0.0;
-  for (std::size_t m = 0; m < machines().size(); ++m) {
-    const MeasuredMachine& one = machines()[m];
-    for (int k = 0; k < kEach; ++k) {
-      Random random(static_cast<std::uint64_t>(k), m + 40);
-      model::Machine machine = one.truth;
-      GetParam().happens(machine, random);
-      const auto check = check_map(one.map, measured_at(one.planned, machine, random));
-      ASSERT_TRUE(check) << check.error().sentence();
-      ++count;
-      right += check->verdict == GetParam().verdict;
-      named += check->hypotheses.front().what == GetParam().what;
-      if (check->verdict != CheckVerdict::valid_after_rezeroing) continue;
-      ++mended;
-      new_zero2 += std::pow(check->new_zero_mm[0] - one.map.machine()->chain_zero.left_mm -
-                                (machine.chain_zero.left_mm - one.truth.chain_zero.left_mm),
-                            2);
-    }
-  }
-  fmt::print("{}: {} of {} right, {} named\n", GetParam().name, right, count, named);
-  EXPECT_GE(right, 0.95 * count) << "of " << count;
-  EXPECT_GE(named, 0.95 * count) << "of " << count;
-  if (GetParam().verdict == CheckVerdict::valid_after_rezeroing) {
-    EXPECT_LT(std::sqrt(new_zero2 / mended), 0.4)
-        << "mm; five readings of 0.3 mm and the map's error";
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(All, AfterSomething, testing::ValuesIn(kCases), [](const auto& one) {
-  return std::string(one.param.name);
-});
-
-// Widely spaced points are sufficient for most changes; growth of one chain alone is detected less
-// reliably there.
-TEST(MapCheck, CornersAndTheMiddleTellOneChainsGrowthInNineOfTen) {
-  constexpr int kDraws = 2400;
-  for (const char* side : {"left", "right"}) {
-    int right = 0;
-    for (int k = 0; k < kDraws; ++k) {
-      Random random(static_cast<std::uint64_t>(k), 77);
-      const MeasuredMachine& one = machines()[static_cast<std::size_t>(k) % machines().size()];
-      model::Machine machine = one.truth;
-      grow(machine, side);
-      const auto check = check_map(one.map, five_points(machine, random));
-      ASSERT_TRUE(check);
-      right += check->verdict == CheckVerdict::measure_again;
-    }
-    fmt::print("corners and middle, {} chain grown: {} of {} right\n", side, right, kDraws);
-    EXPECT_GE(right, 0.9 * kDraws) << side;
+TEST(MapCheck, FindsWhatChangedFromThePlannedPoints) {
+  for (const testing_support::MachineChange& change : testing_support::machine_changes()) {
+    SCOPED_TRACE(testing::Message() << change.name << ", seeds 1 and 40");
+    Random random(1, 40);
+    model::Machine changed = mapped().truth;
+    change.happens(changed, random);
+    const auto check = check_map(mapped().map, read_at(mapped().planned, changed, random));
+    ASSERT_TRUE(check) << check.error().sentence();
+    EXPECT_EQ(check->verdict, change.verdict);
+    EXPECT_EQ(check->hypotheses.front().what, change.what);
+    if (check->verdict != CheckVerdict::valid_after_rezeroing) continue;
+    // Five readings of 0.3 mm and the map's own error: 0.4 mm; three of these.
+    EXPECT_NEAR(check->new_zero_mm[0] - mapped().map.machine()->chain_zero.left_mm,
+                changed.chain_zero.left_mm - mapped().truth.chain_zero.left_mm,
+                1.2);
   }
 }
 
@@ -184,7 +67,7 @@ double together(const model::PerSide<double>& sigmas) {
 }
 
 TEST(CheckPlan, NoSinglePointMovedTellsMore) {
-  const MeasuredMachine& one = machines()[1];
+  const MeasuredMachine& one = mapped();
   const CheckPlanRequest request;
   const auto plan = plan_check(one.map, request);
   ASSERT_TRUE(plan);
@@ -205,7 +88,7 @@ TEST(CheckPlan, NoSinglePointMovedTellsMore) {
 TEST(CheckPlan, WithPoorReadingsGrowthIsAllOfTheLengthsOverTheNoise) {
   // If readings are far less accurate than the map and than any shift of a zero, nothing else has
   // this signature: it is known by e |l| / sigma, l the lengths at the points.
-  const MeasuredMachine& one = machines()[2];
+  const MeasuredMachine& one = mapped();
   constexpr double kPoorMm = 200.0;
   const auto reply = expected_sigmas(one.map, kFive, {.length_mm = kPoorMm});
   ASSERT_TRUE(reply);
@@ -225,20 +108,20 @@ TEST(CheckPlan, WithPoorReadingsGrowthIsAllOfTheLengthsOverTheNoise) {
 }
 
 TEST(CheckPlan, MorePointsAndFinerReadingsTellMore) {
-  const CompensationMap& map = machines()[3].map;
+  const CompensationMap& map = mapped().map;
   const double five = together(plan_check(map, {})->expected_sigmas);
   EXPECT_GT(together(plan_check(map, {.points = 7})->expected_sigmas), five);
   EXPECT_GT(together(plan_check(map, {.length_mm = 0.1})->expected_sigmas), five);
 }
 
 TEST(CheckPlan, NumbersOutOfRangeThrow) {
-  EXPECT_THROW((void)plan_check(machines()[0].map, {.points = 2}), std::invalid_argument);
-  EXPECT_THROW((void)plan_check(machines()[0].map, {.margin_mm = 700.0}), std::invalid_argument);
+  EXPECT_THROW((void)plan_check(mapped().map, {.points = 2}), std::invalid_argument);
+  EXPECT_THROW((void)plan_check(mapped().map, {.margin_mm = 700.0}), std::invalid_argument);
 }
 
 TEST(MapCheck, ProbabilitiesSumToOneAndFollowTheVerdicts) {
   Random random(3);
-  const auto check = check_map(machines()[0].map, five_points(machines()[0].truth, random));
+  const auto check = check_map(mapped().map, five_points(mapped().truth, random));
   double sum = 0.0;
   std::array<double, 3> by_verdict{};
   for (const CheckHypothesis& hypothesis : check->hypotheses) {
@@ -252,12 +135,12 @@ TEST(MapCheck, ProbabilitiesSumToOneAndFollowTheVerdicts) {
 
 TEST(MapCheck, WhatOnePointCannotTellIsSaid) {
   // One point, 1 mm too long on one chain: a zero, a pitch, or the point itself.
-  model::Machine machine = machines()[0].truth;
+  model::Machine machine = mapped().truth;
   machine.chain_zero.left_mm += 1.5;
   Random random(9);
   MeasuredGrid grid = five_points(machine, random);
   grid.points.resize(1);
-  const auto check = check_map(machines()[0].map, grid);
+  const auto check = check_map(mapped().map, grid);
   ASSERT_TRUE(check);
   EXPECT_THAT(check->not_separable, HasSubstr("These points cannot tell apart"));
   EXPECT_FALSE(check->is_valid_as_it_is());
@@ -265,9 +148,9 @@ TEST(MapCheck, WhatOnePointCannotTellIsSaid) {
 
 TEST(MapCheck, APointThatIsWrongByItselfIsNamed) {
   Random random(5);
-  MeasuredGrid grid = five_points(machines()[1].truth, random);
+  MeasuredGrid grid = five_points(mapped().truth, random);
   grid.points[3].lengths->left_mm += 14.0;
-  const auto check = check_map(machines()[1].map, grid);
+  const auto check = check_map(mapped().map, grid);
   EXPECT_EQ(check->hypotheses.front().what, model::Change::bad_point);
   EXPECT_THAT(check->sentence, HasSubstr("Measure point 4 again"));
   EXPECT_THAT(files::write_map_check(*check), HasSubstr("\"point\": 3"));
@@ -318,7 +201,7 @@ void expect_equal(const std::vector<double>& a, const std::vector<double>& b, do
 TEST(MapCheck, RepeatsOfAMarkSayWhatTheyWouldOneByOne) {
   constexpr std::uint64_t kSeed = 19;
   SCOPED_TRACE(kSeed);
-  const MeasuredMachine& one = machines()[2];
+  const MeasuredMachine& one = mapped();
   model::Machine machine = one.truth;
   machine.chain_zero.left_mm += 0.3;  // several hypotheses are left
   Random random(kSeed);
@@ -374,68 +257,45 @@ MeasuredGrid on_a_sheet(const model::SheetPlacement& sheet,
     const model::BedPoint place = sheet.to_bed(mark);
     places.push_back({place.x_mm, place.y_mm});
   }
-  MeasuredGrid grid = measured_at(places, machine, random);
+  MeasuredGrid grid = read_at(places, machine, random);
   for (std::size_t i = 0; i < kFive.size(); ++i) grid.points[i].mark = kFive[i];
   grid.sheet = SheetUncertainty{20.0, 10.0};
   return grid;
 }
 
-/// Number of the machines' checks with a verdict.
-int verdicts(CheckVerdict wanted, const std::function<MeasuredGrid(const MeasuredMachine&)>& made) {
-  int count = 0;
-  for (const MeasuredMachine& one : machines()) {
-    const auto check = check_map(one.map, made(one));
-    EXPECT_TRUE(check) << check.error().sentence();
-    count += check && check->verdict == wanted ? 1 : 0;
-  }
-  return count;
-}
-
-/// Of 24 checks, each right with 95 %, fewer than 20 are right once in 170 times.
-constexpr int kMostOf24 = 20;
-
 TEST(MapCheck, ASheetLaidAsideIsNoChangeOfTheMachine) {
   Random random(31);
-  const model::SheetPlacement aside{10.0, 0.0, 0.005};
-  EXPECT_GE(verdicts(CheckVerdict::valid,
-                     [&](const auto& one) { return on_a_sheet(aside, one.truth, random); }),
-            kMostOf24);
+  SCOPED_TRACE("seed 31");
+  MeasuredGrid grid = on_a_sheet({10.0, 0.0, 0.005}, mapped().truth, random);
+  EXPECT_EQ(check_map(mapped().map, grid)->verdict, CheckVerdict::valid);
   // A sheet stated to lie exactly is assumed to do so.
-  EXPECT_EQ(verdicts(CheckVerdict::measure_again,
-                     [&](const auto& one) {
-                       MeasuredGrid grid = on_a_sheet(aside, one.truth, random);
-                       grid.sheet.reset();
-                       return grid;
-                     }),
-            24);
+  grid.sheet.reset();
+  EXPECT_EQ(check_map(mapped().map, grid)->verdict, CheckVerdict::measure_again);
 }
 
 TEST(MapCheck, AChainThatSkippedAToothIsFoundOnASheetLaidAside) {
   Random random(32);
-  EXPECT_GE(verdicts(CheckVerdict::valid_after_rezeroing,
-                     [&](const auto& one) {
-                       model::Machine moved = one.truth;
-                       moved.chain_zero.left_mm += 6.35;
-                       return on_a_sheet({10.0, 0.0, 0.005}, moved, random);
-                     }),
-            kMostOf24);
+  model::Machine skipped = mapped().truth;
+  skipped.chain_zero.left_mm += 6.35;
+  const auto check = check_map(mapped().map, on_a_sheet({10.0, 0.0, 0.005}, skipped, random));
+  EXPECT_EQ(check->verdict, CheckVerdict::valid_after_rezeroing) << "seed 32";
 }
 
 TEST(MapCheck, AHandLaidSheetWhoseSigmasAreNothingIsAnExactOne) {
   Random random(33);
-  MeasuredGrid exact = five_points(machines()[0].truth, random);
+  MeasuredGrid exact = five_points(mapped().truth, random);
   MeasuredGrid laid = exact;
   laid.sheet = SheetUncertainty{0.0, 0.0};
   // A sheet held to 1e-6 mm and 1e-9 rad against noise of 0.3 mm.
-  expect_equal(of_the_machine(machines()[0].map, {"exact", exact}),
-               of_the_machine(machines()[0].map, {"laid", laid}),
+  expect_equal(of_the_machine(mapped().map, {"exact", exact}),
+               of_the_machine(mapped().map, {"laid", laid}),
                1e-6);
 }
 
 TEST(MapCheck, EffectsOfPaperAndVisitAreTakenOutOfTheNewReadings) {
-  Random random(34);
-  const auto with_effect = [&](const MeasuredMachine& one, model::AppliedEffect effect, bool known) {
-    model::Machine disturbed = one.truth;
+  const auto verdict = [](const model::AppliedEffect& effect, bool known) {
+    Random random(34);
+    model::Machine disturbed = mapped().truth;
     disturbed.effects.push_back(effect);
     const model::MarkFrame marks(disturbed);
     std::vector<model::Visit> visits;
@@ -451,27 +311,21 @@ TEST(MapCheck, EffectsOfPaperAndVisitAreTakenOutOfTheNewReadings) {
                                         read[i].right_mm + kNoiseMm * random.normal()};
       grid.points.push_back({kFive[i], lengths, {}, static_cast<int>(i)});
     }
-    return grid;
+    return check_map(mapped().map, grid)->verdict;
   };
   const model::AppliedEffect effects[] = {{"tape_scale", "both", {{"scale", 0.003}}},
                                           {"drift", "left", {{"rate_mm_per_visit", 1.0}}}};
   for (const model::AppliedEffect& effect : effects) {
-    SCOPED_TRACE(effect.effect);
-    EXPECT_GE(verdicts(CheckVerdict::valid,
-                       [&](const auto& one) { return with_effect(one, effect, true); }),
-              kMostOf24);
-    EXPECT_LT(verdicts(CheckVerdict::valid,
-                       [&](const auto& one) { return with_effect(one, effect, false); }),
-              kMostOf24)
-        << "large enough to be noticed";
+    EXPECT_EQ(verdict(effect, true), CheckVerdict::valid) << effect.effect << ", seed 34";
+    EXPECT_NE(verdict(effect, false), CheckVerdict::valid) << effect.effect << ", seed 34";
   }
 }
 
 TEST(MapCheck, APointOffTheMapIsSaid) {
   Random random(2);
-  MeasuredGrid grid = five_points(machines()[0].truth, random);
+  MeasuredGrid grid = five_points(mapped().truth, random);
   grid.points[0].mark = {5000.0, 0.0};
-  const auto check = check_map(machines()[0].map, grid);
+  const auto check = check_map(mapped().map, grid);
   ASSERT_FALSE(check);
   EXPECT_EQ(check.error().reason, CheckFailure::Reason::unreachable);
   EXPECT_THAT(check.error().sentence(), HasSubstr("(5000.0, 0.0)"));

