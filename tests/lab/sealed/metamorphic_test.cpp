@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "generator/hidden/random.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/reading_model.hpp"
 #include "sealed/posed.hpp"
@@ -27,41 +26,6 @@ generator::SealedSet drawn(std::uint64_t seed) {
   generator::Recipe recipe;
   recipe.kind = Mix::single;
   return generator::draw_set(recipe, seed);
-}
-
-void expect_same(const Diagnosis& a, const Diagnosis& b) {
-  EXPECT_EQ(a.verdict, b.verdict);
-  ASSERT_EQ(ids(a), ids(b));
-  for (std::size_t i = 0; i < a.causes.size(); ++i) {
-    EXPECT_EQ(a.causes[i].probability, b.causes[i].probability);
-    for (std::size_t k = 0; k < a.causes[i].parameters.size(); ++k) {
-      EXPECT_EQ(a.causes[i].parameters[k].value, b.causes[i].parameters[k].value);
-    }
-  }
-  ASSERT_EQ(a.hypotheses.size(), b.hypotheses.size());
-  for (std::size_t i = 0; i < a.hypotheses.size(); ++i) {
-    EXPECT_EQ(a.hypotheses[i].effect, b.hypotheses[i].effect);
-    EXPECT_EQ(a.hypotheses[i].probability, b.hypotheses[i].probability);
-  }
-}
-
-TEST(Metamorphic, SameDataSameAnswer) {
-  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    const auto grid = read(drawn(seed));
-    expect_same(diagnosed(grid), diagnosed(grid));
-  }
-}
-
-TEST(Metamorphic, TheOrderOfLinesInTheFileSaysNothing) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    auto grid = read(drawn(seed));
-    const Diagnosis before = diagnosed(grid);
-    generator::Dice dice(seed, "shuffled lines");
-    dice.shuffle(grid.points);
-    expect_same(before, diagnosed(grid));
-  }
 }
 
 std::string mirrored(std::string id) {

@@ -65,13 +65,4 @@ std::vector<Trial> trials(TrialOptions options, std::uint64_t first, int count) 
   return all;
 }
 
-std::vector<std::uint64_t> seeds_without(const std::vector<Trial>& trials,
-                                         bool (*right)(const Trial&)) {
-  std::vector<std::uint64_t> seeds;
-  for (const Trial& trial : trials) {
-    if (!right(trial)) seeds.push_back(trial.seed);
-  }
-  return seeds;
-}
-
 }  // namespace chaintrue::sealed

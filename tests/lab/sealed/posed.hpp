@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Shared by the tests of the diagnosis: sets with given effects, and the seeds of sets that are
-/// not right.
+/// Shared by the tests of the diagnosis: sets with given effects.
 #pragma once
 
 #include <initializer_list>
@@ -31,9 +30,5 @@ namespace chaintrue::sealed {
 
 /// Trials of seeds first .. first + count - 1.
 [[nodiscard]] std::vector<Trial> trials(TrialOptions options, std::uint64_t first, int count);
-/// The seeds of trials without the property, which a test freezes: an allowance of misses would
-/// hide a change.
-[[nodiscard]] std::vector<std::uint64_t> seeds_without(const std::vector<Trial>& trials,
-                                                       bool (*right)(const Trial&));
 
 }  // namespace chaintrue::sealed

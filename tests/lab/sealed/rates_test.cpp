@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// An excerpt of the frozen sealed sets, each of which must have its stored outcome: a rate cannot
-/// be tested on a few dozen sets, a change of any of them can. The rates are those of
-/// build/sealed_rates (docs/diagnosis_rates.md).
+/// The stored outcomes of the sealed sets and their table; build/sealed_rates compares a version with them
+/// (docs/diagnosis_rates.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,33 +27,6 @@ std::string text_in(const std::string& name) {
 }
 
 std::vector<Outcome> outcomes_in(const std::string& name) { return parse_outcomes(text_in(name)); }
-
-class Excerpt : public testing::TestWithParam<std::string> {};
-
-// If a change is intended: build/sealed_rates new.txt --against fixtures/sealed/excerpt.txt
-// rewrites the file, once the whole list is not worse.
-TEST_P(Excerpt, HasTheFrozenOutcome) {
-  int sets = 0;
-  for (const Outcome& frozen : outcomes_in("excerpt.txt")) {
-    if (frozen.kind != GetParam()) continue;
-    ++sets;
-    EXPECT_EQ(line_of(run_set({frozen.kind, frozen.seed})), line_of(frozen));
-  }
-  EXPECT_GE(sets, 5);
-}
-
-INSTANTIATE_TEST_SUITE_P(Rates,
-                         Excerpt,
-                         testing::ValuesIn(kinds()),
-                         [](const auto& kind) { return kind.param; });
-
-// The excerpt may be rewritten, the frozen outcomes may not: the excerpt is compared with them.
-TEST(Rates, TheExcerptIsOfTheFrozenSetsAndNotWorse) {
-  const std::vector<Outcome> excerpt = outcomes_in("excerpt.txt");
-  const Comparison comparison = compare(outcomes_in("outcomes.txt"), excerpt);
-  EXPECT_EQ(comparison.sets, static_cast<int>(excerpt.size()));
-  EXPECT_FALSE(comparison.worse()) << comparison_table(comparison);
-}
 
 TEST(Rates, TheFrozenTableIsOfTheFrozenOutcomes) {
   const std::vector<Outcome> frozen = outcomes_in("outcomes.txt");

@@ -62,7 +62,6 @@ TEST(Road, WornChainAndBendingBeamMakeATruerMapOnceTheyAreFound) {
                                {Cause::beam_flex, Where::nowhere, 0.012}},
                               60,
                               seed);
-    fmt::print("seed {}: plain {:.3f} mm, with causes {:.3f} mm\n", seed, road.plain_mm(), road.own_mm());
     EXPECT_THAT(road.own.built_on, Not(IsEmpty())) << "seed " << seed;
     plain_mm2 += std::pow(road.plain_mm(), 2);
     own_mm2 += std::pow(road.own_mm(), 2);
@@ -73,7 +72,6 @@ TEST(Road, WornChainAndBendingBeamMakeATruerMapOnceTheyAreFound) {
 TEST(Road, ASkippedToothIsTakenOutOfTheReadingsAndNotFitted) {
   for (const std::uint64_t seed : {1, 2}) {
     const Road road = road_of({{Cause::tooth_skip, Where::left, 1.0, 16.0}}, 28, seed);
-    fmt::print("seed {}: plain {:.3f} mm, with causes {:.3f} mm\n", seed, road.plain_mm(), road.own_mm());
     ASSERT_THAT(road.own.built_on, SizeIs(1)) << "seed " << seed;
     EXPECT_EQ(road.own.built_on.front().cause.effect->id, "tooth_skip");
     // A map of 34 readings of 0.4 mm is good to some 0.25 mm; 0.5 is twice that.
@@ -100,11 +98,6 @@ TEST(Road, AZeroThatMovesOnTheWayIsTakenOutOfTheReadings) {
     const auto before = map_errors(set, plain->map);
     const auto after = map_errors(set, own->fit.map);
     ASSERT_TRUE(before && after);
-    fmt::print("{} mm: plain {:.3f} mm, with causes {:.3f} mm at {:.3f} stated\n",
-               hidden.size,
-               before->true_rms_mm,
-               after->true_rms_mm,
-               after->stated_rms_mm);
     ASSERT_THAT(own->built_on, SizeIs(1)) << hidden.size;
     const auto& cause = own->built_on.front();
     EXPECT_TRUE(cause.cause.effect->id == "zero_shift" ||
@@ -129,11 +122,6 @@ TEST(Road, ASessionWithAnotherZeroDoesNotPullTheMap) {
     const auto of_alone = map_errors(set, alone->map);
     const auto of_both = map_errors(set, both->map);
     ASSERT_TRUE(of_alone && of_both);
-    fmt::print("seed {}: first alone {:.3f} mm, both {:.3f} mm at {:.3f} stated\n",
-               seed,
-               of_alone->true_rms_mm,
-               of_both->true_rms_mm,
-               of_both->stated_rms_mm);
     // Over 400 places of one map true and stated differ by chance, which has some seven free
     // directions: 1.8 is beyond 2 in 1000 of them.
     EXPECT_LT(of_both->true_rms_mm, 1.8 * of_both->stated_rms_mm);

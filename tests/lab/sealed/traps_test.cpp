@@ -11,6 +11,7 @@
 
 #include "generator/hidden/strength.hpp"
 #include "grid/files/grid_file.hpp"
+#include "sealed/judge/binomial.hpp"
 #include "sealed/posed.hpp"
 
 namespace chaintrue::sealed {
@@ -138,30 +139,6 @@ TEST(Traps, WithoutAnOrderHysteresisIsTestableWhereTheReadingsSayTheOrder) {
   }
 }
 
-TEST(Traps, SwappedColumnsAreSaidToBeSwapped) {
-  grid::MeasuredGrid grid = read(posed({}, Order::rows, 4));
-  for (auto& p : grid.points) std::swap(p.lengths->left_mm, p.lengths->right_mm);
-  const auto found = grid::diagnosis::diagnose(grid);
-  ASSERT_FALSE(found);
-  EXPECT_THAT(found.error().sentence(), HasSubstr("left_mm and right_mm look swapped"));
-  EXPECT_THROW((void)grid::files::parse_grid(grid::files::write_grid(grid), "swapped.json"),
-               grid::files::InputError);
-}
-
-TEST(Traps, InchesAreRefusedWhereTheFileIsRead) {
-  grid::MeasuredGrid grid = read(posed({}, Order::rows, 4));
-  for (auto& p : grid.points) {
-    p.lengths->left_mm /= 25.4;
-    p.lengths->right_mm /= 25.4;
-  }
-  try {
-    (void)grid::files::parse_grid(grid::files::write_grid(grid), "inches.json");
-    FAIL() << "read without a word";
-  } catch (const grid::files::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("inch"));
-  }
-}
-
 TEST(Traps, ExchangedPointsAreTheTwoBadOnes) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -194,7 +171,7 @@ TEST(Traps, TheTapesErrorStaysOutOfTheMachine) {
   }
 }
 
-// An effect too small to be detected is below its bound.
+// An effect too small to be detected is below its bound of 95 %.
 TEST(Traps, BoundsHold) {
   int held = 0, bounded = 0;
   for (const auto& card : generator::cards()) {
@@ -205,7 +182,7 @@ TEST(Traps, BoundsHold) {
     Hidden one[] = {{card.cause, Where::nowhere, card.usual, 0.0}};
     one[0].size *= 2.0 / yardstick->signature(one)->norm();
     if (one[0].size > card.upper) continue;
-    for (std::uint64_t seed = 6; seed <= 7; ++seed) {
+    for (std::uint64_t seed = 6; seed < 26; ++seed) {
       const Diagnosis found = diagnosed(read(posed({one[0]}, Order::random, seed)));
       for (const auto& b : found.bounds) {
         if (b.cause.effect->id != card.id || b.parameter != card.size_name) continue;
@@ -215,9 +192,10 @@ TEST(Traps, BoundsHold) {
       }
     }
   }
-  // Of these seeds; a bound of 95 % may be too small in one of twenty.
-  EXPECT_EQ(bounded, 14);
-  EXPECT_EQ(held, 14);
+  // Fails by chance once in a thousand runs, and in 99 of 100 where bounds hold in 80 % of 140 sets.
+  EXPECT_GT(bounded, 100) << "seeds 6 to 25";
+  EXPECT_GT(probability_of_at_least(bounded - held, bounded, 0.05), 1e-3)
+      << held << " of " << bounded << ", seeds 6 to 25";
 }
 
 }  // namespace
