@@ -7,15 +7,19 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "tests/inputs/input_folder.hpp"
+#include "tests/inputs/invocations.hpp"
 #include "torture/invocations.hpp"
 
 namespace chaintrue::torture {
 namespace {
 
 namespace fs = std::filesystem;
+using inputs::Option;
 
 constexpr int kMisused = 2;  ///< the command's own exit codes
 constexpr int kRefused = 3;
@@ -61,12 +65,12 @@ std::string joined(const std::vector<std::string>& words) {
 Campaign::Campaign(Command command, fs::path fixtures, fs::path failures, std::uint64_t seed)
     : command_(std::move(command)), failures_(std::move(failures)), seed_(seed), mutate_(seed) {
   prepare(fixtures);
-  for (const std::string& verb : verbs_of(command_)) {
-    const auto is_of_verb = [&](const auto& arguments) { return verb_of(arguments) == verb; };
-    if (std::none_of(invocations().begin(), invocations().end(), is_of_verb))
-      throw std::runtime_error("no invocation is known of the verb: " + verb);
-    options_[verb] = options_of(command_, verb);
-  }
+  const auto help_of = [this](const std::string& verb) {
+    std::istringstream words(verb + " --help");
+    return command_.run({std::istream_iterator<std::string>(words), {}}).out;
+  };
+  for (const std::string& verb : inputs::verbs_in(help_of))
+    options_[verb] = inputs::options_in(help_of(verb));
 }
 
 void Campaign::write(const std::string& name, const std::string& text) const {
@@ -75,16 +79,10 @@ void Campaign::write(const std::string& name, const std::string& text) const {
 
 void Campaign::prepare(const fs::path& fixtures) {
   for (const auto& [name, from] : copied_files()) fs::copy_file(fixtures / from, at(name));
-  write("points.csv", "x_mm,y_mm\n0,0\n100,200\n-900,-400\n");
-  std::string sweep = content_of(fixtures / "sweeps/quick.json");
-  const std::string place = "../machines/classic.json";
-  sweep.replace(sweep.find(place), place.size(), "machine.json");
-  write("sweep.json", sweep);
-  for (const auto& arguments : makers()) {
-    const Ended ended = command_.run(arguments);
-    if (ended.code != 0)
-      throw std::runtime_error("could not be prepared:" + joined(arguments) + "\n" + ended.err);
-  }
+  const inputs::InputFolder folder;
+  for (const std::string& name : folder.names()) write(name, folder.text_of(name));
+  if (command_.run({"sweep", "sweep.json", "-o", "whole"}).code != 0)
+    throw std::runtime_error("the sweep could not be prepared");
   sweep_results_ = content_of(at("whole") / "results.csv");
   fs::remove_all(at("whole"));
   for (const auto& entry : fs::directory_iterator(command_.folder()))
@@ -175,8 +173,8 @@ Campaign::Case Campaign::damaged_input() {
 }
 
 Campaign::Case Campaign::tampered_file() {
-  const Sealed& sealed = mutate_.one_of(sealed_files());
-  const std::string& original = permanent_.at(sealed.file);
+  const Reading reading = mutate_.one_of(readings_of_hashed_files());
+  const std::string& original = permanent_.at(reading.seed_file);
   std::string text = mutate_.with_number(
       original, mutate_.below(2) == 0 ? Mutator::NumberKind::odd : Mutator::NumberKind::near);
   // Another text may be the same number (0 for -0), and a comment may be anything.
@@ -189,20 +187,22 @@ Campaign::Case Campaign::tampered_file() {
     const std::size_t hash = text.rfind(",\n  \"content_hash\"");
     if (hash != std::string::npos) text = text.substr(0, hash) + "\n}\n";
   }
-  const std::string in = "in_" + sealed.file;
+  const std::string in = "in_" + reading.seed_file;
   write(in, text);
-  const std::vector<std::string>& use = mutate_.one_of(sealed.uses);
-  const std::string out = output_of(use);
-  return {"tampered " + sealed.file + (as_old ? " of version 1.0" : ""),
-          with(use, in, out),
+  const std::string out = output_of(reading.arguments);
+  return {"tampered " + reading.seed_file + (as_old ? " of version 1.0" : ""),
+          with(reading.arguments, in, out),
           {in},
           {out},
           must_be_refused && !as_old};
 }
 
 std::string Campaign::any_text(const Option& option) {
-  const std::vector<std::string>& good =
-      option.choices.empty() ? good_texts(option.name) : option.choices;
+  std::vector<std::string> good =
+      option.choices.empty() ? inputs::values_of(option.name) : option.choices;
+  for (std::string& value : good) {
+    if (value.starts_with('@')) value.erase(0, 1);
+  }
   const std::size_t way = mutate_.below(10);
   if (way < 4 && !good.empty()) return mutate_.one_of(good);
   if (way < 6 && !good.empty()) return mutate_.damaged(mutate_.one_of(good));
@@ -243,7 +243,7 @@ void Campaign::add(const Option& option, Case& what) {
     return;
   }
   const auto value = [&] {
-    if (is_output(option.name)) return any_output(what);
+    if (inputs::is_output(option.name)) return any_output(what);
     return option.type == "TEXT" ? any_text(option) : mutate_.odd_number();
   };
   if (stands != what.arguments.end() && std::next(stands) != what.arguments.end()) {
@@ -259,19 +259,21 @@ void Campaign::add(const Option& option, Case& what) {
 Campaign::Case Campaign::odd_options() {
   const auto& [verb, options] =
       *std::next(options_.begin(), static_cast<std::ptrdiff_t>(mutate_.below(options_.size())));
-  std::vector<std::vector<std::string>> calls;
-  std::copy_if(invocations().begin(),
-               invocations().end(),
-               std::back_inserter(calls),
+  std::vector<std::vector<std::string>> own;
+  std::copy_if(calls().begin(),
+               calls().end(),
+               std::back_inserter(own),
                [&](const auto& arguments) { return verb_of(arguments) == verb; });
-  const std::vector<std::string>& call = mutate_.one_of(calls);
+  const std::vector<std::string>& call = mutate_.one_of(own);
   Case what{"odd options, " + verb,
             with(call, "", output_of(call)),
             {},
             {"out", "out.html", "out2.html", "nowhere"}};
   for (std::string& word : what.arguments) {
-    const std::size_t number = word.find("NUMBER");
-    if (number != std::string::npos) word.replace(number, 6, mutate_.odd_number());
+    // A number by itself, or the line of a program.
+    const std::size_t digits = word.find_first_of("0123456789", word.find(':') + 1);
+    if (word.find_first_not_of("0123456789", digits) == std::string::npos && mutate_.below(2) == 0)
+      word.replace(digits, std::string::npos, mutate_.odd_number());
   }
   if (options.empty()) return what;
   for (std::size_t left = 1 + mutate_.below(3); left > 0; --left)

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "torture/help.hpp"
+#include "tests/inputs/help.hpp"
 #include "torture/mutation.hpp"
 #include "torture/run.hpp"
 
@@ -50,9 +50,9 @@ class Campaign {
   [[nodiscard]] Case tampered_file();
   [[nodiscard]] Case odd_options();
   /// A value that a user or a script may give to such an option.
-  [[nodiscard]] std::string any_text(const Option& option);
+  [[nodiscard]] std::string any_text(const inputs::Option& option);
   [[nodiscard]] std::string any_output(const Case& what);
-  void add(const Option& option, Case& what);
+  void add(const inputs::Option& option, Case& what);
   void resume_a_damaged_sweep();
   void kill_while_writing();
   void kill_a_sweep();
@@ -75,7 +75,7 @@ class Campaign {
   std::uint64_t number_ = 0;
   Mutator mutate_;
   std::map<std::string, std::string> permanent_;        ///< name and content
-  std::map<std::string, std::vector<Option>> options_;  ///< by verb
+  std::map<std::string, std::vector<inputs::Option>> options_;  ///< by verb
   std::string sweep_results_;
   std::map<std::string, Tally> tallies_;
 };

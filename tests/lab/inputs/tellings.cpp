@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/inputs/option_cells.hpp"
+#include "tests/lab/inputs/tellings.hpp"
 
 #include <string>
 
-#include "tests/inputs/log_server.hpp"
+#include "tests/lab/inputs/log_server.hpp"
 
 namespace chaintrue::inputs {
 namespace {
-
-namespace facts = cli::facts;
-
-constexpr const char* kAskMap = "query map.json 0 0 700 300 1200 600 -1180 590 --json";
 
 constexpr const char* kCheckOfCommands =
     "check @map.json @commanded.csv --machine @classic.json --noise-length-mm 0.2 --noise-position-mm 0.3";
@@ -34,115 +30,21 @@ const std::string& mute_line() {
 
 }  // namespace
 
-const std::vector<Use>& uses() {
-  static const std::vector<Use> all = {
-      {"grid", "fit", facts::grid | facts::one_grid | facts::residual | facts::no_causes, "fit @placed.json -o map.json", kAskMap},
-      {"csv", "fit", facts::grid | facts::one_grid | facts::residual | facts::no_causes | facts::table,
-       "fit @grid.csv --machine @classic.json -o map.json", kAskMap},
-      {"causes", "fit", facts::grid | facts::one_grid | facts::residual | facts::causes,
-       "fit @worn_both.json --causes -o map.json", kAskMap},
-      {"direct", "fit", facts::grid | facts::one_grid | facts::direct | facts::table,
-       "fit @lattice.csv --surface direct -o map.json", "query map.json 0 0 700 300 350 -150 1200 600 --json; query map.json 0 0 --frame bed"},
-      {"fade", "fit", facts::grid | facts::one_grid | facts::residual | facts::no_causes | facts::fade,
-       "fit @placed.json --outside fade -o map.json", kAskMap},
-      {"holes", "fit", facts::holes | facts::residual | facts::no_causes, "fit @holes.json -o map.json", kAskMap},
-      {"mix", "fit", facts::grid | facts::holes | facts::residual | facts::no_causes,
-       "fit @grid.json --with @holes.json -o map.json", kAskMap},
-      {"belts", "fit", facts::belts | facts::residual | facts::no_causes, "fit @belts.json -o anchors.json"},
-      {"belts_and_holes", "fit", facts::belts | facts::belt_holes | facts::residual | facts::no_causes,
-       "fit @belts.json --with @belt_holes.json -o anchors.json"},
-      {"belt_holes", "fit", facts::belt_holes | facts::residual | facts::no_causes,
-       "fit @belt_holes.json -o anchors.json"},
-      {"drawing", "fit", facts::drawing, "fit @drawing.json -o found.json"},
-      {"grid", "diagnose", facts::grid | facts::one_grid, "diagnose @worn.json -o d.json"},
-      {"csv", "diagnose", facts::grid | facts::one_grid | facts::table,
-       "diagnose @grid.csv --machine @classic.json -o d.json"},
-      {"holes", "diagnose", facts::holes, "diagnose @holes.json -o d.json"},
-      {"mix", "diagnose", facts::grid | facts::holes,
-       "diagnose @grid.json --with @holes.json -o d.json"},
-      {"belts", "diagnose", facts::belts, "diagnose @belts.json -o d.json"},
-      {"drawing", "diagnose", facts::drawing, "diagnose @drawing.json -o d.json"},
-      {"grid", "check", facts::map | facts::grid, "check @map.json @few.json"},
-      {"csv", "check", facts::map | facts::grid | facts::table, "check @map.json @few.csv"},
-      {"holes", "check", facts::map | facts::holes, "check @map.json @holes.json"},
-      {"mix", "check", facts::map | facts::grid | facts::holes,
-       "check @map.json @few.json --with @holes.json"},
-      {"belts", "check", facts::anchors, "check @anchors.json @few_belts.json"},
-      {"marks", "plan", facts::lattice, "plan --machine @classic.json --points 12"},
-      {"program", "plan", facts::lattice | facts::program | facts::drilled,
-       "plan --machine @classic.json --points 12 --measure places --gcode marks.nc"},
-      {"holes", "plan", facts::tape, "plan --machine @classic.json --holes 6"},
-      {"check", "plan", facts::check, "plan --check @map.json"},
-      {"after_grid", "plan", facts::follow_up | facts::grid,
-       "plan @worn.json --after @worn_diagnosis.json"},
-      {"after_holes", "plan", facts::follow_up | facts::holes,
-       "plan @holes.json --after @holes_diagnosis.json"},
-      {"after_belts", "plan", facts::follow_up | facts::belts,
-       "plan @belts.json --after @belts_diagnosis.json"},
-      {"measured", "passes", facts::measured, "passes @holes.json @holes2.json"},
-      {"simulated", "passes", facts::simulated, "passes --machine @classic.json --passes 2"},
-      {"grid", "simulate", facts::lattice,
-       "simulate --machine @classic.json --grid 4x3 --length-noise-mm 0.2 --position-noise-mm 0.3"},
-      {"random", "simulate", facts::scattered,
-       "simulate --machine @classic.json --random 9 --length-noise-mm 0.2 --position-noise-mm 0.3"},
-      {"marks", "simulate", facts::marks,
-       "simulate --machine @classic.json --marks @marks.csv --length-noise-mm 0.2 "
-       "--position-noise-mm 0.3"},
-      {"places", "simulate", facts::places, "simulate --machine @classic.json --points @marks.csv"},
-      {"holes", "simulate", facts::tape, "simulate --machine @classic.json --holes 6"},
-      {"belts", "simulate", facts::belts,
-       "simulate --belts @anchors.json --grid 4x3 --length-noise-mm 0.5"},
-      {"map", "query", facts::map, "query @map.json 0 0 900 400 1200 600"},
-      {"fade", "query", facts::map | facts::fade, "query @map.json 0 0 1200 600 --outside fade"},
-      {"anchors", "query", facts::anchors, "query @anchors.json 0 0 400 300"},
-      {"plotter", "query", facts::plotter, "query @wide_plotter.json 0 0 400 300"},
-      {"map", "report", facts::map, "report @map.json -o page.html"},
-      {"diagnosis", "report", facts::diagnosis, "report @diagnosis.json -o page.html"},
-      {"anchors", "report", facts::anchors, "report @anchors.json -o page.html"},
-      {"machine", "maslow4", facts::connected, listening_line().c_str()},
-      {"log", "maslow4", facts::replayed, "maslow4 --replay @log.txt"},
-      {"machine", "export groundcontrol", facts::machine, "export groundcontrol @stated.json"},
-      {"map", "export groundcontrol", facts::map, "export groundcontrol @map.json"},
-      {"diagnosis", "export groundcontrol", facts::diagnosis,
-       "export groundcontrol @diagnosis.json"},
-      {"anchors", "export maslow4", facts::anchors, "export maslow4 @anchors.json"},
-      {"diagnosis", "export maslow4", facts::diagnosis, "export maslow4 @belts_diagnosis.json"},
-      {"plotter", "export plotter", facts::any, "export plotter @plotter.json"},
-      {"map", "export linuxcnc", facts::any, "export linuxcnc @map.json -o kins.c"},
-      {"map", "export klipper", facts::any, "export klipper @map.json -o chaintrue.py"},
-      {"map", "export fluidnc", facts::any, "export fluidnc @map.json"},
-      {"map", "export grblhal", facts::any, "export grblhal @map.json"},
-      {"plotter", "square", facts::plotter, "square --map @wide_plotter.json"},
-      {"plotter_program", "square", facts::plotter | facts::program,
-       "square --map @wide_plotter.json --gcode square.gcode"},
-      {"map", "square", facts::map, "square --map @map.json"},
-      {"program", "square", facts::map | facts::program, "square --map @map.json --gcode square.nc"},
-      {"machines", "square", facts::machine,
-       "square --machine @classic.json --controller-machine @stated.json"},
-      {"none", "gcode check", facts::no_map, "gcode check @simple.nc"},
-      {"map", "gcode check", facts::map, "gcode check @simple.nc --map @map.json"},
-      {"anchors", "gcode check", facts::anchors, "gcode check @simple.nc --map @anchors.json"},
-      {"plotter", "gcode check", facts::plotter, "gcode check @simple.nc --map @wide_plotter.json"},
-      {"map", "gcode lengths", facts::map, "gcode lengths @simple.nc --map @map.json"},
-      {"anchors", "gcode lengths", facts::anchors, "gcode lengths @simple.nc --map @anchors.json"},
-      {"plotter", "gcode lengths", facts::plotter, "gcode lengths @simple.nc --map @wide_plotter.json"},
-      {"map", "gcode compensate", facts::map,
-       "gcode compensate @simple.nc --map @map.json -o true.nc"},
-      {"anchors", "gcode compensate", facts::anchors,
-       "gcode compensate @simple.nc --map @anchors.json -o true.nc"},
-      {"plotter", "gcode compensate", facts::plotter,
-       "gcode compensate @simple.nc --map @wide_plotter.json -o true.nc"},
-      {"map", "gcode verify", facts::map, "gcode verify @simple.nc @true.nc --map @map.json"},
-      {"anchors", "gcode verify", facts::anchors,
-       "gcode verify @simple.nc @belts_true.nc --map @anchors.json"},
-      {"plotter", "gcode verify", facts::plotter,
-       "gcode verify @simple.nc @plotter_true.nc --map @wide_plotter.json"},
-      {"none", "gcode explain", facts::no_map, "gcode explain @simple.nc:6"},
-      {"map", "gcode explain", facts::map, "gcode explain @simple.nc:6 --map @map.json"},
-      {"anchors", "gcode explain", facts::anchors, "gcode explain @simple.nc:6 --map @anchors.json"},
-      {"plotter", "gcode explain", facts::plotter,
-       "gcode explain @simple.nc:6 --map @wide_plotter.json"}};
+const std::vector<Invocation>& calls_with_options() {
+  static const std::vector<Invocation> all = [] {
+    std::vector<Invocation> calls = invocations();
+    calls.push_back({"maslow4", "machine", cli::facts::connected, listening_line().c_str()});
+    return calls;
+  }();
   return all;
+}
+
+std::string then_of(const Invocation& call) {
+  if (std::string_view(call.verb) != "fit" || (call.facts & (cli::facts::grid | cli::facts::holes)) == 0)
+    return "";
+  if ((call.facts & cli::facts::direct) != 0)
+    return "query map.json 0 0 700 300 350 -150 1200 600 --json; query map.json 0 0 --frame bed";
+  return "query map.json 0 0 700 300 1200 600 -1180 590 --json";
 }
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/inputs/log_server.hpp"
+#include "tests/lab/inputs/log_server.hpp"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A folder with a file of every kind, in which the command runs.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace chaintrue::inputs {
+
+struct Ran {
+  int code = -1;
+  std::string out;
+  std::string err;
+  std::map<std::string, std::string> files;  ///< name and content of what was written
+};
+
+class InputFolder {
+ public:
+  /// Files that the command makes are made once a run names them.
+  InputFolder();
+  ~InputFolder();
+  InputFolder(const InputFolder&) = delete;
+  InputFolder& operator=(const InputFolder&) = delete;
+
+  /// Commands with "; " between, in one empty folder; "@" begins the name of a file of this folder.
+  /// Returns how the last one ended and all files that were written. Throws if a file that is named
+  /// cannot be made.
+  [[nodiscard]] Ran run(const std::string& lines) const;
+  [[nodiscard]] std::vector<std::string> names() const;
+  [[nodiscard]] std::string text_of(const std::string& file) const;
+  void write(const std::string& file, const std::string& text) const;
+  /// One more file that the command makes.
+  void add_made_file(const std::string& file, const std::string& line);
+
+ private:
+  void make_missing_files(const std::string& lines) const;
+  std::filesystem::path folder_;
+  mutable std::map<std::string, std::string> lines_;  ///< of files that are not made yet
+};
+
+/// With `by` for every `what`.
+[[nodiscard]] std::string replaced(std::string text,
+                                   const std::string& what,
+                                   const std::string& by);
+[[nodiscard]] std::string content_of(const std::filesystem::path& path);
+
+}  // namespace chaintrue::inputs

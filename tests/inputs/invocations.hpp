@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// How each verb is called: the one table for the tests of inputs, the option matrix and the torture
+/// campaign. "@" begins the name of a file of the folder (input_folder.hpp).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/cli/option_rules.hpp"
+
+namespace chaintrue::inputs {
+
+/// A verb on one kind of input.
+struct Invocation {
+  const char* verb;  ///< "fit", "gcode check"
+  const char* name;  ///< of the kind of input
+  cli::Facts facts;  ///< what option_rules.def knows of it
+  const char* line;
+};
+[[nodiscard]] const std::vector<Invocation>& invocations();
+
+/// A machine to listen to at a port where none is: options are checked, then the connection fails.
+inline constexpr Invocation kNoListener = {
+    "maslow4", "machine", cli::facts::connected, "maslow4 --host 127.0.0.1 --port 1 -o log.txt"};
+
+/// Valid values of an option that takes neither any number, any file nor one of the choices that --help
+/// lists; empty for others.
+[[nodiscard]] const std::vector<std::string>& values_of(std::string_view option);
+/// The option names a file or folder to write.
+[[nodiscard]] bool is_output(std::string_view option);
+
+}  // namespace chaintrue::inputs

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/lab/inputs/tellings.hpp"
+
+namespace chaintrue::inputs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The holes of the bed's left and middle, so that a part of it lies outside.
+std::string narrow_holes(const std::string& holes) {
+  Json file = Json::parse(holes);
+  const auto is_right = [&](const Json& name) { return name == "F" || name == "I"; };
+  Json kept = Json::array();
+  for (const Json& hole : file["holes"]) {
+    if (!is_right(hole["name"])) kept.push_back(hole);
+  }
+  file["holes"] = kept;
+  kept = Json::array();
+  for (const Json& distance : file["distances"]) {
+    if (!is_right(distance["from"]) && !is_right(distance["to"])) kept.push_back(distance);
+  }
+  file["distances"] = kept;
+  return file.dump(1);
+}
+
+/// Numbers of a table in inches, under the same header.
+std::string as_inches(const std::string& csv) {
+  std::istringstream rows(csv);
+  std::string text;
+  std::getline(rows, text);
+  for (std::string row; std::getline(rows, row);) {
+    text += "\n";
+    std::istringstream cells(row);
+    const char* separator = "";
+    for (std::string cell; std::getline(cells, cell, ',');) {
+      std::ostringstream inches;
+      inches.precision(12);
+      inches << std::stod(cell) / 25.4;
+      text += separator + inches.str();
+      separator = ",";
+    }
+  }
+  return text + "\n";
+}
+
+/// Marks as places that the controller was sent to, 2 mm aside.
+std::string as_commands(const std::string& csv) {
+  std::istringstream rows(csv);
+  std::string text = "x_mm,y_mm,commanded_x_mm,commanded_y_mm\n";
+  std::string row;
+  std::getline(rows, row);
+  while (std::getline(rows, row)) {
+    double x = 0.0;
+    double y = 0.0;
+    char comma = 0;
+    std::istringstream(row) >> x >> comma >> y;
+    std::ostringstream line;
+    line << x << "," << y << "," << x + 2.0 << "," << y - 1.5 << "\n";
+    text += line.str();
+  }
+  return text;
+}
+
+/// Further files that the command makes, and the line that makes each.
+std::map<std::string, std::string> more_made_files() {
+  return {
+      {"map2.json", "fit @placed.json --machine @other.json -o @map2.json"},
+      // With a wave that no listed cause makes.
+      {"wave.json",
+       "simulate --machine @classic.json --effects @half_turn.json --grid 9x6 --repeats 6 --order random "
+       "--length-noise-mm 0.05 --position-noise-mm 0.05 "
+       "--effect second_harmonic:left:amplitude_mm=0.2,phase_rad=1.2 --seed 3 -o @wave.json"},
+      {"wave_holes.json",
+       "simulate --machine @classic.json --effects @half_turn.json --holes 24 --distances 100 "
+       "--tape-sigma-mm 0.1 --hole-sigma-mm 0.05 --effect second_harmonic:left:amplitude_mm=0.3,phase_rad=1.2 "
+       "--seed 3 -o @wave_holes.json"},
+      {"lattice.json",
+       "simulate --machine @classic.json --grid 5x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
+       "--seed 9 -o @lattice.json"},
+      {"belts2.json",
+       "simulate --belts @anchors.json --grid 5x5 --length-noise-mm 1 --seed 9 -o @belts2.json"},
+      {"worn_holes.json",
+       "simulate --machine @classic.json --holes 9 --effect chain_pitch_error:both:elongation=0.003 "
+       "--seed 5 -o @worn_holes.json"},
+      {"commanded_diagnosis.json",
+       "diagnose @commanded.csv --machine @classic.json --noise-length-mm 0.2 --noise-position-mm 0.3 "
+       "-o @commanded_diagnosis.json"},
+      {"mixed_diagnosis.json",
+       "diagnose @commanded.csv --with @holes.json --machine @classic.json --noise-length-mm 0.2 "
+       "--noise-position-mm 0.3 -o @mixed_diagnosis.json"},
+      {"rapid_true.nc",
+       "gcode compensate @rapid.nc --map @map.json --tolerance-mm 0.01 --keep-rapids-whole -o "
+       "@rapid_true.nc"},
+      {"rapid_belts_true.nc",
+       "gcode compensate @rapid.nc --map @anchors.json --tolerance-mm 0.01 --keep-rapids-whole -o "
+       "@rapid_belts_true.nc"},
+      {"short_true.nc", "gcode compensate @short.nc --map @map.json --tolerance-mm 0.02 -o @short_true.nc"},
+      {"short_belts_true.nc",
+       "gcode compensate @short.nc --map @anchors.json --tolerance-mm 0.02 -o @short_belts_true.nc"},
+      {"rapid_plotter_true.nc",
+       "gcode compensate @rapid.nc --map @wide_plotter.json --tolerance-mm 0.01 --keep-rapids-whole -o "
+       "@rapid_plotter_true.nc"},
+      {"short_plotter_true.nc",
+       "gcode compensate @short.nc --map @wide_plotter.json --tolerance-mm 0.02 -o @short_plotter_true.nc"},
+      {"slow_plotter_true.nc",
+       "gcode compensate @slow.nc --map @wide_plotter.json -o @slow_plotter_true.nc"},
+      {"slow_true.nc", "gcode compensate @slow.nc --map @map.json -o @slow_true.nc"},
+      {"slow_belts_true.nc", "gcode compensate @slow.nc --map @anchors.json -o @slow_belts_true.nc"},
+      {"belts_before.json", "diagnose @belts2.json -o @belts_before.json"}};
+}
+
+}  // namespace
+
+void add_telling_files(InputFolder& folder) {
+  for (const auto& [name, line] : more_made_files()) folder.add_made_file(name, line);
+  const std::string fixtures = CHAINTRUE_FIXTURES "/";
+  folder.write("every.json", content_of(fixtures + "good/machine_every_key.json"));
+  folder.write("half_turn.json", content_of(fixtures + "effects/second_harmonic.json"));
+  folder.write("grid_in_inches.csv", as_inches(folder.text_of("grid.csv")));
+  folder.write("few_in_inches.csv", as_inches(folder.text_of("few.csv")));
+  folder.write("commanded.csv", as_commands(folder.text_of("grid.csv")));
+  folder.write("commanded_lattice.csv", as_commands(folder.text_of("lattice.csv")));
+  // Another machine, on another bed.
+  Json other = Json::parse(folder.text_of("classic.json"));
+  other["bed"] = {{"width_mm", 2500.0}, {"height_mm", 1300.0}};
+  other["motors"]["left"]["y_mm"] = other["motors"]["left"]["y_mm"].get<double>() + 12.0;
+  other["attachment"]["radius_mm"] = 141.0;
+  folder.write("other.json", other.dump(1));
+  // A sheet that the programs leave.
+  Json small = Json::parse(folder.text_of("classic.json"));
+  small["bed"] = {{"width_mm", 1000.0}, {"height_mm", 600.0}};
+  folder.write("small.json", small.dump(1));
+  Json moved = Json::parse(folder.text_of("belts.json"));
+  moved["machine"]["anchors"]["tl"]["x_mm"] = -19.0;
+  folder.write("moved_belts.json", moved.dump(1));
+  // What the plotter's controller may hold now.
+  folder.write("moved_plotter.json", replaced(folder.text_of("wide_plotter.json"), "3000", "2996"));
+  folder.write("narrow_holes.json", narrow_holes(folder.text_of("holes.json")));
+  // Links that are hardly longer than they should be, in place of the catalogue's.
+  Json own = Json::parse(content_of(fixtures + "effects/catalogue/own_chain_pitch_error.json"));
+  own["parameters"][0]["upper"] = 0.001;
+  folder.write("own.json", own.dump(1));
+  // Belts that are pulled behind each move, where the log alone is read as of an upright frame.
+  folder.write("flat.yaml",
+               replaced(folder.text_of("maslow.yaml"), "Maslow_vertical: true",
+                        "Maslow_vertical: false"));
+  folder.write("few_marks.csv", "x_mm,y_mm\n-800,-300\n10,-280\n820,290\n30,20\n");
+  folder.write("offset.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG41 D1\nG1 X300 Y0\nG40\nG1 X0 Y0\nM2\n");
+  // Long rapids bend; two digits do not show that a short rapid was made slow, three do; a feed may be off by a
+  // hundredth.
+  folder.write("rapid.nc", "G21 G90 G17\nF600\nG0 X-1100 Y550\nG0 X1100 Y-550\nG1 X0 Y0\nM2\n");
+  // A plotter's lines bend most in the middle of its sheet's upper edge.
+  folder.write("across.nc", "G21 G90 G17\nF600\nG0 X-1100 Y550\nG0 X1100 Y550\nG1 X1100 Y549\nM2\n");
+  folder.write("tiny.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG0 X100.06 Y0\nG1 X100.06 Y100\nM2\n");
+  folder.write("short.nc",
+        "G21 G90 G17\nF600\nG0 X0 Y0\nG1 X100 Y0\nG1 X100.06 Y0 F300\nG1 X100.06 Y100 F600\nM2\n");
+  folder.write("slow.nc", replaced(folder.text_of("simple.nc"), "F600", "F588"));
+  // Whoever wants to know of line 6 has to come out of the loop first.
+  folder.write("loop.nc",
+        "G21 G90 G17 F600\n#1=0\no1 while [#1 lt 4]\n#1=[#1+1]\no1 endwhile\nG1 X100 Y0\n"
+        "G1 X0 Y0\nM2\n");
+  folder.write("home.nc", "G21 G90 G17\nF600\nG1 X200 Y100\nG28\nG1 X0 Y0\nM2\n");
+}
+
+
+}  // namespace chaintrue::inputs

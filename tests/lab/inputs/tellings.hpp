@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Every option at a value that changes the answer, and the files which that takes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/inputs/input_folder.hpp"
+#include "tests/inputs/invocations.hpp"
+
+namespace chaintrue::inputs {
+
+/// How it shows that an option acts.
+enum class Shows {
+  in_numbers,  ///< of the answer
+  in_form,     ///< other bytes, the numbers may be the same
+  as_file,     ///< a file more
+  in_words,    ///< what is said on standard error, or the exit code
+};
+
+/// The option at a value that tells, with what it needs. `where` is an invocation's name, or empty for all.
+struct Telling {
+  const char* verb;
+  const char* option;
+  const char* words;
+  Shows shows = Shows::in_numbers;
+  const char* where = "";
+  /// Where the invocation's own files leave the option nothing to do: a program (@...) in place of simple.nc
+  /// and of what was made of it, or a whole line.
+  const char* instead = "";
+};
+/// The one for this invocation if there is one; null where the option has none at all.
+[[nodiscard]] const Telling* telling_of(const std::string& verb,
+                                        const std::string& option,
+                                        const std::string& use);
+
+/// The table's invocations, and one of a machine that is listened to.
+[[nodiscard]] const std::vector<Invocation>& calls_with_options();
+/// Commands that read the numbers out of what this call wrote, where the file repeats the input.
+[[nodiscard]] std::string then_of(const Invocation& call);
+/// Adds the files that are named by the table.
+void add_telling_files(InputFolder& folder);
+
+}  // namespace chaintrue::inputs
