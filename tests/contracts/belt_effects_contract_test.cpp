@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of every effect of four belts: zero at null, observable where it acts and nowhere else,
-// finite at its bounds, complete texts; and each equation evaluated by hand.
+// Equations of the effects of four belts, by hand; their laws are those of every mechanism's effects
+// (mechanism_contract_test.cpp).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,8 +8,6 @@
 #include "model/belts/belt_readings.hpp"
 
 namespace chaintrue::model::belts {
-
-void PrintTo(const BeltEffect* effect, std::ostream* out) { *out << effect->id; }
 
 namespace {
 
@@ -22,9 +20,6 @@ BeltMachine frame(BeltLengths lengths = BeltLengths::span) {
   return machine;
 }
 
-constexpr FramePoint kPlaces[] = {{900.0, 600.0}, {2100.0, 1500.0}, {1500.0, 1000.0}};
-constexpr int kVisits[] = {0, 9, 10, 40};
-
 double read(const BeltMachine& machine,
             const std::vector<ResolvedBeltEffect>& effects,
             const BeltVisit& visit,
@@ -32,90 +27,10 @@ double read(const BeltMachine& machine,
   return read_belt(machine, effects, visit, place).value();
 }
 
-std::vector<double> nominal(const BeltEffect& effect) {
-  std::vector<double> values;
-  for (const auto& parameter : effect.parameters) values.push_back(parameter.nominal);
-  return values;
-}
-
-class BeltEffectLaws : public testing::TestWithParam<const BeltEffect*> {
- protected:
-  [[nodiscard]] const BeltEffect& effect() const { return *GetParam(); }
-};
-
-INSTANTIATE_TEST_SUITE_P(Every,
-                         BeltEffectLaws,
-                         testing::ValuesIn(belt_effects().begin(), belt_effects().end()),
-                         [](const auto& tested) { return std::string(tested.param->id); });
-
-TEST_P(BeltEffectLaws, ItStandsAtOneStationAndHasItsWords) {
-  EXPECT_NE(effect().alter != nullptr, effect().add != nullptr);
-  EXPECT_EQ(find_belt_effect(effect().id), &effect());
-  for (const std::string_view words : {effect().cause,
-                                       effect().signature,
-                                       effect().equation,
-                                       effect().source,
-                                       effect().not_modelled,
-                                       effect().typical,
-                                       effect().remedy}) {
-    EXPECT_FALSE(words.empty());
-  }
-  ASSERT_FALSE(effect().parameters.empty());
-  EXPECT_EQ(effect().parameters[0].role, effects::ParameterRole::size);
-  for (const auto& parameter : effect().parameters) {
-    EXPECT_LT(parameter.lower, parameter.upper);
-    EXPECT_GE(parameter.nominal, parameter.lower);
-    EXPECT_LE(parameter.nominal, parameter.upper);
-    EXPECT_GT(parameter.prior_sigma, 0.0);
-  }
-}
-
-TEST_P(BeltEffectLaws, NothingHappensAtNullAndWhereItDoesNotAct) {
-  for (const BeltLengths lengths :
-       {BeltLengths::belt, BeltLengths::belt_and_arm, BeltLengths::span}) {
-    const BeltMachine machine = frame(lengths);
-    std::vector<double> null = nominal(effect());
-    null[0] = effect().parameters[0].null;
-    for (const BeltSide side : effect().sides) {
-      for (const FramePoint place : kPlaces) {
-        for (const Belt belt : kBelts) {
-          for (const int order : kVisits) {
-            const BeltVisit visit{belt, kLowerBeltsPulled, order};
-            const double plain = reading_at(machine, belt, place)->length_mm;
-            // Rounding of 3 m, there and back.
-            EXPECT_NEAR(read(machine, {{&effect(), side, null}}, visit, place), plain, 1e-11);
-            if (acts_on(side, belt)) continue;
-            EXPECT_NEAR(
-                read(machine, {{&effect(), side, nominal(effect())}}, visit, place), plain, 1e-11);
-          }
-        }
-      }
-    }
-  }
-}
-
-TEST_P(BeltEffectLaws, ItIsSeenWhereItActsAndFiniteAtItsBounds) {
-  const BeltMachine machine = frame();
-  for (const BeltSide side : effect().sides) {
-    double most = 0.0;
-    for (const FramePoint place : kPlaces) {
-      for (const Belt belt : kBelts) {
-        const BeltVisit visit{belt, kLowerBeltsPulled, 40};
-        const double plain = reading_at(machine, belt, place)->length_mm;
-        most = std::max(
-            most,
-            std::abs(read(machine, {{&effect(), side, nominal(effect())}}, visit, place) - plain));
-        for (std::size_t i = 0; i < effect().parameters.size(); ++i) {
-          for (const double bound : {effect().parameters[i].lower, effect().parameters[i].upper}) {
-            std::vector<double> values = nominal(effect());
-            values[i] = bound;
-            EXPECT_TRUE(std::isfinite(read(machine, {{&effect(), side, values}}, visit, place)));
-          }
-        }
-      }
-    }
-    // A micrometre: any effect at all.
-    EXPECT_GT(most, 1e-3) << name(side);
+TEST(BeltEffects, StandAtOneStationAndAreFoundByTheirIds) {
+  for (const BeltEffect* effect : belt_effects()) {
+    EXPECT_NE(effect->alter != nullptr, effect->add != nullptr) << effect->id;
+    EXPECT_EQ(find_belt_effect(effect->id), effect);
   }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Laws of every effect of the catalogue, on every side, and of declared ones. An effect is included
-/// by its line in effects.def.
-#include <gmock/gmock.h>
+/// Laws of every effect of the catalogue, on every side, and of declared ones, beside those of the
+/// effects of every mechanism (mechanism_contract_test.cpp). An effect is included by its line in
+/// effects.def.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,8 +17,6 @@
 
 namespace chaintrue::model::effects {
 namespace {
-
-using ::testing::IsEmpty;
 
 // An effect at a side, as the suite's parameter.
 struct Case {
@@ -41,10 +39,22 @@ std::vector<Case> cases_of(std::span<const Effect* const> effects) {
   return cases;
 }
 
-std::vector<Case> all_cases() {
-  std::vector<Case> cases = cases_of(catalogue());
-  for (const Case& own : cases_of(declared_examples())) cases.push_back(own);
-  return cases;
+/// Another effect of each station, of the catalogue's first and last.
+std::vector<Case> partners_of(const Effect& effect) {
+  std::vector<Case> partners;
+  const std::vector<Case> all = cases_of(catalogue());
+  for (const Station station :
+       {Station::paper, Station::machine, Station::chain, Station::reading}) {
+    const auto fits = [&](const Case& c) {
+      return c.effect != &effect && c.effect->station == station;
+    };
+    const auto first = std::find_if(all.begin(), all.end(), fits);
+    if (first == all.end()) continue;
+    partners.push_back(*first);
+    const auto last = std::find_if(all.rbegin(), all.rend(), fits);
+    if (last->effect != first->effect) partners.push_back(*last);
+  }
+  return partners;
 }
 
 // A session over the whole bed of the classic machine, corners included; a serpentine, so that
@@ -114,36 +124,6 @@ class EffectContract : public ::testing::TestWithParam<Case> {
   }
 };
 
-TEST_P(EffectContract, IsDescribedInFull) {
-  const Effect& e = effect();
-  for (const std::string_view words :
-       {e.id, e.cause, e.signature, e.equation, e.source, e.not_modelled, e.typical, e.remedy}) {
-    EXPECT_FALSE(words.empty());
-    EXPECT_EQ(words.find('|'), std::string_view::npos)
-        << "breaks the table of docs/effects.md: " << words;
-  }
-  EXPECT_FALSE(e.parameters.empty());
-  for (const EffectParameter& p : e.parameters) {
-    SCOPED_TRACE(std::string(p.name));
-    EXPECT_LT(p.lower, p.upper);
-    EXPECT_LE(p.lower, p.null);
-    EXPECT_LE(p.null, p.upper);
-    EXPECT_LE(p.lower, p.nominal);
-    EXPECT_LE(p.nominal, p.upper);
-    EXPECT_GT(p.prior_sigma, 0.0);
-    EXPECT_FALSE(p.meaning.empty());
-    EXPECT_FALSE(p.symbol.empty());
-    if (p.role == ParameterRole::size) {
-      EXPECT_NE(p.nominal, p.null);
-    } else {
-      EXPECT_EQ(p.nominal, p.null);
-    }
-    if (p.integer) {
-      EXPECT_EQ(p.nominal, std::round(p.nominal));
-    }
-  }
-}
-
 // The diagnosis uses one column for all whole numbers of links.
 TEST_P(EffectContract, AWholeNumberIsMisreadInProportion) {
   const Effect& e = effect();
@@ -190,24 +170,6 @@ TEST_P(EffectContract, SaysWhetherItActsAtOneVisitAlone) {
                 : 1;
   }
   EXPECT_EQ(acts == 1, effect().at_one_visit) << acts << " visits are touched";
-}
-
-TEST_P(EffectContract, IsExactlyZeroAtNull) {
-  std::vector<double> values = null_values(effect());
-  EXPECT_EQ(seen_with({with(values)}), seen_with({}));  // to the last bit
-}
-
-TEST_P(EffectContract, IsFiniteAtItsBounds) {
-  const auto parameters = effect().parameters;
-  for (unsigned corner = 0; corner < (1U << parameters.size()); ++corner) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-      values.push_back((corner >> i & 1U) != 0 ? parameters[i].upper : parameters[i].lower);
-    }
-    SCOPED_TRACE(::testing::PrintToString(values));
-    ASSERT_THAT(problems_of_effects(machine_with({with(values)})), IsEmpty());
-    for (const double number : seen_with({with(values)})) EXPECT_TRUE(std::isfinite(number));
-  }
 }
 
 TEST_P(EffectContract, EveryParameterIsVisible) {
@@ -275,9 +237,9 @@ TEST_P(EffectContract, HasAMirrorImage) {
 
 // The change by two effects together is the sum of the changes by each, up to second order: with
 // half the sizes a quarter of that part remains.
-TEST_P(EffectContract, AddsToEveryOtherToFirstOrder) {
+TEST_P(EffectContract, AddsToOthersToFirstOrder) {
   const std::vector<double> plain = seen_with({});
-  for (const Case& other : all_cases()) {
+  for (const Case& other : partners_of(effect())) {
     SCOPED_TRACE(::testing::PrintToString(other));
     const auto at_share = [&](double share) {
       const AppliedEffect a = with(scaled(effect(), nominal_values(effect()), share));
@@ -305,83 +267,9 @@ TEST_P(EffectContract, AddsToEveryOtherToFirstOrder) {
 
 TEST_P(EffectContract, DoesNotDependOnTheOrderInTheFile) {
   const AppliedEffect a = with(nominal_values(effect()));
-  for (const Case& other : all_cases()) {
-    if (other.effect == &effect()) continue;
+  for (const Case& other : partners_of(effect())) {
     const AppliedEffect b = applied(*other.effect, other.side, nominal_values(*other.effect));
     EXPECT_EQ(seen_with({a, b}), seen_with({b, a})) << ::testing::PrintToString(other);
-  }
-}
-
-// d(reading)/d(x, y) compared with Richardson's extrapolation of central differences of the
-// readings.
-TEST_P(EffectContract, KeepsThePositionJacobianExact) {
-  const ReadingModel model(machine_with({with(nominal_values(effect()))}));
-  for (const BedPoint p :
-       {BedPoint{-900.0, -500.0}, BedPoint{30.0, 40.0}, BedPoint{700.0, 550.0}}) {
-    const auto reading = model.at(p);
-    ASSERT_TRUE(reading);
-    for (const int axis : {0, 1}) {
-      const auto slope = [&](double h_mm) -> Eigen::Vector2d {
-        const auto step = [&](double t) {
-          const auto there =
-              model.at(axis == 0 ? BedPoint{p.x_mm + t, p.y_mm} : BedPoint{p.x_mm, p.y_mm + t});
-          return Eigen::Vector2d{there->lengths.left_mm, there->lengths.right_mm};
-        };
-        return (step(h_mm) - step(-h_mm)) / (2.0 * h_mm);
-      };
-      const Eigen::Vector2d extrapolated = (4.0 * slope(0.125) - slope(0.25)) / 3.0;
-      // Differences: rounding 1e-12 / 0.25 mm, and 0.25^4 times the fifth derivative of a wave of
-      // half a turn, 0.2 mm (4 pi / 63.5 mm)^5 / 30: below 1e-8 together.
-      EXPECT_LT((extrapolated - reading->position_jacobian.col(axis)).norm(), 1e-8)
-          << p.x_mm << " " << p.y_mm;
-    }
-  }
-}
-
-TEST_P(EffectContract, KeepsTheSettingsSensitivityExact) {
-  const Machine machine = machine_with({with(nominal_values(effect()))});
-  const ReadingModel model(machine);
-  const BedPoint p{-400.0, 250.0};
-  const auto reading = model.at(p);
-  ASSERT_TRUE(reading);
-  const auto moved = [&](Setting setting, double by_mm) {
-    Machine changed = machine;
-    switch (setting) {
-      case Setting::motor_left_x_mm:
-        changed.motors.left.x_mm += by_mm;
-        break;
-      case Setting::motor_left_y_mm:
-        changed.motors.left.y_mm += by_mm;
-        break;
-      case Setting::motor_right_x_mm:
-        changed.motors.right.x_mm += by_mm;
-        break;
-      case Setting::motor_right_y_mm:
-        changed.motors.right.y_mm += by_mm;
-        break;
-      case Setting::chain_zero_left_mm:
-        changed.chain_zero.left_mm += by_mm;
-        break;
-      default:
-        changed.chain_zero.right_mm += by_mm;
-        break;
-    }
-    const auto there = ReadingModel(changed).at(p);
-    return Eigen::Vector2d{there->lengths.left_mm, there->lengths.right_mm};
-  };
-  for (const Setting setting : {Setting::motor_left_x_mm,
-                                Setting::motor_left_y_mm,
-                                Setting::motor_right_x_mm,
-                                Setting::motor_right_y_mm,
-                                Setting::chain_zero_left_mm,
-                                Setting::chain_zero_right_mm}) {
-    const auto slope = [&](double h_mm) -> Eigen::Vector2d {
-      return (moved(setting, h_mm) - moved(setting, -h_mm)) / (2.0 * h_mm);
-    };
-    const Eigen::Vector2d extrapolated = (4.0 * slope(0.125) - slope(0.25)) / 3.0;
-    // As above.
-    EXPECT_LT((extrapolated - model.sensitivity(*reading, setting)).norm(), 1e-8)
-        << static_cast<int>(setting);
   }
 }
 

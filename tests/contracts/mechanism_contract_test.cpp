@@ -15,6 +15,7 @@
 #include "model/chains/chain_mechanism.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/plotter/plotter_mechanism.hpp"
+#include "tests/contracts/declared_examples.hpp"
 #include "tests/contracts/toy_mechanism.hpp"
 
 namespace chaintrue::model {
@@ -34,9 +35,10 @@ struct Tested {
 
 void PrintTo(const Tested& tested, std::ostream* out) { *out << tested.name; }
 
-/// A machine without symmetry.
+/// A machine without symmetry, with effects that its owner declared.
 Machine leaning() {
   Machine machine;
+  machine.declared = effects::declared_examples();
   machine.motors.left = {-1480.0, 1075.0};
   machine.motors.right = {1495.0, 1068.0};
   machine.chain_zero = {1.5, -0.5};
@@ -233,10 +235,9 @@ TEST_P(MechanismContract, ItHasItsWordsAndItsShapes) {
 }
 
 TEST_P(MechanismContract, DerivativesAreDifferences) {
-  constexpr double kStepMm = 1e-2;
-  // The error of a central difference is step^2 / 6 times the third derivative, below 1e-5 per mm^2
-  // 200 mm from an anchor, plus the lengths' own 1e-10 mm over the step; ReadingModel states 1e-9
-  // for its derivatives where an effect depends on a chain's angle.
+  constexpr double kStepMm = 2e-2;
+  // Central differences without their second order: the lengths' own 1e-10 mm over the step.
+  // ReadingModel states 1e-9 for its derivatives where an effect depends on a chain's angle.
   constexpr double kTolerance = 2e-8;
   const MechanismPtr mechanism = GetParam().make();
   for (const WithEffect& state : in_every_state(mechanism)) {
@@ -245,23 +246,25 @@ TEST_P(MechanismContract, DerivativesAreDifferences) {
       for (const ToolPosition& q : positions(*mechanism)) {
         const auto at = state.mechanism->predict(q, visit);
         ASSERT_TRUE(at) << q.x_mm << " " << q.y_mm << ": " << at.error().sentence();
-        const auto lengths_at = [&](const Mechanism& m, double dx, double dy) {
-          return m.predict({q.x_mm + dx, q.y_mm + dy}, visit)->lengths_mm;
+        const auto difference_of = [](const auto& lengths_at) -> Eigen::VectorXd {
+          return (8.0 * (lengths_at(kStepMm) - lengths_at(-kStepMm)) -
+                  (lengths_at(2.0 * kStepMm) - lengths_at(-2.0 * kStepMm))) /
+                 (12.0 * kStepMm);
         };
-        Eigen::MatrixXd difference(at->lengths_mm.size(), 2 + state.mechanism->values().size());
-        difference.col(0) = lengths_at(*state.mechanism, kStepMm, 0.0) -
-                            lengths_at(*state.mechanism, -kStepMm, 0.0);
-        difference.col(1) = lengths_at(*state.mechanism, 0.0, kStepMm) -
-                            lengths_at(*state.mechanism, 0.0, -kStepMm);
-        for (Eigen::Index i = 0; i < state.mechanism->values().size(); ++i) {
-          const Eigen::VectorXd step =
-              kStepMm * Eigen::VectorXd::Unit(state.mechanism->values().size(), i);
-          difference.col(2 + i) =
-              lengths_at(
-                  *state.mechanism->with_values(state.mechanism->values() + step), 0.0, 0.0) -
-              lengths_at(*state.mechanism->with_values(state.mechanism->values() - step), 0.0, 0.0);
+        const Mechanism& m = *state.mechanism;
+        Eigen::MatrixXd difference(at->lengths_mm.size(), 2 + m.values().size());
+        difference.col(0) = difference_of([&](double step) -> Eigen::VectorXd {
+          return m.predict({q.x_mm + step, q.y_mm}, visit)->lengths_mm;
+        });
+        difference.col(1) = difference_of([&](double step) -> Eigen::VectorXd {
+          return m.predict({q.x_mm, q.y_mm + step}, visit)->lengths_mm;
+        });
+        for (Eigen::Index i = 0; i < m.values().size(); ++i) {
+          const Eigen::VectorXd unit = Eigen::VectorXd::Unit(m.values().size(), i);
+          difference.col(2 + i) = difference_of([&](double step) -> Eigen::VectorXd {
+            return m.with_values(m.values() + step * unit)->predict(q, visit)->lengths_mm;
+          });
         }
-        difference /= 2.0 * kStepMm;
         EXPECT_LT((at->by_position - difference.leftCols<2>()).cwiseAbs().maxCoeff(), kTolerance)
             << q.x_mm << " " << q.y_mm;
         EXPECT_LT(
@@ -322,6 +325,91 @@ TEST_P(MechanismContract, AnEffectOfItsUsualSizeIsThere) {
     }
     EXPECT_GT(most, 1e-3);  // a micrometre: any effect at all
     EXPECT_TRUE(std::isfinite(most));
+  }
+}
+
+TEST_P(MechanismContract, EffectsAreDescribed) {
+  const MechanismPtr mechanism = GetParam().make();
+  std::set<std::string_view> ids;
+  for (const effects::Effect* effect : mechanism->effects()) {
+    SCOPED_TRACE(std::string(effect->id));
+    EXPECT_TRUE(ids.insert(effect->id).second);
+    for (const std::string_view words : {effect->id,
+                                         effect->cause,
+                                         effect->signature,
+                                         effect->equation,
+                                         effect->source,
+                                         effect->not_modelled,
+                                         effect->typical,
+                                         effect->remedy}) {
+      EXPECT_FALSE(words.empty());
+      EXPECT_EQ(words.find('|'), std::string_view::npos) << "breaks a table of documents: " << words;
+    }
+    EXPECT_FALSE(effect->sides.empty());
+    ASSERT_FALSE(effect->parameters.empty());
+    EXPECT_EQ(effect->parameters.front().role, effects::ParameterRole::size);
+    for (const effects::EffectParameter& p : effect->parameters) {
+      SCOPED_TRACE(std::string(p.name));
+      EXPECT_LT(p.lower, p.upper);
+      EXPECT_LE(p.lower, p.null);
+      EXPECT_LE(p.null, p.upper);
+      EXPECT_LE(p.lower, p.nominal);
+      EXPECT_LE(p.nominal, p.upper);
+      EXPECT_GT(p.prior_sigma, 0.0);
+      EXPECT_FALSE(p.meaning.empty() || p.symbol.empty());
+      EXPECT_EQ(p.nominal != p.null, p.role == effects::ParameterRole::size);
+      if (p.integer) {
+        EXPECT_EQ(p.nominal, std::round(p.nominal));
+      }
+    }
+  }
+}
+
+TEST_P(MechanismContract, EffectsAreFiniteAtTheirBounds) {
+  const MechanismPtr mechanism = GetParam().make();
+  const MechanismExtent e = mechanism->extent();
+  const ToolPosition aside{e.x_min_mm + 0.3 * (e.x_max_mm - e.x_min_mm),
+                           e.y_min_mm + 0.3 * (e.y_max_mm - e.y_min_mm)};
+  for (const effects::Effect* effect : mechanism->effects()) {
+    for (unsigned corner = 0; corner < (1U << effect->parameters.size()); ++corner) {
+      std::vector<double> values;
+      for (const effects::EffectParameter& p : effect->parameters)
+        values.push_back((corner >> values.size() & 1U) != 0 ? p.upper : p.lower);
+      for (const effects::EffectSide side : effect->sides) {
+        const AppliedEffect applied = effects::applied(*effect, side, values);
+        SCOPED_TRACE(applied.effect + ":" + applied.side + testing::PrintToString(values));
+        if (!mechanism->problems_of_effects({applied}).empty()) continue;
+        const MechanismPtr with = mechanism->with_effects({applied});
+        for (const MechanismVisit& visit : visits(*mechanism)) {
+          for (const ToolPosition& q : {e.centre(), aside}) {
+            const auto at = with->predict(q, visit);
+            // A pen that is held by more than its gondola weighs has no equilibrium.
+            const bool is_held = !at && at.error().reason.name == "slack" &&
+                                 GetParam().name.starts_with("plotter");
+            EXPECT_TRUE(is_held || (at && at->lengths_mm.allFinite()));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_P(MechanismContract, AnEffectOfOneSideChangesItsLengthAlone) {
+  const MechanismPtr mechanism = GetParam().make();
+  const auto lengths = mechanism->lengths();
+  for (const AppliedEffect& effect : nominal_effects(*mechanism)) {
+    const auto own = std::find(lengths.begin(), lengths.end(), effect.side);
+    if (own == lengths.end() || !mechanism->problems_of_effects({effect}).empty()) continue;
+    // A cord that gives or weighs more tilts the gondola, and the other cord with it.
+    if (effect.effect.starts_with("cord_")) continue;
+    SCOPED_TRACE(effect.effect + ":" + effect.side);
+    for (const MechanismVisit& visit : visits(*mechanism)) {
+      for (const ToolPosition& q : positions(*mechanism)) {
+        auto added = *added_by(*mechanism, effect, q, visit);
+        added[own - lengths.begin()] = 0.0;
+        EXPECT_LT(added.cwiseAbs().maxCoeff(), 1e-11);  // rounding of 3 m
+      }
+    }
   }
 }
 
