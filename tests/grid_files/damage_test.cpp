@@ -20,7 +20,7 @@ constexpr std::uint64_t kDamageSeed = 20260102;
 /// adjustment of the anchors each time it is read, 20 to 40 ms.
 std::size_t most_places_of(const std::string& kind) {
   if (std::getenv("CHAINTRUE_LONG") != nullptr) return std::numeric_limits<std::size_t>::max();
-  return kind == "maslow4" || kind == "belts" ? 60 : 400;
+  return kind == "maslow4" || kind == "belts" ? 15 : 100;
 }
 
 class Damage : public ::testing::TestWithParam<FixtureFile> {
