@@ -1,57 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The corpus of small programs: our interpreter's moves compared with the stored ones of LinuxCNC;
-/// and the stored ones with LinuxCNC itself, if it is installed.
+/// The corpus: our interpreter's moves and refusals compared with the stored answers of LinuxCNC.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "tests/gcode_witness/support/canonical.hpp"
-#include "tests/gcode_witness/support/linuxcnc.hpp"
+#include "tests/gcode_witness/support/compared.hpp"
+#include "tests/gcode_witness/support/corpus.hpp"
 
 namespace chaintrue::witness {
 namespace {
 
-const std::string kFolder = std::string(CHAINTRUE_FIXTURES) + "/gcode/corpus/";
-
-/// Limit for endless programs, far below the usual budget.
-constexpr std::uint64_t kSteps = 100'000;
-
-std::vector<std::string> programs(const std::string& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(kFolder + folder)) {
-    if (entry.path().extension() == ".ngc") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-std::string program(const std::string& folder, const std::string& name) {
-  return read_file(kFolder + folder + "/" + name + ".ngc");
-}
-
-Answer truth(const std::string& folder, const std::string& name) {
-  return read_truth(read_file(kFolder + folder + "/" + name + ".canon"));
-}
-
-Answer here(const std::string& folder, const std::string& name) {
-  gcode::Dialect dialect;
-  dialect.step_budget = kSteps;
-  return ours(program(folder, name), dialect);
-}
-
 /// Rows of a table with a header line, by their first column.
-std::map<std::string, std::vector<std::string>> table(const std::string& name) {
-  std::map<std::string, std::vector<std::string>> rows;
-  std::istringstream lines(read_file(kFolder + name));
+using Rows = std::map<std::string, std::vector<std::string>>;
+
+Rows table(const std::string& name) {
+  Rows rows;
+  std::istringstream lines(read_file(corpus_folder(CHAINTRUE_FIXTURES) + name));
   std::string line;
   std::getline(lines, line);
   while (std::getline(lines, line)) {
@@ -64,82 +35,76 @@ std::map<std::string, std::vector<std::string>> table(const std::string& name) {
   return rows;
 }
 
-using Rows = std::map<std::string, std::vector<std::string>>;
-
-bool listed(const Rows& differences, const std::string& name, const std::string& how) {
+/// How the answers differ, by differences.tsv: stricter, looser, moves, or empty.
+std::string kind_of_difference(const Rows& differences, const std::string& name) {
   const auto row = differences.find(name);
-  return row != differences.end() && row->second.at(0) == how;
+  return row == differences.end() ? "" : row->second.at(0);
 }
 
-TEST(Corpus, HoldsWhatItPromises) {
-  EXPECT_GE(programs("accepted").size(), 120U);
-  EXPECT_GE(programs("refused").size(), 60U);
+void expect_refused(const StoredProgram& program,
+                    const std::vector<std::string>& problem,
+                    const std::string& how) {
+  const Answer answer = limited(program.text);
+  EXPECT_FALSE(answer.accepted);
+  EXPECT_EQ(program.linuxcnc.accepted, how == "stricter")
+      << (program.linuxcnc.accepted ? "LinuxCNC accepts it" : program.linuxcnc.refusal);
+  EXPECT_EQ(answer.problem, problem.at(0)) << answer.refusal;
+  EXPECT_EQ(fmt::format("{}", answer.problem_line), problem.at(1)) << answer.refusal;
 }
 
-TEST(Corpus, AcceptedProgramsGoWhereLinuxCncGoes) {
+void expect_accepted(const StoredProgram& program, const std::string& how) {
+  const Answer answer = limited(program.text);
+  EXPECT_TRUE(answer.accepted) << answer.refusal;
+  const auto found = difference(program.linuxcnc, answer);
+  if (how == "looser") {
+    EXPECT_FALSE(program.linuxcnc.accepted) << "LinuxCNC accepts it: remove it from differences.tsv";
+  } else if (how == "moves") {
+    EXPECT_TRUE(program.linuxcnc.accepted && found) << "the moves agree: remove it from differences.tsv";
+  } else {
+    EXPECT_EQ(found.value_or(""), "");
+  }
+}
+
+TEST(Corpus, GoesWhereLinuxCncGoesAndIsRefusedWithLineAndProblem) {
   const Rows differences = table("differences.tsv");
-  for (const std::string& name : programs("accepted")) {
-    SCOPED_TRACE(name + ":\n" + program("accepted", name));
-    const Answer linuxcnc = truth("accepted", name);
-    const Answer answer = here("accepted", name);
-    EXPECT_TRUE(answer.accepted) << answer.refusal;
-    const auto found = difference(linuxcnc, answer);
-    if (listed(differences, name, "looser")) {
-      EXPECT_FALSE(linuxcnc.accepted) << "LinuxCNC accepts it: strike it from differences.tsv";
-    } else if (listed(differences, name, "moves")) {
-      EXPECT_TRUE(linuxcnc.accepted && found) << "the moves agree: strike it from differences.tsv";
-    } else {
-      EXPECT_EQ(found.value_or(""), "");
+  const Rows refused = table("refused.tsv");
+  std::set<std::string> names;
+  for (const char* theme : kThemes) {
+    for (const StoredProgram& program : stored_programs(CHAINTRUE_FIXTURES, theme)) {
+      SCOPED_TRACE(fmt::format("{}.records, {}:\n{}", theme, program.name, program.text));
+      EXPECT_TRUE(names.insert(program.name).second) << "two programs of this name";
+      const std::string how = kind_of_difference(differences, program.name);
+      const auto problem = refused.find(program.name);
+      if (problem == refused.end()) {
+        expect_accepted(program, how);
+      } else {
+        expect_refused(program, problem->second, how);
+      }
     }
   }
-}
-
-TEST(Corpus, RefusedProgramsAreRefusedByBothWithTheLineAndTheProblem) {
-  const Rows differences = table("differences.tsv");
-  const Rows problems = table("refused.tsv");
-  for (const std::string& name : programs("refused")) {
-    SCOPED_TRACE(name + ":\n" + program("refused", name));
-    const Answer linuxcnc = truth("refused", name);
-    const Answer answer = here("refused", name);
-    EXPECT_FALSE(answer.accepted);
-    EXPECT_EQ(linuxcnc.accepted, listed(differences, name, "stricter"))
-        << (linuxcnc.accepted ? "LinuxCNC accepts it" : linuxcnc.refusal);
-    const auto row = problems.find(name);
-    ASSERT_NE(row, problems.end()) << "refused.tsv says nothing of it";
-    EXPECT_EQ(answer.problem, row->second.at(0)) << answer.refusal;
-    EXPECT_EQ(fmt::format("{}", answer.problem_line), row->second.at(1)) << answer.refusal;
-  }
-}
-
-TEST(Corpus, TablesNameNothingElse) {
-  std::set<std::string> accepted;
-  for (const auto& name : programs("accepted")) accepted.insert(name);
-  std::set<std::string> refused;
-  for (const auto& name : programs("refused")) refused.insert(name);
-  for (const auto& [name, row] : table("refused.tsv")) EXPECT_TRUE(refused.contains(name)) << name;
-  for (const auto& [name, row] : table("differences.tsv")) {
+  EXPECT_GE(names.size(), 620U);
+  for (const auto& [name, row] : refused) EXPECT_TRUE(names.contains(name)) << name;
+  for (const auto& [name, row] : differences) {
     SCOPED_TRACE(name);
     ASSERT_EQ(row.size(), 2U) << "a difference has its reason";
     EXPECT_THAT(row[0], testing::AnyOf("stricter", "looser", "moves"));
-    EXPECT_TRUE(row[0] == "stricter" ? refused.contains(name) : accepted.contains(name));
+    EXPECT_TRUE(names.contains(name));
+    EXPECT_EQ(row[0] == "stricter", refused.contains(name));
   }
 }
 
-TEST(Corpus, StoredAnswersAreThoseOfTheLivingInterpreter) {
-  if (!linuxcnc_missing().empty()) GTEST_SKIP() << linuxcnc_missing();
-  std::vector<Record> asked;
-  std::vector<std::string> stored;
-  for (const std::string folder : {"accepted", "refused"}) {
-    for (const std::string& name : programs(folder)) {
-      asked.push_back({folder + "/" + name, program(folder, name)});
-      stored.push_back(read_file(kFolder + folder + "/" + name + ".canon"));
-    }
+TEST(Corpus, RandomProgramsGoWhereLinuxCncGoes) {
+  std::size_t accepted = 0;
+  const auto programs = stored_programs(CHAINTRUE_FIXTURES, "generated");
+  EXPECT_GE(programs.size(), 200U);
+  for (const StoredProgram& program : programs) {
+    accepted += program.linuxcnc.accepted ? 1U : 0U;
+    const auto found =
+        unlisted_difference(program.text, program.linuxcnc, limited(program.text));
+    EXPECT_EQ(found.value_or(""), "") << program.name << ":\n" << program.text;
   }
-  const auto answers = ask_linuxcnc(asked);
-  for (std::size_t i = 0; i < answers.size(); ++i) {
-    EXPECT_EQ(answers[i].text, stored[i])
-        << asked[i].name << ": fixtures/gcode/corpus/store_truth.py stores it anew";
-  }
+  EXPECT_GE(accepted * 100, programs.size() * kLeastAccepted)
+      << "a generator whose programs are refused tests little";
 }
 
 }  // namespace

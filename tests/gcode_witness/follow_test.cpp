@@ -13,9 +13,8 @@
 
 #include "tests/gcode_witness/follower/path_distance.hpp"
 #include "tests/gcode_witness/follower/program_path.hpp"
-#include "tests/gcode_witness/support/canonical.hpp"
+#include "tests/gcode_witness/support/corpus.hpp"
 #include "tests/gcode_witness/support/follow_run.hpp"
-#include "tests/gcode_witness/support/records.hpp"
 
 namespace chaintrue::witness {
 namespace {
@@ -92,18 +91,15 @@ std::vector<Place> ends(const Answer& truth) {
 }
 
 TEST(Follower, EndsItsMovesWhereLinuxCncDoes) {
-  const std::string folder = std::string(CHAINTRUE_FIXTURES) + "/gcode/corpus/";
-  const auto programs = read_records(read_file(folder + "follower.records"));
-  const auto truths = read_records(read_file(folder + "follower.canon"));
+  const auto programs = stored_programs(CHAINTRUE_FIXTURES, "follower");
   EXPECT_GE(programs.size(), 100U);
-  for (std::size_t i = 0; i < programs.size(); ++i) {
-    SCOPED_TRACE(programs[i].name + ":\n" + programs[i].text);
-    const Answer truth = read_truth(truths[i].text);
-    ASSERT_TRUE(truth.accepted);
+  for (const StoredProgram& program : programs) {
+    SCOPED_TRACE(program.name + ":\n" + program.text);
+    ASSERT_TRUE(program.linuxcnc.accepted);
     std::vector<Place> reached;
-    for (const auto& piece : follower::program_path(programs[i].text))
+    for (const auto& piece : follower::program_path(program.text))
       reach(reached, piece.places.back());
-    const auto expected = ends(truth);
+    const auto expected = ends(program.linuxcnc);
     ASSERT_EQ(reached.size(), expected.size());
     for (std::size_t k = 0; k < reached.size(); ++k) {
       // As for our own interpreter: nine decimals through inches.

@@ -12,6 +12,9 @@
 
 namespace chaintrue::witness {
 
+/// Programs with comparable answers, of each hundred random ones.
+inline constexpr std::size_t kLeastAccepted = 80;
+
 struct LanguageRun {
   std::size_t accepted = 0;   ///< by LinuxCNC
   std::size_t different = 0;  ///< without those for which LinuxCNC is wrong (compared.cpp)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Command lines on the fixtures: every verb, every kind of file.
-import {readdirSync} from "node:fs";
+import {readdirSync, readFileSync} from "node:fs";
 import {join, relative} from "node:path";
 import {root} from "../test/browser.mjs";
 
@@ -13,6 +13,21 @@ export function filesBelow(folder, under = folder) {
 
 export const fixtures = filesBelow(join(root, "fixtures")).sort();
 const of = (folder, pattern) => fixtures.filter((path) => path.startsWith(folder) && pattern.test(path)).map((path) => `fixtures/${path}`);
+
+/** The programs of the corpus, which are stored as records, by the path of a file for each: `programs/THEME/NAME.ngc`. */
+function programsOf(path) {
+  const [theme] = path.split("/").at(-1).split(".");
+  const bytes = readFileSync(join(root, path));
+  const found = [];
+  for (let at = 0; at < bytes.length;) {
+    const begin = bytes.indexOf("\n", at) + 1;
+    const [, name, count] = bytes.toString("latin1", at, begin).trim().split(" ");
+    at = begin + Number(count) + 1;
+    found.push([`programs/${theme}/${found.length}_${name.replace(/\W/g, "_")}.ngc`, new Uint8Array(bytes.subarray(begin, at - 1))]);
+  }
+  return found;
+}
+export const programs = Object.fromEntries(of("gcode/corpus/", /(?<!generated|follower)\.records$/).flatMap(programsOf));
 
 const CLASSIC = ["--machine", "fixtures/machines/classic.json"];
 /** Every verb, in order; a later one may read what an earlier one has written. */
@@ -68,7 +83,7 @@ const onFiles = [
   ...of("bad/", /(holes|belts)_.*\.(csv|json)$/).map((path) => ["fit", path, ...CLASSIC, "-o", "-"]),
   ...of("bad/", /machine_.*\.json$/).map((path) => ["simulate", "--machine", path, "--grid", "3x3", "-o", "-"]),
   ...of("bad/", /(anchors|diagnosis|points)_/).map((path) => ["report", path, "-o", "-"]),
-  ...of("gcode/corpus/", /\.(nc|ngc|gcode|tap)$/).flatMap((path) => [["gcode", "check", path, "--map", "map.json"],
+  ...Object.keys(programs).flatMap((path) => [["gcode", "check", path, "--map", "map.json"],
     ["gcode", "lengths", path, "--map", "map.json"], ["gcode", "compensate", path, "--map", "map.json", "-o", "-"]]),
 ];
 
@@ -77,7 +92,7 @@ export const jobs = [...verbs, ...onFiles];
 /** The kind of a command line: its words with the kinds of files in place of their names. */
 function kindOf(words) {
   return words.map((word) => {
-    const file = /^fixtures\/(gcode\/corpus\/\w+|.*\/[a-z0-9]+)(?:[_/].*)?\.(\w+)$/.exec(word);
+    const file = /^(programs\/\w+|fixtures\/.*\/[a-z0-9]+)(?:[_/].*)?\.(\w+)$/.exec(word);
     return file ? `${file[1]}.${file[2]}` : word;
   }).join(" ");
 }
