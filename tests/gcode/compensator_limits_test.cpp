@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tests/gcode/formula_target.hpp"
-#include "tests/gcode/random_program.hpp"
+#include "tests/gcode/true_machine.hpp"
 #include "tools/gcode/compensator.hpp"
 #include "tools/gcode/moves.hpp"
 #include "tools/gcode/verifier.hpp"

@@ -14,7 +14,7 @@
 
 #include "tests/gcode/corpus.hpp"
 #include "tests/gcode/formula_target.hpp"
-#include "tests/gcode/random_program.hpp"
+#include "tests/gcode/true_machine.hpp"
 #include "tools/gcode/compensator.hpp"
 #include "tools/gcode/verifier.hpp"
 

@@ -16,7 +16,7 @@ Place along(const Place& a, const Place& b, double t) {
 
 /// The position for chain lengths; empty if there is none.
 std::optional<Place> tool(const Workshop& workshop, model::ChainLengths lengths, double z_mm) {
-  const auto place = workshop.machine->inverse(lengths);
+  const auto place = workshop.machine->tool(lengths);
   if (!place) return std::nullopt;
   return Place{place->x_mm, place->y_mm, z_mm};
 }

@@ -15,7 +15,7 @@
 namespace chaintrue::follower {
 
 struct Workshop {
-  const grid::CompensationMap* machine = nullptr;
+  const grid::LengthMap* machine = nullptr;
   const model::ControllerKinematics* controller = nullptr;
   /// The controller keeps positions in single precision.
   bool single_precision = false;

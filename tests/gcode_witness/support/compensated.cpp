@@ -6,7 +6,10 @@
 #include "grid/files/grid_file.hpp"
 #include "grid/map/fit.hpp"
 #include "grid/map/map_for_settings.hpp"
+#include "grid/map/map_in_frame.hpp"
+#include "tests/gcode/true_machine.hpp"
 #include "tests/gcode_witness/follower/path_distance.hpp"
+#include "tests/gcode_witness/support/random.hpp"
 
 namespace chaintrue::witness {
 namespace {
@@ -17,11 +20,11 @@ model::Machine with_controller(model::Machine machine, model::ControllerKind kin
 }
 
 /// The firmwares' constants, stated independently of tools/gcode/firmware.cpp.
-follower::Workshop workshop(const grid::CompensationMap& map,
+follower::Workshop workshop(const grid::LengthMap& machine,
                             const model::ControllerKinematics& kinematics,
                             model::ControllerKind kind) {
   constexpr double kFluidncSegmentMm = 10.0;  // WallPlotter's segment_length, its default
-  follower::Workshop result{&map, &kinematics};
+  follower::Workshop result{&machine, &kinematics};
   result.single_precision = kind != model::ControllerKind::ideal;
   if (kind == model::ControllerKind::fluidnc_wallplotter)
     result.chain_linear_piece_mm = kFluidncSegmentMm;
@@ -30,18 +33,30 @@ follower::Workshop workshop(const grid::CompensationMap& map,
 
 }  // namespace
 
-const grid::CompensationMap& measured_map(const std::string& fixtures) {
+Shop::Shop(std::unique_ptr<const grid::LengthMap> machine, const model::Machine& believed)
+    : machine_(std::move(machine)),
+      kinematics_(model::make_controller_kinematics(believed)),
+      corrector_(*machine_, *kinematics_, gcode::firmware(believed.controller.kind)),
+      workshop_(workshop(*machine_, *kinematics_, believed.controller.kind)) {}
+
+std::unique_ptr<const Shop> measured_shop(const std::string& fixtures, model::ControllerKind kind) {
   static const grid::CompensationMap map =
       grid::fit(grid::files::read_grid(fixtures + "/grids/seven_by_four.json").grid).value();
-  return map;
+  return std::make_unique<Shop>(std::make_unique<grid::MapInFrame>(map),
+                                with_controller(*grid::stated_machine(map), kind));
 }
 
-Shop::Shop(const grid::CompensationMap& map, model::ControllerKind kind)
-    : target_(map),
-      machine_(with_controller(*grid::stated_machine(map), kind)),
-      kinematics_(model::make_controller_kinematics(machine_)),
-      corrector_(target_, *kinematics_, gcode::firmware(kind)),
-      workshop_(workshop(map, *kinematics_, kind)) {}
+std::unique_ptr<const Shop> random_shop(std::uint64_t seed, model::ControllerKind kind) {
+  Random random(seed);
+  model::Machine machine;
+  for (model::MotorPosition* motor : {&machine.motors.left, &machine.motors.right}) {
+    motor->x_mm += random.between(-6.0, 6.0);
+    motor->y_mm += random.between(-6.0, 6.0);
+  }
+  machine.chain_zero = {random.between(-3.0, 3.0), random.between(-3.0, 3.0)};
+  return std::make_unique<Shop>(std::make_unique<gcode::testing_support::TrueMachine>(machine),
+                                with_controller({}, kind));
+}
 
 std::optional<std::string> Shop::compensate(const std::string& program,
                                             double tolerance_mm,

@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A measured machine and its controllers, for tests that compensate.
+/// Machines that differ from what their controllers believe, for tests that compensate.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "grid/map/map_in_frame.hpp"
+#include "grid/map/compensation_map.hpp"
 #include "tests/gcode_witness/follower/tool_path.hpp"
 #include "tools/gcode/compensator.hpp"
 #include "tools/gcode/verifier.hpp"
 
 namespace chaintrue::witness {
 
-/// The map of fixtures/grids/seven_by_four.json, fitted once.
-[[nodiscard]] const grid::CompensationMap& measured_map(const std::string& fixtures);
-
 class Shop {
  public:
-  Shop(const grid::CompensationMap& map, model::ControllerKind kind);
+  /// The machine, and what its controller believes of it.
+  Shop(std::unique_ptr<const grid::LengthMap> machine, const model::Machine& believed);
   Shop(const Shop&) = delete;
   Shop& operator=(const Shop&) = delete;
 
@@ -43,11 +42,17 @@ class Shop {
   [[nodiscard]] const char* name() const { return corrector_.firmware().name; }
 
  private:
-  grid::MapInFrame target_;
-  model::Machine machine_;
+  std::unique_ptr<const grid::LengthMap> machine_;
   std::unique_ptr<const model::ControllerKinematics> kinematics_;
   gcode::Corrector corrector_;
   follower::Workshop workshop_;
 };
+
+/// The machine of fixtures/grids/seven_by_four.json; its map is fitted once.
+[[nodiscard]] std::unique_ptr<const Shop> measured_shop(const std::string& fixtures,
+                                                        model::ControllerKind kind);
+/// The default machine with random errors of its motors' places and of its chains' zeros.
+[[nodiscard]] std::unique_ptr<const Shop> random_shop(std::uint64_t seed,
+                                                      model::ControllerKind kind);
 
 }  // namespace chaintrue::witness

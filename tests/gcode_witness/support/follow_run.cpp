@@ -156,9 +156,6 @@ std::string kind_of(const std::string& fault) { return fault.substr(0, 10); }
 }  // namespace
 
 FollowRun follow(const std::string& fixtures, const FollowOptions& options) {
-  const grid::CompensationMap& map = measured_map(fixtures);
-  std::vector<std::unique_ptr<Shop>> shops;
-  for (const ControllerKind kind : kKinds) shops.push_back(std::make_unique<Shop>(map, kind));
   GeneratorOptions generator;
   generator.scope = Scope::path;
   FollowRun run;
@@ -167,9 +164,12 @@ FollowRun follow(const std::string& fixtures, const FollowOptions& options) {
     const std::string program = random_program(seed, generator);
     // Log-uniform from 0.005 to 1 mm.
     const double tolerance_mm = 0.005 * std::pow(200.0, Random(~seed).unit());
-    const Shop& shop = *shops[seed % shops.size()];
+    // Each controller in turn, with the measured machine and then with a random one.
+    const ControllerKind kind = kKinds[seed % kKinds.size()];
+    const bool measured = seed / kKinds.size() % 2 == 0;
+    const auto shop = measured ? measured_shop(fixtures, kind) : random_shop(seed, kind);
     ++run.programs;
-    const std::string fault = judged(shop, program, tolerance_mm, seed, run);
+    const std::string fault = judged(*shop, program, tolerance_mm, seed, run);
     if (fault.empty()) continue;
     ++run.failed;
     if (run.failures.size() >= options.most_reported) continue;
@@ -177,7 +177,7 @@ FollowRun follow(const std::string& fixtures, const FollowOptions& options) {
       std::vector<bool> same;
       for (const std::string& candidate : candidates) {
         FollowRun ignored;
-        const std::string other = judged(shop, candidate, tolerance_mm, seed, ignored);
+        const std::string other = judged(*shop, candidate, tolerance_mm, seed, ignored);
         same.push_back(kind_of(other) == kind_of(fault));
       }
       return same;
@@ -185,11 +185,11 @@ FollowRun follow(const std::string& fixtures, const FollowOptions& options) {
     FollowRun ignored;
     run.failures.push_back(fmt::format("seed {}, {}, tolerance {:.5f} mm: {}\nreduced to\n{}{}",
                                        seed,
-                                       shop.name(),
+                                       shop->name(),
                                        tolerance_mm,
                                        fault,
                                        small,
-                                       judged(shop, small, tolerance_mm, seed, ignored)));
+                                       judged(*shop, small, tolerance_mm, seed, ignored)));
   }
   return run;
 }

@@ -20,15 +20,15 @@ struct FollowRun {
 
 struct FollowOptions {
   std::uint64_t first_seed = 1;
-  std::uint64_t count = 300;
+  std::uint64_t count = 60;
   std::size_t most_reported = 5;
   /// 0 of 1, or a share of the seeds for one of several processes.
   std::uint64_t share = 0;
   std::uint64_t shares = 1;
 };
 
-/// For every program that compensate accepts, at a random tolerance from 0.005 to 1 mm and for each
-/// controller in turn:
+/// For every program that compensate accepts, at a random tolerance from 0.005 to 1 mm, for each
+/// controller in turn, on the measured machine or on a random one:
 ///   the tool follows the path within the tolerance (follower), and verify holds;
 ///   the output with one command moved across the path by 1.5 tolerances fails both;
 ///   the output without one of its moves is judged equally by both, except in a band about the tolerance.

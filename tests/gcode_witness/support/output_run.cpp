@@ -176,7 +176,7 @@ OutputRun compare_output(const std::string& fixtures,
                          std::uint64_t count,
                          bool ask,
                          std::size_t most_reported) {
-  const Shop shop(measured_map(fixtures), model::ControllerKind::ideal);
+  const auto shop = measured_shop(fixtures, model::ControllerKind::ideal);
   GeneratorOptions options;
   options.scope = Scope::path;
   OutputRun run;
@@ -194,7 +194,7 @@ OutputRun compare_output(const std::string& fixtures,
     const std::string program = of_words ? words.text : random_program(seed, options);
     std::string why;
     Random random(seed);
-    const auto output = shop.compensate(program, 0.005 * std::pow(200.0, random.unit()), why);
+    const auto output = shop->compensate(program, 0.005 * std::pow(200.0, random.unit()), why);
     if (!output) {
       if (of_words) fail(seed, why, program);  // such programs stay on the bed
       continue;
