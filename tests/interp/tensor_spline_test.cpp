@@ -6,10 +6,6 @@
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
 
-#ifdef CHAINTRUE_HAS_ALGLIB
-#include <libalglib/interpolation.h>
-#endif
-
 #include "interp/planner_nodes.hpp"
 #include "tests/interp/truths.hpp"
 
@@ -138,37 +134,6 @@ TEST(TensorSpline, EqualsAnIndependentSolverForEveryPairOfEnds) {
   }
 }
 
-#ifdef CHAINTRUE_HAS_ALGLIB
-TEST(TensorSpline, ParabolicEndsAreAlglibs) {
-  SCOPED_TRACE(kTensorSeed);
-  truths::Random random(kTensorSeed + 1);
-  for (const auto& [nx, ny] : {std::pair{7, 4}, {3, 5}, {2, 2}, {25, 13}}) {
-    const auto x = random.nodes(nx, kBed.x_min, kBed.x_max);
-    const auto y = random.nodes(ny, kBed.y_min, kBed.y_max);
-    const Eigen::MatrixXd z = sample(x, y, [&](double, double) { return random.uniform(0, 3000); });
-    const TensorEnds ends = {{EndCondition::parabolic, EndCondition::parabolic},
-                             {EndCondition::parabolic, EndCondition::parabolic}};
-    const TensorSpline surface(x, y, z, ends);
-    alglib::real_1d_array ax, ay, az;
-    ax.setcontent(nx, x.data());
-    ay.setcontent(ny, y.data());
-    az.setcontent(nx * ny, z.data());
-    alglib::spline2dinterpolant peer;
-    alglib::spline2dbuildbicubicv(ax, nx, ay, ny, az, 1, peer);
-    for (int k = 0; k < 50; ++k) {
-      const double px = random.uniform(kBed.x_min, kBed.x_max);
-      const double py = random.uniform(kBed.y_min, kBed.y_max);
-      double f = 0, fx = 0, fy = 0, fxy = 0;
-      alglib::spline2ddiff(peer, px, py, f, fx, fy, fxy);
-      const ValueGradient ours = surface.at(px, py);
-      EXPECT_NEAR(ours.value, f, 1e-9);  // 3000 mm in doubles: 5e-13 a digit
-      EXPECT_NEAR(ours.dx, fx, 1e-9);
-      EXPECT_NEAR(ours.dy, fy, 1e-9);
-    }
-  }
-}
-#endif
-
 TEST(TensorSpline, NotAKnotReproducesEveryBicubicAlsoOutside) {
   SCOPED_TRACE(kTensorSeed);
   truths::Random random(kTensorSeed + 2);
@@ -228,21 +193,6 @@ TEST(TensorSpline, TwoAndThreeNodesGiveTheLineAndTheParabola) {
     for (double py = 0; py <= 2; py += 0.2) {
       EXPECT_NEAR(surface.value(px, py), f(px, py), 1e-13);  // rounding
     }
-  }
-}
-
-TEST(TensorSpline, SecondDerivativesAreContinuousAcrossNodes) {
-  truths::Random random(kTensorSeed + 3);
-  const auto x = random.nodes(6, 0, 5);
-  const auto y = random.nodes(5, 0, 4);
-  const Eigen::MatrixXd z = sample(x, y, [&](double, double) { return random.uniform(-1, 1); });
-  const TensorSpline surface(x, y, z);
-  constexpr double kStep = 1e-6;
-  for (std::size_t i = 1; i + 1 < x.size(); ++i) {
-    const double at = x[i];
-    const double left = (surface.at(at, 1.3).dx - surface.at(at - kStep, 1.3).dx) / kStep;
-    const double right = (surface.at(at + kStep, 1.3).dx - surface.at(at, 1.3).dx) / kStep;
-    EXPECT_NEAR(left, right, 1e-3);  // third derivatives of order 100 times the step, twice
   }
 }
 
