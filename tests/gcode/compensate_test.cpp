@@ -202,38 +202,6 @@ TEST_P(RealFile, StaysItselfUnderTheIdentity) {
   EXPECT_EQ(verified(original, output->text, corrector, verify_options, dialect_).fault, "");
 }
 
-TEST_P(RealFile, ComesOutInTheLanguageThatEveryControllerReads) {
-  const std::string original = read(kCorpus / GetParam());
-  const FormulaMap map(random_smooth_displacement(4));
-  const Corrector corrector(map, kinematics_, firmware(model::ControllerKind::ideal));
-  const auto output = compensate(original, corrector, {}, dialect_);
-  ASSERT_TRUE(output) << output.error().message();
-  std::istringstream lines(output->text);
-  std::string before;
-  bool units = false;
-  for (std::string line; std::getline(lines, line);) {
-    SCOPED_TRACE(line);
-    ASSERT_LE(line.size(), kMaxOutputLine);
-    if (line.starts_with('(')) continue;
-    if (line == "G21 G90") {
-      units = true;
-      continue;
-    }
-    ASSERT_THAT(line, testing::Not(testing::ContainsRegex("G[0-9]+[.]|[eE]|nan|inf|-0( |$)")));
-    if (line.starts_with("G0 ") || line.starts_with("G1 ")) {
-      ASSERT_TRUE(units);
-      ASSERT_EQ(line.find('X') == std::string::npos, line.find('Y') == std::string::npos)
-          << "X and Y go together";
-      ASSERT_NE(line.find_first_of("XYZ"), std::string::npos) << "a move of nothing";
-      ASSERT_NE(line, before) << "a move of zero length";
-      before = line;
-    } else {
-      ASSERT_THAT(line,
-                  testing::ContainsRegex("^(M[0-9]+|S[0-9.]+|T[0-9]+|G4 P|G40|G43|G49|G61|G64)"));
-    }
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Corpus, RealFile, testing::ValuesIn(fitting_files()), test_name);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RealFile);
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "tests/gcode/formula_target.hpp"
-#include "tests/gcode/true_machine.hpp"
 #include "tools/gcode/compensator.hpp"
 #include "tools/gcode/moves.hpp"
 #include "tools/gcode/verifier.hpp"
@@ -23,7 +22,7 @@ using testing::HasSubstr;
 
 struct Outcome {
   std::string text;
-  std::string message;  // of the first problem, empty where there is none
+  std::string problem;  ///< name and line of the first one, empty where there is none
   CompensateSummary summary;
   Findings findings;
 };
@@ -37,10 +36,15 @@ Outcome compensate_within(const std::string& program,
   auto source = LineSource::from_text(program);
   const auto summary = compensator.run(source, {});
   result.findings = compensator.findings();
-  if (!summary) result.message = summary.error().message();
+  const auto named = [](const Problem& problem) {
+    return fmt::format("{} {}", name(problem.name), problem.place.line);
+  };
   if (summary) result.summary = *summary;
-  if (result.message.empty() && !result.findings.problems.empty())
-    result.message = result.findings.problems.front().message();
+  if (!summary) {
+    result.problem = named(summary.error());
+  } else if (!result.findings.problems.empty()) {
+    result.problem = named(result.findings.problems.front());
+  }
   return result;
 }
 
@@ -64,19 +68,16 @@ class Limits : public testing::Test {
 
 TEST_F(Limits, AFileThatWasCompensatedIsRefused) {
   const auto once = compensate_within("G0 X10 Y10\nF100 G1 X20\nM2\n", corrector_);
-  EXPECT_EQ(once.message, "");
+  EXPECT_EQ(once.problem, "");
   const auto twice = compensate_within(once.text, corrector_);
-  EXPECT_THAT(
-      twice.message,
-      HasSubstr("has been compensated before, as this mark in it says; compensate the original "
-                "(already_compensated)"));
+  EXPECT_THAT(twice.problem, HasSubstr("already_compensated"));
 }
 
 /// A file without its head, the part of one tool alone, and what senders make of comments.
 TEST_F(Limits, AFileIsKnownByMoreThanItsFirstLine) {
   const auto once = compensate_within(
       "G21\nT1 M6\nG0 X10 Y10\nF100 G1 X20\nT2 M6\nG1 X30\nM2\n", corrector_);
-  ASSERT_EQ(once.message, "");
+  ASSERT_EQ(once.problem, "");
   std::vector<std::string> lines;
   std::istringstream text(once.text);
   for (std::string line; std::getline(text, line);) lines.push_back(line);
@@ -88,18 +89,18 @@ TEST_F(Limits, AFileIsKnownByMoreThanItsFirstLine) {
   for (std::size_t first = 1; first <= last_tool; ++first) {
     std::string rest;
     for (std::size_t i = first; i < lines.size(); ++i) rest += lines[i] + "\n";
-    EXPECT_THAT(compensate_within(rest, corrector_).message, HasSubstr("already_compensated"))
+    EXPECT_THAT(compensate_within(rest, corrector_).problem, HasSubstr("already_compensated"))
         << "without its first " << first << " lines";
   }
   // The end alone, numbered anew, in capitals, and as a comment of the other kind.
-  EXPECT_THAT(compensate_within("G0 X1 Y1\n(compensated by chaintrue)\nM2\n", corrector_).message,
+  EXPECT_THAT(compensate_within("G0 X1 Y1\n(compensated by chaintrue)\nM2\n", corrector_).problem,
               HasSubstr("already_compensated"));
-  EXPECT_THAT(compensate_within("N10 (COMPENSATED  BY CHAINTRUE)\nN20 G0 X1 Y1\n", corrector_).message,
+  EXPECT_THAT(compensate_within("N10 (COMPENSATED  BY CHAINTRUE)\nN20 G0 X1 Y1\n", corrector_).problem,
               HasSubstr("already_compensated"));
-  EXPECT_THAT(compensate_within("; compensatedbychaintrue\nG0 X1 Y1\n", corrector_).message,
+  EXPECT_THAT(compensate_within("; compensatedbychaintrue\nG0 X1 Y1\n", corrector_).problem,
               HasSubstr("already_compensated"));
   // A comment that only speaks of it is none.
-  EXPECT_EQ(compensate_within("(not yet compensated by chaintrue)\nG0 X1 Y1\n", corrector_).message,
+  EXPECT_EQ(compensate_within("(not yet compensated by chaintrue)\nG0 X1 Y1\n", corrector_).problem,
             "");
 }
 
@@ -108,7 +109,7 @@ TEST_F(Limits, TheHeaderSaysWhichSettingsArePresumed) {
   options.settings = {"motorspacingx 2978.4", "motoroffsety 463", "rotationradius 139.1",
                       "chainsagcorrection 6.1", "leftchaintolerance 0.12"};
   const auto once = compensate_within("G21 G0 X10 Y10\nM2\n", corrector_, options);
-  ASSERT_EQ(once.message, "");
+  ASSERT_EQ(once.problem, "");
   std::string settings;
   std::istringstream text(once.text);
   for (std::string line; std::getline(text, line);) {
@@ -121,26 +122,22 @@ TEST_F(Limits, TheHeaderSaysWhichSettingsArePresumed) {
 }
 
 TEST_F(Limits, WhatCannotBeCutRightIsNamedByLine) {
-  EXPECT_EQ(compensate_within("G0 X0 Y0\nG0 X1500 Y0\n", corrector_).message,
-            "line 2: X1500.000 Y0.000 lies outside the map (outside_map)");
-  EXPECT_THAT(compensate_within("G0 X1 Y1\nG28\n", corrector_).message,
-              HasSubstr("line 2: G28 and G30 go to a place that only the machine knows"));
-  EXPECT_THAT(compensate_within("F9 G0 X1 Y1 Z5\nG38.2 Z-5\n", corrector_).message,
-              HasSubstr("line 2: probing needs a dotted code"));
-  EXPECT_THAT(compensate_within("G0 X1 Y1 A5\n", corrector_).message,
-              HasSubstr("line 1: a two-chain router has no axis A, B or C"));
+  const auto problem = [&](const std::string& program, const CompensateOptions& options = {}) {
+    return compensate_within(program, corrector_, options).problem;
+  };
+  EXPECT_EQ(problem("G0 X0 Y0\nG0 X1500 Y0\n"), "outside_map 2");
+  EXPECT_EQ(problem("G0 X1 Y1\nG28\n"), "unknown_home 2");
+  EXPECT_EQ(problem("F9 G0 X1 Y1 Z5\nG38.2 Z-5\n"), "not_emittable 2");
+  EXPECT_EQ(problem("G0 X1 Y1 A5\n"), "unsupported_axis 1");
   CompensateOptions options;
-  options.largest_correction_mm = 3.0;
-  EXPECT_THAT(compensate_within("G0 X1 Y1\n", corrector_, options).message,
-              HasSubstr("line 1: X1.000 Y1.000 would be corrected by 3.61 mm, more than the 3 mm "
-                        "that are allowed (correction_too_large)"));
+  options.largest_correction_mm = 3.0;  // the correction is 3.61 mm
+  EXPECT_EQ(problem("G0 X1 Y1\n", options), "correction_too_large 1");
 }
 
 TEST_F(Limits, ASteepCorrectionIsRefused) {
   const FormulaMap steep([](model::BedPoint p) { return model::BedPoint{0.08 * p.x_mm, 0.0}; });
   const Corrector corrector(steep, kinematics_, firmware(model::ControllerKind::ideal));
-  EXPECT_THAT(compensate_within("G0 X0 Y0\nG0 X100\n", corrector).message,
-              HasSubstr("changes by 0.080 mm per mm, more than the 0.05"));
+  EXPECT_EQ(compensate_within("G0 X0 Y0\nG0 X100\n", corrector).problem, "correction_too_steep 2");
 }
 
 TEST_F(Limits, TargetsThatTheControllerWouldClampAreAllFound) {
@@ -149,10 +146,7 @@ TEST_F(Limits, TargetsThatTheControllerWouldClampAreAllFound) {
   const auto outcome = compensate_within(
       "G0 X1217 Y0\nG0 X0 Y-608\nG0 X0 Y0\nG0 X1215 Y-607\n", corrector_, options);
   ASSERT_EQ(outcome.findings.problem_count, 2U);
-  EXPECT_THAT(
-      outcome.findings.problems[0].message(),
-      HasSubstr(
-          "line 1: X1217.000 Y0.000 needs the command X1220.000 Y-2.000, 0.80 mm beyond the bed"));
+  EXPECT_EQ(outcome.problem, "outside_controller 1");
   EXPECT_EQ(outcome.findings.problems[1].place.line, 2U);
 }
 
@@ -170,7 +164,7 @@ TEST_F(Limits, KeepsWordsCommentsAndFeedsInPlace) {
       "(part)\nG21 S900 M3\nG0 Z5\nG0 X0 Y0\nT2 M6\nG1 Z-1 F90\nG4 P1\nG1 X5 Y0\nG93 X15 "
       "F2\nG94\nG1 X16 F300 ; last\nM5\nM30\n",
       corrector_);
-  EXPECT_EQ(outcome.message, "");
+  EXPECT_EQ(outcome.problem, "");
   EXPECT_THAT(outcome.text,
               HasSubstr("G21 G90\n(part)\nS900 M3\nG0 Z5\nG0 X3 Y-2\nT2 M6\n"
                         "(compensated by chaintrue)\nG1 Z-1 F90\nG4 P1\nG1 X8 Y-2\nG1 X18 Y-2 F20\n( last)\n"
@@ -241,65 +235,8 @@ TEST_F(Limits, PlayIsTakenUpWhereAChainTurnsAround) {
   CompensateOptions options;
   options.half_play_mm = verify_options.half_play_mm;
   const auto corrected = compensate_within(program, corrector, options);
-  EXPECT_EQ(corrected.message, "");
+  EXPECT_EQ(corrected.problem, "");
   EXPECT_EQ(verified_within(program, corrected.text, corrector, verify_options).fault, "");
-}
-
-/// A machine that differs from its controller's kinematics, by centimetres of motor position and by
-/// what the firmware leaves out.
-using RealMachine = testing_support::TrueMachine;
-
-class RealController : public testing::TestWithParam<model::ControllerKind> {};
-
-TEST_P(RealController, HoldsTheToleranceOnATrueMachine) {
-  model::Machine truth;
-  truth.motors = {{-1484.0, 1066.0}, {1492.5, 1074.0}};
-  truth.sled.mass_kg = 10.2;
-  truth.chain.compliance_per_n = 7e-6;
-  const RealMachine map(truth);
-  model::Machine believed;
-  believed.controller.kind = GetParam();
-  const auto kinematics = model::make_controller_kinematics(believed);
-  const Corrector corrector(map, *kinematics, firmware(GetParam()));
-  const std::string program =
-      "G21 G90\nG0 Z5\nG0 X-900 Y-400\nG1 Z-3 F600\nG1 X900 F1200\nG1 Y300\nG3 X700 Y500 I-200 "
-      "J0\nG1 X-900\nG1 Y-400\nG0 Z5\nG0 X300 Y0\n"
-      "G1 Z-3\nG2 I-300 J0 Z-6\nG0 Z5\nM2\n";
-  CompensateOptions options;
-  options.largest_correction_mm = 60.0;
-  const auto outcome = compensate_within(program, corrector, options);
-  ASSERT_EQ(outcome.message, "");
-  const auto summary = verified_within(program, outcome.text, corrector);
-  EXPECT_EQ(summary.fault, "");
-  EXPECT_LE(summary.largest_mm(), options.tolerance_mm);
-  EXPECT_GT(verified_within(program, program, corrector).largest_mm(), 1.0);
-}
-
-INSTANTIATE_TEST_SUITE_P(Controllers,
-                         RealController,
-                         testing::Values(model::ControllerKind::ideal,
-                                         model::ControllerKind::maslow_classic,
-                                         model::ControllerKind::holey,
-                                         model::ControllerKind::fluidnc_wallplotter),
-                         [](const auto& kind) { return std::string(firmware(kind.param).name); });
-
-/// verify detects the faults of a file: a missing move, a superfluous one, a wrong height, words
-/// out of order.
-TEST_F(Limits, VerifySeesEveryKindOfFault) {
-  const std::string program = "G0 X0 Y0\nM3\nF600 G1 X100\nG1 Y100\nG1 X0\nM5\nG1 Y0 Z-1\n";
-  const std::string good = compensate_within(program, corrector_).text;
-  EXPECT_LE(verified_within(program, good, corrector_).largest_mm(), 0.05);
-  const auto without = [&](const std::string& line) {
-    std::string text = good;
-    const std::size_t found = text.find(line);
-    EXPECT_NE(found, std::string::npos) << good;
-    return text.erase(found, line.size());
-  };
-  EXPECT_GT(verified_within(program, without("G1 X103 Y98\n"), corrector_).largest_mm(), 20.0);
-  EXPECT_GT(verified_within(program, good + "G1 X50 Y50\n", corrector_).largest_mm(), 20.0);
-  EXPECT_GT(verified_within(program, without(" Z-1"), corrector_).largest_mm(), 0.9);
-  EXPECT_EQ(verified_within(program, without("M5\n"), corrector_).words_differ, "missing: M5");
-  EXPECT_TRUE(verified_within(program, good, corrector_).holds());
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include "grid/map/compensation_map.hpp"
 #include "model/chains/chain_mechanism.hpp"
 #include "tools/gcode/corrector.hpp"
@@ -15,15 +13,7 @@ namespace {
 
 using model::PoseFailure;
 using model::PoseReason;
-using ::testing::EndsWith;
 using ::testing::HasSubstr;
-
-constexpr PoseReason kPoseReasons[] = {PoseReason::outside_verticals,
-                                       PoseReason::above_sprockets,
-                                       PoseReason::link_does_not_fit,
-                                       PoseReason::slack,
-                                       PoseReason::too_short,
-                                       PoseReason::not_converged};
 
 /// A machine that can hold the tool nowhere.
 class NoPose final : public grid::LengthMap {
@@ -51,49 +41,6 @@ class NoPose final : public grid::LengthMap {
   interp::Rectangle domain_{-1000.0, 1000.0, -500.0, 500.0};
   grid::MapFailure failure_;
 };
-
-/// A controller without any lengths.
-class NoCommand final : public model::ControllerKinematics {
- public:
-  explicit NoCommand(PoseReason why) : why_(why) {}
-  [[nodiscard]] tl::expected<model::ChainLengths, PoseFailure> lengths(
-      model::BedPoint) const override {
-    return tl::unexpected(why_);
-  }
-  [[nodiscard]] tl::expected<model::BedPoint, PoseFailure> command(
-      model::ChainLengths) const override {
-    return tl::unexpected(why_);
-  }
-
- private:
-  PoseReason why_;
-};
-
-TEST(FailureWords, APosesOwnCauseEndsTheSentence) {
-  for (const PoseReason why : kPoseReasons) {
-    const std::string cause = PoseFailure(why).sentence();
-    const grid::MapFailure nowhere = grid::unreachable(model::mechanism_failure(why));
-    const CorrectionFailure pose = correction_failure(nowhere);
-    EXPECT_EQ(pose.sentence(), "cannot be reached by the machine: " + cause);
-    EXPECT_THAT(nowhere.sentence(), EndsWith(": " + cause));
-    const NoCommand controller(why);
-    const NoPose map(why);
-    const Corrector corrector(map, controller, firmware(model::ControllerKind::ideal));
-    EXPECT_EQ(corrector.command({0.0, 0.0}).error(), pose);
-    EXPECT_EQ(corrector.tool({0.0, 0.0}).error().sentence(),
-              "cannot be reached by the controller's own kinematics: " + cause);
-  }
-}
-
-TEST(FailureWords, EveryReasonHasWordsOfItsOwn) {
-  std::set<std::string> words;
-  for (const CorrectionReason reason : {CorrectionReason::outside_map,
-                                        CorrectionReason::unreachable,
-                                        CorrectionReason::not_converged,
-                                        CorrectionReason::controller})
-    words.insert(CorrectionFailure(reason).sentence());
-  EXPECT_EQ(words.size(), 4u);
-}
 
 TEST(FailureWords, TheMessageAboutALineNamesTheCause) {
   const NoPose map(PoseReason::slack);

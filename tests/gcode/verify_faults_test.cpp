@@ -7,12 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
-#include "tests/gcode/corpus.hpp"
 #include "tests/gcode/formula_target.hpp"
 #include "tests/gcode/true_machine.hpp"
 #include "tools/gcode/compensator.hpp"
@@ -253,41 +249,6 @@ TEST(VerifyFaults, WhatCompensateMissedIsSeen) {
   ASSERT_TRUE(summary);
   EXPECT_FALSE(summary->holds());
   EXPECT_GT(summary->largest_mm(), 0.3);
-}
-
-/// The real files, for every controller, with a large and a small tolerance.
-TEST(VerifyFaults, RealFilesHoldForEveryController) {
-  if (!std::filesystem::exists(chaintrue::testing_support::kCorpus)) {
-    GTEST_SKIP() << "no files at " << chaintrue::testing_support::kCorpus;
-  }
-  int held = 0;
-  for (const char* name : {"camotics_tiger.nc",
-                           "maslow_3x3GridMarks.nc",
-                           "makerverse_circle_inch.gcode",
-                           "ugs_fixture_arc_feed.nc",
-                           "bcnc_sample.gcode"}) {
-    std::ifstream file(chaintrue::testing_support::kCorpus / name, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    for (const auto kind :
-         {model::ControllerKind::ideal, model::ControllerKind::fluidnc_wallplotter}) {
-      const Bench bench(kind);
-      for (const double tolerance_mm : {0.02, 0.05, 0.5}) {
-        SCOPED_TRACE(fmt::format("{} {} {} mm", name, firmware(kind).name, tolerance_mm));
-        CompensateOptions options;
-        options.tolerance_mm = tolerance_mm;
-        options.largest_correction_mm = 100.0;
-        std::string run;
-        Compensator compensator(bench.corrector, options, [&run](std::string_view b) { run += b; });
-        auto source = LineSource::from_text(text.str());
-        const auto outcome = compensator.run(source, {});
-        if (!outcome || compensator.findings().problem_count > 0) continue;
-        EXPECT_EQ(bench.verified(text.str(), run, tolerance_mm).fault, "");
-        ++held;
-      }
-    }
-  }
-  EXPECT_GT(held, 12);
 }
 
 }  // namespace
