@@ -261,7 +261,7 @@ const Record<FittedAnchors>& fitted_anchors_record() {
         .required("fit", &FittedAnchors::fit, object(fit_record()))
         .optional("holes", &FittedAnchors::holes, object(holes_with_belts_record()));
     add_content_hash(add_made_by_key(anchors)).check([](const Cursor& at, FittedAnchors&) {
-      if (at.clean()) check_content(at, kAnchorsFormat);
+      if (at.clean()) check_content(at);
     });
     return anchors;
   }();
@@ -272,15 +272,8 @@ const Record<FittedAnchors>& fitted_anchors_record() {
 
 Json anchors_schema() { return fitted_anchors_record().schema(); }
 
-FittedAnchors parse_anchors(const std::string& text,
-                            const std::string& file,
-                            std::vector<Warning>* warnings) {
-  Problems problems(file);
-  FittedAnchors anchors = read_document(fitted_anchors_record(), text, problems);
-  if (warnings != nullptr) {
-    warnings->insert(warnings->end(), problems.warnings().begin(), problems.warnings().end());
-  }
-  return anchors;
+FittedAnchors parse_anchors(const std::string& text, const std::string& file) {
+  return read_document(fitted_anchors_record(), text, file);
 }
 
 std::string write_anchors(const FittedAnchors& anchors, const std::optional<Provenance>& made_by) {

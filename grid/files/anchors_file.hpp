@@ -3,7 +3,7 @@
 /// chaintrue_anchors files: the result of a fit of four belts. Unknown keys are errors, except
 /// "comment". Same fit, same bytes.
 ///
-///     { "file_type": "chaintrue_anchors", "format_version": "1.4", "name": "...",
+///     { "file_type": "chaintrue_anchors", "format_version": "1.0", "name": "...",
 ///       "fit": {
 ///       "machine": { as in a chaintrue_belts file, with the anchors fitted },
 ///       "coordinates": [ {"coordinate": "tl_x_mm", "stated_mm": -27.6, "fitted_mm": -31.2,
@@ -45,11 +45,8 @@ struct FittedAnchors {
   std::optional<HolesWithBelts> holes = std::nullopt;  ///< if holes were fitted as well
 };
 
-/// `file` is the name used in messages; assumptions are added to `warnings`. \throws InputError
-/// with every problem.
-[[nodiscard]] FittedAnchors parse_anchors(const std::string& text,
-                                          const std::string& file,
-                                          std::vector<Warning>* warnings = nullptr);
+/// `file` is the name used in messages. \throws InputError with every problem.
+[[nodiscard]] FittedAnchors parse_anchors(const std::string& text, const std::string& file);
 /// \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_anchors(const FittedAnchors& anchors,
                                         const std::optional<Provenance>& made_by = std::nullopt);

@@ -3,7 +3,7 @@
 /// chaintrue_belts files: the lengths that a router on four belts measured. Unknown keys are errors,
 /// except "comment". Same belts, same bytes.
 ///
-///     { "file_type": "chaintrue_belts", "format_version": "1.1", "name": "...",
+///     { "file_type": "chaintrue_belts", "format_version": "1.0", "name": "...",
 ///       "machine": {
 ///         "name": "Maslow 4",
 ///         "anchors": { "tl": {"x_mm": -27.6, "y_mm": 2064.9, "z_mm": 100}, "tr": {...},

@@ -59,16 +59,12 @@ std::string print_with_hash(Json document) {
   return print_json(document);
 }
 
-void check_content(const Cursor& at, const Format& format) {
+void check_content(const Cursor& at) {
   const Cursor hash = at.child("content_hash");
-  if (at.has("content_hash")) {
-    if (hash.json() != content_hash(at.json())) {
-      hash.expect(
-          "the hash of this file's content: something in it was changed or damaged since it was "
-          "written; fit the points again");
-    }
-  } else if (find_older(format, at.child("format_version").json()) == nullptr) {
-    hash.missing("the hash of this file's content");
+  if (hash.json() != content_hash(at.json())) {
+    hash.expect(
+        "the hash of this file's content: something in it was changed or damaged since it was "
+        "written; fit the points again");
   }
 }
 

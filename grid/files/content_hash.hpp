@@ -9,7 +9,6 @@
 
 #include <string>
 
-#include "grid/files/formats.hpp"
 #include "grid/files/json_reader.hpp"
 #include "grid/files/json_text.hpp"
 
@@ -21,8 +20,8 @@ namespace chaintrue::grid::files {
 /// The text of the document with the hash of its content as its last key.
 [[nodiscard]] std::string print_with_hash(Json document);
 
-/// Files of the newest version must have the hash; wherever it is present it must be right.
-void check_content(const Cursor& at, const Format& format);
+/// Reports a hash that is not that of the file's content.
+void check_content(const Cursor& at);
 
 /// The key of the hash, for a record whose files are printed by print_with_hash and checked by
 /// check_content. It belongs to the file, not to the object.
@@ -30,8 +29,8 @@ template <class T>
 Record<T>& add_content_hash(Record<T>& record) {
   return record.custom(
       "content_hash",
-      false,
-      text().expected,
+      true,
+      {"the hash of this file's content", text().expected.schema},
       [](const Cursor& at, T&) { (void)at.text(); },
       [](const T&) { return std::optional<Json>(); });
 }

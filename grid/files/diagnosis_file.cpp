@@ -293,19 +293,12 @@ const Record<Diagnosis>& diagnosis_record() {
 
 }  // namespace
 
-Diagnosis read_diagnosis(const std::filesystem::path& path, std::vector<Warning>* warnings) {
-  return parse_diagnosis(read_whole_file(path), name_in_messages(path), warnings);
+Diagnosis read_diagnosis(const std::filesystem::path& path) {
+  return parse_diagnosis(read_whole_file(path), name_in_messages(path));
 }
 
-Diagnosis parse_diagnosis(const std::string& text,
-                          const std::string& file,
-                          std::vector<Warning>* warnings) {
-  Problems problems(file);
-  Diagnosis diagnosis = read_document(diagnosis_record(), text, problems);
-  if (warnings != nullptr) {
-    warnings->insert(warnings->end(), problems.warnings().begin(), problems.warnings().end());
-  }
-  return diagnosis;
+Diagnosis parse_diagnosis(const std::string& text, const std::string& file) {
+  return read_document(diagnosis_record(), text, file);
 }
 
 std::string write_diagnosis(const Diagnosis& diagnosis, const std::optional<Provenance>& made_by) {

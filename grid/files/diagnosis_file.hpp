@@ -49,14 +49,10 @@
 
 namespace chaintrue::grid::files {
 
-/// "-" reads standard input; assumptions are added to `warnings` if it is given. \throws InputError
-/// with every problem of the file.
-[[nodiscard]] diagnosis::Diagnosis read_diagnosis(const std::filesystem::path& path,
-                                                  std::vector<Warning>* warnings = nullptr);
+/// "-" reads standard input. \throws InputError with every problem of the file.
+[[nodiscard]] diagnosis::Diagnosis read_diagnosis(const std::filesystem::path& path);
 /// Parses text; `file` is the name used in messages.
-[[nodiscard]] diagnosis::Diagnosis parse_diagnosis(const std::string& text,
-                                                   const std::string& file,
-                                                   std::vector<Warning>* warnings = nullptr);
+[[nodiscard]] diagnosis::Diagnosis parse_diagnosis(const std::string& text, const std::string& file);
 /// \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_diagnosis(const diagnosis::Diagnosis& diagnosis,
                                           const std::optional<Provenance>& made_by = std::nullopt);

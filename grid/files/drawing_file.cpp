@@ -140,12 +140,8 @@ DrawingInFile in_file(const TestDrawing& drawing, bool is_blank) {
 
 }  // namespace
 
-TestDrawing parse_drawing(const std::string& text,
-                          const std::string& file,
-                          std::vector<Warning>* warnings) {
-  Problems problems(file);
-  const DrawingInFile read = read_document(drawing_record(), text, problems);
-  if (warnings != nullptr) *warnings = problems.warnings();
+TestDrawing parse_drawing(const std::string& text, const std::string& file) {
+  const DrawingInFile read = read_document(drawing_record(), text, file);
   TestDrawing drawing;
   static_cast<SetPlotter&>(drawing) = read.set;
   drawing.name = read.name;

@@ -17,11 +17,9 @@
 
 namespace chaintrue::grid::files {
 
-/// Measures without a value are left out. `file` is the name used in messages; what is assumed of an
-/// older file is added to `warnings`, which may be null. \throws InputError with every problem.
-[[nodiscard]] TestDrawing parse_drawing(const std::string& text,
-                                        const std::string& file,
-                                        std::vector<Warning>* warnings = nullptr);
+/// Measures without a value are left out. `file` is the name used in messages. \throws InputError
+/// with every problem.
+[[nodiscard]] TestDrawing parse_drawing(const std::string& text, const std::string& file);
 /// \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_drawing(const TestDrawing& drawing);
 /// With a null in place of every value, to be filled in.

@@ -358,8 +358,6 @@ std::string write_format_page(std::string_view name) {
       d.format->file_type,
       d.format->version,
       name);
-  for (const OlderVersion& older : d.format->older)
-    text += fmt::format("\nVersion {} is read too: {}.\n", older.version, older.assumed);
   Tables(text).add(schema_with_units(d));
   return text;
 }

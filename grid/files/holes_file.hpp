@@ -3,7 +3,7 @@
 /// chaintrue_holes files, JSON or CSV. Unknown keys are errors, except "comment". Same holes, same
 /// bytes.
 ///
-///     { "file_type": "chaintrue_holes", "format_version": "1.1", "name": "...",
+///     { "file_type": "chaintrue_holes", "format_version": "1.0", "name": "...",
 ///       "machine": { a chaintrue_machine, or the machine of a chaintrue_belts file with the anchors
 ///                    in force when the holes were cut } or "machine_file": "path",
 ///       "tape": {"sigma_mm": 0.5, "hook_offset_mm": 40},

@@ -42,10 +42,10 @@ bool RecordTable::open(const Cursor& at, bool is_root) const {
   const Cursor version = at.child("format_version");
   if (!at.has("format_version")) {
     if (is_root) version.missing(fmt::format("\"{}\"", format_->version));
-  } else if (const OlderVersion* older = find_older(*format_, version.json())) {
-    at.warn(std::string(older->assumed));
   } else if (version.json() != format_->version) {
-    version.expect(expected_version(*format_, version.json()));
+    version.expect(fmt::format(
+        "\"{}\", the version that this program reads: use the chaintrue that wrote the file",
+        format_->version));
     return false;
   }
   return true;
@@ -106,9 +106,7 @@ Json RecordTable::schema_of_keys() const {
   Json required = Json::array();
   if (format_ != nullptr) {
     properties["file_type"] = {{"const", std::string(format_->file_type)}};
-    Json versions = {std::string(format_->version)};
-    for (const OlderVersion& older : format_->older) versions.push_back(std::string(older.version));
-    properties["format_version"] = {{"enum", std::move(versions)}};
+    properties["format_version"] = {{"const", std::string(format_->version)}};
   }
   properties["comment"] = {{"description", "Anything; not read."}};
   for (const Field& field : fields_) {

@@ -170,8 +170,7 @@ class RecordTable {
   [[nodiscard]] Json write_fields(const void* object) const;
 
  private:
-  /// False, and reported, if this is not an object or is a file of another type or version. Warns
-  /// of assumptions for an older version.
+  /// False, and reported, if this is not an object or is a file of another type or version.
   [[nodiscard]] bool open(const Cursor& at, bool is_root) const;
   /// Reports unknown keys; returns the known keys for which one of them is probably a typing error.
   [[nodiscard]] std::vector<std::string> report_unknown_keys(const Cursor& at) const;

@@ -200,7 +200,7 @@ void check_map(const Cursor& at, MapContents& map) {
         "another way: without a machine nothing is left where a surface fades out");
   }
   if (!at.clean()) return;
-  check_content(at, kMapFormat);
+  check_content(at);
   try {
     const MeasuredArea area(map.hull, map.edge_mm, map.domain);
   } catch (const std::invalid_argument&) {
@@ -226,7 +226,7 @@ void add_surface(Record<MapContents>& record, const std::string& key, const Reco
       });
 }
 
-/// Written only if it differs from the default of files without it.
+/// Written only if it differs from the default.
 std::optional<Json> write_outside(const MapContents& map) {
   if (map.outside.way == OutsideRule{}.way) return std::nullopt;
   return outside_record().write(map.outside);
@@ -280,19 +280,12 @@ const Record<MapContents>& map_record() {
 
 }  // namespace
 
-CompensationMap parse_map(const std::string& text,
-                          const std::string& file,
-                          std::vector<Warning>* warnings) {
-  Problems problems(file);
-  CompensationMap map(read_document(map_record(), text, problems));
-  if (warnings != nullptr) {
-    warnings->insert(warnings->end(), problems.warnings().begin(), problems.warnings().end());
-  }
-  return map;
+CompensationMap parse_map(const std::string& text, const std::string& file) {
+  return CompensationMap(read_document(map_record(), text, file));
 }
 
-CompensationMap read_map(const std::filesystem::path& path, std::vector<Warning>* warnings) {
-  return parse_map(read_whole_file(path), name_in_messages(path), warnings);
+CompensationMap read_map(const std::filesystem::path& path) {
+  return parse_map(read_whole_file(path), name_in_messages(path));
 }
 
 std::string write_map(const CompensationMap& map, const std::optional<Provenance>& made_by) {

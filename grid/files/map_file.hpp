@@ -23,13 +23,9 @@
 namespace chaintrue::grid::files {
 
 /// "-" reads standard input.
-/// \param warnings if not null, warnings are added to it
 /// \throws InputError with every problem of the file.
-[[nodiscard]] CompensationMap read_map(const std::filesystem::path& path,
-                                       std::vector<Warning>* warnings = nullptr);
-[[nodiscard]] CompensationMap parse_map(const std::string& text,
-                                        const std::string& file,
-                                        std::vector<Warning>* warnings = nullptr);
+[[nodiscard]] CompensationMap read_map(const std::filesystem::path& path);
+[[nodiscard]] CompensationMap parse_map(const std::string& text, const std::string& file);
 [[nodiscard]] std::string write_map(const CompensationMap& map,
                                     const std::optional<Provenance>& made_by = std::nullopt);
 

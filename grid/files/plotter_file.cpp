@@ -22,7 +22,7 @@ const Record<FoundSetting>& found_setting_record() {
 
 void check_correlations(const Cursor& at, FoundPlotter& found) {
   constexpr std::size_t kPairs = 15;  // of six settings
-  if (!at.clean() || found.correlations.empty()) return;
+  if (!at.clean()) return;
   if (found.correlations.size() != kPairs) {
     at.problems().add(at.pointer() + "/correlations",
                       fmt::format("{} numbers", found.correlations.size()),
@@ -56,7 +56,7 @@ const Record<FoundPlotter>& found_plotter_record() {
           .required("zero_right_mm", &Found::zero_right_mm, setting())
           .required("scale_left_mm_per_m", &Found::scale_left_mm_per_m, setting())
           .required("scale_right_mm_per_m", &Found::scale_right_mm_per_m, setting())
-          .optional("correlations", &Found::correlations, list(number({"", -1.0, 1.0})))
+          .required("correlations", &Found::correlations, list(number({"", -1.0, 1.0})))
           .check(check_correlations);
   return record;
 }
@@ -84,13 +84,8 @@ const Record<KnownPlotter>& plotter_record() {
 
 }  // namespace
 
-KnownPlotter parse_plotter(const std::string& text,
-                           const std::string& file,
-                           std::vector<Warning>* warnings) {
-  Problems problems(file);
-  KnownPlotter plotter = read_document(plotter_record(), text, problems);
-  if (warnings != nullptr) *warnings = problems.warnings();
-  return plotter;
+KnownPlotter parse_plotter(const std::string& text, const std::string& file) {
+  return read_document(plotter_record(), text, file);
 }
 
 std::string write_plotter(const KnownPlotter& plotter,

@@ -19,11 +19,8 @@
 
 namespace chaintrue::grid::files {
 
-/// `file` is the name used in messages; what is assumed of an older file is added to `warnings`, which
-/// may be null. \throws InputError with every problem.
-[[nodiscard]] KnownPlotter parse_plotter(const std::string& text,
-                                         const std::string& file,
-                                         std::vector<Warning>* warnings = nullptr);
+/// `file` is the name used in messages. \throws InputError with every problem.
+[[nodiscard]] KnownPlotter parse_plotter(const std::string& text, const std::string& file);
 /// `comments` go under the key "comment", one line each; readers ignore them. \throws
 /// std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_plotter(const KnownPlotter& plotter,

@@ -25,7 +25,6 @@ std::vector<double> correlations_of(const Eigen::MatrixXd& covariance) {
 }  // namespace
 
 Eigen::MatrixXd FoundPlotter::covariance() const {
-  if (correlations.empty()) return {};
   Eigen::VectorXd sigma(+model::kPlotterParameters);
   sigma << pin_spacing_mm.sigma, pin_rise_mm.sigma, zero_left_mm.sigma, zero_right_mm.sigma,
       scale_left_mm_per_m.sigma, scale_right_mm_per_m.sigma;

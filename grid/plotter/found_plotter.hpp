@@ -30,10 +30,10 @@ struct FoundPlotter {
   FoundSetting zero_right_mm;
   FoundSetting scale_left_mm_per_m;
   FoundSetting scale_right_mm_per_m;
-  /// Of each with those after it, in this order, row by row: 15 numbers; empty where they are not known.
+  /// Of each with those after it, in this order, row by row: 15 numbers.
   std::vector<double> correlations;
 
-  /// Of all six; empty where the correlations are not known.
+  /// Of all six.
   [[nodiscard]] Eigen::MatrixXd covariance() const;
 };
 

@@ -111,26 +111,24 @@ Fitted fitted_of(const KnownPlotter& plotter) {
                              std::make_shared<const Page>(middle, middle_of(drawn), 0.0)};
   MechanismSpread spread{best, {}};
   // Each plotter one sigma away has its page where the crosses of the fit lie nearest to its own.
-  if (const Eigen::MatrixXd covariance = plotter.found->covariance(); covariance.size() > 0) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(covariance);
-    std::vector<model::ChainLengths> of_fit;
-    std::vector<BedPoint> on_page;
-    for (std::size_t i = 0; i < crosses.size(); ++i) {
-      const auto lengths = found->first_lengths(best.sheet->in_frame(crosses[i]));
-      if (!lengths) continue;
-      of_fit.push_back(*lengths);
-      on_page.push_back(crosses[i]);
-    }
-    for (Eigen::Index k = 0; k < parts.eigenvalues().size(); ++k) {
-      if (!(parts.eigenvalues()[k] > 0.0)) continue;
-      const auto other = std::dynamic_pointer_cast<const PlotterMechanism>(found->with_values(
-          found->values() + std::sqrt(parts.eigenvalues()[k]) * parts.eigenvectors().col(k)));
-      const std::vector<BedPoint> pens = pens_of(*other, of_fit);
-      spread.others.push_back(
-          {other,
-           std::make_shared<const Page>(
-               middle_of(on_page), middle_of(pens), turn_between(on_page, pens))});
-    }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(plotter.found->covariance());
+  std::vector<model::ChainLengths> of_fit;
+  std::vector<BedPoint> on_page;
+  for (std::size_t i = 0; i < crosses.size(); ++i) {
+    const auto lengths = found->first_lengths(best.sheet->in_frame(crosses[i]));
+    if (!lengths) continue;
+    of_fit.push_back(*lengths);
+    on_page.push_back(crosses[i]);
+  }
+  for (Eigen::Index k = 0; k < parts.eigenvalues().size(); ++k) {
+    if (!(parts.eigenvalues()[k] > 0.0)) continue;
+    const auto other = std::dynamic_pointer_cast<const PlotterMechanism>(found->with_values(
+        found->values() + std::sqrt(parts.eigenvalues()[k]) * parts.eigenvectors().col(k)));
+    const std::vector<BedPoint> pens = pens_of(*other, of_fit);
+    spread.others.push_back(
+        {other,
+         std::make_shared<const Page>(
+             middle_of(on_page), middle_of(pens), turn_between(on_page, pens))});
   }
   std::vector<model::MarkPoint> measured;
   for (const BedPoint& cross : crosses) measured.push_back(model::identity_placement(cross));
@@ -154,12 +152,6 @@ MechanismMap map_of(const KnownPlotter& plotter) {
 }  // namespace
 
 PlotterMap::PlotterMap(const KnownPlotter& plotter)
-    : MechanismMap(map_of(plotter)), knows_error_(!plotter.found->correlations.empty()) {}
-
-tl::expected<LengthsAnswer, MapFailure> PlotterMap::query(model::BedPoint point) const {
-  auto answer = MechanismMap::query(point);
-  if (answer && !knows_error_) answer->tool_sigma_mm.reset();
-  return answer;
-}
+    : MechanismMap(map_of(plotter)) {}
 
 }  // namespace chaintrue::grid

@@ -28,12 +28,6 @@ class PlotterMap final : public MechanismMap {
   /// \throws std::invalid_argument where nothing was found, or where the controller or the plotter as it
   /// was found does not reach a cross.
   explicit PlotterMap(const KnownPlotter& plotter);
-
-  /// The tool's error is not known where the file has no correlations of what was found.
-  [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(model::BedPoint point) const override;
-
- private:
-  bool knows_error_;
 };
 
 }  // namespace chaintrue::grid

@@ -146,7 +146,7 @@ TEST_F(Limits, ACheckOfAnchorsTakesThousandsOfPlaces) {
 std::string holes(int count, int distances) {
   std::string text = content_of(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json");
   text =
-      R"({"file_type": "chaintrue_holes", "format_version": "1.1", "name": "many", "machine": )" +
+      R"({"file_type": "chaintrue_holes", "format_version": "1.0", "name": "many", "machine": )" +
       text + R"(, "holes": [)";
   std::vector<std::pair<double, double>> places;
   for (int i = 0; i < count; ++i) {

@@ -33,7 +33,7 @@ constexpr double kMassBelowMm = 20.0;
 /// tilt below half a radian.
 Json stiff_mural() {
   return Json::parse(R"({
-  "file_type": "chaintrue_plotter", "format_version": "1.1",
+  "file_type": "chaintrue_plotter", "format_version": "1.0",
   "set": {"firmware": "mural", "machine": {
     "name": "stiff mural", "pin_spacing_mm": 1500, "motors": "gondola", "pulley_radius_mm": 6.345,
     "gondola": {"spacing_mm": 85, "mass_below_mm": 20, "mass_kg": 0.55},

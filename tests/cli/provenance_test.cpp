@@ -141,17 +141,4 @@ TEST_F(ProvenanceOfCommands, VerifyingWithAnotherMapIsSaid) {
               HasSubstr("true.nc was not made from map.json as it is now: compensate again."));
 }
 
-TEST_F(ProvenanceOfCommands, AnOlderMapSaysThatItIsNotKnown) {
-  ASSERT_EQ(run("fit grid.json -o map.json").code, 0);
-  json map = json::parse(content_of(folder_ / "map.json"));
-  map.erase("made_by");
-  map.erase("content_hash");
-  map["format_version"] = "1.2";
-  write("old.json", map.dump(1));
-  const Outcome shown = run("report old.json -o old.html");
-  EXPECT_EQ(shown.code, 0) << shown.err;
-  EXPECT_THAT(shown.err, HasSubstr("written before a file said what it was made from"));
-  EXPECT_THAT(content_of(folder_ / "old.html"), Not(HasSubstr("Where this comes from")));
-}
-
 }  // namespace chaintrue::provenance_command_test

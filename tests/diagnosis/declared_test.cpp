@@ -108,7 +108,7 @@ TEST_P(ExampleOfThePage, IsNamedOnceItIsDeclared) {
   EXPECT_NEAR(size.value, true_size, 4.0 * size.sigma) << "4 sigma: 1 in 16000";
   // Kept in the diagnosis and in the extended machine.
   const Diagnosis back =
-      files::parse_diagnosis(files::write_diagnosis(*found), "diagnosis.json", nullptr);
+      files::parse_diagnosis(files::write_diagnosis(*found), "diagnosis.json");
   EXPECT_EQ(back.causes.front().cause.effect, &own);
   EXPECT_EQ(back.extended_machine.declared, std::vector<const Effect*>{&own});
 }

@@ -95,7 +95,7 @@ TEST(DrawingDiagnosis, ItsFileIsReadAsItWasWritten) {
       drawn_with(model::mural(1500.0), {{"pen_off_centre", "", {{"offset_mm", 12.0}}}}, 8));
   ASSERT_TRUE(found) << found.error().sentence();
   const std::string text = files::write_diagnosis(*found, std::nullopt);
-  const Diagnosis again = files::parse_diagnosis(text, "d.json", nullptr);
+  const Diagnosis again = files::parse_diagnosis(text, "d.json");
   EXPECT_EQ(files::write_diagnosis(again, std::nullopt), text);
   ASSERT_EQ(again.not_testable.size(), found->not_testable.size());
   for (std::size_t i = 0; i < again.not_testable.size(); ++i)

@@ -65,9 +65,7 @@ Outcome groundcontrol_outcome(const std::string& text, const std::string& name) 
 }
 
 Outcome diagnosis_outcome(const std::string& text, const std::string& name) {
-  std::vector<Warning> warnings;
-  const diagnosis::Diagnosis read = parse_diagnosis(text, name, &warnings);
-  return {write_diagnosis(read), messages_of(warnings), {}};
+  return {write_diagnosis(parse_diagnosis(text, name)), {}, {}};
 }
 
 Outcome holes_outcome(const std::string& text, const std::string& name) {
@@ -81,9 +79,7 @@ Outcome belts_outcome(const std::string& text, const std::string& name) {
 }
 
 Outcome anchors_outcome(const std::string& text, const std::string& name) {
-  std::vector<Warning> warnings;
-  const FittedAnchors read = parse_anchors(text, name, &warnings);
-  return {write_anchors(read), messages_of(warnings), {}};
+  return {write_anchors(parse_anchors(text, name)), {}, {}};
 }
 
 Outcome maslow4_outcome(const std::string& text, const std::string& name) {

@@ -250,7 +250,7 @@ std::string holes_message(const std::string& text) {
 }
 
 TEST(JsonReader, AFormatIsATableOfItsFields) {
-  const std::string head = R"({"file_type": "chaintrue_holes", "format_version": "1.1", )";
+  const std::string head = R"({"file_type": "chaintrue_holes", "format_version": "1.0", )";
   const std::string good =
       head +
       R"("holes": [{"name": "a", "x_mm": 1}, {"name": "b", "x_mm": 2, "sigma_mm": 0.5}], )"

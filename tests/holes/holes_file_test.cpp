@@ -21,7 +21,7 @@ constexpr const char* kCsv =
     "from,to,distance_mm,sigma_mm\n"
     "A,B,1801.5,\nB,C,800.5,\nC,D,1799,0.7\nD,A,800,\nA,C,1970,\nB,D,1969.5,\nA,top,209,\n";
 
-constexpr const char* kJson = R"({"file_type": "chaintrue_holes", "format_version": "1.1",
+constexpr const char* kJson = R"({"file_type": "chaintrue_holes", "format_version": "1.0",
  "holes": [{"name": "A", "x_mm": -900, "y_mm": 400}, {"name": "B", "x_mm": 900, "y_mm": 400},
            {"name": "C", "x_mm": 900, "y_mm": -400}, {"name": "D", "x_mm": -900, "y_mm": -400}],
  "distances": [{"from": "A", "to": "B", "distance_mm": 1801.5}, {"from": 1, "to": 2, "distance_mm": 800.5},
@@ -194,7 +194,7 @@ TEST(HolesFile, NamesAreDistinctAndNoEdges) {
 }
 
 TEST(HolesFile, AllProblemsAtOnceWithTheirPlaces) {
-  EXPECT_THAT(problems_of(R"({"file_type": "chaintrue_holes", "format_version": "1.1", "tap": 1,
+  EXPECT_THAT(problems_of(R"({"file_type": "chaintrue_holes", "format_version": "1.0", "tap": 1,
         "holes": [{"name": "A", "x_mm": "1", "y_mm": 0}, {"name": "B", "x_mm": 5}],
         "distances": [{"from": "A", "to": "B", "distance_mm": -3}, {"from": true, "to": "B", "distance_mm": 4}]})"),
               testing::IsSupersetOf({HasSubstr("/tap"),

@@ -25,7 +25,7 @@ fs::path temporary_folder() {
 
 /// Holes that the belts' own machine cut, all distances 0.07 % long.
 std::string belt_holes(const std::string& belts) {
-  Json file{{"file_type", "chaintrue_holes"}, {"format_version", "1.1"}};
+  Json file{{"file_type", "chaintrue_holes"}, {"format_version", "1.0"}};
   file["machine"] = Json::parse(belts).at("machine");
   const std::vector<std::pair<double, double>> at = {
       {-800, 400}, {0, 420}, {800, 380}, {-790, -390}, {10, -400}, {810, -410}, {0, 0}};
@@ -55,7 +55,7 @@ std::string as_csv(const std::string& grid) {
 
 /// A plotter over a sheet of a router's size.
 constexpr const char* kWidePlotter = R"({
-  "file_type": "chaintrue_plotter", "format_version": "1.1",
+  "file_type": "chaintrue_plotter", "format_version": "1.0",
   "set": {
     "firmware": "fluidnc",
     "machine": {"pin_spacing_mm": 3000, "motors": "wall", "gondola": {"mass_kg": 2},

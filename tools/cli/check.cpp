@@ -90,21 +90,20 @@ using CheckResult = tl::expected<grid::Check, grid::CheckFailure>;
 CheckResult check_of_map(const CheckCommand& command,
                          const std::vector<InputFile>& files,
                          const InputFile& map) {
-  return with_map(map, [&](const grid::CompensationMap& as_measured) {
-    grid::Measured measured;
-    for (const InputFile& file : files)
-      measured.add(load_measured(
-          file, command.input, command.tape, MeasuredUse::check, as_measured.machine()));
-    if (command.settings.empty()) say_other_settings(as_measured, measured);
-    const grid::CompensationMap in_force =
-        command.settings.empty()
-            ? as_measured
-            : with_settings_of(command.settings, command.map, as_measured, measured);
-    CheckResult check = grid::check_map(in_force, measured, shown_progress());
-    if (!check) return check;
-    if (auto changed = with_typed_settings(in_force, measured, *check)) check = *std::move(changed);
-    return check;
-  });
+  const grid::CompensationMap as_measured = load_map(map);
+  grid::Measured measured;
+  for (const InputFile& file : files)
+    measured.add(load_measured(
+        file, command.input, command.tape, MeasuredUse::check, as_measured.machine()));
+  if (command.settings.empty()) say_other_settings(as_measured, measured);
+  const grid::CompensationMap in_force =
+      command.settings.empty()
+          ? as_measured
+          : with_settings_of(command.settings, command.map, as_measured, measured);
+  CheckResult check = grid::check_map(in_force, measured, shown_progress());
+  if (!check) return check;
+  if (auto changed = with_typed_settings(in_force, measured, *check)) check = *std::move(changed);
+  return check;
 }
 
 CheckResult check_of_anchors(const InputFile& belts, const InputFile& anchors) {

@@ -86,7 +86,7 @@ Facts facts_of(const std::vector<InputFile>& files) {
 int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   // A wrong file is reported before the work.
   std::optional<Diagnosis> before;
-  if (!command.before.empty()) before = files::read_diagnosis(command.before, nullptr);
+  if (!command.before.empty()) before = files::read_diagnosis(command.before);
   const std::vector<InputFile> opened = open_inputs(command.input.grid, command.with);
   const InputFile& file = opened.front();
   require_kind(file,

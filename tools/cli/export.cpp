@@ -222,10 +222,9 @@ Exported export_of(const InputFile& file, const ExportCommand& command, bool for
       {FileKind::machine, FileKind::map, FileKind::diagnosis},
       file.kind == FileKind::anchors ? "anchors of four belts are taken by export maslow4" : "");
   if (file.kind == FileKind::map) {
-    return with_map(file, [&](const grid::CompensationMap& map) {
-      if (!forced && refuses_to_cut_with(map)) return Exported{{}, "", {}, std::nullopt, true};
-      return of_map(map, file.name, command);
-    });
+    const grid::CompensationMap map = load_map(file);
+    if (!forced && refuses_to_cut_with(map)) return Exported{{}, "", {}, std::nullopt, true};
+    return of_map(map, file.name, command);
   }
   if (file.kind == FileKind::diagnosis) {
     const grid::diagnosis::Diagnosis found = load_diagnosis(file);

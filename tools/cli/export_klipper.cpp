@@ -30,37 +30,36 @@ struct ExportKlipperCommand {
 int export_klipper(Verb verb, const ExportKlipperCommand& command) {
   const InputFile file = open_input(command.map);
   require_kind(file, {FileKind::map});
-  return with_map(file, [&](const grid::CompensationMap& map) {
-    if (!verb.is_given("--force") && refuses_to_cut_with(map)) return int{kCheckFailed};
-    const auto nearest = grid::straight_settings(map, grid::Anchors::free);
-    if (!nearest) {
-      fmt::print(stderr, "{}: {}\n", file.name, nearest.error().sentence());
-      return int{kNotSupportedOrOutside};
-    }
-    const auto module = files::klipper_kinematics(
-        grid::MapInFrame(map),
-        {nearest->anchors, nearest->longer_mm},
-        std::filesystem::path(file.name).filename().string());
-    if (!module) {
-      fmt::print(stderr,
-                 "{}: {}. A table needs lengths all over the map; fit it with --outside model\n",
-                 file.name,
-                 module.error().sentence());
-      return int{kNotSupportedOrOutside};
-    }
-    write_output(command.output, module->source);
+  const grid::CompensationMap map = load_map(file);
+  if (!verb.is_given("--force") && refuses_to_cut_with(map)) return kCheckFailed;
+  const auto nearest = grid::straight_settings(map, grid::Anchors::free);
+  if (!nearest) {
+    fmt::print(stderr, "{}: {}\n", file.name, nearest.error().sentence());
+    return kNotSupportedOrOutside;
+  }
+  const auto module = files::klipper_kinematics(
+      grid::MapInFrame(map),
+      {nearest->anchors, nearest->longer_mm},
+      std::filesystem::path(file.name).filename().string());
+  if (!module) {
     fmt::print(stderr,
-               "{} x {} lengths of both chains, {:.0f} mm apart; between them the table is within "
-               "{:.4f} mm of the map, and moves go in pieces of at most {:g} mm.\nCopy it as "
-               "chaintrue.py into klippy/kinematics, and say kinematics: chaintrue in printer.cfg, "
-               "with a [stepper_left] and a [stepper_right]. The file's first lines say the rest.\n",
-               module->columns,
-               module->rows,
-               module->spacing_mm,
-               module->largest_error_mm,
-               module->piece_mm);
-    return int{kDone};
-  });
+               "{}: {}. A table needs lengths all over the map; fit it with --outside model\n",
+               file.name,
+               module.error().sentence());
+    return kNotSupportedOrOutside;
+  }
+  write_output(command.output, module->source);
+  fmt::print(stderr,
+             "{} x {} lengths of both chains, {:.0f} mm apart; between them the table is within "
+             "{:.4f} mm of the map, and moves go in pieces of at most {:g} mm.\nCopy it as "
+             "chaintrue.py into klippy/kinematics, and say kinematics: chaintrue in printer.cfg, "
+             "with a [stepper_left] and a [stepper_right]. The file's first lines say the rest.\n",
+             module->columns,
+             module->rows,
+             module->spacing_mm,
+             module->largest_error_mm,
+             module->piece_mm);
+  return kDone;
 }
 
 }  // namespace

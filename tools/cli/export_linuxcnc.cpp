@@ -52,35 +52,34 @@ void check_linuxcnc(const ExportLinuxcncCommand& command, OptionProblems& proble
 int export_linuxcnc(Verb verb, const ExportLinuxcncCommand& command) {
   const InputFile file = open_input(command.map);
   require_kind(file, {FileKind::map});
-  return with_map(file, [&](const grid::CompensationMap& map) {
-    if (!verb.is_given("--force") && refuses_to_cut_with(map)) return int{kCheckFailed};
-    const std::string name = module_name(command.output);
-    const auto module = files::linuxcnc_kinematics(
-        grid::MapInFrame(map), {name, std::filesystem::path(file.name).filename().string()});
-    if (!module) {
-      fmt::print(stderr,
-                 "{}: {}. A table needs lengths all over the map; fit it with --outside model\n",
-                 file.name,
-                 module.error().sentence());
-      return int{kNotSupportedOrOutside};
-    }
-    write_output(command.output, module->source);
+  const grid::CompensationMap map = load_map(file);
+  if (!verb.is_given("--force") && refuses_to_cut_with(map)) return kCheckFailed;
+  const std::string name = module_name(command.output);
+  const auto module = files::linuxcnc_kinematics(
+      grid::MapInFrame(map), {name, std::filesystem::path(file.name).filename().string()});
+  if (!module) {
     fmt::print(stderr,
-               "{} x {} lengths of both chains, {:.0f} mm apart; between them the table is within "
-               "{:.4f} mm of the map{}.\nBuild and install it where LinuxCNC (2.9 or later) runs: "
-               "halcompile --install {}.c. In the machine's INI file: [KINS] KINEMATICS = {} and "
-               "JOINTS = 3, [TRAJ] LINEAR_UNITS = mm.\n",
-               module->columns,
-               module->rows,
-               module->spacing_mm,
-               module->largest_error_mm,
-               module->largest_error_mm > files::kTableErrorMm
-                   ? ", more than it should be: this map bends within millimetres"
-                   : "",
-               name,
-               name);
-    return int{kDone};
-  });
+               "{}: {}. A table needs lengths all over the map; fit it with --outside model\n",
+               file.name,
+               module.error().sentence());
+    return kNotSupportedOrOutside;
+  }
+  write_output(command.output, module->source);
+  fmt::print(stderr,
+             "{} x {} lengths of both chains, {:.0f} mm apart; between them the table is within "
+             "{:.4f} mm of the map{}.\nBuild and install it where LinuxCNC (2.9 or later) runs: "
+             "halcompile --install {}.c. In the machine's INI file: [KINS] KINEMATICS = {} and "
+             "JOINTS = 3, [TRAJ] LINEAR_UNITS = mm.\n",
+             module->columns,
+             module->rows,
+             module->spacing_mm,
+             module->largest_error_mm,
+             module->largest_error_mm > files::kTableErrorMm
+                 ? ", more than it should be: this map bends within millimetres"
+                 : "",
+             name,
+             name);
+  return kDone;
 }
 
 }  // namespace

@@ -74,22 +74,21 @@ int export_straight(Verb verb,
                     const StraightController& controller) {
   const InputFile file = open_input(command.map);
   require_kind(file, {FileKind::map});
-  return with_map(file, [&](const grid::CompensationMap& map) {
-    if (!verb.is_given("--force") && refuses_to_cut_with(map)) return int{kCheckFailed};
-    const auto nearest = grid::straight_settings(map, controller.anchors);
-    if (!nearest) {
-      fmt::print(stderr, "{}: {}\n", file.name, nearest.error().sentence());
-      return int{kNotSupportedOrOutside};
-    }
-    write_output(command.output, controller.lines(*nearest));
-    fmt::print(stderr,
-               "With these numbers the tool is still off by {:.2f} mm rms over the measured part, "
-               "{:.2f} mm at worst: straight lines do not sag. {}\n",
-               nearest->left_over.rms_mm,
-               nearest->left_over.maximum_mm,
-               controller.remark);
-    return int{kDone};
-  });
+  const grid::CompensationMap map = load_map(file);
+  if (!verb.is_given("--force") && refuses_to_cut_with(map)) return kCheckFailed;
+  const auto nearest = grid::straight_settings(map, controller.anchors);
+  if (!nearest) {
+    fmt::print(stderr, "{}: {}\n", file.name, nearest.error().sentence());
+    return kNotSupportedOrOutside;
+  }
+  write_output(command.output, controller.lines(*nearest));
+  fmt::print(stderr,
+             "With these numbers the tool is still off by {:.2f} mm rms over the measured part, "
+             "{:.2f} mm at worst: straight lines do not sag. {}\n",
+             nearest->left_over.rms_mm,
+             nearest->left_over.maximum_mm,
+             controller.remark);
+  return kDone;
 }
 
 void add_controller(Verb export_verb,

@@ -15,7 +15,6 @@
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
-#include "tools/cli/warnings.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
@@ -138,10 +137,7 @@ report::Document drawing_document(const TestDrawing& drawing, const DrawingFit& 
 }  // namespace
 
 int fit_the_drawing(const DrawingFitCommand& command) {
-  std::vector<files::Warning> warnings;
-  const TestDrawing drawing =
-      files::parse_drawing(command.file.text, command.file.name, &warnings);
-  print_warnings(warnings);
+  const TestDrawing drawing = files::parse_drawing(command.file.text, command.file.name);
   const auto fit = grid::fit_drawing(drawing);
   if (!fit) {
     fmt::print(stderr, "{}: {}\n", command.file.name, fit.error().sentence());

@@ -236,12 +236,11 @@ int write_lengths(const GcodeTarget& target, const GcodeOptions& options) {
 int run_gcode_check(const GcodeOptions& options) {
   if (options.map.empty()) return check_program(nullptr, options);
   const GcodeMachine machine(options);
-  return blaming(machine.on_trust(), [&] { return check_program(&machine, options); });
+  return check_program(&machine, options);
 }
 
 int run_gcode_lengths(const GcodeOptions& options) {
-  const GcodeTarget target(options);
-  return blaming(target.on_trust(), [&] { return write_lengths(target, options); });
+  return write_lengths(GcodeTarget(options), options);
 }
 
 }  // namespace chaintrue::cli

@@ -194,7 +194,7 @@ int run_gcode_compensate(const GcodeOptions& options) {
   const GcodeMachine machine(options);
   const grid::CompensationMap* map = machine.map();
   if (map != nullptr && !options.forced && refuses_to_cut_with(*map)) return kCheckFailed;
-  return blaming(machine.on_trust(), [&] { return compensate_for(machine, options); });
+  return compensate_for(machine, options);
 }
 
 }  // namespace chaintrue::cli

@@ -240,7 +240,6 @@ GcodeTarget::GcodeTarget(const GcodeOptions& options) : GcodeTarget(of_any(optio
 GcodeTarget::GcodeTarget(Parts parts)
     : source_(std::move(parts.source)),
       target_(std::move(parts.target)),
-      on_trust_(std::move(parts.on_trust)),
       in_belts_mm_(std::move(parts.in_belts_mm)) {}
 
 const grid::CompensationMap* GcodeTarget::map() const {
@@ -263,7 +262,7 @@ GcodeTarget::Parts GcodeTarget::of_any(const GcodeOptions& options) {
 
 GcodeTarget::Parts GcodeTarget::of_plotter(const GcodeOptions& options) {
   const grid::KnownPlotter plotter = load_plotter(*options.map_file).plotter;
-  return {plotter, load_plotter_map(*options.map_file, plotter), ""};
+  return {plotter, load_plotter_map(*options.map_file, plotter)};
 }
 
 GcodeTarget::Parts GcodeTarget::of_belts(const GcodeOptions& options) {
@@ -289,7 +288,7 @@ GcodeTarget::Parts GcodeTarget::of_belts(const GcodeOptions& options) {
                found.fit.machine.belt_turn_mm);
   }
   const model::BeltMachine in_force = map->in_force();
-  return {in_force, std::move(map), "", std::move(in_belts_mm)};
+  return {in_force, std::move(map), std::move(in_belts_mm)};
 }
 
 GcodeTarget::Parts GcodeTarget::of_map(const GcodeOptions& options) {
@@ -300,11 +299,10 @@ GcodeTarget::Parts GcodeTarget::of_map(const GcodeOptions& options) {
                        "\"chaintrue_anchors\", as chaintrue fit makes of belts: a Maslow 4 goes by "
                        "these in place of a map"}});
   }
-  LoadedMap loaded = load_map(*options.map_file);
-  auto map = std::make_unique<const grid::CompensationMap>(std::move(loaded.map));
+  auto map = std::make_unique<const grid::CompensationMap>(load_map(*options.map_file));
   auto target = std::make_unique<const grid::MapInFrame>(
       *map, options.frame == "bed" ? grid::MapFrame::bed : grid::MapFrame::marks);
-  return {std::move(map), std::move(target), std::move(loaded.on_trust)};
+  return {std::move(map), std::move(target)};
 }
 
 GcodeMachine::GcodeMachine(const GcodeOptions& options)

@@ -75,8 +75,6 @@ class GcodeTarget {
   [[nodiscard]] const grid::KnownPlotter* plotter() const;
   /// The machine that was in force when they were measured; null of all but four belts.
   [[nodiscard]] const model::BeltMachine* belts_in_force() const;
-  /// As LoadedMap::on_trust.
-  [[nodiscard]] const std::string& on_trust() const { return on_trust_; }
 
  private:
   using Source = std::variant<std::unique_ptr<const grid::CompensationMap>,
@@ -85,7 +83,6 @@ class GcodeTarget {
   struct Parts {
     Source source;
     std::unique_ptr<const grid::LengthMap> target;
-    std::string on_trust;
     std::unique_ptr<const grid::LengthMap> in_belts_mm = nullptr;
   };
   explicit GcodeTarget(Parts parts);
@@ -96,7 +93,6 @@ class GcodeTarget {
 
   Source source_;
   std::unique_ptr<const grid::LengthMap> target_;
-  std::string on_trust_;
   std::unique_ptr<const grid::LengthMap> in_belts_mm_;
 };
 
@@ -130,7 +126,6 @@ class GcodeMachine {
   [[nodiscard]] const grid::KnownPlotter* plotter() const { return target_.plotter(); }
   [[nodiscard]] const gcode::Corrector& corrector() const { return corrector_; }
   [[nodiscard]] const GcodeController& controller() const { return controller_; }
-  [[nodiscard]] const std::string& on_trust() const { return target_.on_trust(); }
 
  private:
   GcodeTarget target_;

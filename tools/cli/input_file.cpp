@@ -46,17 +46,11 @@ void require_kind(const InputFile& file,
 }
 
 files::FittedAnchors load_anchors(const InputFile& file) {
-  std::vector<files::Warning> warnings;
-  files::FittedAnchors anchors = files::parse_anchors(file.text, file.name, &warnings);
-  print_warnings(warnings);
-  return anchors;
+  return files::parse_anchors(file.text, file.name);
 }
 
 grid::diagnosis::Diagnosis load_diagnosis(const InputFile& file) {
-  std::vector<files::Warning> warnings;
-  grid::diagnosis::Diagnosis found = files::parse_diagnosis(file.text, file.name, &warnings);
-  print_warnings(warnings);
-  return found;
+  return files::parse_diagnosis(file.text, file.name);
 }
 
 model::Machine load_machine(const InputFile& file) {
@@ -86,25 +80,14 @@ files::ReadBelts load_belts(const InputFile& file,
   return read;
 }
 
-LoadedMap load_map(const InputFile& file) {
+grid::CompensationMap load_map(const InputFile& file) {
   require_kind(file,
                {FileKind::map},
                file.kind == FileKind::anchors
                    ? "anchors of four belts are taken by chaintrue query, report, check, gcode and "
                      "export maslow4"
                    : "");
-  std::vector<files::Warning> warnings;
-  LoadedMap loaded{files::parse_map(file.text, file.name, &warnings), ""};
-  print_warnings(warnings);
-  if (!warnings.empty()) loaded.on_trust = file.name;
-  return loaded;
-}
-
-void refuse_map_on_trust(const std::string& file) {
-  throw files::InputError({{file,
-                            "",
-                            "numbers that do not belong together",
-                            "a map as chaintrue wrote it; fit the points again"}});
+  return files::parse_map(file.text, file.name);
 }
 
 model::Machine read_machine_input(const std::string& path) {

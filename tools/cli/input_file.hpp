@@ -7,13 +7,11 @@
 ///   const InputFile file = open_input(command.map);
 ///   require_kind(file, {FileKind::map, FileKind::anchors});
 ///   if (file.kind == FileKind::anchors) return query_anchors(load_anchors(file), ...);
-///   return with_map(file, [&](const grid::CompensationMap& map) { return query_map(map, ...); });
+///   return query_map(load_map(file), ...);
 /// \endcode
 #pragma once
 
-#include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
@@ -58,36 +56,7 @@ void require_kind(const InputFile& file,
                                                 const std::string& work,
                                                 const std::vector<std::size_t>& without);
 
-/// A map, and whose fault it is where its numbers break a precondition later.
-struct LoadedMap {
-  grid::CompensationMap map;
-  /// What messages call a map that carries no hash of its content: its numbers are each possible,
-  /// but nobody knows whether they belong together. Empty where it carries one.
-  std::string on_trust;
-};
-[[nodiscard]] LoadedMap load_map(const InputFile& file);
-
-/// \throws files::InputError of a map without a hash.
-[[noreturn]] void refuse_map_on_trust(const std::string& file);
-
-/// What `work` gives. A precondition that it breaks is the fault of the file `on_trust`, where that
-/// is not empty.
-template <class Work>
-auto blaming(const std::string& on_trust, Work&& work) {
-  try {
-    return std::forward<Work>(work)();
-  } catch (const std::logic_error&) {
-    if (on_trust.empty()) throw;
-    refuse_map_on_trust(on_trust);
-  }
-}
-
-/// What `work` gives of the map in the file.
-template <class Work>
-auto with_map(const InputFile& file, Work&& work) {
-  const LoadedMap loaded = load_map(file);
-  return blaming(loaded.on_trust, [&] { return std::forward<Work>(work)(loaded.map); });
-}
+[[nodiscard]] grid::CompensationMap load_map(const InputFile& file);
 
 /// "-" is standard input. A file that is read again says nothing new. \throws files::InputError.
 [[nodiscard]] model::Machine read_machine_input(const std::string& path);

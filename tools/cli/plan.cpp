@@ -125,14 +125,13 @@ int run_check_plan(Verb verb, PlanOptions options) {
   take(options.length_noise_mm, request.length_mm);
   take(options.position_noise_mm, request.position_mm);
   options.check.measure = options.measure;
-  return with_map(open_input(options.check.map), [&](const grid::CompensationMap& map) {
-    const model::Machine* machine = map.machine();
-    request.margin_mm =
-        options.margin_mm.value_or(machine == nullptr ? kReachableMm : reachable_mm(machine->bed));
-    refuse_what_does_nothing(
-        verb, with_program(options, facts::check, drills_marks(options, map.machine())));
-    return plan_the_check(map, options.check, outputs_of(options));
-  });
+  const grid::CompensationMap map = load_map(open_input(options.check.map));
+  const model::Machine* machine = map.machine();
+  request.margin_mm =
+      options.margin_mm.value_or(machine == nullptr ? kReachableMm : reachable_mm(machine->bed));
+  refuse_what_does_nothing(
+      verb, with_program(options, facts::check, drills_marks(options, map.machine())));
+  return plan_the_check(map, options.check, outputs_of(options));
 }
 
 int run_plan(Verb verb, PlanOptions options) {

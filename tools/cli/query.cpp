@@ -169,8 +169,7 @@ int run_query(Verb verb, const QueryCommand& command) {
   if (file.kind == FileKind::anchors) return query_anchors(command, file);
   if (file.kind == FileKind::plotter)
     return answer_alone({*load_plotter_map(file, load_plotter(file).plotter)}, command);
-  return with_map(file,
-                  [&](const grid::CompensationMap& stored) { return query_map(command, stored); });
+  return query_map(command, load_map(file));
 }
 
 /// What CLI11 cannot say of the options together.

@@ -41,13 +41,12 @@ struct Reported {
 };
 
 Reported of_map(const InputFile& file, bool as_certificate, std::string_view source) {
-  return with_map(file, [&](const grid::CompensationMap& map) {
-    return Reported{
-        as_certificate ? certificate(map, source) : map_document(map, source),
-        map.machine() == nullptr
-            ? std::vector<std::string>{"query", file.path, "--help"}
-            : std::vector<std::string>{"plan", "--check", file.path, "-o", "check.csv"}};
-  });
+  const grid::CompensationMap map = load_map(file);
+  return Reported{
+      as_certificate ? certificate(map, source) : map_document(map, source),
+      map.machine() == nullptr
+          ? std::vector<std::string>{"query", file.path, "--help"}
+          : std::vector<std::string>{"plan", "--check", file.path, "-o", "check.csv"}};
 }
 
 Reported of_diagnosis(const InputFile& file, std::string_view source) {

@@ -225,8 +225,7 @@ int run_square(Verb verb, const SquareOptions& options) {
                      : plotter_of(machine) != nullptr ? facts::plotter
                                                       : facts::map;
   refuse_what_does_nothing(verb, kind | (options.program.empty() ? 0U : facts::program));
-  if (machine == nullptr) return square_with(options, machine);
-  return blaming(machine->on_trust(), [&] { return square_with(options, machine); });
+  return square_with(options, machine);
 }
 
 }  // namespace

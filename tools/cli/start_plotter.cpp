@@ -56,10 +56,7 @@ bool is_of_a_plotter(const InputFile& file) {
 files::ReadPlotter load_plotter(const InputFile& file) {
   if (files::is_json(file.text)) {
     require_kind(file, {FileKind::plotter});
-    std::vector<files::Warning> warnings;
-    files::ReadPlotter read{files::parse_plotter(file.text, file.name, &warnings), {}};
-    print_warnings(warnings);
-    return read;
+    return {files::parse_plotter(file.text, file.name), {}};
   }
   return files::parse_plotter_settings(file.text, file.name);
 }

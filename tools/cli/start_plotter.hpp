@@ -17,8 +17,7 @@ namespace chaintrue::cli {
 /// A chaintrue_plotter, or settings that are of nothing else than a V-plotter.
 [[nodiscard]] bool is_of_a_plotter(const InputFile& file);
 
-/// A chaintrue_plotter, or the settings of a V-plotter's controller; says what it assumes of an older
-/// file. \throws files::InputError with
+/// A chaintrue_plotter, or the settings of a V-plotter's controller. \throws files::InputError with
 /// every problem.
 [[nodiscard]] grid::files::ReadPlotter load_plotter(const InputFile& file);
 /// What a drawing found of it, as a map. \throws files::InputError where no drawing was measured, or

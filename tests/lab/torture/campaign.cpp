@@ -175,26 +175,18 @@ Campaign::Case Campaign::damaged_input() {
 Campaign::Case Campaign::tampered_file() {
   const Reading reading = mutate_.one_of(readings_of_hashed_files());
   const std::string& original = permanent_.at(reading.seed_file);
-  std::string text = mutate_.with_number(
+  const std::string text = mutate_.with_number(
       original, mutate_.below(2) == 0 ? Mutator::NumberKind::odd : Mutator::NumberKind::near);
   // Another text may be the same number (0 for -0), and a comment may be anything.
   const bool must_be_refused = !same_content(text, original);
-  const bool as_old = mutate_.below(2) == 0;
-  if (as_old) {  // as version 1.0, which has no hash: every later check must hold
-    const std::string key = "\"format_version\": \"";
-    const std::size_t version = text.find(key);
-    if (version != std::string::npos) text.replace(version + key.size(), 3, "1.0");
-    const std::size_t hash = text.rfind(",\n  \"content_hash\"");
-    if (hash != std::string::npos) text = text.substr(0, hash) + "\n}\n";
-  }
   const std::string in = "in_" + reading.seed_file;
   write(in, text);
   const std::string out = output_of(reading.arguments);
-  return {"tampered " + reading.seed_file + (as_old ? " of version 1.0" : ""),
+  return {"tampered " + reading.seed_file,
           with(reading.arguments, in, out),
           {in},
           {out},
-          must_be_refused && !as_old};
+          must_be_refused};
 }
 
 std::string Campaign::any_text(const Option& option) {

@@ -88,9 +88,7 @@ void add_diagnoses(py::module_& module) {
   module.def("diagnose", diagnose);
   module.def("diagnose_belts", diagnose_belts);
   module.def("parse_diagnosis", [](const std::string& text, const std::string& file) {
-    std::vector<files::Warning> warnings;
-    Diagnosis found = files::parse_diagnosis(text, file, &warnings);
-    return py::make_tuple(std::move(found), sentences_of(warnings));
+    return py::make_tuple(files::parse_diagnosis(text, file), sentences_of({}));
   });
 }
 

@@ -171,8 +171,7 @@ py::dict compensate(const std::string& program,
                                 "gcode compensate",
                                 given,
                                 grid::files::sources_read()};
-    return cli::blaming(machine.on_trust(),
-                        [&] { return compensated(program, options, machine, from); });
+    return compensated(program, options, machine, from);
   }();
   return handed_over(done);
 }
@@ -188,17 +187,15 @@ py::dict verify(const std::string& original,
   {
     const py::gil_scoped_release others_may_work;
     const GcodeMachine machine = machine_of(options, target, of_belts);
-    cli::blaming(machine.on_trust(), [&] {
-      gcode::VerifyOptions settings = cli::verify_options(options, machine);
-      gcode::CutPlaces cuts;
-      settings.on_move = [&cuts](const gcode::Move& move) { cuts.add(move); };
-      summary = verified(options, machine, original, run, settings);
-      auto again = gcode::LineSource::from_text(original);
-      const auto control =
-          gcode::uncompensated(again, machine.corrector(), options.dialect(), settings);
-      if (control) uncompensated_mm = control->largest_mm;
-      promised = {control ? cuts.expected(machine.target()) : std::nullopt, summary.largest_mm()};
-    });
+    gcode::VerifyOptions settings = cli::verify_options(options, machine);
+    gcode::CutPlaces cuts;
+    settings.on_move = [&cuts](const gcode::Move& move) { cuts.add(move); };
+    summary = verified(options, machine, original, run, settings);
+    auto again = gcode::LineSource::from_text(original);
+    const auto control =
+        gcode::uncompensated(again, machine.corrector(), options.dialect(), settings);
+    if (control) uncompensated_mm = control->largest_mm;
+    promised = {control ? cuts.expected(machine.target()) : std::nullopt, summary.largest_mm()};
   }
   py::dict result;
   result["holds"] = summary.holds();

@@ -209,13 +209,6 @@ void add_map_types(py::module_& module) {
       });
 }
 
-template <class Parse>
-py::tuple reply(Parse parse) {
-  std::vector<files::Warning> warnings;
-  auto thing = parse(&warnings);
-  return py::make_tuple(std::move(thing), sentences_of(warnings));
-}
-
 }  // namespace
 
 void add_maps(py::module_& module) {
@@ -223,10 +216,10 @@ void add_maps(py::module_& module) {
   module.def("fit", fit);
   module.def("fit_belts", fit_belts);
   module.def("parse_map", [](const std::string& text, const std::string& file) {
-    return reply([&](auto* warnings) { return files::parse_map(text, file, warnings); });
+    return py::make_tuple(files::parse_map(text, file), sentences_of({}));
   });
   module.def("parse_anchors", [](const std::string& text, const std::string& file) {
-    return reply([&](auto* warnings) { return files::parse_anchors(text, file, warnings); });
+    return py::make_tuple(files::parse_anchors(text, file), sentences_of({}));
   });
 }
 
