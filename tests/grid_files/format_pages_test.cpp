@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reference pages and schemas of the formats: those in docs/formats equal the readers' tables,
-// every key is explained, and a machine's ranges are those of the reader.
+/// \file
+/// Reference pages and schemas of the formats: every key is explained, and a machine's ranges are those of the reader.
 #include "grid/files/format_pages.hpp"
 
 #include <fmt/format.h>
@@ -18,11 +18,6 @@ namespace chaintrue::grid::files {
 namespace {
 
 using nlohmann::json;
-
-std::string committed(const std::string& name) {
-  return read_whole_file(std::filesystem::path(CHAINTRUE_FIXTURES) / ".." / "docs" / "formats" /
-                         name);
-}
 
 /// Keys without a meaning, by their path.
 void unexplained(const json& schema, const std::string& way, std::vector<std::string>& found) {
@@ -44,15 +39,6 @@ void unexplained(const json& schema, const std::string& way, std::vector<std::st
                                 : json::array({schema[key]})) {
       unexplained(part, way, found);
     }
-  }
-}
-
-TEST(FormatPages, InTheDocumentsAreWhatTheReadersTablesSay) {
-  for (const std::string& name : described_formats()) {
-    EXPECT_EQ(committed(name + ".md"), write_format_page(name))
-        << "build/chaintrue formats --all docs/formats";
-    EXPECT_EQ(committed(name + ".schema.json"), write_format_schema(name))
-        << "build/chaintrue formats --all docs/formats";
   }
 }
 

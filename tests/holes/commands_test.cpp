@@ -33,15 +33,6 @@ class HolesCommands : public testing_support::CommandFixture {
   const std::string holes_ = fixtures_ + "/holes/nine_holes.json";
 };
 
-TEST_F(HolesCommands, TheFixtureIsWhatSimulateMakes) {
-  ASSERT_EQ(run("simulate --machine " + classic_ +
-                " --holes 9 --distances 20 --tape-rounding-mm 0.5 --draw-settings --effect "
-                "chain_pitch_error:left:elongation=0.0012 --seed 3 -o made.json")
-                .code,
-            0);
-  EXPECT_EQ(content_of(folder_ / "made.json"), content_of(holes_));
-}
-
 TEST_F(HolesCommands, FitGivesAMapThatQueryAndCheckTake) {
   const Outcome fit = run("fit " + holes_ + " -o map.json --verbose");
   ASSERT_EQ(fit.code, 0) << fit.err;

@@ -10,7 +10,6 @@
 #include "grid/files/answer_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/machine_file.hpp"
-#include "grid/files/whole_file.hpp"
 
 namespace chaintrue::grid::synthetic {
 namespace {
@@ -352,22 +351,6 @@ TEST(ReadPlaces, LeavesOutWhatCannotBeReachedAndCountsTheVisitsOn) {
   ASSERT_THAT(read.grid.points, SizeIs(2));
   EXPECT_EQ(read.grid.points[1].order, 2);
   EXPECT_EQ(read.grid.points[1].lengths->left_mm - read.grid.points[0].lengths->left_mm, 2.0);
-}
-
-// The fixture of the demo, made again from its machine (fixtures/README.md).
-TEST(Fixtures, SevenByFourIsMadeAsStated) {
-  const std::string folder = CHAINTRUE_FIXTURES;
-  SyntheticSpec spec;
-  spec.repeats = 6;
-  spec.jitter_mm = 8.0;
-  spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
-  spec.draw_settings = true;
-  SyntheticSession session =
-      session_of(spec, files::read_machine(folder + "/machines/classic.json"));
-  session.grid.name = "simulated, seed 1";
-  // Compared as written now: the layout of JSON may change, the numbers may not.
-  const MeasuredGrid fixture = files::read_grid(folder + "/grids/seven_by_four.json").grid;
-  EXPECT_EQ(files::write_grid(session.grid), files::write_grid(fixture));
 }
 
 }  // namespace
