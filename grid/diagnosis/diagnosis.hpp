@@ -120,7 +120,7 @@ struct BudgetLine {
   double mean_square_mm2 = 0.0;  ///< of what cannot be split it may be negative
   double share = 0.0;            ///< of the whole
   /// Rms of the tool's error as delivered with this part alone taken away. Empty of what cannot be
-  /// split, and in older files.
+  /// split.
   std::optional<double> without_mm{};
   /// The largest change of the tool's error over 100 mm at the corners of the marked area: what a
   /// part of that size gets wrong there. Empty where it is not of the place, or not the tool's.
@@ -351,9 +351,9 @@ struct Diagnosis {
   LeftOver left_over;
   /// How far the machine misses as it is used today: error_in_use() of the plain map of these readings,
   /// the number that a fit begins with; no less than what a claimed law makes at the points. Empty of drawings, of belts but where chaintrue diagnose adds it,
-  /// where the readings make no map, where held-out errors were not asked for, and in older files.
+  /// where the readings make no map, and where held-out errors were not asked for.
   std::optional<ErrorSummary> tool_today;
-  /// Empty in files written before it was said.
+  /// Empty for drawings, as the budget is.
   std::optional<Unexplained> unexplained;
   std::optional<ErrorBudget> budget;
   std::vector<Outlier> outliers;
