@@ -8,7 +8,6 @@
 #include "model/belts/belt_readings.hpp"
 
 namespace chaintrue::model::belts {
-
 namespace {
 
 BeltMachine frame(BeltLengths lengths = BeltLengths::span) {

@@ -56,14 +56,6 @@ TEST_F(ReportCommand, OfTheDemoGridIsSoundInTheBrowser) {
   EXPECT_EQ(count_marks(visited, "held_out_points", "point_marks"), 34);
 }
 
-TEST_F(ReportCommand, GivesTheSameBytesForTheSameMap) {
-  fit_demo_grid();
-  ASSERT_EQ(run(fmt::format("report '{}' -o '{}'", path("map.json"), path("first.html"))), 0);
-  ASSERT_EQ(run(fmt::format("report '{}' -o '{}'", path("map.json"), path("second.html"))), 0);
-  EXPECT_FALSE(text_of("first.html").empty());
-  EXPECT_EQ(text_of("first.html"), text_of("second.html"));
-}
-
 TEST_F(ReportCommand, ACertificateWithoutADateHasALineToWriteItOn) {
   fit_demo_grid();
   ASSERT_EQ(
