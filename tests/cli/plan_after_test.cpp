@@ -8,7 +8,7 @@
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "tests/cli/command_fixture.hpp"
-#include "tests/grid_files/sample_diagnosis.hpp"
+#include "tests/support/sample_diagnosis.hpp"
 
 namespace chaintrue {
 namespace {

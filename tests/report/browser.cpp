@@ -2,14 +2,17 @@
 #include "tests/report/browser.hpp"
 
 #include <fmt/format.h>
+#include <stdlib.h>
 #include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
-
-#include "tests/support/files.hpp"
+#include <stdexcept>
+#include <utility>
 
 #ifndef CHAINTRUE_BROWSER
 #define CHAINTRUE_BROWSER ""
@@ -18,8 +21,28 @@
 namespace chaintrue::report::testing {
 namespace {
 
-using testing_support::read_text;
-using testing_support::TemporaryFolder;
+namespace fs = std::filesystem;
+
+/// A temporary folder, removed with its owner.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_((fs::temp_directory_path() / "chaintrue-report-XXXXXX").string()) {
+    if (mkdtemp(path_.data()) == nullptr)
+      throw std::runtime_error("no temporary folder can be made at " + path_);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  [[nodiscard]] std::string operator/(std::string_view name) const {
+    return fmt::format("{}/{}", path_, name);
+  }
+
+ private:
+  std::string path_;
+};
 
 /// Opens "page.html" of the folder without network, in a new profile.
 std::string browser_command(const TemporaryFolder& folder, std::string_view options) {
@@ -34,6 +57,11 @@ std::string browser_command(const TemporaryFolder& folder, std::string_view opti
       folder / "page.html",
       folder / "dom",
       folder / "log");
+}
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// The pieces of text between begin and end, both left out.
@@ -126,45 +154,98 @@ void add_chart_problems(const DrawnChart& chart,
   }
 }
 
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+/// As the value of an attribute.
+std::string escaped(const std::string& text) {
+  return replaced(replaced(text, "&", "&amp;"), "\"", "&quot;");
+}
+
+/// The text of an element as the browser writes it down.
+std::string unescaped(std::string_view text) {
+  std::string result(text);
+  for (const auto& [from, to] : {std::pair("&lt;", "<"), std::pair("&gt;", ">"),
+                                 std::pair("&nbsp;", "\xC2\xA0"), std::pair("&amp;", "&")})
+    result = replaced(result, from, to);
+  return result;
+}
+
+/// The page keeps what it says to the console, and runs its probe once its charts are drawn.
+std::string with_probe(const Opened& page) {
+  std::string html = page.html;
+  const std::string script = fmt::format(
+      "<script>(async function wait() {{ if (!document.documentElement.dataset.charts) return "
+      "setTimeout(wait, 20);\n{}\ndocument.documentElement.dataset.probed = true; }})();</script>\n"
+      "</body>",
+      page.probe);
+  html.replace(html.rfind("</body>"), 7, script);
+  return html.insert(html.find("<head>") + 6, R"(<script>
+    window.heard = [];
+    for (const kind of ["debug", "log", "info", "warn", "error"]) console[kind] = (...words) => heard.push(words.join(" "));
+    addEventListener("error", (event) => heard.push(event.message));
+    addEventListener("unhandledrejection", (event) => heard.push(String(event.reason)));
+  </script>)");
+}
+
+/// Puts each frame's document and console in the place of the frames, as texts.
+constexpr std::string_view kCollect = R"(<script>
+  (async () => {
+    const frames = [...document.querySelectorAll("iframe")];
+    const is_done = (frame) => frame.contentDocument?.documentElement?.dataset.probed;
+    for (let i = 0; i < 700 && !frames.every(is_done); ++i) await new Promise((done) => setTimeout(done, 20));
+    const texts = frames.flatMap((frame) => [frame.contentDocument.documentElement.outerHTML, JSON.stringify(frame.contentWindow.heard)]);
+    document.body.replaceChildren(...texts.map((text) => {
+      const place = document.createElement("pre");
+      place.textContent = text;
+      return place;
+    }));
+  })();
+</script>
+</body>
+)";
+
 }  // namespace
 
 bool has_browser() { return !std::string_view(CHAINTRUE_BROWSER).empty(); }
 
-Visit visit(const std::string& html, std::string_view probe, Window window) {
+std::vector<Visit> visit_all(const std::vector<Opened>& pages) {
   const TemporaryFolder folder;
-  std::string page = html;
-  if (!probe.empty()) {
-    // Charts are drawn asynchronously; the page signals when they are done.
-    const std::string script = fmt::format(
-        "<script>(async function wait() {{ if (!document.documentElement.dataset.charts) return "
-        "setTimeout(wait, 20);\n{}\n}})();"
-        "</script>\n</body>",
-        probe);
-    page.replace(page.rfind("</body>"), 7, script);
+  std::string html = "<!DOCTYPE html>\n<meta charset=\"utf-8\">\n<body>\n";
+  for (const Opened& page : pages) {
+    html += fmt::format("<iframe width=\"{}\" height=\"{}\" style=\"border: 0\" srcdoc=\"{}\"></iframe>\n",
+                        page.window.width_px,
+                        page.window.height_px,
+                        escaped(with_probe(page)));
   }
-  std::ofstream(folder / "page.html", std::ios::binary) << page;
+  html += kCollect;
+  std::ofstream(folder / "page.html", std::ios::binary) << html;
   const int status = std::system(
-      browser_command(folder,
-                      fmt::format("--window-size={},{} --enable-logging=stderr --dump-dom",
-                                  window.width_px,
-                                  window.height_px))
-          .c_str());
-  Visit result;
-  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  result.dom = read_text(folder / "dom");
+      browser_command(folder, "--window-size=1400,1000 --enable-logging=stderr --dump-dom").c_str());
+  const std::string dom = read_text(folder / "dom");
+  const auto collected = between(dom, "<pre>", "</pre>");
   const std::string log = read_text(folder / "log");
-  for (const std::string_view line : between(log, ":CONSOLE", "\n"))
-    result.console.emplace_back(line);
-  return result;
+  std::vector<Visit> visits(pages.size());
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    visits[i].exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    for (const std::string_view line : between(log, ":CONSOLE", "\n"))
+      visits[i].console.emplace_back(line);
+    if (collected.size() != 2 * pages.size()) continue;
+    visits[i].dom = unescaped(collected[2 * i]);
+    for (const auto& line : nlohmann::json::parse(unescaped(collected[2 * i + 1])))
+      visits[i].console.push_back(line);
+  }
+  return visits;
 }
 
-int printed_sheets(const std::string& html, const Paper& paper) {
+int printed_sheets(const std::string& html) {
   const TemporaryFolder folder;
   std::string page = html;
-  page.insert(
-      page.find("</head>"),
-      fmt::format(
-          "<style>@page {{ size: {}mm {}mm; }}</style>\n", paper.width_mm, paper.height_mm));
+  page.insert(page.find("</head>"),
+              fmt::format("<style>@page {{ size: {}mm {}mm; }}</style>\n", kA4WidthMm, kLetterHeightMm));
   std::ofstream(folder / "page.html", std::ios::binary) << page;
   const std::string options =
       fmt::format("--no-pdf-header-footer --print-to-pdf='{}'", folder / "page.pdf");

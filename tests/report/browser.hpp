@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Opens a page in a real browser and reports problems.
+/// Opens pages in a real browser and reports problems.
 #pragma once
 
 #include <string>
@@ -24,19 +24,23 @@ struct Visit {
 
 [[nodiscard]] bool has_browser();
 
-/// Opens the page without network in a new profile. `probe` is a script that runs after the charts
-/// are drawn.
-[[nodiscard]] Visit visit(const std::string& html, std::string_view probe = {}, Window window = {});
-
-/// A sheet of paper: ISO 216; ANSI Y14.1 size A.
-struct Paper {
-  const char* name;
-  double width_mm, height_mm;
+struct Opened {
+  std::string html;
+  Window window = {};
+  /// A script that runs after the charts are drawn.
+  std::string probe = {};
 };
-inline constexpr Paper kPapers[] = {{"A4", 210.0, 297.0}, {"Letter", 215.9, 279.4}};
 
-/// How many sheets the page takes, as the browser prints it; 0 where it prints nothing.
-[[nodiscard]] int printed_sheets(const std::string& html, const Paper& paper);
+/// Opens the pages together, each in a frame of its own, in one browser without network and with a new
+/// profile. What the browser itself wrote to the console is of every page.
+[[nodiscard]] std::vector<Visit> visit_all(const std::vector<Opened>& pages);
+
+/// A4 (ISO 216) and Letter (ANSI Y14.1 size A). What fits on a sheet as narrow as the one and as short as
+/// the other fits on both.
+inline constexpr double kA4WidthMm = 210.0, kLetterWidthMm = 215.9, kLetterHeightMm = 279.4;
+
+/// How many of these smallest sheets the page takes, as the browser prints it; 0 where it prints nothing.
+[[nodiscard]] int printed_sheets(const std::string& html);
 
 /// A probe: how many texts of charts end in an ellipsis, and which.
 inline constexpr std::string_view kCutLabels = R"(
