@@ -45,6 +45,7 @@ void check_unit(const MeasuredBelts& belts, const BeltPlaces& places, Problems& 
   const auto unit = suspected_unit(belts);
   if (!unit) return;
   problems.explain(places.points,
+                   ProblemKind::other_unit,
                    fmt::format("these lengths look like {}: multiply them by {:g} (they are about "
                                "{:.3g}; the machine prints mm).",
                                unit->word,

@@ -64,7 +64,8 @@ void check_content(const Cursor& at) {
   if (hash.json() != content_hash(at.json())) {
     hash.expect(
         "the hash of this file's content: something in it was changed or damaged since it was "
-        "written; fit the points again");
+        "written; fit the points again",
+        ProblemKind::content_hash);
   }
 }
 

@@ -122,7 +122,7 @@ std::vector<CellOfColumn> match_header(const CsvRow& header,
     remarks += fmt::format("; if these are the columns in this order, the line should read {}",
                            fmt::join(names_of(columns, true), ","));
   }
-  problems.add(header.front().place(), joined(found), expected_header(columns) + remarks);
+  problems.add(header.front().place(), joined(found), expected_header(columns) + remarks, ProblemKind::bad_table);
   return {};
 }
 
@@ -200,7 +200,8 @@ std::optional<double> number_in_unit(const CsvCell& cell,
   if (range.holds(*bare * unit)) return *bare * unit;
   problems.add(cell.place(),
                fmt::format("{} ({:.6g} {})", cell.text, *bare * unit, range.unit),
-               fmt::format("{} ({})", range.expected(), name));
+               fmt::format("{} ({})", range.expected(), name),
+               ProblemKind::out_of_range);
   return std::nullopt;
 }
 
@@ -213,7 +214,8 @@ CsvTable read_csv(std::string_view text,
   if (rows.empty()) {
     problems.add("",
                  text.empty() ? "an empty file" : "only blank lines and comments",
-                 expected_header(columns));
+                 expected_header(columns),
+                 ProblemKind::empty_file);
     return table;
   }
   drop_trailing_cells(rows);
@@ -223,6 +225,7 @@ CsvTable read_csv(std::string_view text,
   if (looks_split_by_decimal_commas(rows, width)) {
     problems.explain(
         rows[1].front().place(),
+        ProblemKind::decimal_comma,
         fmt::format("these commas look like decimal commas: write decimals with a point "
                     "({} cells stand under a header of {}).",
                     rows[1].size(),
@@ -238,7 +241,8 @@ CsvTable read_csv(std::string_view text,
     } else {
       problems.add(rows[r].front().place(),
                    fmt::format("{} cells", rows[r].size()),
-                   fmt::format("{} cells, as in the header", width));
+                   fmt::format("{} cells, as in the header", width),
+                   ProblemKind::bad_table);
     }
     table.clean.push_back(problems.list().size() == problems_before);
     table.rows.push_back(std::move(values));

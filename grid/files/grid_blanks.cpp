@@ -39,7 +39,8 @@ void leave_out_blanks(std::vector<StatedPoint>& points, PointPlaces& places, Pro
   if (kept.empty()) {
     problems.add(places.all,
                  fmt::format("{} points, all left blank", blank.size()),
-                 "the readings, written into the empty columns");
+                 "the readings, written into the empty columns",
+                 ProblemKind::left_blank);
     problems.throw_if_any();
   }
   problems.warn(places.all,

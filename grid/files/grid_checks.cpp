@@ -151,6 +151,7 @@ bool check_unit(const MeasuredGrid& grid, const PointPlaces& places, Problems& p
     constexpr double kLongestChainInches = 150.0;
     problems.explain(
         places.all,
+        ProblemKind::other_unit,
         fmt::format(
             "These look like {}: multiply all of them by {}{} (coordinates reach {:.6g}, lengths "
             "{:.6g}).",
@@ -169,6 +170,7 @@ bool check_unit(const MeasuredGrid& grid, const PointPlaces& places, Problems& p
       fmt::format("lengths that change by {:.3g} for each 1 of x_mm, y_mm", steepness);
   if (is_unit_under(first->steepness()) && is_unit_under(second->steepness())) {
     problems.explain(places.all,
+                     ProblemKind::other_unit,
                      fmt::format("x_mm and y_mm look like {}, the lengths like mm ({}, where 1 is "
                                  "usual).",
                                  unit_of(steepness),
@@ -177,6 +179,7 @@ bool check_unit(const MeasuredGrid& grid, const PointPlaces& places, Problems& p
   }
   if (is_unit_over(first->steepness()) && is_unit_over(second->steepness())) {
     problems.explain(places.all,
+                     ProblemKind::other_unit,
                      fmt::format("the lengths look like {}, x_mm and y_mm like mm ({}, where 1 is "
                                  "usual).",
                                  unit_of(1.0 / steepness),
@@ -195,6 +198,7 @@ bool check_axes(const MeasuredGrid& grid, const PointPlaces& places, Problems& p
   if (left && right && left->per_y > kClearly && right->per_y < -kClearly && left->per_x < 0.0 &&
       right->per_x < 0.0) {
     problems.explain(places.all,
+                     ProblemKind::axes,
                      "the two columns look swapped: left lengths grow and right ones shrink "
                      "with y_mm. x_mm counts to the right, y_mm up the sheet.");
     return true;
@@ -208,12 +212,14 @@ void check_sides(const MeasuredGrid& grid, const PointPlaces& places, Problems& 
   if (left && right) {
     if (left->per_x < 0.0 && right->per_x > 0.0) {
       problems.explain(places.all,
+                       ProblemKind::sides_swapped,
                        "the columns left_mm and right_mm look swapped: left lengths shrink and right "
                        "ones grow towards +x.");
     }
     constexpr double kClearly = 0.1;
     if (left->per_y > kClearly && right->per_y > kClearly) {
       problems.explain(places.all,
+                       ProblemKind::axes,
                        "y_mm looks counted downwards: both chains grow towards +y, where the motors "
                        "are. y_mm counts up the sheet.");
     }
@@ -276,17 +282,18 @@ bool check_entries(const MeasuredGrid& grid, const PointPlaces& places, Problems
   }
   const input_checks::Findings found = input_checks::check_points(grid, places.written);
   if (found.whole && found.whole->is_doubtful) {
-    problems.warn(places.all, found.whole->sentence());
+    problems.warn(places.all, found.whole->sentence(), found.whole->kind);
   } else if (found.whole) {
     problems.explain(found.whole->from_row ? places.of(*found.whole->from_row, "") : places.all,
+                     found.whole->kind,
                      found.whole->sentence());
     return true;
   }
   for (const input_checks::RowFinding& row : found.rows) {
     if (row.is_impossible) {
-      problems.explain(places.of(row.row, ""), row.sentence);
+      problems.explain(places.of(row.row, ""), ProblemKind::doubtful_row, row.sentence);
     } else {
-      problems.warn(places.of(row.row, ""), row.sentence);
+      problems.warn(places.of(row.row, ""), row.sentence, ProblemKind::doubtful_row);
     }
   }
   return false;
@@ -323,6 +330,7 @@ void check_points_together(const MeasuredGrid& grid,
   const std::size_t count = grid.points.size();
   if (count < fewest_points) {
     problems.explain(places.all,
+                     ProblemKind::too_few,
                      fmt::format("{} filled in, and it takes at least {}: measure {} more.",
                                  count == 0   ? "No point is"
                                  : count == 1 ? "Only 1 point is"

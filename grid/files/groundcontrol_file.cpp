@@ -239,6 +239,7 @@ ReadMachine machine_of_settings(const IniTable& table, Tolerances tolerances, Pr
   IniReader reader(table, problems);
   if (const auto unit = other_unit_of(table)) {
     problems.explain(reader.place_of_key("bedwidth"),
+                     ProblemKind::other_unit,
                      fmt::format("the lengths of this file look like {} (bedwidth = {}): multiply them "
                                  "by {:g}.",
                                  unit->word,

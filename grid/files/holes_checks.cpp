@@ -59,6 +59,7 @@ bool check_other_unit(const MeasuredHoles& set, const HolesPlaces& places, Probl
   if (set.holes.size() < 3 || share >= kOfCentimetres) return false;
   problems.explain(
       places.holes,
+      ProblemKind::other_unit,
       fmt::format(
           "these and their distances look like {} (no hole is farther than {:.4g} "
           "from the middle).",
@@ -76,6 +77,7 @@ std::vector<input_checks::RowFinding> check_entries(const MeasuredHoles& set,
   if (found.whole) {
     problems.explain(found.whole->from_row ? places.distance(*found.whole->from_row, "distance_mm")
                                            : places.distances,
+                     found.whole->kind,
                      found.whole->sentence());
   }
   return std::move(found.rows);
@@ -259,7 +261,8 @@ void leave_out_blanks(std::vector<StatedDistance>& distances,
   if (kept.empty()) {
     problems.add(places.distances,
                  fmt::format("{} distances, all left blank", blank.size()),
-                 "tape readings, written into distance_mm");
+                 "tape readings, written into distance_mm",
+                 ProblemKind::left_blank);
     problems.throw_if_any();
   }
   problems.warn(places.distances,
@@ -370,7 +373,7 @@ void check_holes_together(const MeasuredHoles& set,
   if (problems.any() || check_other_unit(set, places, problems)) return;
   check_triangles(set, asked, places, problems);
   for (const input_checks::RowFinding& row : asked)
-    problems.warn(places.distance(row.row, "distance_mm"), row.sentence);
+    problems.warn(places.distance(row.row, "distance_mm"), row.sentence, ProblemKind::doubtful_row);
   check_enough(set, fewest_distances, places, problems);
   if (!problems.any()) check_tape_zero(set, tape_zero_is_stated, places, problems);
 }

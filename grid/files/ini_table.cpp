@@ -28,7 +28,7 @@ IniTable::IniTable(std::string_view text, Problems& problems) {
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark)
     text.remove_prefix(kByteOrderMark.size());
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-    problems.add("", "an empty file", "an ini file with [sections]");
+    problems.add("", "an empty file", "an ini file with [sections]", ProblemKind::empty_file);
   }
   std::vector<IniEntry>* section = nullptr;
   std::size_t strange = 0;
@@ -44,7 +44,8 @@ IniTable::IniTable(std::string_view text, Problems& problems) {
     }
     const std::size_t sign = line.find_first_of("=:");
     if (sign == 0 || sign == std::string_view::npos || section == nullptr) {
-      problems.add(place, line, "[a section] or key = value in a section, as in an ini file");
+      problems.add(place, line, "[a section] or key = value in a section, as in an ini file",
+                   ProblemKind::bad_syntax);
       if (++strange == kMostStrangeLines) return;
       continue;
     }
@@ -56,7 +57,8 @@ IniTable::IniTable(std::string_view text, Problems& problems) {
           return other.key == entry.key;
         });
     if (same != section->end()) {
-      problems.add(place, line, fmt::format("this key once; it stands at {} already", same->place));
+      problems.add(place, line, fmt::format("this key once; it stands at {} already", same->place),
+                   ProblemKind::repeated_key);
     } else {
       section->push_back(std::move(entry));
     }

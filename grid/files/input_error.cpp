@@ -27,6 +27,11 @@ std::string InputProblem::message() const {
   return fmt::format("{}: found {}, expected {}", where, value, expected);
 }
 
+std::string_view InputProblem::name() const {
+  const bool is_missing = kind == ProblemKind::unexpected && value.empty() && sentence.empty();
+  return name_of(is_missing ? ProblemKind::missing : kind);
+}
+
 std::string Warning::message() const {
   return place.empty() ? fmt::format("{}: {}", file, sentence)
                        : fmt::format("{}: {}: {}", file, place, sentence);
@@ -35,8 +40,8 @@ std::string Warning::message() const {
 InputError::InputError(std::vector<InputProblem> problems)
     : std::runtime_error(all_messages(problems)), problems_(std::move(problems)) {}
 
-void refuse_file(std::string file, std::string found, std::string expected) {
-  throw InputError({{std::move(file), "", std::move(found), std::move(expected)}});
+void refuse_file(std::string file, std::string found, std::string expected, ProblemKind kind) {
+  throw InputError({{std::move(file), "", std::move(found), std::move(expected), {}, kind}});
 }
 
 std::string system_words(int error_number) {

@@ -4,9 +4,13 @@
 /// found and what was expected.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "grid/problem_kind.hpp"
 
 namespace chaintrue::grid::files {
 
@@ -21,8 +25,11 @@ struct InputProblem {
   /// Where the likely mistake is recognised: what it is and what to do, in the owner's words. It then
   /// stands for value and expected in the message.
   std::string sentence = {};
+  ProblemKind kind = ProblemKind::unexpected;
   /// `grid.json: /points/3/x_mm: found "abc", expected a number in mm`
   [[nodiscard]] std::string message() const;
+  /// Of its kind; "missing" where nothing was found.
+  [[nodiscard]] std::string_view name() const;
 };
 
 /// A problem that does not stop the reading; the caller prints it.
@@ -32,6 +39,8 @@ struct Warning {
   std::string place;
   /// A whole sentence.
   std::string sentence;
+  /// Of a recognised mistake; nothing for what is only told.
+  std::optional<ProblemKind> kind = std::nullopt;
   /// `grid.json: /points/3: ...`
   [[nodiscard]] std::string message() const;
 };
@@ -47,7 +56,8 @@ class InputError : public std::runtime_error {
 };
 
 /// \throws InputError with one problem: the file as a whole.
-[[noreturn]] void refuse_file(std::string file, std::string found, std::string expected);
+[[noreturn]] void refuse_file(std::string file, std::string found, std::string expected,
+                              ProblemKind kind = ProblemKind::unexpected);
 
 /// The system's message for an error number, in English in every locale.
 [[nodiscard]] std::string system_words(int error_number);

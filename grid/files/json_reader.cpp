@@ -36,16 +36,18 @@ bool RecordTable::open(const Cursor& at, bool is_root) const {
     if (is_root) type.missing(fmt::format("\"{}\"", format_->file_type));
   } else if (type.json() != format_->file_type) {
     const std::string found = type.json().is_string() ? type.json().get<std::string>() : "";
-    type.expect(fmt::format("\"{}\"{}", format_->file_type, what_takes(found)));
+    type.expect(fmt::format("\"{}\"{}", format_->file_type, what_takes(found)),
+                ProblemKind::file_kind);
     return false;
   }
   const Cursor version = at.child("format_version");
   if (!at.has("format_version")) {
     if (is_root) version.missing(fmt::format("\"{}\"", format_->version));
   } else if (version.json() != format_->version) {
-    version.expect(fmt::format(
-        "\"{}\", the version that this program reads: use the chaintrue that wrote the file",
-        format_->version));
+    version.expect(
+        fmt::format("\"{}\", the version that this program reads: use the chaintrue that wrote the file",
+                    format_->version),
+        ProblemKind::format_version);
     return false;
   }
   return true;
@@ -137,7 +139,10 @@ std::vector<std::string> RecordTable::report_unknown_keys(const Cursor& at) cons
       probably_meant.push_back(meant);
       expected = fmt::format("\"{}\"? This key is unknown; {} has {}", meant, noun_, joined(keys()));
     }
-    at.problems().add(at.pointer() + "/" + pointer_token(key), compact_json(value), expected);
+    at.problems().add(at.pointer() + "/" + pointer_token(key),
+                      compact_json(value),
+                      expected,
+                      ProblemKind::unknown_key);
   }
   return probably_meant;
 }

@@ -164,7 +164,8 @@ class Builder : public nlohmann::json_sax<Json> {
                           source_.original_offset(position - std::min<std::size_t>(position, 1)));
     problems_.add(line_and_column_of(original_, token.offset),
                   token.text,
-                  expected_by_parser(error.what()) + likely_error(original_, token.offset));
+                  expected_by_parser(error.what()) + likely_error(original_, token.offset),
+                  ProblemKind::bad_syntax);
     return false;
   }
 
@@ -210,7 +211,8 @@ class Builder : public nlohmann::json_sax<Json> {
                     value.is_object()  ? "an object"
                     : value.is_array() ? "a list"
                                        : compact_json(value),
-                    "this key once; it stands here a second time");
+                    "this key once; it stands here a second time",
+                    ProblemKind::repeated_key);
     }
     auto& members = level.value->get_ref<Json::object_t&>();
     // Appends without a search for the key, which would be slow for long objects.
@@ -340,7 +342,7 @@ Json parse_json(const std::string& text, Problems& problems) {
   if (std::all_of(text.begin(), text.end(), [](char c) {
         return c == ' ' || c == '\n' || c == '\r' || c == '\t';
       })) {
-    problems.add("", "an empty file", "JSON text");
+    problems.add("", "an empty file", "JSON text", ProblemKind::empty_file);
     problems.throw_if_any();
   }
   const QuotedText source = quote_what_is_no_number(text);

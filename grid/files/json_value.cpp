@@ -44,8 +44,8 @@ Cursor Cursor::element(std::size_t index) const { return {(*json_)[index], this,
 
 bool Cursor::has(std::string_view key) const { return &child(key).json() != &kNull; }
 
-void Cursor::expect(std::string expected) const {
-  problems_->add(pointer(), shown(*json_), std::move(expected));
+void Cursor::expect(std::string expected, ProblemKind kind) const {
+  problems_->add(pointer(), shown(*json_), std::move(expected), kind);
 }
 
 void Cursor::missing(std::string expected) const {
@@ -55,8 +55,13 @@ void Cursor::missing(std::string expected) const {
 std::optional<double> Cursor::number(const Range& range) const {
   if (json_->is_number() && range.holds(json_->get<double>())) return json_->get<double>();
   std::string expected = range.expected();
-  if (json_->is_string()) expected += hint_for_text(json_->get_ref<const std::string&>());
-  expect(std::move(expected));
+  ProblemKind kind = json_->is_number() ? ProblemKind::out_of_range : ProblemKind::not_a_number;
+  if (json_->is_string()) {
+    const auto& text = json_->get_ref<const std::string&>();
+    expected += hint_for_text(text);
+    if (looks_like_decimal_comma(text)) kind = ProblemKind::decimal_comma;
+  }
+  expect(std::move(expected), kind);
   return std::nullopt;
 }
 
@@ -66,7 +71,8 @@ std::optional<int> Cursor::integer(int least, int most) const {
     if (value >= least && value <= most && value == std::floor(value))
       return static_cast<int>(value);
   }
-  expect(fmt::format("a whole number from {} to {}", least, most));
+  expect(fmt::format("a whole number from {} to {}", least, most),
+         json_->is_number() ? ProblemKind::out_of_range : ProblemKind::not_a_number);
   return std::nullopt;
 }
 
@@ -123,7 +129,8 @@ Value<std::string> one_of(std::vector<std::string> names) {
               if (std::find(names.begin(), names.end(), word) != names.end()) return word;
               const std::string meant = nearest(word, names);
               at.expect(meant.empty() ? expected
-                                      : fmt::format("{}; \"{}\" is the nearest", expected, meant));
+                                      : fmt::format("{}; \"{}\" is the nearest", expected, meant),
+                        ProblemKind::unknown_word);
             } else {
               at.expect(expected);
             }

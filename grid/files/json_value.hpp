@@ -42,7 +42,7 @@ class Cursor {
   }
 
   /// Reports that this value is not the expected one; `missing` reports that it is absent.
-  void expect(std::string expected) const;
+  void expect(std::string expected, ProblemKind kind = ProblemKind::unexpected) const;
   void missing(std::string expected) const;
   /// Adds a warning, a complete sentence, about this place; reading continues.
   void warn(std::string sentence) const { problems_->warn(pointer(), std::move(sentence)); }

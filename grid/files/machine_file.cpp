@@ -216,6 +216,7 @@ void check_machine(const Cursor& at, Machine& machine) {
     };
     at.problems().explain(
         at.pointer(),
+        ProblemKind::other_unit,
         fmt::format(
             "these look like {}: multiply all lengths by {:g}, then the bed is {} mm, where it "
             "is {} now.",

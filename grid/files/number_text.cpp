@@ -76,6 +76,11 @@ bool looks_like_decimal_comma(std::string_view text) {
   });
 }
 
+ProblemKind kind_of_bad_number(std::string_view text) {
+  if (looks_like_decimal_comma(text)) return ProblemKind::decimal_comma;
+  return number_of(text) ? ProblemKind::out_of_range : ProblemKind::not_a_number;
+}
+
 std::optional<double> checked_number(std::string_view text,
                                      const std::string& place,
                                      std::string_view name,
@@ -86,7 +91,7 @@ std::optional<double> checked_number(std::string_view text,
   if (value && range.holds(*value)) return value;
   const std::string_view hint =
       looks_like_decimal_comma(text) ? ", with a decimal point, not a comma" : "";
-  problems.add(place, text, fmt::format("{} ({}){}", range.expected(), name, hint));
+  problems.add(place, text, fmt::format("{} ({}){}", range.expected(), name, hint), kind_of_bad_number(text));
   return std::nullopt;
 }
 

@@ -76,21 +76,26 @@ std::optional<int> descriptor_behind(const fs::path& path) {
 /// The file that a path resolves to; empty if it is a device, a pipe or an open descriptor, which
 /// are written to directly.
 fs::path file_behind(const fs::path& path) {
-  if (path.empty()) refuse_file("output file", "an empty name", "the name of a file");
+  if (path.empty())
+    refuse_file("output file", "an empty name", "the name of a file",
+                ProblemKind::output_place);
   if (descriptor_behind(path)) return {};
   std::error_code error;
   if (fs::is_directory(path, error))
-    refuse_file(path.string(), "a directory", "the name of a file");
+    refuse_file(path.string(), "a directory", "the name of a file", ProblemKind::output_place);
   fs::path target = path;
   if (fs::is_symlink(path, error)) {
     target = fs::weakly_canonical(path, error);
     if (error)
-      refuse_file(path.string(), system_words(error.value()), "a link that leads to a file");
+      refuse_file(path.string(), system_words(error.value()), "a link that leads to a file",
+                  ProblemKind::output_place);
   }
   struct stat status = {};
   if (::stat(target.c_str(), &status) != 0) {
     // An invalid name would be detected only at the rename, after other files were renamed.
-    if (errno != ENOENT) refuse_file(path.string(), system_words(errno), "the name of a file");
+    if (errno != ENOENT)
+      refuse_file(path.string(), system_words(errno), "the name of a file",
+                  ProblemKind::output_place);
     return target;
   }
   if (!S_ISREG(status.st_mode)) return {};
@@ -101,7 +106,8 @@ fs::path file_behind(const fs::path& path) {
   if (is_protected || ::access(target.c_str(), W_OK) != 0) {
     refuse_file(path.string(),
                 is_protected ? "a protected file" : system_words(errno),
-                "a file that may be written to");
+                "a file that may be written to",
+                ProblemKind::output_place);
   }
   return target;
 }
@@ -149,7 +155,8 @@ PendingFile::PendingFile(fs::path path) : path_(std::move(path)), target_(file_b
   temporary_.clear();
   free_slot(slot_);
   refuse_file(
-      path_.string(), system_words(error_number), "a directory that exists and can be written to");
+      path_.string(), system_words(error_number), "a directory that exists and can be written to",
+      ProblemKind::output_place);
 }
 
 PendingFile::~PendingFile() { discard(); }
@@ -163,7 +170,8 @@ void PendingFile::discard() {
 
 void PendingFile::refuse(int error_number) {
   discard();
-  refuse_file(path_.string(), system_words(error_number), "room and the right to write the file");
+  refuse_file(path_.string(), system_words(error_number), "room and the right to write the file",
+              ProblemKind::output_place);
 }
 
 void PendingFile::write(std::string_view bytes) {
@@ -214,7 +222,8 @@ void PendingFile::put_out() const {
   if (error_number == EPIPE) throw ReaderGone();
   refuse_file(path_ == "-" ? "standard output" : path_.string(),
               system_words(error_number),
-              "something that can be written to");
+              "something that can be written to",
+              ProblemKind::output_place);
 }
 
 void take_places(const std::vector<PendingFile*>& files) {

@@ -58,7 +58,9 @@ std::vector<InputProblem> few_of_a_kind(const std::vector<InputProblem>& all) {
       few.push_back({problem.file,
                      "",
                      fmt::format("{} more like these", total[kind_of(problem)] - most),
-                     problem.expected});
+                     problem.expected,
+                     {},
+                     problem.kind});
     }
   }
   return few;
@@ -66,16 +68,19 @@ std::vector<InputProblem> few_of_a_kind(const std::vector<InputProblem>& all) {
 
 }  // namespace
 
-void Problems::add(std::string place, std::string_view value, std::string expected) {
-  list_.push_back({file_, std::move(place), shortened(value), std::move(expected)});
+void Problems::add(std::string place,
+                   std::string_view value,
+                   std::string expected,
+                   ProblemKind kind) {
+  list_.push_back({file_, std::move(place), shortened(value), std::move(expected), {}, kind});
 }
 
-void Problems::explain(std::string place, std::string sentence) {
-  list_.push_back({file_, std::move(place), {}, {}, std::move(sentence)});
+void Problems::explain(std::string place, ProblemKind kind, std::string sentence) {
+  list_.push_back({file_, std::move(place), {}, {}, std::move(sentence), kind});
 }
 
-void Problems::warn(std::string place, std::string sentence) {
-  warnings_.push_back({file_, std::move(place), std::move(sentence)});
+void Problems::warn(std::string place, std::string sentence, std::optional<ProblemKind> kind) {
+  warnings_.push_back({file_, std::move(place), std::move(sentence), kind});
 }
 
 void Problems::add_all(const InputError& error) {
@@ -101,7 +106,12 @@ void Problems::throw_if_any() const {
     const std::size_t more = shown.size() - kMostProblems;
     shown.resize(kMostProblems);
     shown.push_back(
-        {file_, "", fmt::format("{} more problems", more), "those above corrected first"});
+        {file_,
+                     "",
+                     fmt::format("{} more problems", more),
+                     "those above corrected first",
+                     {},
+                     ProblemKind::too_many});
   }
   throw InputError(std::move(shown));
 }

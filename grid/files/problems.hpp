@@ -24,10 +24,15 @@ class Problems {
   explicit Problems(std::string file) : file_(std::move(file)) {}
 
   /// `value` is shortened to 60 characters and made printable here.
-  void add(std::string place, std::string_view value, std::string expected);
+  void add(std::string place,
+           std::string_view value,
+           std::string expected,
+           ProblemKind kind = ProblemKind::unexpected);
   /// A recognised mistake: `sentence` says what it is and what to do.
-  void explain(std::string place, std::string sentence);
-  void warn(std::string place, std::string sentence);
+  void explain(std::string place, ProblemKind kind, std::string sentence);
+  void warn(std::string place,
+            std::string sentence,
+            std::optional<ProblemKind> kind = std::nullopt);
   /// Adds those of another file that this one names.
   void add_all(const InputError& error);
   void add_warnings(const std::vector<Warning>& warnings);

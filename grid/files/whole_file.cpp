@@ -36,7 +36,8 @@ std::string read_to_the_end(std::FILE* file, const fs::path& path) {
   if (std::ferror(file) != 0) {
     refuse_file(name,
                 fmt::format("a read error ({})", system_words(errno)),
-                "a file that can be read to its end");
+                "a file that can be read to its end",
+                ProblemKind::unreadable_file);
   }
   Sha256 hash;
   hash.add(text);
@@ -67,7 +68,7 @@ void refuse_what_is_no_text(const std::string& text, const std::string& name) {
   };
   for (const Kind& kind : kKinds) {
     if (text.starts_with(kind.beginning))
-      refuse_file(name, std::string(kind.found), std::string(kind.expected));
+      refuse_file(name, std::string(kind.found), std::string(kind.expected), ProblemKind::file_kind);
   }
 }
 
@@ -128,7 +129,7 @@ std::string name_in_messages(const fs::path& path) {
 std::string read_whole_file(const fs::path& path) {
   if (path == "-") return read_text(stdin, path);
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) refuse_file(path.string(), "a directory", "a file");
+  if (fs::is_directory(path, ignored)) refuse_file(path.string(), "a directory", "a file", ProblemKind::unreadable_file);
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) {
     const std::string name = path.string();
@@ -136,7 +137,12 @@ std::string read_whole_file(const fs::path& path) {
         errno == ENOENT
             ? fmt::format("There is no file {}{}.", name, path.has_parent_path() ? "" : " here")
             : fmt::format("{} cannot be read: {}.", name, system_words(errno));
-    throw InputError({{"", "", name, "a file that can be opened for reading", sentence}});
+    throw InputError({{"",
+                       "",
+                       name,
+                       "a file that can be opened for reading",
+                       sentence,
+                       ProblemKind::unreadable_file}});
   }
   return read_text(file.get(), path);
 }
@@ -157,7 +163,8 @@ void write_whole_files(const std::vector<OutputFile>& outputs) {
         output.path == "-" ? "-" : fs::weakly_canonical(output.path, error).string();
     const bool is_device = fs::is_character_file(output.path, error);
     if (!is_device && !names.insert(place).second)
-      refuse_file(output.path.string(), "a name given twice", "a file of its own for each output");
+      refuse_file(output.path.string(), "a name given twice", "a file of its own for each output",
+                  ProblemKind::output_repeated);
     files.push_back(pending.emplace_back(std::make_unique<PendingFile>(output.path)).get());
     files.back()->write(output.text);
   }

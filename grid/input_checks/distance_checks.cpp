@@ -81,10 +81,12 @@ class Attempts {
  public:
   explicit Attempts(const MeasuredHoles& set) : set_(set) {}
 
-  void add(std::string sentence, const std::function<void(MeasuredHoles&)>& mend) {
+  void add(ProblemKind kind,
+           std::string sentence,
+           const std::function<void(MeasuredHoles&)>& mend) {
     MeasuredHoles meant = set_;
     mend(meant);
-    candidates_.push_back({std::move(sentence), distances_account(meant)});
+    candidates_.push_back({kind, std::move(sentence), distances_account(meant)});
   }
   [[nodiscard]] std::vector<Candidate>& candidates() { return candidates_; }
 
@@ -107,6 +109,7 @@ void scale_holes(MeasuredHoles& set, double factor) {
 void add_units(Attempts& attempts, Written written) {
   const auto unit = [&](const char* word, double factor) {
     attempts.add(
+        ProblemKind::other_unit,
         fmt::format("the distances look like {}, the holes' x_mm and y_mm like mm: multiply the "
                     "distances by {:g}{}",
                     word,
@@ -114,6 +117,7 @@ void add_units(Attempts& attempts, Written written) {
                     factor == kMmPerInch ? or_say_inches(written) : ""),
         [=](MeasuredHoles& set) { scale_distances(set, factor); });
     attempts.add(
+        ProblemKind::other_unit,
         fmt::format("the holes' x_mm and y_mm look like {}, the distances like mm: multiply the "
                     "holes by {:g}",
                     word,
@@ -127,7 +131,7 @@ void add_units(Attempts& attempts, Written written) {
 
 void add_axes(Attempts& attempts) {
   const auto holes = [&](const char* words, model::BedPoint (*meant)(model::BedPoint)) {
-    attempts.add(words, [meant](MeasuredHoles& set) {
+    attempts.add(ProblemKind::axes, words, [meant](MeasuredHoles& set) {
       for (Hole& hole : set.holes) hole.commanded = meant(hole.commanded);
     });
   };
@@ -170,7 +174,8 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Atte
     const auto number = [&](const char* axis, double model::BedPoint::*of) {
       const double written = set.holes[h].commanded.*of;
       for (const NumberError& slip : number_errors(written, true)) {
-        attempts.add(fmt::format("the {1} that hole {0} was cut at is {2}: {3}",
+        attempts.add(ProblemKind::doubtful_row,
+                     fmt::format("the {1} that hole {0} was cut at is {2}: {3}",
                                  name,
                                  axis,
                                  digits_of(written),
@@ -181,12 +186,14 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Atte
     };
     number("x_mm", &model::BedPoint::x_mm);
     number("y_mm", &model::BedPoint::y_mm);
-    attempts.add(fmt::format("are x_mm and y_mm of hole {} swapped?", name),
+    attempts.add(ProblemKind::doubtful_row,
+                 fmt::format("are x_mm and y_mm of hole {} swapped?", name),
                  [=](MeasuredHoles& meant) {
                    std::swap(meant.holes[h].commanded.x_mm, meant.holes[h].commanded.y_mm);
                  });
     for (std::size_t other = 0; other < h; ++other) {
-      attempts.add(fmt::format("the holes {} and {} look exchanged", set.holes[other].name, name),
+      attempts.add(ProblemKind::other_order,
+                   fmt::format("the holes {} and {} look exchanged", set.holes[other].name, name),
                    [=](MeasuredHoles& meant) {
                      std::swap(meant.holes[h].commanded, meant.holes[other].commanded);
                    });
@@ -227,7 +234,8 @@ void add_row_errors(const MeasuredHoles& set, std::vector<Candidate>& candidates
       to.distance_mm = read;
     }
     candidates.push_back(
-        {fmt::format(
+        {ProblemKind::row_slip,
+         fmt::format(
              "from here on the distances fit the two holes of the line {}: is one left out or "
              "written twice?",
              by < 0 ? "before" : "after"),

@@ -26,8 +26,12 @@ std::optional<WholeFinding> whole_finding(std::vector<Candidate> candidates,
     return a.account.log_likelihood > b.account.log_likelihood;
   });
   const Candidate& best = candidates.front();
-  WholeFinding finding{
-      best.from_row, best.sentence, std::move(found), best.is_doubtful, best.account.median_mm};
+  WholeFinding finding{best.from_row,
+                       best.sentence,
+                       std::move(found),
+                       best.is_doubtful,
+                       best.account.median_mm,
+                       best.kind};
   // Two accounts this near each other are both reported.
   constexpr double kEquallyLikely = 3.0;
   for (std::size_t i = 1; i < candidates.size(); ++i) {

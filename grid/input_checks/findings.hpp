@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "grid/problem_kind.hpp"
+
 namespace chaintrue::grid::input_checks {
 
 /// How the numbers that are checked were written: of a table --inches can say that they are inches.
@@ -26,6 +28,7 @@ struct WholeFinding {
   bool is_doubtful = false;
   /// By how much the rows disagree once it is mended; unknown where no usual mistake explains them.
   std::optional<double> mended_mm = std::nullopt;
+  ProblemKind kind = ProblemKind::other_sheet;
 
   /// "x_mm and y_mm look like inches: ... (half of the marks are ... off as it stands; ...)"
   [[nodiscard]] std::string sentence() const;
@@ -53,6 +56,7 @@ struct Account {
 };
 
 struct Candidate {
+  ProblemKind kind = ProblemKind::other_sheet;
   std::string sentence;
   Account account;
   std::optional<std::size_t> from_row = std::nullopt;

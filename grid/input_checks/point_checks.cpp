@@ -56,7 +56,7 @@ void try_whole_errors(const PointAccounts& accounts,
     }
     const Places then = slip.mends_readings ? accounts.places_of(meant) : places;
     candidates.push_back(
-        {slip.sentence, account_of(accounts, meant, then), std::nullopt, slip.is_doubtful});
+        {slip.kind, slip.sentence, account_of(accounts, meant, then), std::nullopt, slip.is_doubtful});
   }
 }
 
@@ -108,7 +108,8 @@ void try_row_errors(const PointAccounts& accounts,
       slipped[i] = is_there ? places[static_cast<std::size_t>(of)] : std::nullopt;
     }
     candidates.push_back(
-        {fmt::format("from here on x_mm and y_mm fit the {} of the line {}: is a line {}?",
+        {ProblemKind::row_slip,
+         fmt::format("from here on x_mm and y_mm fit the {} of the line {}: is a line {}?",
                      readings,
                      by < 0 ? "before" : "after",
                      by < 0 ? "written twice, or one left out of the other columns"
@@ -118,7 +119,8 @@ void try_row_errors(const PointAccounts& accounts,
   }
   Places reversed = places;
   std::reverse(reversed.begin(), reversed.end());
-  candidates.push_back({fmt::format("the lines look as if one of the two lists, marks and {}, runs "
+  candidates.push_back({ProblemKind::other_order,
+                        fmt::format("the lines look as if one of the two lists, marks and {}, runs "
                                     "from its end to its beginning",
                                     readings),
                         account_of(accounts, points, reversed),
@@ -156,7 +158,8 @@ void try_other_order(const PointAccounts& accounts,
   if (!nearest) return;
   Account account = account_of(accounts, points, *nearest);
   account.log_likelihood -= std::lgamma(static_cast<double>(points.size()) + 1.0);  // orders
-  candidates.push_back({fmt::format("the {} belong to the marks of other lines: are the two lists "
+  candidates.push_back({ProblemKind::other_order,
+                        fmt::format("the {} belong to the marks of other lines: are the two lists "
                                     "sorted differently?",
                                     readings),
                         account,

@@ -32,20 +32,26 @@ void scale_reading(MeasuredPoint& point, double factor) {
 
 class List {
  public:
-  void mark(std::string sentence, std::function<MarkPoint(MarkPoint, BedPoint)> meant) {
-    slips_.push_back({std::move(sentence), [meant](MeasuredPoint& point, BedPoint place) {
+  void mark(ProblemKind kind,
+            std::string sentence,
+            std::function<MarkPoint(MarkPoint, BedPoint)> meant) {
+    slips_.push_back({kind, std::move(sentence), [meant](MeasuredPoint& point, BedPoint place) {
                         point.mark = meant(point.mark, place);
                       }});
   }
   void shift(double x_mm, double y_mm, std::string sentence, bool is_doubtful = false) {
-    mark(std::move(sentence), [=](MarkPoint m, BedPoint) {
+    mark(ProblemKind::constant_offset, std::move(sentence), [=](MarkPoint m, BedPoint) {
       return MarkPoint{m.x_mm + x_mm, m.y_mm + y_mm};
     });
     slips_.back().is_doubtful = is_doubtful;
   }
-  void reading(std::string sentence, std::function<void(MeasuredPoint&)> meant) {
-    slips_.push_back(
-        {std::move(sentence), [meant](MeasuredPoint& point, BedPoint) { meant(point); }, true});
+  void reading(ProblemKind kind,
+               std::string sentence,
+               std::function<void(MeasuredPoint&)> meant) {
+    slips_.push_back({kind,
+                      std::move(sentence),
+                      [meant](MeasuredPoint& point, BedPoint) { meant(point); },
+                      true});
   }
   [[nodiscard]] std::vector<WholeError> take() { return std::move(slips_); }
 
@@ -54,27 +60,33 @@ class List {
 };
 
 void add_axes(List& list) {
-  list.mark("the sign of x_mm looks turned round: x_mm counts to the right of the bed's middle",
+  list.mark(ProblemKind::axes,
+            "the sign of x_mm looks turned round: x_mm counts to the right of the bed's middle",
             [](MarkPoint m, BedPoint) {
               return MarkPoint{-m.x_mm, m.y_mm};
             });
-  list.mark("y_mm looks counted downwards: it counts up the sheet", [](MarkPoint m, BedPoint) {
+  list.mark(ProblemKind::axes,
+            "y_mm looks counted downwards: it counts up the sheet", [](MarkPoint m, BedPoint) {
     return MarkPoint{m.x_mm, -m.y_mm};
   });
   list.mark(
+      ProblemKind::axes,
       "the signs of x_mm and y_mm both look turned round: they count to the right and up the sheet",
       [](MarkPoint m, BedPoint) {
         return MarkPoint{-m.x_mm, -m.y_mm};
       });
-  list.mark("the two columns look swapped: x_mm counts to the right, y_mm up the sheet",
+  list.mark(ProblemKind::axes,
+            "the two columns look swapped: x_mm counts to the right, y_mm up the sheet",
             [](MarkPoint m, BedPoint) {
               return MarkPoint{m.y_mm, m.x_mm};
             });
-  list.mark("the axes look turned by a quarter: x_mm counts to the right, y_mm up the sheet",
+  list.mark(ProblemKind::axes,
+            "the axes look turned by a quarter: x_mm counts to the right, y_mm up the sheet",
             [](MarkPoint m, BedPoint) {
               return MarkPoint{m.y_mm, -m.x_mm};
             });
-  list.mark("the axes look turned by a quarter: x_mm counts to the right, y_mm up the sheet",
+  list.mark(ProblemKind::axes,
+            "the axes look turned by a quarter: x_mm counts to the right, y_mm up the sheet",
             [](MarkPoint m, BedPoint) {
               return MarkPoint{-m.y_mm, m.x_mm};
             });
@@ -91,19 +103,22 @@ void add_signs(List& list, const MeasuredGrid& grid) {
   const bool y = !has_minus(&MarkPoint::y_mm);
   const auto left_of = [](double written, double place) { return std::copysign(written, place); };
   if (x) {
-    list.mark("all the minus signs of x_mm look left out: places left of the bed's middle need one",
+    list.mark(ProblemKind::minus_signs,
+              "all the minus signs of x_mm look left out: places left of the bed's middle need one",
               [=](MarkPoint m, BedPoint p) {
                 return MarkPoint{left_of(m.x_mm, p.x_mm), m.y_mm};
               });
   }
   if (y) {
-    list.mark("all the minus signs of y_mm look left out: places below the bed's middle need one",
+    list.mark(ProblemKind::minus_signs,
+              "all the minus signs of y_mm look left out: places below the bed's middle need one",
               [=](MarkPoint m, BedPoint p) {
                 return MarkPoint{m.x_mm, left_of(m.y_mm, p.y_mm)};
               });
   }
   if (x && y) {
     list.mark(
+        ProblemKind::minus_signs,
         "all the minus signs look left out: places left of the bed's middle and below it need them",
         [=](MarkPoint m, BedPoint p) {
           return MarkPoint{left_of(m.x_mm, p.x_mm), left_of(m.y_mm, p.y_mm)};
@@ -118,6 +133,7 @@ void add_units(List& list, bool reads_lengths, Written written) {
   const std::string_view for_all = reads_lengths ? or_say_inches(written) : "";
   const auto marks_in = [&](std::string_view unit, double factor) {
     list.mark(
+        ProblemKind::other_unit,
         fmt::format("x_mm and y_mm look like {}, the {} like mm: multiply x_mm and y_mm by {:g}{}",
                     unit,
                     readings,
@@ -132,12 +148,14 @@ void add_units(List& list, bool reads_lengths, Written written) {
   marks_in("metres", kMmPerM);
   const auto readings_in = [&](std::string_view unit, double factor) {
     list.reading(
+        ProblemKind::other_unit,
         fmt::format("the {0} look like {1}, x_mm and y_mm like mm: multiply the {0} by {2:g}",
                     readings,
                     unit,
                     factor),
         [factor](MeasuredPoint& point) { scale_reading(point, factor); });
-    list.reading(fmt::format("these look like {}: multiply all of them by {:g}{}",
+    list.reading(ProblemKind::other_unit,
+                 fmt::format("these look like {}: multiply all of them by {:g}{}",
                              unit,
                              factor,
                              factor == kMmPerInch ? for_all : ""),
@@ -182,7 +200,8 @@ void add_shifts(List& list, const model::Bed& bed, bool reads_lengths) {
         "x_mm and y_mm look counted from the bed's {} corner: they count from its middle", corner);
     list.shift(-x * half_width, -y * half_height, words);
     if (x < 0.0 || y < 0.0) {
-      list.mark(words, [=, x = x, y = y](MarkPoint m, BedPoint) {
+      list.mark(ProblemKind::constant_offset,
+                words, [=, x = x, y = y](MarkPoint m, BedPoint) {
         return MarkPoint{x * (m.x_mm - half_width), y * (m.y_mm - half_height)};
       });
     }
@@ -190,12 +209,14 @@ void add_shifts(List& list, const model::Bed& bed, bool reads_lengths) {
 }
 
 void add_lengths(List& list) {
-  list.reading("the columns left_mm and right_mm look swapped", [](MeasuredPoint& point) {
+  list.reading(ProblemKind::sides_swapped,
+               "the columns left_mm and right_mm look swapped", [](MeasuredPoint& point) {
     if (point.lengths) std::swap(point.lengths->left_mm, point.lengths->right_mm);
   });
   const auto longer = [&](double left_mm, double right_mm, std::string_view what, double by_mm) {
     for (const double sign : {1.0, -1.0}) {
       list.reading(
+          ProblemKind::constant_offset,
           fmt::format("{} look {:g} mm too {}: they count from the sprocket's 12 o'clock; was the "
                       "tape held at another mark?",
                       what,

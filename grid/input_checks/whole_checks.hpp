@@ -15,6 +15,7 @@
 namespace chaintrue::grid::input_checks {
 
 struct WholeError {
+  ProblemKind kind = ProblemKind::axes;
   /// What was expected, and what it looks like: a sentence's end.
   std::string sentence;
   /// The point as it was meant; `place` is where the machine as stated puts its reading.

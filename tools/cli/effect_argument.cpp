@@ -52,13 +52,17 @@ std::optional<model::AppliedEffect> parse_form(const std::string& argument,
 
 }  // namespace
 
-void OptionProblems::add(std::string_view option, std::string value, std::string expected) {
-  problems_.push_back({"command line", std::string(option), std::move(value), std::move(expected)});
+void OptionProblems::add(std::string_view option,
+                         std::string value,
+                         std::string expected,
+                         grid::ProblemKind kind) {
+  problems_.push_back(
+      {"command line", std::string(option), std::move(value), std::move(expected), {}, kind});
 }
 
 void OptionProblems::require(std::string_view option, double value, double least, double most) {
   if (value >= least && value <= most) return;
-  add(option, fmt::format("{}", value), fmt::format("a number from {} to {}", least, most));
+  add(option, fmt::format("{}", value), fmt::format("a number from {} to {}", least, most), grid::ProblemKind::out_of_range);
 }
 
 void OptionProblems::take_from(const std::function<void()>& check) {

@@ -16,7 +16,10 @@ namespace chaintrue::cli {
 /// Gathers what is wrong with a command's values and throws it whole.
 class OptionProblems {
  public:
-  void add(std::string_view option, std::string value, std::string expected);
+  void add(std::string_view option,
+           std::string value,
+           std::string expected,
+           grid::ProblemKind kind = grid::ProblemKind::unexpected);
   /// `value` is finite and within [least, most].
   void require(std::string_view option, double value, double least, double most);
   /// What `check` throws as files::InputError.

@@ -42,7 +42,9 @@ void require_kind(const InputFile& file,
         file.kind == FileKind::belt_holes ? "/machine" : is_json ? "/file_type" : "",
         files::found_kind(file.text, file.name),
         fmt::format(
-            "{}{}{}{}", files::expected_kinds(taken), also.empty() ? "" : "; ", also, what_takes)}});
+            "{}{}{}{}", files::expected_kinds(taken), also.empty() ? "" : "; ", also, what_takes),
+        {},
+        grid::ProblemKind::file_kind}});
 }
 
 files::FittedAnchors load_anchors(const InputFile& file) {
@@ -75,7 +77,9 @@ files::ReadBelts load_belts(const InputFile& file,
                                           read.belts.points.size(),
                                           work,
                                           grid::kMostBeltPoints),
-                              "fewer: leave some out, evenly over the sheet"}});
+                              "fewer: leave some out, evenly over the sheet",
+                              {},
+                              grid::ProblemKind::too_many}});
   }
   return read;
 }

@@ -23,6 +23,7 @@
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -30,7 +31,7 @@ namespace {
 int report_bad_input(const grid::files::InputError& error) {
   std::fflush(stdout);
   for (const auto& problem : error.problems())
-    fmt::print(stderr, "{}\n", in_red(problem.message()));
+    fmt::print(stderr, "{}\n", in_red(with_name(problem.message(), problem.name())));
   return kBadInput;
 }
 
@@ -57,7 +58,9 @@ int finish_standard_output(int code, int error_number) {
       {{"standard output",
         "",
         std::error_code(error_number == 0 ? EIO : error_number, std::generic_category()).message(),
-        "something that can be written to"}}));
+        "something that can be written to",
+        {},
+        grid::ProblemKind::output_place}}));
 }
 
 int run_verb(const Run& run, const std::string& verb) {

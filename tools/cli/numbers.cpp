@@ -35,7 +35,8 @@ std::optional<double> read_number(const std::string& name,
   problems().add(name,
                  text.empty() ? "nothing" : text,
                  expected(range, is_whole) +
-                     (files::looks_like_decimal_comma(text) ? ", with a decimal point" : ""));
+                     (files::looks_like_decimal_comma(text) ? ", with a decimal point" : ""),
+                 files::kind_of_bad_number(text));
   return std::nullopt;
 }
 

@@ -17,7 +17,7 @@ void refuse_what_does_nothing(Verb verb, Facts facts) {
     if (!verb.is_given(option)) continue;
     const std::string value = verb.value_of(option);
     if (!rule.harmless.empty() && value == rule.harmless) continue;
-    problems.add(option, value, std::string(rule.otherwise));
+    problems.add(option, value, std::string(rule.otherwise), grid::ProblemKind::option_without_use);
     refused = rule.option;
   }
   problems.throw_if_any();

@@ -17,6 +17,7 @@
 namespace chaintrue::cli {
 namespace {
 
+using grid::ProblemKind;
 namespace files = grid::files;
 namespace fs = std::filesystem;
 
@@ -90,11 +91,17 @@ class PlaceCheck {
   void look_at(const std::string& path, const Place& place) {
     const std::string taken = place_of(path);
     if (!taken.empty() && std::find(taken_.begin(), taken_.end(), taken) != taken_.end())
-      return add(path, "a name given twice", "a file of its own for each output");
+      return add(path,
+                 "a name given twice",
+                 "a file of its own for each output",
+                 ProblemKind::output_repeated);
     taken_.push_back(taken);
     const auto identity = identity_of_output(path);
     if (identity && std::find(inputs_.begin(), inputs_.end(), *identity) != inputs_.end())
-      return add(path, "a file that is read here", "another name: what is read is never replaced");
+      return add(path,
+                 "a file that is read here",
+                 "another name: what is read is never replaced",
+                 ProblemKind::output_is_input);
     if (is_standard_output(path)) return;
     look_at_folder(path);
     if (!identity || place.verb.is_given("--force")) return;
@@ -106,7 +113,8 @@ class PlaceCheck {
         origin == Origin::foreign   ? "a file that chaintrue did not make"
         : origin == Origin::changed ? "a file that somebody wrote or changed"
                                     : "a file of another kind",
-        "another name, or --force to replace it");
+        "another name, or --force to replace it",
+        ProblemKind::output_not_ours);
   }
 
   void throw_if_any() const {
@@ -129,8 +137,11 @@ class PlaceCheck {
     }
   }
 
-  void add(std::string path, std::string found, std::string expected) {
-    problems_.push_back({std::move(path), "", std::move(found), std::move(expected)});
+  void add(std::string path,
+           std::string found,
+           std::string expected,
+           ProblemKind kind = ProblemKind::output_place) {
+    problems_.push_back({std::move(path), "", std::move(found), std::move(expected), {}, kind});
   }
 
   std::vector<files::FileIdentity> inputs_;
@@ -248,12 +259,19 @@ void write_folder(Verb verb, const std::string& folder, const std::vector<Folder
     throw files::InputError({{"the folder",
                               "",
                               folder.empty() ? "an empty name" : folder,
-                              "the name of a folder; it will hold many files"}});
+                              "the name of a folder; it will hold many files",
+                              {},
+                              ProblemKind::output_place}});
   std::error_code error;
   const bool is_new = fs::create_directories(folder, error);
   if (error)
     throw files::InputError(
-        {{folder, "", error.message(), "a folder that can be made or written to"}});
+        {{folder,
+          "",
+          error.message(),
+          "a folder that can be made or written to",
+          {},
+          ProblemKind::output_place}});
   try {
     check_folder(verb, folder, contents);
     std::vector<files::OutputFile> outputs;

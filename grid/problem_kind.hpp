@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What is wrong with an input, by a name that stays when its sentence changes.
+#pragma once
+
+#include <string_view>
+
+namespace chaintrue::grid {
+
+enum class ProblemKind {
+#define CHAINTRUE_PROBLEM_KIND(name) name,
+#include "grid/problem_kinds.def"
+#undef CHAINTRUE_PROBLEM_KIND
+};
+
+[[nodiscard]] constexpr std::string_view name_of(ProblemKind kind) {
+  constexpr std::string_view kNames[] = {
+#define CHAINTRUE_PROBLEM_KIND(name) #name,
+#include "grid/problem_kinds.def"
+#undef CHAINTRUE_PROBLEM_KIND
+  };
+  return kNames[static_cast<int>(kind)];
+}
+
+}  // namespace chaintrue::grid
