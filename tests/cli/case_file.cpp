@@ -10,7 +10,7 @@ namespace chaintrue::testing_support {
 namespace {
 
 constexpr std::string_view kVerbs[] = {"from", "file", "$", "exit", "exists", "absent", "same", "has",
-                                       "lacks", "lines", "says", "is", "near", "above", "below"};
+                                       "lacks", "lines", "says", "problem", "is", "near", "above", "below"};
 
 }  // namespace
 

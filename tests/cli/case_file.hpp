@@ -12,6 +12,7 @@
 ///   exists PATH...         absent PATH...        same PATH PATH
 ///   has PATH TEXT          lacks PATH TEXT       lines PATH COUNT
 ///   says BEGIN             a line of .err begins like this: a file, a place in it, the value found
+///   problem NAME BEGIN     such a line of a problem with this name (grid/problem_kinds.def)
 ///   is PATH KEY VALUE      near PATH KEY VALUE +- TOLERANCE
 ///   above PATH KEY VALUE   below PATH KEY VALUE
 ///

@@ -61,7 +61,12 @@ class Workplace {
     if (step.verb == "exit") return expect_exit(step.rest);
     if (step.verb == "exists") return all_paths(true);
     if (step.verb == "absent") return all_paths(false);
-    if (step.verb == "says") return expect_line(step.rest);
+    if (step.verb == "says") return expect_line(step.rest, "");
+    if (step.verb == "problem") {
+      const std::size_t blank = std::min(step.rest.find(' '), step.rest.size());
+      const std::string begin = step.rest.substr(std::min(blank + 1, step.rest.size()));
+      return expect_line(begin, " (" + step.rest.substr(0, blank) + ")");
+    }
     words >> path;
     const std::string text = content_of(folder_ / path);
     const std::string rest = step.rest.substr(std::min(step.rest.size(), path.size() + 1));
@@ -100,7 +105,7 @@ class Workplace {
       GTEST_SKIP() << "MPI was not found (Debian: libopenmpi-dev, openmpi-bin)";
     const std::string shell =
         "cd " + folder_.string() +
-        " && export F=" CHAINTRUE_FIXTURES " D=" CHAINTRUE_SHARED_DATA
+        " && export CHAINTRUE_PROBLEM_NAMES=1 F=" CHAINTRUE_FIXTURES " D=" CHAINTRUE_SHARED_DATA
         " MPIRUN=" CHAINTRUE_MPIRUN " PATH=$(dirname " CHAINTRUE_COMMAND "):$PATH && { " + line +
         "\n} >.next.out 2>.next.err";
     const int status = std::system(shell.c_str());
@@ -118,10 +123,11 @@ class Workplace {
                         << content_of(folder_ / ".err");
   }
 
-  void expect_line(const std::string& begin) const {
+  void expect_line(const std::string& begin, const std::string& end) const {
     std::istringstream lines(content_of(folder_ / ".err"));
     bool is_there = false;
-    for (std::string line; std::getline(lines, line);) is_there = is_there || line.starts_with(begin);
+    for (std::string line; std::getline(lines, line);)
+      is_there = is_there || (line.starts_with(begin) && line.ends_with(end));
     EXPECT_TRUE(is_there) << lines.str();
   }
 
