@@ -6,6 +6,7 @@
 namespace chaintrue::interp {
 
 SymmetricEigen::SymmetricEigen(const Eigen::MatrixXd& matrix) {
+  if (matrix.rows() == 0) return;  // the solver would take a vector of -1 entries
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
   values_ = solver.eigenvalues();
   vectors_ = solver.eigenvectors();

@@ -3,7 +3,7 @@
 
 /// \file
 /// Eigenvalues of symmetric matrices, compiled once, since Eigen's solver is the template that
-/// takes longest to compile. Internal to interp.
+/// takes longest to compile. Internal to interp and to grid/linear_algebra.
 
 #include <Eigen/Core>
 

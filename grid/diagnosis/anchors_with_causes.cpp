@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/anchors_with_causes.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "grid/belts/fit_report.hpp"
 #include "grid/diagnosis/belts_report.hpp"
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -58,20 +58,19 @@ std::optional<Eigen::MatrixXd> take_distances(const MeasuredBelts& without_cause
   constexpr Eigen::Index kAll = kAnchorUnknowns + 1;
   const Eigen::MatrixXd own = FitDiagnostics(untaped, *alone).precision();
   const Eigen::MatrixXd with_tape = FitDiagnostics(without_causes, *taped).precision();
-  const Eigen::MatrixXd known = averaged.covariance_mm2.llt().solve(
-      Eigen::MatrixXd::Identity(kAnchorUnknowns, kAnchorUnknowns));
+  const Eigen::MatrixXd known = linear::Cholesky(averaged.covariance_mm2).inverse();
   Eigen::VectorXd there(kAll);
   there << taped->state.anchors, taped->state.log_scale;
   Eigen::MatrixXd precision = with_tape;
   precision.topLeftCorner(kAnchorUnknowns, kAnchorUnknowns) += known - own;
   Eigen::VectorXd sum = with_tape * there;
   sum.head(kAnchorUnknowns) += known * averaged.anchors - own * alone->state.anchors;
-  const Eigen::LDLT<Eigen::MatrixXd> factor(precision);
+  const linear::PivotedCholesky factor(precision);
   const Eigen::VectorXd found = factor.solve(sum);
   frame.state.anchors = found.head<kAnchorUnknowns>();
   frame.state.log_scale = found[kAnchorUnknowns];
   find_places(without_causes, frame);
-  return factor.solve(Eigen::MatrixXd::Identity(kAll, kAll));
+  return factor.inverse();
 }
 
 /// Within what the effect's parameter may be: an average over models may lie a little outside.

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/belts_findings.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "grid/belts/fit_report.hpp"
 #include "grid/belts/prediction.hpp"
 #include "grid/diagnosis/belts_report.hpp"
+#include "grid/linear_algebra.hpp"
 #include "model/belts/belt_kinematics.hpp"
 #include "model/belts/belt_readings.hpp"
 
@@ -64,7 +62,8 @@ double shape_error_mm(const Believed& believed, const std::vector<FramePoint>& p
     design.row(2 * i + 1) << 0.0, 1.0, row[0];
     shift.segment<2>(2 * i) = row.tail<2>();
   }
-  const Eigen::VectorXd left = shift - design * design.colPivHouseholderQr().solve(shift);
+  const Eigen::VectorXd left =
+      shift - linear::product(design, linear::least_squares(design, shift));
   return std::sqrt(left.squaredNorm() / static_cast<double>(n));
 }
 
@@ -72,7 +71,7 @@ double shape_error_mm(const Believed& believed, const std::vector<FramePoint>& p
 double uncertain_mm(const model::BeltMachine& machine,
                     const Eigen::MatrixXd& covariance,
                     const std::vector<FramePoint>& places) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(covariance);
+  const linear::SymmetricEigen axes(covariance);
   double square = 0.0;
   for (Eigen::Index i = 0; i < covariance.cols(); ++i) {
     const belts::AnchorVector moved =
@@ -241,7 +240,7 @@ double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt w
     by_place.row(row++) = view.equations().by_place.row(at) / view.sigma_mm();
   }
   const Eigen::Vector2d moved =
-      (by_place.transpose() * by_place).ldlt().solve(by_place.transpose() * residual);
+      Eigen::LDLT<Eigen::Matrix2d>(by_place.transpose() * by_place).solve(by_place.transpose() * residual);
   return (residual - by_place * moved).squaredNorm();
 }
 

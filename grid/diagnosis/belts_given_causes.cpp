@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/belts_given_causes.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "grid/linear_algebra.hpp"
 #include "model/belts/belt_readings.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -100,9 +100,8 @@ Eigen::VectorXd least_squares(const MeasuredBelts& without_causes,
     design.rightCols(columns.cols()).middleRows(unit.first_row, unit.rows) =
         unit.by_reading * columns.middleRows<4>(belts::row_of(all.points[u], Belt::tl));
   }
-  const Eigen::MatrixXd normal = design.transpose() * design;
-  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(normal).solve(
-      design.transpose() * all.system.e);
+  return linear::least_squares(linear::gram(design),
+                               linear::product(linear::transposed(design), all.system.e));
 }
 
 /// Positions to linearise about; of a point that the machine cannot reach there, a gross one, the frame's middle.

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/cause_classes.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/estimate.hpp"
+#include "grid/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -151,14 +150,9 @@ void put_likelier_first(const RegressorSystem& system,
 /// no setting does within reason does not count.
 Eigen::MatrixXd range_of_settings(const RegressorSystem& system, const Eigen::MatrixXd& columns) {
   constexpr double kFelt = 1e-4;
-  if (system.nuisances == 0) {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-    return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
-  }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns *
-                                                 system.sigma.head(columns.cols()).asDiagonal());
-  qr.setThreshold(kFelt);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+  if (system.nuisances == 0) return linear::orthonormal_columns(columns);
+  return linear::range_of(linear::scaled_columns(columns, system.sigma.head(columns.cols())), kFelt)
+      .range;
 }
 
 }  // namespace
@@ -168,9 +162,9 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
   const MarginalisedSystem& marginalised =
       comparison.marginalised_systems[comparison.best().marginalised];
   // Free settings: what a class shares must not hang on how well the settings were stated.
-  const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(system, marginalised.kept);
+  const linear::Cholesky noise = nuisance_noise(system, marginalised.kept);
   const auto visible = [&](Eigen::MatrixXd columns) {
-    if (system.nuisances > 0) noise.matrixL().solveInPlace(columns);
+    if (system.nuisances > 0) noise.half_solve_in_place(columns);
     return columns;
   };
   const Eigen::Index settings = system.by_setting.cols() - system.nuisances;
@@ -185,7 +179,8 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
                        cause,
                        system.regressors[static_cast<std::size_t>(column)].fixed};
     const double whole = own.free.norm();
-    own.free -= basis * (basis.transpose() * own.free);
+    linear::add_product(
+        own.free, -1.0, basis, linear::product(linear::transposed(basis), own.free));
     // Of a signature that the settings take whole, only rounding would be compared.
     const bool absorbed = own.free.norm() < kAbsorbed * whole;
     std::size_t home = classes.size();

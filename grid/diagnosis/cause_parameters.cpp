@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/cause_parameters.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/regressor_places.hpp"
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -103,13 +103,13 @@ double fitted_place_sigma(const Analysis& a,
                            ? std::min(place.upper - place.lower, 2.0 * std::numbers::pi)
                            : place.upper - place.lower;
   sigma(settings + free) = range / std::sqrt(12.0);
-  if (a.noise) a.noise->llt.matrixL().solveInPlace(design);
-  const Eigen::MatrixXd scaled = design * sigma.asDiagonal();
-  Eigen::MatrixXd normal = scaled.transpose() * scaled / fitted.noise_square;
-  normal.diagonal().array() += 1.0;
+  if (a.noise) a.noise->covariance.half_solve_in_place(design);
+  const Eigen::MatrixXd scaled =
+      linear::scaled_columns(design, sigma / std::sqrt(fitted.noise_square));
+  const linear::Cholesky normal(linear::one_plus_gram(scaled));
   const Eigen::Index last = settings + free;
   const Eigen::VectorXd column_of_inverse =
-      normal.llt().solve(Eigen::VectorXd::Unit(last + 1, last));
+      normal.solve(Eigen::VectorXd::Unit(last + 1, last));
   // Beside a discrepancy the place is the best of those tried (relinearise.cpp), off by up to half a
   // step either way.
   const double step = a.noise ? step_of_places(a, own, which) : 0.0;

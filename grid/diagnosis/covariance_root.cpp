@@ -1,46 +1,59 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/covariance_root.hpp"
 
-#include <Eigen/SVD>
-
 namespace chaintrue::grid::diagnosis {
 
-CovarianceRoot::CovarianceRoot(const Eigen::MatrixXd& a) : basis_(a.rows(), 0) {
-  if (a.rows() == 0 || a.cols() == 0) return;
-  const auto take = [&](const auto& svd) {
-    basis_ = svd.matrixU();
-    log_variance_ = svd.singularValues().array().square().log1p();
-  };
-  take(Eigen::BDCSVD<Eigen::MatrixXd>(a, Eigen::ComputeThinU));
-  // Of finite matrices with singular values that are nearly equal Eigen 3.4.0's division makes NaN; rotations
-  // are slower and do not.
-  if (!basis_.allFinite() || !log_variance_.allFinite())
-    take(Eigen::JacobiSVD<Eigen::MatrixXd>(a, Eigen::ComputeThinU));
+CovarianceRoot::CovarianceRoot(const Eigen::MatrixXd& a) {
+  linear::ThinSvd parts = linear::thin_svd(a);
+  basis_ = std::move(parts.u);
+  log_variance_ = parts.values.array().square().log1p();
 }
 
-Eigen::MatrixXd CovarianceRoot::power(double exponent, const Eigen::MatrixXd& m) const {
-  if (basis_.cols() == 0 || m.cols() == 0) return m;
-  const Eigen::VectorXd change = (exponent * log_variance_).exp() - 1.0;
+/// (1 + a^2)^p - 1
+Eigen::VectorXd CovarianceRoot::change(double exponent) const {
+  return (exponent * log_variance_).exp() - 1.0;
+}
+
+Eigen::MatrixXd CovarianceRoot::solve(const linear::MatrixArgument& m) const {
   Eigen::MatrixXd result = m;
-  result.noalias() += basis_ * (change.asDiagonal() * (basis_.transpose() * m));
+  Eigen::MatrixXd along = linear::product(linear::transposed(basis_), m);
+  const Eigen::VectorXd own = change(-0.5);
+  for (Eigen::Index k = 0; k < along.cols(); ++k) along.col(k).array() *= own.array();
+  linear::add_product(result, 1.0, basis_, along);
   return result;
 }
 
-Eigen::MatrixXd CovarianceRoot::solve(const Eigen::MatrixXd& m) const { return power(-0.5, m); }
+Eigen::VectorXd CovarianceRoot::solve(const linear::VectorArgument& x) const {
+  Eigen::VectorXd result = x;
+  const Eigen::VectorXd along =
+      change(-0.5).cwiseProduct(linear::product(linear::transposed(basis_), x));
+  linear::add_product(result, 1.0, basis_, along);
+  return result;
+}
 
-Eigen::MatrixXd CovarianceRoot::times(const Eigen::MatrixXd& m) const { return power(0.5, m); }
+Eigen::VectorXd CovarianceRoot::times(const linear::VectorArgument& x) const {
+  Eigen::VectorXd result = x;
+  const Eigen::VectorXd along =
+      change(0.5).cwiseProduct(linear::product(linear::transposed(basis_), x));
+  linear::add_product(result, 1.0, basis_, along);
+  return result;
+}
 
 Eigen::MatrixXd CovarianceRoot::inverse() const {
-  return power(-0.5, Eigen::MatrixXd::Identity(basis_.rows(), basis_.rows()));
+  Eigen::MatrixXd result = Eigen::MatrixXd::Identity(basis_.rows(), basis_.rows());
+  linear::add_product(
+      result, 1.0, linear::scaled_columns(basis_, change(-0.5)), linear::transposed(basis_));
+  return result;
 }
 
 Eigen::MatrixXd CovarianceRoot::precision_block(Eigen::Index row,
                                                 Eigen::Index rows,
                                                 Eigen::Index column,
                                                 Eigen::Index columns) const {
-  const Eigen::VectorXd change = (-log_variance_).exp() - 1.0;
-  Eigen::MatrixXd result = basis_.middleRows(row, rows) *
-                           (change.asDiagonal() * basis_.middleRows(column, columns).transpose());
+  Eigen::MatrixXd result =
+      linear::product(basis_.middleRows(row, rows),
+                      linear::transposed(linear::scaled_columns(
+                          basis_.middleRows(column, columns), change(-1.0))));
   for (Eigen::Index k = 0; k < columns; ++k) {
     const Eigen::Index own = column + k - row;
     if (own >= 0 && own < rows) result(own, k) += 1.0;

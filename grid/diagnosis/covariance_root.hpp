@@ -13,6 +13,8 @@
 
 #include <Eigen/Core>
 
+#include "grid/linear_algebra.hpp"
+
 namespace chaintrue::grid::diagnosis {
 
 class CovarianceRoot {
@@ -22,9 +24,10 @@ class CovarianceRoot {
   explicit CovarianceRoot(const Eigen::MatrixXd& a);
 
   /// V^(-1/2) m.
-  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& m) const;
+  [[nodiscard]] Eigen::MatrixXd solve(const linear::MatrixArgument& m) const;
+  [[nodiscard]] Eigen::VectorXd solve(const linear::VectorArgument& x) const;
   /// V^(1/2) m.
-  [[nodiscard]] Eigen::MatrixXd times(const Eigen::MatrixXd& m) const;
+  [[nodiscard]] Eigen::VectorXd times(const linear::VectorArgument& x) const;
   /// V^(-1/2), rows x rows.
   [[nodiscard]] Eigen::MatrixXd inverse() const;
   /// Of V^(-1) the block of so many rows and columns from these on.
@@ -35,7 +38,7 @@ class CovarianceRoot {
   [[nodiscard]] double log_det() const { return log_variance_.sum(); }
 
  private:
-  [[nodiscard]] Eigen::MatrixXd power(double exponent, const Eigen::MatrixXd& m) const;
+  [[nodiscard]] Eigen::VectorXd change(double exponent) const;
   Eigen::MatrixXd basis_;         ///< U
   Eigen::ArrayXd log_variance_;   ///< log(1 + a^2)
 };

@@ -50,7 +50,7 @@ Eigen::Matrix2d between_units(const DiscrepancyKernel& kernel,
     if (const auto alone = kernel.fields.front().alone) {
       block = k * a.unit.by_reading.col(*alone) * b.unit.by_reading.col(*alone).transpose();
     } else {
-      block = k * a.unit.by_reading * b.unit.by_reading.transpose();
+      block = (k * a.unit.by_reading).lazyProduct(b.unit.by_reading.transpose());
     }
     return sum;
   }

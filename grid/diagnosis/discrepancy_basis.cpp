@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/discrepancy_basis.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <map>
+
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -17,22 +18,24 @@ constexpr double kLeftOfField = 1e-4;
 /// F with F F' ~= a covariance, n x r, what is left of its diagonal below `least`.
 template <class Covariance>
 Eigen::MatrixXd low_rank(Eigen::Index n, double least, const Covariance& covariance) {
-  Eigen::MatrixXd factor(n, 0);
+  Eigen::MatrixXd factor(n, std::min<Eigen::Index>(n, 32));  // with room for more
+  Eigen::Index rank = 0;
   Eigen::VectorXd left(n);
   for (Eigen::Index i = 0; i < n; ++i) left(i) = covariance(i, i);
-  for (Eigen::Index rank = 0; rank < n; ++rank) {
+  for (; rank < n; ++rank) {
     Eigen::Index pivot = 0;
     const double most = left.maxCoeff(&pivot);
     if (most < least) break;
     Eigen::VectorXd column(n);
     for (Eigen::Index i = 0; i < n; ++i) column(i) = covariance(i, pivot);
-    column -= factor * factor.row(pivot).transpose();
+    const Eigen::VectorXd own = factor.row(pivot).head(rank);
+    linear::add_product(column, -1.0, factor.leftCols(rank), own);
     column /= std::sqrt(most);
-    factor.conservativeResize(n, rank + 1);
+    if (rank == factor.cols()) factor.conservativeResize(n, std::min(n, 2 * rank));
     factor.col(rank) = column;
     left -= column.cwiseAbs2();
   }
-  return factor;
+  return factor.leftCols(rank);
 }
 
 /// F, a line an argument.
@@ -127,8 +130,9 @@ Eigen::MatrixXd gram(const Block& a, const Block& b) {
            a.s * b.s * p.gram22;
   }
   const Products& q = *b.products;
-  return (a.c * p.parts.first + a.s * p.parts.second).transpose() *
-         (b.c * q.parts.first + b.s * q.parts.second);
+  return linear::product(
+      linear::transposed(Eigen::MatrixXd(a.c * p.parts.first + a.s * p.parts.second)),
+      Eigen::MatrixXd(b.c * q.parts.first + b.s * q.parts.second));
 }
 
 }  // namespace
@@ -146,7 +150,7 @@ class DiscrepancyBasis::Fields {
     p.field = kernel.fields.front();
     p.parts.first = low_rank_lengths(system_, marginalised_, kernel);
     p.parts.second.setZero(p.parts.first.rows(), p.parts.first.cols());
-    p.gram11 = p.parts.first.transpose() * p.parts.first;
+    p.gram11 = linear::gram(p.parts.first);
     p.gram12.setZero(p.gram11.rows(), p.gram11.cols());
     p.gram22 = p.gram12;
     return p;
@@ -160,9 +164,9 @@ class DiscrepancyBasis::Fields {
     Products& p = all_.emplace_back();
     p.field = field;
     p.parts = components_of(system_, marginalised_, field, places_);
-    p.gram11 = p.parts.first.transpose() * p.parts.first;
-    p.gram12 = p.parts.first.transpose() * p.parts.second;
-    p.gram22 = p.parts.second.transpose() * p.parts.second;
+    p.gram11 = linear::gram(p.parts.first);
+    p.gram12 = linear::product(linear::transposed(p.parts.first), p.parts.second);
+    p.gram22 = linear::gram(p.parts.second);
     return p;
   }
 
@@ -176,8 +180,8 @@ class DiscrepancyBasis::Fields {
                         static_cast<Eigen::Index>(plain.columns.size()) + 1);
       e.col(0) = marginalised_.e;
       e.rightCols(e.cols() - 1) = marginalised_.g.dense(plain.columns);
-      first = parts.first.transpose() * e;
-      second = parts.second.transpose() * e;
+      first = linear::product(linear::transposed(parts.first), e);
+      second = linear::product(linear::transposed(parts.second), e);
     }
     return block.c * first + block.s * second;
   }
@@ -191,7 +195,7 @@ class DiscrepancyBasis::Fields {
 
 struct DiscrepancyBasis::Kernel {
   std::vector<Block> blocks;
-  Eigen::Tridiagonalization<Eigen::MatrixXd> tridiagonal;
+  linear::Tridiagonal tridiagonal;
 };
 
 DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system,
@@ -230,7 +234,7 @@ DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system,
       row += a.products->gram11.cols();
     }
     marginalised.discrepancy_trace[number] = all.trace();
-    if (rank > 0) own.tridiagonal.compute(all);
+    own.tridiagonal = linear::Tridiagonal(std::move(all));
   }
 }
 
@@ -248,7 +252,7 @@ DiscrepancyBasis::GivenKernel DiscrepancyBasis::given(std::size_t kernel,
     return result;
   }
   result.on_ = own.tridiagonal.diagonal();
-  result.subdiagonal_ = own.tridiagonal.subDiagonal();
+  result.subdiagonal_ = own.tridiagonal.subdiagonal();
   Eigen::MatrixXd with(result.on_.size(), lines);
   Eigen::Index row = 0;
   for (const Block& block : own.blocks) {
@@ -256,7 +260,7 @@ DiscrepancyBasis::GivenKernel DiscrepancyBasis::given(std::size_t kernel,
     with.middleRows(row, part.rows()) = part;
     row += part.rows();
   }
-  with.applyOnTheLeft(own.tridiagonal.matrixQ().adjoint());
+  own.tridiagonal.rotate_in_place(with);
   result.rotated_ = with.transpose();
   return result;
 }
@@ -290,11 +294,12 @@ DiscrepancyBasis::GivenKernel::Diagonal DiscrepancyBasis::GivenKernel::diagonal(
   const Half own = half(strength);
   Eigen::MatrixXd lines = rotated_;
   apply(own, lines);
-  const Eigen::RowVectorXd e = lines.row(0);
+  const Eigen::VectorXd e = lines.row(0);
   const auto g = lines.bottomRows(lines.rows() - 1);
   Diagonal result;
   result.ee = plain_->ee - e.squaredNorm();
-  result.ge = plain_->ge - g * e.transpose();
+  result.ge = plain_->ge;
+  linear::add_product(result.ge, -1.0, g, e);
   result.gg = plain_->gg.diagonal() - g.rowwise().squaredNorm();
   result.log_det = plain_->log_det + own.log_det;
   return result;
@@ -311,13 +316,15 @@ NormalEquations DiscrepancyBasis::GivenKernel::equations(double strength,
   const Half own = half(strength);
   Eigen::MatrixXd lines = rotated_(line, Eigen::all);
   apply(own, lines);
-  const Eigen::RowVectorXd e = lines.row(0);
+  const Eigen::VectorXd e = lines.row(0);
   const auto g = lines.bottomRows(lines.rows() - 1);
   NormalEquations result;
   result.columns = std::move(columns);
   result.ee = plain_->ee - e.squaredNorm();
-  result.ge = plain_->ge(at) - g * e.transpose();
-  result.gg = plain_->gg(at, at) - g * g.transpose();
+  result.ge = plain_->ge(at);
+  linear::add_product(result.ge, -1.0, g, e);
+  result.gg = plain_->gg(at, at);
+  linear::add_outer(result.gg, -1.0, g);
   result.prior_square = plain_->prior_square(at);
   result.log_det = plain_->log_det + own.log_det;
   return result;

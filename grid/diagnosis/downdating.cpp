@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/downdating.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <set>
 
 #include "grid/diagnosis/ties.hpp"
+#include "grid/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -160,13 +160,13 @@ void Downdating::add_factorisation(std::size_t number,
     k = marginalised.root.solve(k);
     k = marginalised.root.solve(k.transpose()) * (process.sigma_mm * process.sigma_mm);
     k.diagonal().array() += 1.0;
-    const Eigen::LLT<Eigen::MatrixXd> llt(k);
-    llt.matrixL().solveInPlace(factorised.inverse);
-    llt.matrixL().solveInPlace(e);
-    log_det += 2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
+    const linear::Cholesky noise(std::move(k));
+    noise.half_solve_in_place(factorised.inverse);
+    noise.half_solve_in_place(e);
+    log_det += noise.log_det();
   }
-  factorised.precision = factorised.inverse.transpose() * e;
-  const Eigen::MatrixXd gram = e.transpose() * e;
+  factorised.precision = linear::product(linear::transposed(factorised.inverse), e);
+  const Eigen::MatrixXd gram = linear::gram(e);
   const Eigen::Index c = e.cols() - 1;
   factorised.equations = {columns,
                           gram(0, 0),
@@ -194,15 +194,15 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
   NormalEquations equations = factorised.equations;
   if (out.empty()) return equations;
   const Eigen::MatrixXd half = factorised.inverse(Eigen::all, out);
-  const Eigen::LLT<Eigen::MatrixXd> block(half.transpose() * half);
+  const linear::Cholesky block(linear::gram(half));
   Eigen::MatrixXd found = factorised.precision(out, Eigen::all);
-  block.matrixL().solveInPlace(found);
-  const Eigen::Index c = found.cols() - 1;
+  block.half_solve_in_place(found);
+  const auto columns = found.rightCols(found.cols() - 1);
   equations.ee -= found.col(0).squaredNorm();
-  equations.ge.noalias() -= found.rightCols(c).transpose() * found.col(0);
-  equations.gg.noalias() -= found.rightCols(c).transpose() * found.rightCols(c);
+  linear::add_product(equations.ge, -1.0, linear::transposed(columns), found.col(0));
+  linear::add_gram(equations.gg, -1.0, columns);
   clear_unobserved_columns(factorised.equations, equations);
-  equations.log_det += 2.0 * Eigen::MatrixXd(block.matrixL()).diagonal().array().log().sum();
+  equations.log_det += block.log_det();
   // Beside a discrepancy the sizes are expected as of all points.
   if (factorised.discrepancy < 0) {
     equations.prior_square =

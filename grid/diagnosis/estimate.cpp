@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/estimate.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -21,25 +21,19 @@ struct Solution {
   Eigen::MatrixXd covariance;
 };
 
-Solution solve(const Unknowns& unknowns,
-               const Eigen::VectorXd& data,
-               const Eigen::LLT<Eigen::MatrixXd>* noise) {
-  Eigen::MatrixXd design = unknowns.design;
-  Eigen::VectorXd y = data;
+Solution solve(Unknowns unknowns, Eigen::VectorXd data, const linear::Cholesky* noise) {
+  Eigen::MatrixXd& design = unknowns.design;
   if (noise != nullptr) {
-    noise->matrixL().solveInPlace(design);
-    noise->matrixL().solveInPlace(y);
+    noise->half_solve_in_place(design);
+    noise->half_solve_in_place(data);
   }
+  linear::add_product(data, -1.0, design, unknowns.mean);
   // Scaled by the priors the normal equations are well conditioned: I + S A'A S.
-  const Eigen::MatrixXd scaled = design * unknowns.sigma.asDiagonal();
-  Eigen::MatrixXd normal = scaled.transpose() * scaled;
-  normal.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> llt(normal);
-  const Eigen::VectorXd x = llt.solve(scaled.transpose() * (y - design * unknowns.mean));
-  const Eigen::MatrixXd inverse =
-      llt.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+  const Eigen::MatrixXd scaled = linear::scaled_columns(design, unknowns.sigma);
+  const linear::Cholesky normal(linear::one_plus_gram(scaled));
+  const Eigen::VectorXd x = normal.solve(linear::product(linear::transposed(scaled), data));
   return {unknowns.mean + unknowns.sigma.cwiseProduct(x),
-          unknowns.sigma.asDiagonal() * inverse * unknowns.sigma.asDiagonal()};
+          unknowns.sigma.asDiagonal() * normal.inverse() * unknowns.sigma.asDiagonal()};
 }
 
 /// From what is left in the rows. Of the kept ones (1 + s^2 K)^-1 says it: left - s^2 K w = w.
@@ -48,10 +42,11 @@ void take_discrepancy_out(const RegressorSystem& system,
                           Estimate& estimate) {
   if (estimate.discrepancy.kernel.of_lengths()) {
     const double square = estimate.discrepancy.sigma_mm * estimate.discrepancy.sigma_mm;
-    estimate.left_given_discrepancy -=
-        square * (discrepancy_covariance(
-                      system, system, marginalised.kept, estimate.discrepancy.kernel) *
-                  estimate.discrepancy_weights);
+    linear::add_product(
+        estimate.left_given_discrepancy,
+        -square,
+        discrepancy_covariance(system, system, marginalised.kept, estimate.discrepancy.kernel),
+        estimate.discrepancy_weights);
     return;
   }
   estimate.left_given_discrepancy(marginalised.kept.rows()) = estimate.discrepancy_weights;
@@ -88,7 +83,7 @@ std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(const RegressorSystem&
   Eigen::MatrixXd c =
       square * discrepancy_covariance(system, marginalised.kept, noise->process.kernel);
   c.diagonal().array() += 1.0;
-  noise->llt.compute(c);
+  noise->covariance = linear::Cholesky(std::move(c));
   return noise;
 }
 
@@ -127,7 +122,9 @@ Estimate estimate(const RegressorSystem& system,
       unknowns.sigma(settings + k) =
           wide_coefficient_sigma(system, marginalised, column);
     }
-    solution = solve(unknowns, marginalised.kept(data), noise != nullptr ? &noise->llt : nullptr);
+    solution = solve(std::move(unknowns),
+                     marginalised.kept(data),
+                     noise != nullptr ? &noise->covariance : nullptr);
     std::size_t outside = result.free.size();
     for (std::size_t k = 0; k < result.free.size(); ++k) {
       const Regressor& d = system.regressors[static_cast<std::size_t>(regressors[result.free[k]])];
@@ -144,7 +141,8 @@ Estimate estimate(const RegressorSystem& system,
     result.free.erase(result.free.begin() + static_cast<std::ptrdiff_t>(outside));
   }
   result.setting_change = solution.value.head(settings);
-  Eigen::VectorXd left = data - system.by_setting * result.setting_change;
+  Eigen::VectorXd left = data;
+  linear::add_product(left, -1.0, system.by_setting, result.setting_change);
   for (std::size_t k = 0; k < result.free.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(result.free[k]);
     const Eigen::Index column = settings + static_cast<Eigen::Index>(k);
@@ -157,7 +155,7 @@ Estimate estimate(const RegressorSystem& system,
   double quadratic = kept.squaredNorm();
   if (noise != nullptr) {
     result.discrepancy = noise->process;
-    result.discrepancy_weights = noise->llt.solve(kept);
+    result.discrepancy_weights = noise->covariance.solve(kept);
     quadratic = kept.dot(result.discrepancy_weights);
     take_discrepancy_out(system, marginalised, result);
   }
@@ -206,7 +204,8 @@ Eigen::VectorXd left_of_machine(const RegressorSystem& system,
                                 const Estimate& estimate,
                                 const Eigen::VectorXd& left) {
   if (system.nuisances == 0) return left;
-  return left + nuisance_columns(system) * estimate.setting_change.tail(system.nuisances);
+  return left + linear::product(nuisance_columns(system),
+                                estimate.setting_change.tail(system.nuisances));
 }
 
 Eigen::Vector2d error_of_unit(const RegressorSystem& system,

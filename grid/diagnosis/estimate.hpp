@@ -4,12 +4,12 @@
 /// comparison; and what is then left at every point, those that were held out included.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <memory>
 #include <vector>
 
 #include "grid/diagnosis/model_comparison.hpp"
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -41,7 +41,7 @@ struct Estimate {
 /// The kept rows' covariance with a discrepancy, factored once for all estimates given it.
 struct DiscrepancyNoise {
   Discrepancy process;
-  Eigen::LLT<Eigen::MatrixXd> llt;  ///< of 1 + s^2 K, N x N
+  linear::Cholesky covariance;  ///< 1 + s^2 K, N x N
 };
 /// Null for no discrepancy.
 [[nodiscard]] std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "grid/diagnosis/normal.hpp"
+#include "grid/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -97,8 +98,8 @@ MarginalisedSystem marginalise(const RegressorSystem& system,
   const Eigen::MatrixXd a = marginalised.kept.of(system.by_setting);
   Eigen::VectorXd e = marginalised.kept(system.e);
   if (steps.project_settings) {
-    marginalised.root = CovarianceRoot(a * system.sigma.asDiagonal());
-    e -= a * system.expected_change;
+    marginalised.root = CovarianceRoot(linear::scaled_columns(a, system.sigma));
+    linear::add_product(e, -1.0, a, system.expected_change);
   } else {
     marginalised.root = CovarianceRoot(Eigen::MatrixXd(a.rows(), 0));
   }
@@ -110,22 +111,18 @@ MarginalisedSystem marginalise(const RegressorSystem& system,
   return marginalised;
 }
 
-Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const RegressorSystem& system,
-                                           const KeptRows& kept) {
+linear::Cholesky nuisance_noise(const RegressorSystem& system, const KeptRows& kept) {
   if (system.nuisances == 0) return {};
-  const Eigen::MatrixXd scaled =
-      kept.of(nuisance_columns(system)) * system.sigma.tail(system.nuisances).asDiagonal();
-  Eigen::MatrixXd covariance = scaled * scaled.transpose();
-  covariance.diagonal().array() += 1.0;
-  return Eigen::LLT<Eigen::MatrixXd>(covariance);
+  return linear::Cholesky(linear::one_plus_outer(linear::scaled_columns(
+      kept.of(nuisance_columns(system)), system.sigma.tail(system.nuisances))));
 }
 
 double square_in_noise(const RegressorSystem& system,
                        const KeptRows& kept,
                        const Eigen::VectorXd& column) {
-  Eigen::VectorXd own = kept(column);
-  if (system.nuisances > 0) nuisance_noise(system, kept).matrixL().solveInPlace(own);
-  return own.squaredNorm();
+  const Eigen::VectorXd own = kept(column);
+  if (system.nuisances == 0) return own.squaredNorm();
+  return nuisance_noise(system, kept).half_solve(own).squaredNorm();
 }
 
 double length_in_noise(const RegressorSystem& system,
@@ -169,8 +166,8 @@ NormalEquations normal_equations(const RegressorSystem& system,
   equations.columns = std::move(columns);
   const Eigen::MatrixXd g = marginalised.g.dense(equations.columns);
   equations.ee = marginalised.e.squaredNorm();
-  equations.ge = g.transpose() * marginalised.e;
-  equations.gg = g.transpose() * g;
+  equations.ge = linear::product(linear::transposed(g), marginalised.e);
+  equations.gg = linear::gram(g);
   equations.prior_square =
       prior_squares(system.regressors, equations.columns, equations.gg.diagonal());
   equations.log_det = marginalised.log_det;

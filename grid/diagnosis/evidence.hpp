@@ -25,7 +25,6 @@
 
 #include <algorithm>
 #include <array>
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cmath>
 #include <span>
@@ -36,6 +35,7 @@
 #include "grid/diagnosis/covariance_root.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
 #include "grid/diagnosis/kept_rows.hpp"
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -91,10 +91,9 @@ struct MarginalisedSystem {
 [[nodiscard]] MarginalisedSystem marginalise(const RegressorSystem& system,
                                              const std::vector<bool>& outliers,
                                              const Steps& steps);
-/// Square root of the kept rows' covariance with the nuisances unknown but for their sigmas: the
+/// The kept rows' covariance with the nuisances unknown but for their sigmas: the
 /// noise as a person sees it. Empty where there are none.
-[[nodiscard]] Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const RegressorSystem& system,
-                                                         const KeptRows& kept);
+[[nodiscard]] linear::Cholesky nuisance_noise(const RegressorSystem& system, const KeptRows& kept);
 /// Square, and length, of a column's kept rows in units of that noise.
 [[nodiscard]] double square_in_noise(const RegressorSystem& system,
                                      const KeptRows& kept,

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/expected_discrimination.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/normal.hpp"
+#include "grid/linear_algebra.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -76,19 +76,20 @@ Eigen::MatrixXd add_discrepancy(const Analysis& a,
   const Eigen::MatrixXd k = square * discrepancy_covariance(system, a.system, kept, kernel);
   Eigen::MatrixXd c = square * discrepancy_covariance(a.system, kept, kernel);
   c.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> llt(c);
   Eigen::MatrixXd x(c.rows(), design.cols());
+  const linear::Cholesky covariance(std::move(c));
   const Eigen::Index settings = fitted.setting_change.size();
   x.leftCols(settings) = kept.of(a.system.by_setting);
   for (std::size_t i = 0; i < fitted.free.size(); ++i) {
     x.col(settings + static_cast<Eigen::Index>(i)) =
         kept(a.system.g.col(fitted.regressors[fitted.free[i]]));
   }
-  mean += k * fitted.discrepancy_weights;
-  design -= k * llt.solve(x);
-  const Eigen::MatrixXd own =
+  linear::add_product(mean, 1.0, k, fitted.discrepancy_weights);
+  linear::add_product(design, -1.0, k, covariance.solve(x));
+  Eigen::MatrixXd own =
       square * discrepancy_covariance(system, system, KeptRows::all(system), kernel);
-  return root_of_spread(own - k * llt.solve(k.transpose()));
+  linear::add_gram(own, -1.0, covariance.half_solve(k.transpose()));
+  return root_of_spread(own);
 }
 
 /// What an alternative expects of every candidate.
@@ -101,7 +102,7 @@ void predict(const Analysis& a,
   // Holes that are not cut yet have columns of their own, after all others.
   const Eigen::Index settings = fitted.setting_change.size();
   const Eigen::Index to_come = system.by_setting.cols() - settings;
-  h.mean = system.by_setting.leftCols(settings) * fitted.setting_change;
+  h.mean = linear::product(system.by_setting.leftCols(settings), fitted.setting_change);
   const auto free = static_cast<Eigen::Index>(fitted.free.size());
   Eigen::MatrixXd design(system.by_setting.rows(), settings + free);
   design.leftCols(settings) = system.by_setting.leftCols(settings);
@@ -118,11 +119,11 @@ void predict(const Analysis& a,
   }
   Eigen::MatrixXd of_pattern(design.rows(), 0);
   if (h.discrepancy >= 0) of_pattern = add_discrepancy(a, system, fitted, h.mean, design);
-  const Eigen::LLT<Eigen::MatrixXd> llt(fitted.covariance);
+  const linear::Cholesky covariance(fitted.covariance);
   h.spread.resize(design.rows(), design.cols() + to_come + of_pattern.cols());
-  h.spread.leftCols(design.cols()) = design * Eigen::MatrixXd(llt.matrixL());
-  h.spread.middleCols(design.cols(), to_come) =
-      system.by_setting.rightCols(to_come) * system.sigma.tail(to_come).asDiagonal();
+  h.spread.leftCols(design.cols()) = linear::product(design, covariance.lower());
+  h.spread.middleCols(design.cols(), to_come) = linear::scaled_columns(
+      system.by_setting.rightCols(to_come), system.sigma.tail(to_come));
   h.spread.rightCols(of_pattern.cols()) = of_pattern;
 }
 
@@ -131,9 +132,10 @@ double distance(const Alternative& k, const Alternative& l, const std::vector<Ei
   const Eigen::VectorXd difference = k.mean(rows) - l.mean(rows);
   const Eigen::MatrixXd of_k = k.spread(rows, Eigen::all);
   const Eigen::MatrixXd of_l = l.spread(rows, Eigen::all);
-  Eigen::MatrixXd covariance = 0.5 * (of_k * of_k.transpose() + of_l * of_l.transpose());
-  covariance.diagonal().array() += 1.0;
-  return difference.dot(covariance.llt().solve(difference));
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(of_k.rows(), of_k.rows());
+  linear::add_outer(covariance, 0.5, of_k);
+  linear::add_outer(covariance, 0.5, of_l);
+  return linear::Cholesky(std::move(covariance)).half_solve(difference).squaredNorm();
 }
 
 /// D between all alternatives.
@@ -168,15 +170,7 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> groups_in(
 
 Eigen::MatrixXd root_of_spread(const Eigen::MatrixXd& matrix) {
   constexpr double kNegligible = 1e-4;
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(matrix);
-  std::vector<Eigen::Index> columns;
-  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
-    if (ldlt.vectorD()(k) > kNegligible) columns.push_back(k);
-  }
-  const Eigen::MatrixXd lower = ldlt.matrixL();
-  const Eigen::MatrixXd result =
-      lower(Eigen::all, columns) * ldlt.vectorD()(columns).cwiseSqrt().asDiagonal();
-  return ldlt.transpositionsP().transpose() * result;
+  return linear::PivotedCholesky(matrix).root(kNegligible);
 }
 
 std::vector<Alternative> alternatives_of_best(const Analysis& a) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/expected_improvement.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/other_places.hpp"
+#include "grid/linear_algebra.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -53,7 +53,7 @@ ExpectedImprovement over_units(const RegressorSystem& there,
           there.places[unit.places.front().place].state.by_mark.inverse() * unit.whitening.inverse();
       const Eigen::MatrixXd tool = to_tool * by_unknown;
       drop += (to_tool * moved.segment<2>(unit.first_row)).squaredNorm();
-      doubt += (tool * covariance * tool.transpose()).trace();
+      doubt += linear::carried(tool, covariance).trace();
     } else {
       drop += unit.unwhitened(moved).squaredNorm();
       doubt += std::pow(unit.sigma(), 2) *
@@ -101,7 +101,7 @@ ExpectedImprovement expected_improvement(const Analysis& a) {
   const Eigen::Index settings = a.system.by_setting.cols();
   Eigen::MatrixXd design(there->by_setting.rows(), named.covariance.rows());
   design.leftCols(settings) = there->by_setting;
-  Eigen::VectorXd moved = there->by_setting * (plain.setting_change - named.setting_change);
+  Eigen::VectorXd moved = linear::product(there->by_setting, plain.setting_change - named.setting_change);
   for (std::size_t k = 0; k < causes.size(); ++k) {
     const Regressor& d = regressor(a, causes[k]);
     const auto g = d.slip ? std::nullopt : signature(area, a.state, *there, d.cause, d.values);

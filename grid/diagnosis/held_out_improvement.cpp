@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +12,7 @@
 #include "grid/diagnosis/held_out_blocks.hpp"
 #include "grid/diagnosis/held_out_fold.hpp"
 #include "grid/diagnosis/uncalibrated.hpp"
+#include "grid/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 #include "grid/synthetic/random.hpp"
 
@@ -104,11 +104,11 @@ BeforeCalibration before_calibration(const Analysis& a, const std::vector<std::s
     const Eigen::MatrixXd by_sheet = stated->by_setting.middleCols(kOfMachine, sheet);
     const auto& kept = marginalised_system(a).kept;
     const Eigen::VectorXd sigma = stated->sigma.segment(kOfMachine, sheet);
-    const Eigen::MatrixXd scaled = kept.of(by_sheet) * sigma.asDiagonal();
-    Eigen::MatrixXd normal = scaled.transpose() * scaled;
-    normal.diagonal().array() += 1.0;
-    const Eigen::VectorXd x = normal.llt().solve(scaled.transpose() * kept(as_stated));
-    placed -= by_sheet * sigma.cwiseProduct(x);
+    const Eigen::MatrixXd scaled = linear::scaled_columns(kept.of(by_sheet), sigma);
+    const Eigen::VectorXd x =
+        linear::Cholesky(linear::one_plus_gram(scaled))
+            .solve(linear::product(linear::transposed(scaled), kept(as_stated)));
+    linear::add_product(placed, -1.0, by_sheet, sigma.cwiseProduct(x));
   }
   for (const std::size_t u : units) {
     result.as_stated.push_back(error_of_unit(*stated, as_stated, u));

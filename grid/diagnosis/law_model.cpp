@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/law_model.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "grid/diagnosis/expected_discrimination.hpp"
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
 double log_density_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& e, double dof) {
-  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
-  const Eigen::VectorXd z = llt.matrixL().solve(e);
-  const double log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-  return NoiseDensity(dof, e.size()).log_density(z.squaredNorm()) - 0.5 * log_det;
+  const linear::Cholesky factor(covariance);
+  return NoiseDensity(dof, e.size()).log_density(factor.half_solve(e).squaredNorm()) -
+         0.5 * factor.log_det();
 }
 
 double square_of(const Discrepancy& process) { return process.sigma_mm * process.sigma_mm; }
@@ -26,9 +25,8 @@ LawModel::LawModel(const Analysis& a,
                    int discrepancy)
     : system_(a.system), marginalised_(marginalised), dof_(noise_dof(a)) {
   const KeptRows& kept = marginalised.kept;
-  settings_ = kept.of(a.system.by_setting) * a.system.sigma.asDiagonal();
-  covariance_ = settings_ * settings_.transpose();
-  covariance_.diagonal().array() += 1.0;
+  settings_ = linear::scaled_columns(kept.of(a.system.by_setting), a.system.sigma);
+  covariance_ = linear::one_plus_outer(settings_);
   if (discrepancy >= 0) {
     process_ = discrepancy_of(a.system, marginalised, discrepancy);
     discrepancy_ =
@@ -36,14 +34,16 @@ LawModel::LawModel(const Analysis& a,
     covariance_ += discrepancy_;
   }
   for (const int k : regressors) add(Eigen::VectorXd(a.system.g.col(k)));
-  e_ = kept(Eigen::VectorXd(a.system.e - a.system.by_setting * a.system.expected_change));
+  Eigen::VectorXd e = a.system.e;
+  linear::add_product(e, -1.0, a.system.by_setting, a.system.expected_change);
+  e_ = kept(e);
 }
 
 void LawModel::add(const Eigen::VectorXd& column) {
   const Eigen::VectorXd own = marginalised_.kept(column);
   // Of the usual strength.
   const double sigma = kUsualSignalToNoise / std::max(marginalised_.root.solve(own).norm(), 1e-12);
-  covariance_ += sigma * sigma * own * own.transpose();
+  linear::add_outer(covariance_, sigma * sigma, own);
   columns_.push_back(sigma * own);
   sigmas_.push_back(sigma);
 }
@@ -57,20 +57,23 @@ double LawModel::log_density(const Eigen::VectorXd& known) const {
 }
 
 LawModel::Left LawModel::left_of(const Eigen::VectorXd& known) const {
-  const Eigen::LLT<Eigen::MatrixXd> llt(covariance_);
   Left left;
-  left.noise = llt.solve(e_ - marginalised_.kept(known));
+  left.noise = linear::Cholesky(covariance_).solve(e_ - marginalised_.kept(known));
   left.unexplained = left.noise;
-  if (discrepancy_.size() > 0) left.unexplained += discrepancy_ * left.noise;
+  if (discrepancy_.size() > 0)
+    linear::add_product(left.unexplained, 1.0, discrepancy_, left.noise);
   return left;
 }
 
 Eigen::VectorXd LawModel::left_of_prediction(const std::vector<Eigen::Index>& rows,
                                              const std::vector<Eigen::Index>& left_out) const {
-  const Eigen::MatrixXd own = covariance_(rows, rows);
-  const Eigen::MatrixXd across = covariance_(left_out, rows);
-  const Eigen::VectorXd known = e_(rows);
-  return e_(left_out) - across * own.llt().solve(known);
+  const linear::Cholesky own(covariance_(rows, rows));
+  Eigen::VectorXd left = e_(left_out);
+  linear::add_product(left,
+                      -1.0,
+                      Eigen::MatrixXd(covariance_(left_out, rows)),
+                      own.solve(Eigen::VectorXd(e_(rows))));
+  return left;
 }
 
 LawModel::Expected LawModel::expected_of(const RegressorSystem& next,
@@ -79,28 +82,32 @@ LawModel::Expected LawModel::expected_of(const RegressorSystem& next,
   Eigen::MatrixXd here(settings_.rows(), settings + columns.cols());
   Eigen::MatrixXd there(next.by_setting.rows(), settings + columns.cols());
   here.leftCols(settings) = settings_;
-  there.leftCols(settings) = next.by_setting.leftCols(settings) * system_.sigma.asDiagonal();
+  there.leftCols(settings) =
+      linear::scaled_columns(next.by_setting.leftCols(settings), system_.sigma);
   for (Eigen::Index k = 0; k < columns.cols(); ++k) {
     here.col(settings + k) = columns_[static_cast<std::size_t>(k)];
     there.col(settings + k) = sigmas_[static_cast<std::size_t>(k)] * columns.col(k);
   }
-  Eigen::MatrixXd across = there * here.transpose();
-  Eigen::MatrixXd own = there * there.transpose();
+  Eigen::MatrixXd across = linear::product(there, linear::transposed(here));
+  Eigen::MatrixXd own = linear::outer(there);
   // Holes that are not cut yet have columns of their own, after all others.
   const Eigen::Index to_come = next.by_setting.cols() - settings;
-  const Eigen::MatrixXd holes =
-      next.by_setting.rightCols(to_come) * next.sigma.tail(to_come).asDiagonal();
-  own += holes * holes.transpose();
+  linear::add_outer(
+      own,
+      1.0,
+      linear::scaled_columns(next.by_setting.rightCols(to_come), next.sigma.tail(to_come)));
   if (process_) {
     across += square_of(*process_) *
               discrepancy_covariance(next, system_, marginalised_.kept, process_->kernel);
     own += square_of(*process_) *
            discrepancy_covariance(next, next, KeptRows::all(next), process_->kernel);
   }
-  const Eigen::LLT<Eigen::MatrixXd> llt(covariance_);
+  const linear::Cholesky factor(covariance_);
   Expected expected;
-  expected.mean = next.by_setting.leftCols(settings) * system_.expected_change + across * llt.solve(e_);
-  expected.spread = root_of_spread(own - across * llt.solve(across.transpose()));
+  expected.mean = linear::product(next.by_setting.leftCols(settings), system_.expected_change);
+  linear::add_product(expected.mean, 1.0, across, factor.solve(e_));
+  linear::add_gram(own, -1.0, factor.half_solve(across.transpose()));
+  expected.spread = root_of_spread(own);
   return expected;
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/law_system.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <set>
+
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -92,13 +93,12 @@ LawAmplitudes LawSystem::amplitudes(const NormalEquations& equations,
   Eigen::MatrixXd a = equations.gg(all, all);
   const Eigen::VectorXd prior = equations.prior_square(all);
   a.diagonal() += prior / (kWideSignalToNoise * kWideSignalToNoise);
-  const Eigen::LLT<Eigen::MatrixXd> llt(a);
+  const linear::Cholesky factor(std::move(a));
   const Eigen::VectorXd c = equations.ge(all);
-  const Eigen::VectorXd b = llt.solve(c);
+  const Eigen::VectorXd b = factor.solve(c);
   const double square = noise_.noise_square(std::max(equations.ee - c.dot(b), 0.0));
   const auto m = static_cast<Eigen::Index>(laws.size());
-  const Eigen::MatrixXd inverse = llt.solve(Eigen::MatrixXd::Identity(a.rows(), a.cols()));
-  return {b.tail(m), square * inverse.bottomRightCorner(m, m)};
+  return {b.tail(m), square * factor.inverse().bottomRightCorner(m, m)};
 }
 
 }  // namespace chaintrue::grid::diagnosis

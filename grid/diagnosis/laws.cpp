@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,6 +14,7 @@
 #include "grid/diagnosis/law_held_out.hpp"
 #include "grid/diagnosis/law_parts.hpp"
 #include "grid/diagnosis/law_residuals.hpp"
+#include "grid/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -163,11 +163,13 @@ Eigen::VectorXd left_by_settings(const RegressorSystem& system,
                                  const MarginalisedSystem& marginalised,
                                  const Eigen::VectorXd& rows) {
   const Eigen::MatrixXd scaled =
-      marginalised.kept.of(system.by_setting) * system.sigma.asDiagonal();
-  Eigen::MatrixXd normal = scaled.transpose() * scaled;
-  normal.diagonal().array() += 1.0;
-  const Eigen::VectorXd x = normal.llt().solve(scaled.transpose() * marginalised.kept(rows));
-  return rows - system.by_setting * system.sigma.cwiseProduct(x);
+      linear::scaled_columns(marginalised.kept.of(system.by_setting), system.sigma);
+  const Eigen::VectorXd x =
+      linear::Cholesky(linear::one_plus_gram(scaled))
+          .solve(linear::product(linear::transposed(scaled), marginalised.kept(rows)));
+  Eigen::VectorXd left = rows;
+  linear::add_product(left, -1.0, system.by_setting, system.sigma.cwiseProduct(x));
+  return left;
 }
 
 void measure(const Analysis& a, const FoundPoint& best, Law& law) {
@@ -180,7 +182,10 @@ void measure(const Analysis& a, const FoundPoint& best, Law& law) {
   const double all = rms_of_units_mm(
       system,
       marginalised.kept,
-      left_by_settings(system, marginalised, system.e - system.by_setting * system.expected_change));
+      left_by_settings(
+          system,
+          marginalised,
+          system.e - linear::product(system.by_setting, system.expected_change)));
   law.share = all > 0.0 ? std::min(std::pow(law.rms_mm / all, 2), 1.0) : 0.0;
 }
 

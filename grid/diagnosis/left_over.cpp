@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/noise_draws.hpp"
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -28,13 +28,13 @@ double p_of_structure(const Analysis& a) {
   e.rightCols(kLeftOverDraws) = left_of_noise(a, Nuisances::put_back, kLeftOverDraws, kStream);
   Eigen::MatrixXd k = discrepancy_covariance(a.system, kept, {{{FieldOf::place, kSmoothMm}}, 1.0});
   if (a.system.nuisances > 0) {
-    const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(a.system, kept);
-    noise.matrixL().solveInPlace(e);
-    noise.matrixL().solveInPlace(k);
+    const linear::Cholesky noise = nuisance_noise(a.system, kept);
+    noise.half_solve_in_place(e);
+    noise.half_solve_in_place(k);
     k.transposeInPlace();
-    noise.matrixL().solveInPlace(k);
+    noise.half_solve_in_place(k);
   }
-  const Eigen::ArrayXd in_common = (e.array() * (k * e).array()).colwise().sum();
+  const Eigen::ArrayXd in_common = (e.array() * linear::product(k, e).array()).colwise().sum();
   const Eigen::ArrayXd all = e.colwise().squaredNorm();
   const Eigen::ArrayXd share = in_common / all.max(1e-300);
   const auto above = (share.tail(kLeftOverDraws) >= share(0)).count();
@@ -84,8 +84,8 @@ double share_along(const Analysis& a, const Coordinate& coordinate) {
     for (int k = 2; k <= kDegree; ++k) basis(i, k) = 2.0 * x * basis(i, k - 1) - basis(i, k - 2);
     values.row(i) = chain[static_cast<std::size_t>(i)].transpose();
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(basis);
-  const Eigen::MatrixXd rest = values - basis * qr.solve(values);
+  Eigen::MatrixXd rest = values;
+  linear::add_product(rest, -1.0, basis, linear::least_squares(basis, values));
   const double of_noise = static_cast<double>(n - kDegree - 1) / static_cast<double>(n);
   return 1.0 - rest.squaredNorm() / (of_noise * std::max(values.squaredNorm(), 1e-300));
 }

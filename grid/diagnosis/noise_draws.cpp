@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/noise_draws.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/linear_algebra.hpp"
 #include "grid/synthetic/random.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -18,7 +18,7 @@ Eigen::MatrixXd design_of(const Analysis& a) {
   const auto causes = static_cast<Eigen::Index>(a.estimate.free.size());
   Eigen::MatrixXd design(n, settings + causes);
   design.leftCols(settings) =
-      marginalised.kept.of(a.system.by_setting) * a.system.sigma.asDiagonal();
+      linear::scaled_columns(marginalised.kept.of(a.system.by_setting), a.system.sigma);
   for (Eigen::Index k = 0; k < causes; ++k) {
     const int column = a.estimate.regressors[a.estimate.free[static_cast<std::size_t>(k)]];
     design.col(settings + k) = marginalised.kept(a.system.g.col(column)) * kWideSignalToNoise /
@@ -38,21 +38,20 @@ Eigen::MatrixXd left_of_noise(const Analysis& a,
   const Eigen::Index shared = a.system.nuisances;
   const auto by_nuisance =
       design.middleCols(a.system.by_setting.cols() - shared, shared);
-  Eigen::MatrixXd normal = design.transpose() * design;
-  normal.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> llt(normal);
+  const linear::Cholesky normal(linear::one_plus_gram(design));
   synthetic::Random random(a.options.seed, stream);
   Eigen::MatrixXd z(n, draws);
   Eigen::VectorXd u(shared);
   for (Eigen::Index draw = 0; draw < draws; ++draw) {
     for (Eigen::Index i = 0; i < n; ++i) z(i, draw) = random.normal();
     for (Eigen::Index q = 0; q < shared; ++q) u(q) = random.normal();
-    if (shared > 0) z.col(draw) += by_nuisance * u;
+    linear::add_product(z.col(draw), 1.0, by_nuisance, u);
   }
-  const Eigen::MatrixXd taken = llt.solve(design.transpose() * z);
-  z.noalias() -= design * taken;
+  const Eigen::MatrixXd taken = normal.solve(linear::product(linear::transposed(design), z));
+  linear::add_product(z, -1.0, design, taken);
   if (nuisances == Nuisances::put_back && shared > 0) {
-    z.noalias() += by_nuisance * taken.middleRows(a.system.by_setting.cols() - shared, shared);
+    linear::add_product(
+        z, 1.0, by_nuisance, taken.middleRows(a.system.by_setting.cols() - shared, shared));
   }
   return z;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/synthetic/random.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -72,7 +73,7 @@ Eigen::VectorXd SingleScore::by_cause(const Eigen::VectorXd& e) const {
 
 Eigen::VectorXd SingleScore::largest(const Eigen::MatrixXd& e) const {
   const RegressorColumns& g = marginalised_.g;
-  const Eigen::MatrixXd c = g.distinct().transpose() * e;
+  const Eigen::MatrixXd c = linear::product(linear::transposed(g.distinct()), e);
   const auto n = static_cast<double>(e.rows());
   Eigen::VectorXd result = Eigen::VectorXd::Constant(e.cols(), kNoScore);
   for (Eigen::Index draw = 0; draw < e.cols(); ++draw) {

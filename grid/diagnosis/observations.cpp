@@ -101,7 +101,7 @@ std::optional<StatedNoise> noise_of_repeats(const Machine& stated,
                                          std::pow(usual.length_mm, 2) * Eigen::Matrix2d::Identity();
       const Eigen::Vector2d residual(points[i].lengths.left_mm - reading->lengths.left_mm,
                                      points[i].lengths.right_mm - reading->lengths.right_mm);
-      whitened.emplace_back(covariance.llt().matrixL().solve(residual));
+      whitened.emplace_back(Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL().solve(residual));
     }
     if (whitened.size() < 2) continue;
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,6 +12,7 @@
 
 #include "grid/diagnosis/regressors.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
+#include "grid/linear_algebra.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/statistics.hpp"
 
@@ -78,8 +78,8 @@ struct GivenModel {
   double log_weight = 0.0;
   double log_odds = 0.0;  ///< of one cause more
   KeptRows kept;
-  Eigen::LLT<Eigen::MatrixXd> llt;
-  Eigen::VectorXd e;  ///< N, reduced by llt
+  linear::Cholesky covariance;
+  Eigen::VectorXd e;  ///< N, half solved by it
 };
 
 GivenModel given(const Analysis& a, const CandidateModel& model, const std::vector<bool>& again) {
@@ -95,9 +95,9 @@ GivenModel given(const Analysis& a, const CandidateModel& model, const std::vect
   }
   result.kept = KeptRows(system, left_out);
   const Eigen::MatrixXd settings = result.kept.of(system.by_setting);
-  Eigen::VectorXd e = result.kept(system.e) - settings * system.expected_change;
-  const Eigen::MatrixXd scaled = settings * system.sigma.asDiagonal();
-  Eigen::MatrixXd covariance = scaled * scaled.transpose();
+  Eigen::VectorXd e = result.kept(system.e);
+  linear::add_product(e, -1.0, settings, system.expected_change);
+  Eigen::MatrixXd covariance = linear::one_plus_outer(linear::scaled_columns(settings, system.sigma));
   for (const int k : model.regressors) {
     const Eigen::VectorXd column = result.kept(system.g.col(k));
     if (system.regressors[static_cast<std::size_t>(k)].fixed) {
@@ -105,16 +105,15 @@ GivenModel given(const Analysis& a, const CandidateModel& model, const std::vect
       continue;
     }
     const Eigen::VectorXd wide = column * wide_coefficient_sigma(system, marginalised, k);
-    covariance += wide * wide.transpose();
+    linear::add_outer(covariance, 1.0, wide);
   }
   if (model.discrepancy >= 0) {
     const Discrepancy process = discrepancy_of(system, marginalised, model.discrepancy);
     covariance += process.sigma_mm * process.sigma_mm *
                   discrepancy_covariance(system, result.kept, process.kernel);
   }
-  covariance.diagonal().array() += 1.0;
-  result.llt.compute(covariance);
-  result.e = result.llt.matrixL().solve(e);
+  result.covariance = linear::Cholesky(std::move(covariance));
+  result.e = result.covariance.half_solve(e);
   return result;
 }
 
@@ -160,7 +159,7 @@ RegressorSystem order_columns(const Analysis& a, const Measured& ordered) {
 double log_order_factor(const RegressorSystem& columns, const GivenModel& model, double noise_dof) {
   MarginalisedSystem reduced;
   reduced.g = columns.g.mapped([&](const auto& all) {
-    return Eigen::MatrixXd(model.llt.matrixL().solve(model.kept.of(all)));
+    return model.covariance.half_solve(model.kept.of(all));
   });
   const NoiseDensity noise(noise_dof, model.kept.size());
   const SingleScores scores = single_scores(columns, reduced, noise, model.e, true);

@@ -4,6 +4,7 @@
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
+#include "grid/linear_algebra.hpp"
 #include "grid/observation/drawn_measures.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -13,9 +14,10 @@ namespace {
 Outlier outlying_distance(const Analysis& a, const NumberedUnit& own, const SystemUnit& unit) {
   const Eigen::Index row = unit.first_row;
   // All that the others know of its holes is in the prediction, with what they leave open.
-  const Eigen::RowVectorXd by_setting = a.system.by_setting.row(row);
-  const double variance = a.estimate.noise_square +
-                          by_setting.dot(a.estimate.setting_covariance * by_setting.transpose());
+  const Eigen::VectorXd by_setting = a.system.by_setting.row(row);
+  const double variance =
+      a.estimate.noise_square +
+      by_setting.dot(linear::product(a.estimate.setting_covariance, by_setting));
   const double off = a.estimate.left_given_discrepancy(row);
   Outlier outlier;
   outlier.of = Observations::distances;

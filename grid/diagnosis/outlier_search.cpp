@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/outlier_search.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "grid/diagnosis/model_comparison.hpp"
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -69,7 +69,7 @@ class MeanShifts {
   void free(const Eigen::VectorXd& reduced_column, double prior) {
     const Eigen::VectorXd g = root_->times(reduced_column);
     Eigen::VectorXd pg = root_->solve(reduced_column);
-    pg -= taken() * (taken().transpose() * g);
+    linear::add_product(pg, -1.0, taken(), linear::product(linear::transposed(taken()), g));
     const double denominator = prior + g.dot(pg);
     const double ug = u_.dot(g);
     quadratic_ -= ug * ug / denominator;
@@ -119,20 +119,26 @@ class MeanShifts {
   }
 
   void reject_rows(Eigen::Index at, Eigen::Index rows) {
-    const Eigen::LLT<Eigen::MatrixXd> block(own_.block(0, at, rows, rows));
+    const linear::Cholesky block(own_.block(0, at, rows, rows));
     Eigen::MatrixXd columns = root_->precision_block(0, u_.size(), at, rows);
-    columns.noalias() -= taken() * taken().middleRows(at, rows).transpose();
-    u_ -= columns * block.solve(u_.segment(at, rows).eval());
-    block.matrixU().solveInPlace<Eigen::OnTheRight>(columns);
-    log_det_ += 2.0 * Eigen::MatrixXd(block.matrixL()).diagonal().array().log().sum();
-    for (Eigen::Index k = 0; k < rows; ++k) take(columns.col(k));
+    linear::add_product(
+        columns, -1.0, taken(), linear::transposed(taken().middleRows(at, rows)));
+    linear::add_product(u_, -1.0, columns, block.solve(u_.segment(at, rows)));
+    log_det_ += block.log_det();
+    const Eigen::MatrixXd scaled = block.half_solve(columns.transpose());
+    for (Eigen::Index k = 0; k < rows; ++k) take(scaled.row(k).transpose());
   }
 
   void reject_direction(const FreeGroup& group) {
     const Eigen::Vector2d& d = *group.direction;
     const double own = precision_along(group);
-    Eigen::VectorXd column = root_->precision_block(0, u_.size(), group.at, 2) * d;
-    column -= taken() * (taken().middleRows<2>(group.at).transpose() * d);
+    Eigen::VectorXd column =
+        linear::product(root_->precision_block(0, u_.size(), group.at, 2), d);
+    linear::add_product(
+        column,
+        -1.0,
+        taken(),
+        linear::product(linear::transposed(taken().middleRows(group.at, 2)), d));
     u_ -= column * (d.dot(u_.segment<2>(group.at)) / own);
     log_det_ += std::log(own);
     take(column / std::sqrt(own));
@@ -144,8 +150,8 @@ class MeanShifts {
     }
     taken_.col(count_++) = column;
     for (const auto& [at, rows] : blocks_) {
-      const auto part = column.segment(at, rows);
-      own_.block(0, at, rows, rows).noalias() -= part * part.transpose();
+      for (Eigen::Index k = 0; k < rows; ++k)
+        own_.col(at + k).head(rows) -= column[at + k] * column.segment(at, rows);
     }
   }
 

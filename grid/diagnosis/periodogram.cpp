@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 #include "grid/synthetic/random.hpp"
 
@@ -88,7 +89,7 @@ Periodogram::Periodogram(std::vector<double> places_mm, double shortest_mm)
 
 std::vector<double> Periodogram::power(const std::vector<double>& values) const {
   require_as_many(values.size(), places_mm_.size());
-  const Eigen::VectorXd along = waves_ * about_mean(values);
+  const Eigen::VectorXd along = linear::product(waves_, about_mean(values));
   std::vector<double> result;
   for (Eigen::Index k = 0; k < along.size(); k += 2) {
     result.push_back(std::min(1.0, along.segment<2>(k).squaredNorm()));

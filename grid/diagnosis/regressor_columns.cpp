@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -56,7 +57,7 @@ RegressorColumns RegressorColumns::subset(const std::vector<Eigen::Index>& colum
 }
 
 Eigen::VectorXd RegressorColumns::transpose_times(const Eigen::VectorXd& vector) const {
-  const Eigen::VectorXd products = distinct().transpose() * vector;
+  const Eigen::VectorXd products = linear::product(linear::transposed(distinct()), vector);
   Eigen::VectorXd result(cols());
   for (Eigen::Index k = 0; k < cols(); ++k) result(k) = factor(k) * products(index(k));
   return result;

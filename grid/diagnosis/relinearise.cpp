@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/relinearise.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "grid/linear_algebra.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -132,7 +132,7 @@ class Round {
         columns_.conservativeResize(round.marginalised_.e.size(), columns_.cols() + 1);
         columns_.rightCols<1>() = round.marginalised_.g.col(static_cast<Eigen::Index>(k));
       }
-      ldlt_.compute(columns_.transpose() * columns_);
+      gram_.emplace(linear::gram(columns_));
       e_ = without(round.marginalised_.e);
     }
 
@@ -151,14 +151,16 @@ class Round {
 
    private:
     [[nodiscard]] Eigen::VectorXd without(Eigen::VectorXd v) const {
-      if (columns_.cols() > 0) v -= columns_ * ldlt_.solve(columns_.transpose() * v);
+      if (columns_.cols() == 0) return v;
+      linear::add_product(
+          v, -1.0, columns_, gram_->solve(linear::product(linear::transposed(columns_), v)));
       return v;
     }
 
     const Round& round_;
     std::size_t which_;
     Eigen::MatrixXd columns_;
-    Eigen::LDLT<Eigen::MatrixXd> ldlt_;
+    std::optional<linear::PivotedCholesky> gram_;
     Eigen::VectorXd e_;
   };
 

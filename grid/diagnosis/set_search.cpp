@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/set_search.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "grid/diagnosis/given_discrepancies.hpp"
 #include "grid/diagnosis/ties.hpp"
+#include "grid/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -30,7 +30,7 @@ void add_best(const RegressorSystem& system,
               const Eigen::VectorXd& e,
               std::size_t of_a_cause,
               std::set<int>& chosen) {
-  const Eigen::VectorXd c = g.transpose() * e;
+  const Eigen::VectorXd c = linear::product(linear::transposed(g), e);
   const Eigen::VectorXd square = g.colwise().squaredNorm();
   std::vector<std::pair<double, int>> scores;
   const auto take = [&] {
@@ -74,7 +74,9 @@ std::vector<int> best_of_each_cause(const RegressorSystem& system,
     if (std::find(taken.begin(), taken.end(), cause) != taken.end()) continue;
     taken.push_back(cause);
     const Eigen::VectorXd own = all.col(k).normalized();
-    const Eigen::MatrixXd g = all - own * (own.transpose() * all);
+    Eigen::MatrixXd g = all;
+    const Eigen::VectorXd along = linear::product(linear::transposed(all), own);
+    for (Eigen::Index column = 0; column < g.cols(); ++column) g.col(column) -= along[column] * own;
     add_best(system, g, marginalised.e - own * own.dot(marginalised.e), of_a_cause, chosen);
   }
   std::erase_if(chosen, [&](int k) {
@@ -178,7 +180,8 @@ class SetSearch::Search {
         likeliest.begin(), likeliest.end(), [&](int a, int b) { return explained(a) > explained(b); });
     likeliest.resize(count_with_ties(likeliest, 8, explained));
     const RegressorColumns& g = marginalised_.g;
-    const Eigen::MatrixXd cross = g.distinct().transpose() * g.dense(likeliest);
+    const Eigen::MatrixXd cross =
+        linear::product(linear::transposed(g.distinct()), g.dense(likeliest));
     std::vector<std::pair<double, int>> gains;
     for (std::size_t f = 0; f < fixed.size(); ++f) {
       const int k = fixed[f];
@@ -290,10 +293,11 @@ class SetSearch::Search {
 
   void extend(const std::vector<Eigen::Index>& parent, std::set<std::vector<Eigen::Index>>& found) {
     // What the parent leaves, and of each regressor: a score for the cost of one inner product.
-    const Eigen::MatrixXd own = equations_.gg(parent, parent);
-    const Eigen::LDLT<Eigen::MatrixXd> ldlt(own);
-    const Eigen::VectorXd left =
-        equations_.ge - equations_.gg(Eigen::all, parent) * ldlt.solve(equations_.ge(parent));
+    const linear::PivotedCholesky own(equations_.gg(parent, parent));
+    const Eigen::MatrixXd across = equations_.gg(Eigen::all, parent);
+    Eigen::VectorXd left = equations_.ge;
+    linear::add_product(left, -1.0, across, own.solve(Eigen::VectorXd(equations_.ge(parent))));
+    const Eigen::MatrixXd shares = own.solve(across.transpose());
     std::vector<std::pair<double, Eigen::Index>> order;
     for (Eigen::Index i = 0; i < left.size(); ++i) {
       bool fits = true;
@@ -301,8 +305,7 @@ class SetSearch::Search {
         fits = fits && compatible(regressor(i), regressor(p), options_.search);
       }
       if (!fits) continue;
-      const Eigen::VectorXd x = equations_.gg(parent, i);
-      const double square = equations_.gg(i, i) - x.dot(ldlt.solve(x));
+      const double square = equations_.gg(i, i) - across.row(i).dot(shares.col(i));
       if (!(square > 1e-6 * equations_.gg(i, i))) continue;
       const double gain = regressor(i).fixed ? 2.0 * left(i) - square : left(i) * left(i) / square;
       order.emplace_back(-gain - 2.0 * regressor(i).log_prior, i);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +8,7 @@
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -48,7 +48,7 @@ Eigen::VectorXd left_of(const Analysis& a,
                         const RegressorSystem& system) {
   const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
   Eigen::VectorXd left =
-      system.e - system.by_setting.leftCols(machine) * model.setting_change.head(machine);
+      system.e - linear::product(system.by_setting.leftCols(machine), model.setting_change.head(machine));
   for (std::size_t k = 0; k < model.regressors.size(); ++k) {
     const Regressor& d = a.system.regressors[static_cast<std::size_t>(model.regressors[k])];
     // A drift, a skip or a miscount belongs to its session; play belongs to the machine, but shows

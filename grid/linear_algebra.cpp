@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/linear_algebra.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "grid/linear_algebra_kernels.hpp"
+#include "grid/precondition.hpp"
+
+namespace chaintrue::grid {
+
+const kernels::Table* kernels::avx2_here() {
+#ifdef CHAINTRUE_HAS_AVX2
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return &avx2;
+#endif
+  return nullptr;
+}
+
+const kernels::Table& kernels::chosen() {
+  static const Table& best = []() -> const Table& {
+    const char* const asked = std::getenv("CHAINTRUE_BASELINE");
+    const bool is_baseline = asked != nullptr && std::string_view(asked) == "1";
+    const Table* const fast = is_baseline ? nullptr : avx2_here();
+    return fast != nullptr ? *fast : baseline;
+  }();
+  return best;
+}
+
+namespace linear {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+template <class Dense>
+kernels::Input input(const Dense& a) {
+  return {a.data(), a.rows(), a.cols(), a.outerStride()};
+}
+kernels::Input input(Transposed a) {
+  kernels::Input result = input(a.of);
+  result.transposed = true;
+  return result;
+}
+template <class Dense>
+kernels::Output output(Dense& c) {
+  return {c.data(), c.rows(), c.cols(), c.outerStride()};
+}
+
+Eigen::Index rows_of(const kernels::Input& a) { return a.transposed ? a.columns : a.rows; }
+Eigen::Index columns_of(const kernels::Input& a) { return a.transposed ? a.rows : a.columns; }
+
+void add(kernels::Output c, double scale, const kernels::Input& a, const kernels::Input& b) {
+  if (c.rows != rows_of(a) || c.columns != columns_of(b) || columns_of(a) != rows_of(b)) {
+    throw precondition("a product {} x {} of {} x {} and {} x {}",
+                       c.rows,
+                       c.columns,
+                       rows_of(a),
+                       columns_of(a),
+                       rows_of(b),
+                       columns_of(b));
+  }
+  if (c.rows > 0 && c.columns > 0 && columns_of(a) > 0) kernels::chosen().add_product(c, scale, a, b);
+}
+
+MatrixXd product_of(const kernels::Input& a, const kernels::Input& b) {
+  MatrixXd c = MatrixXd::Zero(rows_of(a), columns_of(b));
+  add(output(c), 1.0, a, b);
+  return c;
+}
+
+VectorXd vector_of(const kernels::Input& a, const kernels::Input& x) {
+  VectorXd y = VectorXd::Zero(rows_of(a));
+  add(output(y), 1.0, a, x);
+  return y;
+}
+
+/// c += scale a a', of a symmetric c
+void add_square(MatrixXd& c, double scale, const kernels::Input& a) {
+  if (c.rows() != rows_of(a) || c.cols() != rows_of(a)) {
+    throw precondition(
+        "{} x {} and a square of {} x {}", c.rows(), c.cols(), rows_of(a), rows_of(a));
+  }
+  if (c.size() == 0 || columns_of(a) == 0) return;
+  kernels::chosen().add_square(output(c), scale, a);
+  for (Eigen::Index k = 1; k < c.cols(); ++k) c.col(k).head(k) = c.row(k).head(k).transpose();
+}
+
+MatrixXd square(const kernels::Input& a, double diagonal) {
+  MatrixXd c = MatrixXd::Zero(rows_of(a), rows_of(a));
+  c.diagonal().setConstant(diagonal);
+  add_square(c, 1.0, a);
+  return c;
+}
+
+void solve_triangle(const MatrixXd& lower, bool transposed, kernels::Output x) {
+  if (lower.rows() != x.rows) {
+    throw precondition("{} equations of {} unknowns", x.rows, lower.rows());
+  }
+  if (x.rows == 0 || x.columns == 0) return;
+  kernels::Input l = input(lower);
+  l.transposed = transposed;
+  kernels::chosen().solve_triangle(l, x);
+}
+
+}  // namespace
+
+MatrixXd product(const MatrixArgument& a, const MatrixArgument& b) {
+  return product_of(input(a), input(b));
+}
+MatrixXd product(const MatrixArgument& a, Transposed b) { return product_of(input(a), input(b)); }
+MatrixXd product(Transposed a, const MatrixArgument& b) { return product_of(input(a), input(b)); }
+VectorXd product(const MatrixArgument& a, const VectorArgument& x) {
+  return vector_of(input(a), input(x));
+}
+VectorXd product(Transposed a, const VectorArgument& x) { return vector_of(input(a), input(x)); }
+
+void add_product(Eigen::Ref<MatrixXd> c, double scale, const MatrixArgument& a, const MatrixArgument& b) {
+  add(output(c), scale, input(a), input(b));
+}
+void add_product(Eigen::Ref<MatrixXd> c, double scale, const MatrixArgument& a, Transposed b) {
+  add(output(c), scale, input(a), input(b));
+}
+void add_product(Eigen::Ref<MatrixXd> c, double scale, Transposed a, const MatrixArgument& b) {
+  add(output(c), scale, input(a), input(b));
+}
+void add_product(Eigen::Ref<VectorXd> y, double scale, const MatrixArgument& a, const VectorArgument& x) {
+  add(output(y), scale, input(a), input(x));
+}
+void add_product(Eigen::Ref<VectorXd> y, double scale, Transposed a, const VectorArgument& x) {
+  add(output(y), scale, input(a), input(x));
+}
+
+MatrixXd gram(const MatrixArgument& a) { return square(input(transposed(a)), 0.0); }
+MatrixXd outer(const MatrixArgument& a) { return square(input(a), 0.0); }
+MatrixXd one_plus_gram(const MatrixArgument& a) { return square(input(transposed(a)), 1.0); }
+MatrixXd one_plus_outer(const MatrixArgument& a) { return square(input(a), 1.0); }
+
+void add_gram(MatrixXd& c, double scale, const MatrixArgument& a) {
+  add_square(c, scale, input(transposed(a)));
+}
+void add_outer(MatrixXd& c, double scale, const MatrixArgument& a) { add_square(c, scale, input(a)); }
+void add_outer(MatrixXd& c, double scale, const VectorArgument& x) {
+  if (c.rows() != x.size() || c.cols() != x.size()) {
+    throw precondition("{} x {} and a square of {} x {}", c.rows(), c.cols(), x.size(), x.size());
+  }
+  for (Eigen::Index k = 0; k < x.size(); ++k) c.col(k) += (scale * x[k]) * x;
+}
+
+MatrixXd carried(const MatrixArgument& a, const MatrixArgument& c) {
+  return product(product(a, c), transposed(a));
+}
+
+MatrixXd scaled_columns(const MatrixArgument& a, const VectorArgument& s) {
+  return a * s.asDiagonal();
+}
+
+Cholesky::Cholesky(MatrixXd matrix) : lower_(std::move(matrix)) {
+  if (lower_.rows() != lower_.cols())
+    throw precondition("a symmetric matrix of {} x {}", lower_.rows(), lower_.cols());
+  if (lower_.size() == 0) return;
+  is_positive_definite_ = kernels::chosen().factorise(output(lower_));
+  for (Eigen::Index k = 0; k < lower_.cols(); ++k) {
+    is_positive_definite_ = is_positive_definite_ && std::isfinite(lower_(k, k)) && lower_(k, k) > 0.0;
+    lower_.col(k).head(k).setZero();
+  }
+}
+
+MatrixXd Cholesky::solve(const MatrixArgument& b) const {
+  MatrixXd x = b;
+  solve_triangle(lower_, false, output(x));
+  solve_triangle(lower_, true, output(x));
+  return x;
+}
+VectorXd Cholesky::solve(const VectorArgument& b) const {
+  VectorXd x = b;
+  solve_triangle(lower_, false, output(x));
+  solve_triangle(lower_, true, output(x));
+  return x;
+}
+MatrixXd Cholesky::half_solve(const MatrixArgument& b) const {
+  MatrixXd x = b;
+  solve_triangle(lower_, false, output(x));
+  return x;
+}
+VectorXd Cholesky::half_solve(const VectorArgument& b) const {
+  VectorXd x = b;
+  solve_triangle(lower_, false, output(x));
+  return x;
+}
+void Cholesky::half_solve_in_place(Eigen::Ref<MatrixXd> b) const {
+  solve_triangle(lower_, false, output(b));
+}
+MatrixXd Cholesky::inverse() const { return solve(MatrixXd(MatrixXd::Identity(size(), size()))); }
+MatrixXd Cholesky::root_of_inverse() const {
+  MatrixXd x = MatrixXd::Identity(size(), size());
+  solve_triangle(lower_, true, output(x));
+  return x;
+}
+double Cholesky::log_det() const { return 2.0 * lower_.diagonal().array().log().sum(); }
+
+PivotedCholesky::PivotedCholesky(const MatrixXd& matrix) {
+  const Eigen::LDLT<MatrixXd> ldlt(matrix);
+  triangle_ = ldlt.matrixLDLT();
+  exchanged_ = ldlt.transpositionsP();
+}
+
+MatrixXd PivotedCholesky::solve(const MatrixArgument& b) const {
+  MatrixXd x = exchanged_ * b;
+  const auto l = triangle_.triangularView<Eigen::UnitLower>();
+  l.solveInPlace(x);
+  for (Eigen::Index k = 0; k < x.rows(); ++k) {
+    const double own = triangle_(k, k);
+    if (std::abs(own) > std::numeric_limits<double>::min()) {
+      x.row(k) /= own;
+    } else {
+      x.row(k).setZero();
+    }
+  }
+  l.adjoint().solveInPlace(x);
+  return exchanged_.transpose() * x;
+}
+VectorXd PivotedCholesky::solve(const VectorArgument& b) const { return solve(MatrixXd(b)); }
+MatrixXd PivotedCholesky::inverse() const {
+  return solve(MatrixXd(MatrixXd::Identity(triangle_.rows(), triangle_.rows())));
+}
+
+MatrixXd PivotedCholesky::root(double least) const {
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index k = 0; k < triangle_.rows(); ++k) {
+    if (triangle_(k, k) > least) columns.push_back(k);
+  }
+  const MatrixXd lower = triangle_.triangularView<Eigen::UnitLower>();
+  const VectorXd scale = triangle_.diagonal()(columns).cwiseSqrt();
+  const MatrixXd kept = lower(Eigen::all, columns);
+  return exchanged_.transpose() * scaled_columns(kept, scale);
+}
+
+MatrixXd covariance_root(const MatrixXd& covariance) {
+  const SymmetricEigen parts(covariance);
+  const VectorXd scale = parts.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  return scaled_columns(parts.eigenvectors(), scale);
+}
+
+Tridiagonal::Tridiagonal(MatrixXd matrix)
+    : reflections_(std::move(matrix)), diagonal_(reflections_.rows()) {
+  const Eigen::Index n = reflections_.rows();
+  if (n == 0) return;
+  coefficients_.resize(n - 1);
+  subdiagonal_.resize(n - 1);
+  kernels::chosen().tridiagonalise(
+      output(reflections_), coefficients_.data(), diagonal_.data(), subdiagonal_.data());
+}
+
+void Tridiagonal::rotate_in_place(MatrixXd& x) const {
+  if (x.rows() != reflections_.rows())
+    throw precondition("{} rows to rotate, of {}", x.rows(), reflections_.rows());
+  if (x.size() == 0) return;
+  kernels::chosen().rotate(input(reflections_), coefficients_.data(), output(x));
+}
+
+Qr qr(const MatrixXd& a) {
+  const Eigen::HouseholderQR<MatrixXd> factor(a);
+  return {factor.householderQ(), factor.matrixQR().topRows(a.cols()).triangularView<Eigen::Upper>()};
+}
+
+MatrixXd orthonormal_columns(const MatrixXd& a) {
+  if (a.size() == 0) return MatrixXd::Zero(a.rows(), a.cols());
+  return Eigen::HouseholderQR<MatrixXd>(a).householderQ() * MatrixXd::Identity(a.rows(), a.cols());
+}
+
+MatrixXd upper_triangle(const MatrixXd& a) {
+  return Eigen::HouseholderQR<MatrixXd>(a).matrixQR().topRows(a.cols()).triangularView<Eigen::Upper>();
+}
+
+Range range_of(const MatrixXd& a, double least) {
+  Eigen::ColPivHouseholderQR<MatrixXd> factor(a);
+  if (least > 0.0) factor.setThreshold(least);
+  const MatrixXd q = factor.householderQ();
+  return {q.leftCols(factor.rank()), q.rightCols(a.rows() - factor.rank())};
+}
+
+MatrixXd least_squares(const MatrixXd& a, const MatrixArgument& b) {
+  return Eigen::CompleteOrthogonalDecomposition<MatrixXd>(a).solve(MatrixXd(b));
+}
+VectorXd least_squares(const MatrixXd& a, const VectorArgument& b) {
+  return least_squares(a, MatrixXd(b));
+}
+
+ThinSvd thin_svd(const MatrixXd& a) {
+  if (a.size() == 0) return {MatrixXd(a.rows(), 0), VectorXd(0)};
+  const auto parts = [](const auto& svd) { return ThinSvd{svd.matrixU(), svd.singularValues()}; };
+  ThinSvd result = parts(Eigen::BDCSVD<MatrixXd>(a, Eigen::ComputeThinU));
+  // Of finite matrices with singular values that are nearly equal Eigen 3.4.0's division makes NaN;
+  // rotations are slower and do not.
+  if (!result.u.allFinite() || !result.values.allFinite())
+    result = parts(Eigen::JacobiSVD<MatrixXd>(a, Eigen::ComputeThinU));
+  return result;
+}
+
+MatrixXd inverse(const MatrixXd& a) { return a.inverse(); }
+
+}  // namespace linear
+}  // namespace chaintrue::grid

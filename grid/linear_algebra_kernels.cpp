@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Compiled once for each table (tools/cmake/linear_algebra.cmake), CHAINTRUE_KERNELS its name. Nothing
+// from the standard library but what Eigen takes from it, nothing from the project but the tables.
+#include "grid/linear_algebra_kernels.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+namespace chaintrue::grid::kernels {
+namespace {
+
+using Columns = Eigen::OuterStride<>;
+using ConstMatrix = Eigen::Map<const Eigen::MatrixXd, Eigen::Unaligned, Columns>;
+using Matrix = Eigen::Map<Eigen::MatrixXd, Eigen::Unaligned, Columns>;
+using Vector = Eigen::Map<Eigen::VectorXd>;
+using ConstVector = Eigen::Map<const Eigen::VectorXd>;
+
+ConstMatrix stored(const Input& a) { return {a.data, a.rows, a.columns, Columns(a.stride)}; }
+Matrix stored(const Output& a) { return {a.data, a.rows, a.columns, Columns(a.stride)}; }
+
+/// Below this sum of dimensions packing costs more than it saves.
+constexpr std::ptrdiff_t kFew = 20;
+
+/// Entries of the operand itself, not of what is stored.
+struct Entries {
+  explicit Entries(const Input& a)
+      : data(a.data),
+        rows(a.transposed ? a.columns : a.rows),
+        columns(a.transposed ? a.rows : a.columns),
+        by_row(a.transposed ? a.stride : 1),
+        by_column(a.transposed ? 1 : a.stride) {}
+  double operator()(std::ptrdiff_t i, std::ptrdiff_t k) const {
+    return data[i * by_row + k * by_column];
+  }
+  const double* data;
+  std::ptrdiff_t rows, columns, by_row, by_column;
+};
+
+/// c += scale a b, from the diagonal on down where c is symmetric.
+void add_few(Output c, double scale, const Entries& a, const Entries& b, bool symmetric) {
+  for (std::ptrdiff_t j = 0; j < c.columns; ++j) {
+    for (std::ptrdiff_t i = symmetric ? j : 0; i < c.rows; ++i) {
+      double sum = 0.0;
+      for (std::ptrdiff_t k = 0; k < a.columns; ++k) sum += a(i, k) * b(k, j);
+      c.data[i + j * c.stride] += scale * sum;
+    }
+  }
+}
+
+/// Eigen's own entry for products that are not few: it scales without a temporary, and takes one
+/// column or row as a vector.
+template <class Left, class Right>
+void add_many(Output c, double scale, const Left& a, const Right& b) {
+  Matrix sum = stored(c);
+  Eigen::internal::generic_product_impl<Left,
+                                        Right,
+                                        Eigen::DenseShape,
+                                        Eigen::DenseShape,
+                                        Eigen::GemmProduct>::scaleAndAddTo(sum, a, b, scale);
+}
+
+void add_product(Output c, double scale, Input a, Input b) {
+  const Entries left(a);
+  if (c.rows + c.columns + left.columns < kFew) {
+    add_few(c, scale, left, Entries(b), false);
+  } else if (a.transposed) {
+    add_many(c, scale, stored(a).transpose(), stored(b));
+  } else if (b.transposed) {
+    add_many(c, scale, stored(a), stored(b).transpose());
+  } else {
+    add_many(c, scale, stored(a), stored(b));
+  }
+}
+
+void add_square(Output c, double scale, Input a) {
+  const Entries left(a);
+  if (2 * c.rows + left.columns < kFew) {
+    Input b = a;
+    b.transposed = !a.transposed;
+    add_few(c, scale, left, Entries(b), true);
+    return;
+  }
+  Matrix sum = stored(c);
+  if (a.transposed) {
+    sum.selfadjointView<Eigen::Lower>().rankUpdate(stored(a).transpose(), scale);
+  } else {
+    sum.selfadjointView<Eigen::Lower>().rankUpdate(stored(a), scale);
+  }
+}
+
+bool factorise(Output a) {
+  Matrix matrix = stored(a);
+  return Eigen::internal::llt_inplace<double, Eigen::Lower>::blocked(matrix) < 0;
+}
+
+template <class Unknown>
+void solve(const Input& l, Unknown x) {
+  if (l.transposed) {
+    stored(l).transpose().triangularView<Eigen::Upper>().solveInPlace(x);
+  } else {
+    stored(l).triangularView<Eigen::Lower>().solveInPlace(x);
+  }
+}
+
+void solve_triangle(Input l, Output x) {
+  if (x.columns == 1) {
+    solve(l, Vector(x.data, x.rows));
+  } else {
+    solve(l, stored(x));
+  }
+}
+
+void tridiagonalise(Output a, double* reflections, double* diagonal, double* subdiagonal) {
+  Matrix matrix = stored(a);
+  Vector coefficients(reflections, a.rows - 1);
+  Eigen::internal::tridiagonalization_inplace(matrix, coefficients);
+  Vector(diagonal, a.rows) = matrix.diagonal();
+  Vector(subdiagonal, a.rows - 1) = matrix.diagonal<-1>();
+}
+
+void rotate(Input a, const double* reflections, Output x) {
+  const ConstMatrix matrix = stored(a);
+  const ConstVector coefficients(reflections, a.rows - 1);
+  Matrix rotated = stored(x);
+  Eigen::VectorXd work(x.columns);
+  Eigen::HouseholderSequence<ConstMatrix, ConstVector>(matrix, coefficients)
+      .setLength(a.rows - 1)
+      .setShift(1)
+      .adjoint()
+      .applyThisOnTheLeft(rotated, work);
+}
+
+}  // namespace
+
+const Table CHAINTRUE_KERNELS = {
+    add_product, add_square, factorise, solve_triangle, tridiagonalise, rotate};
+
+}  // namespace chaintrue::grid::kernels

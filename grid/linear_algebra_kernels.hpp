@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What grid/linear_algebra.hpp spends its time in, compiled for several processors. Only raw
+/// pointers pass: the translation units behind the tables share no template with any other, so the
+/// linker cannot put code for one processor in the place of code for another
+/// (tests/layers/kernel_symbols.py).
+#pragma once
+
+#include <cstddef>
+
+namespace chaintrue::grid::kernels {
+
+/// Column major, `stride` numbers from one column to the next.
+struct Input {
+  const double* data = nullptr;
+  std::ptrdiff_t rows = 0;
+  std::ptrdiff_t columns = 0;
+  std::ptrdiff_t stride = 0;
+  bool transposed = false;  ///< stands for its transpose; rows and columns are those stored
+};
+
+struct Output {
+  double* data = nullptr;
+  std::ptrdiff_t rows = 0;
+  std::ptrdiff_t columns = 0;
+  std::ptrdiff_t stride = 0;
+};
+
+struct Table {
+  /// c += scale a b, of which not both are transposed
+  void (*add_product)(Output c, double scale, Input a, Input b);
+  /// The lower triangle of c += scale a a'
+  void (*add_square)(Output c, double scale, Input a);
+  /// Replaces the lower triangle by its Cholesky factor L. \returns whether every pivot was positive.
+  bool (*factorise)(Output a);
+  /// x = l^-1 x, l a lower triangle or its transpose
+  void (*solve_triangle)(Input l, Output x);
+  /// a = Q J Q' of which the lower triangle is read; Q as reflections stays in `a` and `reflections`
+  /// (n - 1), J as its diagonal (n) and subdiagonal (n - 1).
+  void (*tridiagonalise)(Output a, double* reflections, double* diagonal, double* subdiagonal);
+  /// x = Q' x
+  void (*rotate)(Input a, const double* reflections, Output x);
+};
+
+extern const Table baseline;
+extern const Table avx2;  ///< with FMA; only of builds for x86-64
+
+/// Null where this processor has no AVX2 and FMA, or the build no code for them.
+[[nodiscard]] const Table* avx2_here();
+/// The best for this processor; the baseline where CHAINTRUE_BASELINE=1 stands in the environment.
+[[nodiscard]] const Table& chosen();
+
+}  // namespace chaintrue::grid::kernels

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/linear_algebra.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "grid/linear_algebra_kernels.hpp"
+#include "grid/synthetic/random.hpp"
+
+namespace chaintrue::grid::linear {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::uint64_t kSeed = 47;
+// Sums of up to 300 products of numbers near one round by some 1e-14, and a solution by that times
+// its matrix's condition, below a thousand here.
+constexpr double kRounding = 1e-10;
+// Few enough for plain loops, one block of the kernels, and several with a remainder.
+constexpr Index kSizes[] = {0, 1, 2, 3, 7, 31, 150};
+
+MatrixXd random_matrix(Index rows, Index columns, synthetic::Random& random) {
+  MatrixXd matrix(rows, columns);
+  for (Index k = 0; k < columns; ++k) {
+    for (Index i = 0; i < rows; ++i) matrix(i, k) = random.normal();
+  }
+  return matrix;
+}
+
+MatrixXd random_definite(Index n, synthetic::Random& random) {
+  const MatrixXd root = random_matrix(n, n, random);
+  return MatrixXd::Identity(n, n) + root * root.transpose() / std::max<double>(1.0, static_cast<double>(n));
+}
+
+double largest(const MatrixXd& matrix) {
+  return matrix.size() == 0 ? 0.0 : matrix.cwiseAbs().maxCoeff();
+}
+
+void expect_near(const MatrixXd& a, const MatrixXd& b) {
+  ASSERT_EQ(a.rows(), b.rows());
+  ASSERT_EQ(a.cols(), b.cols());
+  EXPECT_LT(largest(a - b), kRounding);
+}
+
+MatrixXd identity(Index n) { return MatrixXd::Identity(n, n); }
+
+/// The sum that a product is.
+MatrixXd plain_product(const MatrixXd& a, const MatrixXd& b) {
+  MatrixXd c = MatrixXd::Zero(a.rows(), b.cols());
+  for (Index i = 0; i < c.rows(); ++i) {
+    for (Index j = 0; j < c.cols(); ++j) {
+      for (Index k = 0; k < a.cols(); ++k) c(i, j) += a(i, k) * b(k, j);
+    }
+  }
+  return c;
+}
+
+TEST(LinearProduct, IsTheSumOfProducts) {
+  SCOPED_TRACE(kSeed);
+  synthetic::Random random(kSeed);
+  for (const Index n : kSizes) {
+    for (const Index m : {Index{0}, Index{1}, Index{5}, Index{40}}) {
+      SCOPED_TRACE(testing::Message() << n << " x " << m);
+      const MatrixXd a = random_matrix(n, m, random);
+      const MatrixXd b = random_matrix(m, 9, random);
+      const VectorXd x = random_matrix(m, 1, random);
+      const MatrixXd c = plain_product(a, b);
+      expect_near(product(a, b), c);
+      const MatrixXd at = a.transpose();
+      const MatrixXd bt = b.transpose();
+      expect_near(product(transposed(at), b), c);
+      expect_near(product(a, transposed(bt)), c);
+      expect_near(product(a, x), plain_product(a, x));
+      expect_near(product(transposed(at), x), plain_product(a, x));
+      expect_near(gram(a), plain_product(at, a));
+      expect_near(outer(a), plain_product(a, at));
+      expect_near(one_plus_gram(a), identity(m) + plain_product(at, a));
+      expect_near(one_plus_outer(a), identity(n) + plain_product(a, at));
+      expect_near(carried(a, outer(b)), plain_product(c, c.transpose()));
+    }
+  }
+}
+
+TEST(LinearProduct, AddsToABlockFromBlocks) {
+  SCOPED_TRACE(kSeed);
+  synthetic::Random random(kSeed);
+  const MatrixXd a = random_matrix(20, 30, random);
+  const MatrixXd b = random_matrix(40, 12, random);
+  const MatrixXd before = random_matrix(16, 14, random);
+  MatrixXd c = before;
+  add_product(c.block(2, 3, 10, 8), -0.5, a.middleRows(4, 10), b.block(5, 1, 30, 8));
+  MatrixXd wanted = before;
+  wanted.block(2, 3, 10, 8) -= 0.5 * plain_product(a.middleRows(4, 10), b.block(5, 1, 30, 8));
+  expect_near(c, wanted);
+  VectorXd y = before.col(0);
+  add_product(y.head(10), 2.0, transposed(b.topLeftCorner(20, 10)), a.col(7));
+  VectorXd wanted_y = before.col(0);
+  wanted_y.head(10) += 2.0 * plain_product(b.topLeftCorner(20, 10).transpose(), a.col(7));
+  expect_near(y, wanted_y);
+  MatrixXd symmetric = outer(before);
+  add_outer(symmetric, 0.3, a.topRows(16));
+  add_outer(symmetric, -0.1, VectorXd(a.col(0).head(16)));
+  expect_near(symmetric,
+              plain_product(before, before.transpose()) +
+                  0.3 * plain_product(a.topRows(16), a.topRows(16).transpose()) -
+                  0.1 * plain_product(a.col(0).head(16), a.col(0).head(16).transpose()));
+}
+
+TEST(LinearProduct, RefusesSizesThatDoNotFit) {
+  MatrixXd a = MatrixXd::Zero(2, 3);
+  const VectorXd x = VectorXd::Zero(2);
+  EXPECT_THROW(static_cast<void>(product(a, a)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(product(a, x)), std::invalid_argument);
+  EXPECT_THROW(add_outer(a, 1.0, x), std::invalid_argument);
+  EXPECT_THROW(Cholesky{a}, std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(Cholesky(identity(3)).solve(x)), std::invalid_argument);
+}
+
+TEST(Cholesky, FactorsSolvesAndInverts) {
+  SCOPED_TRACE(kSeed);
+  synthetic::Random random(kSeed);
+  for (const Index n : kSizes) {
+    SCOPED_TRACE(n);
+    const MatrixXd m = random_definite(n, random);
+    const Cholesky factor(m);
+    ASSERT_TRUE(factor.is_positive_definite());
+    const MatrixXd& l = factor.lower();
+    expect_near(plain_product(l, l.transpose()), m);
+    EXPECT_EQ(largest(l.triangularView<Eigen::StrictlyUpper>().toDenseMatrix()), 0.0);
+    const MatrixXd b = random_matrix(n, 4, random);
+    const VectorXd x = random_matrix(n, 1, random);
+    expect_near(plain_product(m, factor.solve(b)), b);
+    expect_near(plain_product(m, factor.solve(x)), x);
+    expect_near(plain_product(l, factor.half_solve(b)), b);
+    expect_near(plain_product(l, factor.half_solve(x)), x);
+    MatrixXd in_place(n, 6);
+    in_place.leftCols(4) = b;
+    in_place.rightCols(2).setOnes();
+    factor.half_solve_in_place(in_place.leftCols(4));
+    expect_near(in_place.leftCols(4), factor.half_solve(b));
+    EXPECT_EQ(largest(in_place.rightCols(2) - MatrixXd::Ones(n, 2)), 0.0);
+    expect_near(plain_product(m, factor.inverse()), identity(n));
+    const MatrixXd root = factor.root_of_inverse();
+    expect_near(plain_product(root, root.transpose()), factor.inverse());
+    EXPECT_NEAR(factor.log_det(), SymmetricEigen(m).eigenvalues().array().log().sum(), kRounding);
+  }
+}
+
+TEST(Cholesky, SaysWhatIsNotPositiveDefinite) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const Index n : {Index{1}, Index{3}, Index{100}}) {
+    for (const double pivot : {0.0, -1.0, kNan}) {
+      MatrixXd m = identity(n);
+      m(n - 1, n - 1) = pivot;
+      EXPECT_FALSE(Cholesky(m).is_positive_definite()) << n << ", " << pivot;
+    }
+  }
+  EXPECT_TRUE(Cholesky().is_positive_definite());
+}
+
+TEST(PivotedCholesky, SolvesWhatIsSemidefinite) {
+  SCOPED_TRACE(kSeed);
+  synthetic::Random random(kSeed);
+  for (const Index n : {Index{0}, Index{1}, Index{5}, Index{20}}) {
+    SCOPED_TRACE(n);
+    const MatrixXd m = random_definite(n, random);
+    const PivotedCholesky factor(m);
+    const MatrixXd b = random_matrix(n, 3, random);
+    const VectorXd x = random_matrix(n, 1, random);
+    expect_near(plain_product(m, factor.solve(b)), b);
+    expect_near(plain_product(m, factor.solve(x)), x);
+    expect_near(plain_product(m, factor.inverse()), identity(n));
+    const MatrixXd root = factor.root(0.0);
+    expect_near(plain_product(root, root.transpose()), m);
+  }
+  // An unknown that nothing says anything of stays 0.
+  MatrixXd m = identity(3);
+  m(1, 1) = 0.0;
+  expect_near(PivotedCholesky(m).solve(VectorXd(VectorXd::Ones(3))), Eigen::Vector3d(1.0, 0.0, 1.0));
+  EXPECT_EQ(PivotedCholesky(m).root(0.5).cols(), 2);
+}
+
+TEST(CovarianceRoot, SquaredIsTheCovariance) {
+  SCOPED_TRACE(kSeed);
+  synthetic::Random random(kSeed);
+  for (const Index n : kSizes) {
+    const MatrixXd thin = random_matrix(n, n / 2, random);
+    const MatrixXd covariance = plain_product(thin, thin.transpose());
+    const MatrixXd root = covariance_root(covariance);
+    EXPECT_TRUE(root.allFinite());
+    expect_near(plain_product(root, root.transpose()), covariance);
+  }
+}
+
+TEST(Tridiagonal, TurnsBackToTheMatrix) {
+  SCOPED_TRACE(kSeed);
+  synthetic::Random random(kSeed);
+  for (const Index n : kSizes) {
+    SCOPED_TRACE(n);
+    const MatrixXd m = random_definite(n, random);
+    const Tridiagonal turned(m);
+    MatrixXd q = identity(n);
+    turned.rotate_in_place(q);  // Q'
+    expect_near(plain_product(q, q.transpose()), identity(n));
+    MatrixXd j = MatrixXd::Zero(n, n);
+    for (Index k = 0; k < n; ++k) {
+      j(k, k) = turned.diagonal()[k];
+      if (k > 0) j(k, k - 1) = j(k - 1, k) = turned.subdiagonal()[k - 1];
+    }
+    expect_near(plain_product(q.transpose(), plain_product(j, q)), m);
+  }
+}
+
+TEST(Qr, ColumnsAreOrthonormalAndSpanTheMatrix) {
+  SCOPED_TRACE(kSeed);
+  synthetic::Random random(kSeed);
+  for (const Index n : {Index{1}, Index{4}, Index{30}, Index{120}}) {
+    for (const Index m : {Index{0}, Index{1}, std::min<Index>(n, 7)}) {
+      SCOPED_TRACE(testing::Message() << n << " x " << m);
+      const MatrixXd a = random_matrix(n, m, random);
+      const Qr parts = qr(a);
+      expect_near(plain_product(parts.q.transpose(), parts.q), identity(n));
+      expect_near(plain_product(parts.q.leftCols(m), parts.r), a);
+      expect_near(orthonormal_columns(a), parts.q.leftCols(m));
+      expect_near(upper_triangle(a), parts.r);
+    }
+  }
+}
+
+TEST(Range, SplitsTheSpaceAtTheRank) {
+  SCOPED_TRACE(kSeed);
+  synthetic::Random random(kSeed);
+  const MatrixXd a = plain_product(random_matrix(12, 3, random), random_matrix(3, 5, random));
+  const Range found = range_of(a);
+  ASSERT_EQ(found.range.cols(), 3);
+  ASSERT_EQ(found.rest.cols(), 9);
+  expect_near(plain_product(found.range, plain_product(found.range.transpose(), a)), a);
+  expect_near(plain_product(found.rest.transpose(), a), MatrixXd::Zero(9, 5));
+  MatrixXd scaled = identity(4);
+  scaled(3, 3) = 1e-6;
+  EXPECT_EQ(range_of(scaled).range.cols(), 4);
+  EXPECT_EQ(range_of(scaled, 1e-4).range.cols(), 3);
+}
+
+TEST(LeastSquares, LeavesWhatIsOrthogonalAndIsShortest) {
+  SCOPED_TRACE(kSeed);
+  synthetic::Random random(kSeed);
+  const MatrixXd full = random_matrix(20, 4, random);
+  const MatrixXd flat = plain_product(random_matrix(20, 2, random), random_matrix(2, 4, random));
+  for (const MatrixXd& a : {full, flat}) {
+    const VectorXd b = random_matrix(20, 1, random);
+    const VectorXd x = least_squares(a, b);
+    expect_near(plain_product(a.transpose(), b - a * x), MatrixXd::Zero(4, 1));
+    // Shortest: nothing of it lies where A sees nothing.
+    const MatrixXd unseen = range_of(a.transpose()).rest;
+    expect_near(plain_product(unseen.transpose(), x), MatrixXd::Zero(unseen.cols(), 1));
+    const MatrixXd two = random_matrix(20, 2, random);
+    expect_near(least_squares(a, two).col(1), least_squares(a, VectorXd(two.col(1))));
+  }
+}
+
+TEST(ThinSvd, HasTheEigenvaluesOfTheSquare) {
+  SCOPED_TRACE(kSeed);
+  synthetic::Random random(kSeed);
+  for (const Index m : {Index{0}, Index{1}, Index{6}, Index{25}}) {
+    SCOPED_TRACE(m);
+    const MatrixXd a = random_matrix(40, m, random);
+    const ThinSvd parts = thin_svd(a);
+    expect_near(plain_product(parts.u.transpose(), parts.u), identity(m));
+    const MatrixXd scaled = scaled_columns(parts.u, parts.values.cwiseAbs2());
+    expect_near(plain_product(scaled, parts.u.transpose()), plain_product(a, a.transpose()));
+  }
+}
+
+TEST(Inverse, UndoesTheMatrix) {
+  SCOPED_TRACE(kSeed);
+  synthetic::Random random(kSeed);
+  const MatrixXd a = random_definite(5, random) + 0.1 * random_matrix(5, 5, random);
+  expect_near(plain_product(a, inverse(a)), identity(5));
+}
+
+/// What a table makes of the same input, one after another in a column.
+VectorXd answers_of(const kernels::Table& table, Index n) {
+  synthetic::Random random(kSeed);
+  const MatrixXd a = random_matrix(n, n, random);
+  const MatrixXd b = random_matrix(n, 5, random);
+  const MatrixXd m = random_definite(n, random);
+  const auto input = [](const MatrixXd& of, bool transposed = false) {
+    return kernels::Input{of.data(), of.rows(), of.cols(), of.outerStride(), transposed};
+  };
+  const auto output = [](MatrixXd& of) {
+    return kernels::Output{of.data(), of.rows(), of.cols(), of.outerStride()};
+  };
+  std::vector<MatrixXd> all;
+  for (const bool is_transposed : {false, true}) {
+    MatrixXd c = b;
+    table.add_product(output(c), 0.7, input(a, is_transposed), input(b));
+    MatrixXd square = m;
+    table.add_square(output(square), -0.2, input(a, is_transposed));
+    all.insert(all.end(), {c, square.triangularView<Eigen::Lower>()});
+  }
+  MatrixXd outer = m;
+  table.add_product(output(outer), 1.0, input(b), input(b, true));
+  MatrixXd factor = m;
+  EXPECT_TRUE(table.factorise(output(factor)));
+  for (const bool is_transposed : {false, true}) {
+    MatrixXd x = b;
+    table.solve_triangle(input(factor, is_transposed), output(x));
+    MatrixXd one = b.col(0);
+    table.solve_triangle(input(factor, is_transposed), output(one));
+    all.insert(all.end(), {x, one});
+  }
+  MatrixXd turned = m;
+  VectorXd coefficients(n - 1), diagonal(n), subdiagonal(n - 1);
+  table.tridiagonalise(output(turned), coefficients.data(), diagonal.data(), subdiagonal.data());
+  MatrixXd rotated = b;
+  table.rotate(input(turned), coefficients.data(), output(rotated));
+  all.insert(all.end(),
+             {outer, factor.triangularView<Eigen::Lower>(), diagonal, subdiagonal, rotated});
+  Index size = 0;
+  for (const MatrixXd& one : all) size += one.size();
+  VectorXd result(size);
+  Index at = 0;
+  for (const MatrixXd& one : all) {
+    result.segment(at, one.size()) = one.reshaped();
+    at += one.size();
+  }
+  return result;
+}
+
+TEST(Kernels, AgreeWithTheBaseline) {
+  const kernels::Table* const fast = kernels::avx2_here();
+  if (fast == nullptr) GTEST_SKIP() << "no AVX2 here";
+  SCOPED_TRACE(kSeed);
+  for (const Index n : {Index{1}, Index{2}, Index{5}, Index{8}, Index{33}, Index{100}, Index{257}}) {
+    SCOPED_TRACE(n);
+    const VectorXd slow = answers_of(kernels::baseline, n);
+    // 1e-9 is what the answers of a program may differ by from one processor to another.
+    EXPECT_LT(largest((answers_of(*fast, n) - slow).array() / slow.array().abs().max(1.0)), 1e-9);
+    EXPECT_EQ(answers_of(*fast, n), answers_of(*fast, n));
+  }
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::linear
