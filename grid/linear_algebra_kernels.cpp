@@ -111,10 +111,14 @@ void solve_triangle(Input l, Output x) {
   }
 }
 
+/// On copies: Eigen's product of a symmetric matrix and a vector sums in an order that hangs on the
+/// address, and its own memory begins at multiples of a packet.
 void tridiagonalise(Output a, double* reflections, double* diagonal, double* subdiagonal) {
-  Matrix matrix = stored(a);
-  Vector coefficients(reflections, a.rows - 1);
+  Eigen::MatrixXd matrix = stored(a);
+  Eigen::VectorXd coefficients(a.rows - 1);
   Eigen::internal::tridiagonalization_inplace(matrix, coefficients);
+  stored(a) = matrix;
+  Vector(reflections, a.rows - 1) = coefficients;
   Vector(diagonal, a.rows) = matrix.diagonal();
   Vector(subdiagonal, a.rows - 1) = matrix.diagonal<-1>();
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/belts/belt_map.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "model/calibration/sheet_placement.hpp"
@@ -233,7 +233,7 @@ MechanismMap map_of(const BeltsFit& fit,
   // Level spans: how a belt slants is no news of an error.
   MechanismSpread spread{placing.at(unknowns, BeltLengths::span), {}};
   const Eigen::MatrixXd covariance = covariance_of(fit, holes);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
+  const linear::SymmetricEigen eigen(covariance);
   for (Eigen::Index i = 0; i < unknowns.size(); ++i) {
     const double variance = eigen.eigenvalues()[i];
     // Below this a direction adds less than rounding to what the others say.

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/holes_estimate.hpp"
 #include "grid/belts/taped_state.hpp"
+#include "grid/linear_algebra.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/precondition.hpp"
 #include "grid/statistics.hpp"
@@ -97,13 +97,13 @@ Eigen::MatrixXd posterior(const HolesEstimate& frame,
     by_unknown.rightCols(moved) = g;
   }
   const TapedMarginal now = marginal(frame, sets, state, state.noise, state.counting);
-  const Eigen::MatrixXd cross = prior * by_unknown.transpose();
+  const Eigen::MatrixXd cross = linear::product(prior, linear::transposed(by_unknown));
   if (smooth) {
-    const Eigen::VectorXd mean = cross * (now.inverse * now.residual_mm);
+    const Eigen::VectorXd mean = linear::product(cross, linear::product(now.inverse, now.residual_mm));
     displacement = DisplacementParts{
         state.noise.size_mm, state.noise.reach_mm, state.rows.marks, mean.tail(moved)};
   }
-  return prior - cross * now.inverse * cross.transpose();
+  return prior - linear::carried(cross, now.inverse);
 }
 
 /// Where the edges say that the first set's sheet lies.
@@ -114,7 +114,7 @@ std::optional<Eigen::Vector3d> sheet_by_edges(const std::vector<BeltHoles>& sets
   if (!measured.knows_x || !measured.knows_y || !measured.knows_rotation) return std::nullopt;
   const Eigen::MatrixXd c = belts::taped_covariance(sets, state.rows, state.noise, state.counting);
   const auto own = static_cast<Eigen::Index>(first.distances.size());
-  const Eigen::VectorXd weighed = c.llt().solve(state.rows.residual_mm).head(own);
+  const Eigen::VectorXd weighed = linear::Cholesky(c).solve(state.rows.residual_mm).head(own);
   const Eigen::Vector3d along = state.rows.by_sheet.topRows(own).transpose() * weighed;
   return belts::sheet_variance().cwiseProduct(along);
 }

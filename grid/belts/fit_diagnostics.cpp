@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/belts/fit_diagnostics.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/estimation/reading_shifts.hpp"
+#include "grid/linear_algebra.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::belts {
@@ -62,11 +62,8 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
     Block block{*std::move(line), {}, {}, !own.distances.empty()};
     const Eigen::MatrixXd weighed =
         block.line.by_position.transpose() * block.line.weight.asDiagonal();
-    const Eigen::Index positions = block.line.by_position.cols();
-    block.inverse = (weighed * block.line.by_position)
-                        .llt()
-                        .solve(Eigen::MatrixXd::Identity(positions, positions));
-    block.by_unknown = block.inverse * (weighed * block.line.by_parameter);
+    block.inverse = linear::Cholesky(linear::product(weighed, block.line.by_position)).inverse();
+    block.by_unknown = linear::product(block.inverse, linear::product(weighed, block.line.by_parameter));
     precision_ += block.precision();
     for (std::size_t p = 0; p < own.places.size(); ++p) {
       const std::size_t point = readings.readings()[own.places[p]].index;
@@ -79,7 +76,7 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
     }
     blocks_.push_back(std::move(block));
   }
-  covariance_ = precision_.ldlt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
+  covariance_ = linear::PivotedCholesky(precision_).inverse();
   add_unplaced(belts);
   equations_.distance_residual.resize(static_cast<Eigen::Index>(belts.distances.size()));
   for (std::size_t i = 0; i < belts.distances.size(); ++i) {
@@ -182,7 +179,8 @@ BeltResidual FitDiagnostics::residual(std::size_t point, Belt belt) const {
 
 AnchorVector FitDiagnostics::anchors_without(std::size_t point) const {
   const Block& block = blocks_[slots_[point].value().block];
-  const Eigen::VectorXd change = (precision_ - block.precision()).ldlt().solve(-block.gradient());
+  const Eigen::VectorXd change =
+      linear::PivotedCholesky(precision_ - block.precision()).solve(-block.gradient());
   return frame_.state.anchors + change.head<kAnchorUnknowns>();
 }
 

@@ -63,7 +63,7 @@ constexpr model::MechanismReason kNowhere{"circles_do_not_meet",
 }  // namespace
 
 HoleDistances::HoleDistances(const std::vector<BeltHoles>& sets, const Eigen::MatrixXd& covariance)
-    : sets_(&sets), root_(covariance) {
+    : sets_(&sets), covariance_(covariance) {
   measured_ = Eigen::VectorXd::Zero(covariance.rows());
   for (Eigen::Index row = 0; row < covariance.rows(); ++row)
     units_.push_back({row, 1, static_cast<std::size_t>(row)});
@@ -73,7 +73,7 @@ tl::expected<Eigen::VectorXd, observation::Unreachable> HoleDistances::predicted
     const observation::View& view) const {
   const auto rows = rows_about(*sets_, *view.mechanism);
   if (!rows) return tl::unexpected(observation::Unreachable(kNowhere, 0));
-  return Eigen::VectorXd(-root_.matrixL().solve(rows->residual_mm));
+  return Eigen::VectorXd(-covariance_.half_solve(rows->residual_mm));
 }
 
 tl::expected<observation::Linearisation, observation::Unreachable> HoleDistances::linearise(
@@ -81,8 +81,8 @@ tl::expected<observation::Linearisation, observation::Unreachable> HoleDistances
   const auto rows = rows_about(*sets_, *view.mechanism);
   if (!rows) return tl::unexpected(observation::Unreachable(kNowhere, 0));
   observation::Linearisation result;
-  result.predicted = -root_.matrixL().solve(rows->residual_mm);
-  result.by_setting = columns.parameters ? Eigen::MatrixXd(root_.matrixL().solve(rows->by_frame))
+  result.predicted = -covariance_.half_solve(rows->residual_mm);
+  result.by_setting = columns.parameters ? covariance_.half_solve(rows->by_frame)
                                          : Eigen::MatrixXd(rows->residual_mm.size(), 0);
   result.by_nuisance.resize(rows->residual_mm.size(), 0);
   result.units.assign(units_.size(), {Eigen::MatrixXd::Identity(1, 1), {}});

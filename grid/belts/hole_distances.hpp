@@ -11,11 +11,11 @@
 /// so that rows are independent although distances that end at one hole are not.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <optional>
 #include <vector>
 
 #include "grid/belts/belt_holes.hpp"
+#include "grid/linear_algebra.hpp"
 #include "grid/observation/observation.hpp"
 
 namespace chaintrue::grid::belts {
@@ -55,7 +55,7 @@ class HoleDistances final : public observation::Observation {
 
  private:
   const std::vector<BeltHoles>* sets_;
-  Eigen::LLT<Eigen::MatrixXd> root_;  ///< L
+  linear::Cholesky covariance_;
 };
 
 }  // namespace chaintrue::grid::belts

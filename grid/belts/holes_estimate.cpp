@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/belts/holes_estimate.hpp"
 
-#include <Eigen/Cholesky>
-
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/belts_and_holes.hpp"
+#include "grid/linear_algebra.hpp"
 #include "model/belts/belt_mechanism.hpp"
 
 namespace chaintrue::grid::belts {
@@ -43,7 +42,7 @@ Eigen::MatrixXd taped_covariance(const std::vector<BeltHoles>& sets,
     for (const Eigen::Index axis : {0, 1}) {
       const Eigen::MatrixXd by_axis =
           rows.by_mark(Eigen::all, Eigen::seq(axis, Eigen::last, Eigen::fix<2>));
-      covariance += noise.size_mm * noise.size_mm * by_axis * kernel * by_axis.transpose();
+      covariance += noise.size_mm * noise.size_mm * linear::carried(by_axis, kernel);
     }
   }
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -76,8 +75,7 @@ WithoutHoles HolesEstimate::without_holes(const FrameState& state) const {
     const Eigen::MatrixXd& own = result.view->precision();
     precision.topLeftCorner(own.rows(), own.cols()) += own;
   }
-  result.covariance =
-      precision.ldlt().solve(Eigen::MatrixXd::Identity(kFrameUnknowns, kFrameUnknowns));
+  result.covariance = linear::PivotedCholesky(precision).inverse();
   return result;
 }
 
@@ -97,9 +95,10 @@ std::optional<FrameState> HolesEstimate::converged_about_known(
   for (int pass = 0; pass < kMostPasses; ++pass) {
     const auto rows = taped_rows(sets_, state.anchors, state.log_scale);
     if (!rows) return std::nullopt;
-    const Eigen::MatrixXd gain = *known_ * rows->by_frame.transpose();
+    const Eigen::MatrixXd gain = linear::product(*known_, linear::transposed(rows->by_frame));
+    const linear::PivotedCholesky whole(covariance + linear::product(rows->by_frame, gain));
     const Eigen::VectorXd change =
-        gain * (covariance + rows->by_frame * gain).ldlt().solve(about_the_belts(*rows, state));
+        linear::product(gain, whole.solve(about_the_belts(*rows, state)));
     const AnchorVector anchors = alone_.state.anchors + change.head<kAnchorUnknowns>();
     const double moved_mm = (anchors - state.anchors).cwiseAbs().maxCoeff();
     state.anchors = anchors;

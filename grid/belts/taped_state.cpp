@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/belts/taped_state.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "grid/estimation/estimate.hpp"
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::belts {
 
@@ -19,14 +19,13 @@ TapedMarginal marginal(const HolesEstimate& frame,
   TapedMarginal result;
   result.counting = counting;
   result.residual_mm = frame.about_the_belts(at.rows, at.frame);
-  const Eigen::Index count = result.residual_mm.size();
-  const Eigen::MatrixXd v =
+  const linear::Cholesky covariance(
       taped_covariance(sets, at.rows, noise, counting) +
-      at.rows.by_frame * at.without_holes.covariance * at.rows.by_frame.transpose();
-  const Eigen::LLT<Eigen::MatrixXd> factor(v);
-  result.inverse = factor.solve(Eigen::MatrixXd::Identity(count, count));
-  result.log_likelihood = -0.5 * result.residual_mm.dot(result.inverse * result.residual_mm) -
-                          factor.matrixLLT().diagonal().array().log().sum();
+      linear::carried(at.rows.by_frame, at.without_holes.covariance));
+  result.inverse = covariance.inverse();
+  result.log_likelihood =
+      -0.5 * (result.residual_mm.dot(linear::product(result.inverse, result.residual_mm)) +
+              covariance.log_det());
   return result;
 }
 

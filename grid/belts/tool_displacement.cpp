@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/belts/tool_displacement.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid {
@@ -35,7 +35,7 @@ ToolDisplacement::ToolDisplacement(DisplacementParts parts) : parts_(std::move(p
   constexpr double kSamePlace = 1e-8;
   Eigen::MatrixXd kernel = displacement_kernel(parts_.places, parts_.places, parts_.reach_mm);
   kernel.diagonal().array() += kSamePlace;
-  inverse_ = kernel.llt().solve(Eigen::MatrixXd::Identity(count, count));
+  inverse_ = linear::Cholesky(std::move(kernel)).inverse();
   Eigen::MatrixX2d at(count, 2);
   for (Eigen::Index i = 0; i < count; ++i) at.row(i) = parts_.at_mm.segment<2>(2 * i).transpose();
   weights_mm_ = inverse_ * at;

@@ -79,4 +79,17 @@ Eigen::VectorXd KeptRows::operator()(const Eigen::VectorXd& all) const {
   return kept;
 }
 
+Eigen::MatrixXd KeptRows::of(const linear::MatrixArgument& all) const {
+  Eigen::MatrixXd kept(size(), all.cols());
+  for (Eigen::Index column = 0; column < all.cols(); ++column) {
+    const auto from = all.col(column);
+    for (Eigen::Index k = 0; k < kept.rows(); ++k) kept(k, column) = from[rows_[index(k)]];
+    for (const Unit& unit : units_) {
+      if (unit.across)
+        kept(unit.at, column) = *unit.across * from.segment<2>(rows_[index(unit.at)]);
+    }
+  }
+  return kept;
+}
+
 }  // namespace chaintrue::grid::diagnosis

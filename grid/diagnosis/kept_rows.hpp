@@ -17,6 +17,8 @@
 #include <optional>
 #include <vector>
 
+#include "grid/linear_algebra.hpp"
+
 namespace chaintrue::grid::diagnosis {
 
 struct RegressorSystem;
@@ -42,14 +44,7 @@ class KeptRows {
   [[nodiscard]] const std::vector<Unit>& units() const { return units_; }
 
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& all) const;
-  template <class Matrix>
-  [[nodiscard]] Eigen::MatrixXd of(const Matrix& all) const {
-    Eigen::MatrixXd kept = all(rows_, Eigen::all);
-    for (const Unit& unit : units_) {
-      if (unit.across) kept.row(unit.at) = *unit.across * all.middleRows(rows_[index(unit.at)], 2);
-    }
-    return kept;
-  }
+  [[nodiscard]] Eigen::MatrixXd of(const linear::MatrixArgument& all) const;
   /// What is kept of a block of a unit's rows.
   [[nodiscard]] static Eigen::MatrixXd of_unit(const Unit& unit, const Eigen::MatrixXd& block) {
     return unit.across ? Eigen::MatrixXd(*unit.across * block) : block;

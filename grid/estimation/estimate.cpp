@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/estimate.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 #include "grid/estimation/estimator.hpp"
 #include "grid/estimation/left_out.hpp"
 #include "grid/estimation/unknowns.hpp"
+#include "grid/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -155,8 +155,8 @@ tl::expected<void, EstimationFailure> Estimator::approach() {
   begin_weights();
   const auto square_at = [](const interp::PenalisedProblem& problem, const Eigen::VectorXd& x) {
     const Eigen::VectorXd off = x - problem.prior_mean;
-    return (problem.response - problem.design * x).squaredNorm() +
-           off.dot(problem.prior_precision * off);
+    return (problem.response - linear::product(problem.design, x)).squaredNorm() +
+           off.dot(linear::product(problem.prior_precision, off));
   };
   interp::PenalisedProblem now = problem_->weighted(weights_);
   double square = square_at(now, state_.settings);
@@ -164,11 +164,12 @@ tl::expected<void, EstimationFailure> Estimator::approach() {
   is_linearised_ = true;
   for (int step = 0; step < kMostSteps && damping <= kLargestDamping; ++step) {
     Eigen::MatrixXd normal = now.gram + now.prior_precision;
-    const Eigen::VectorXd downhill =
-        now.moment + now.prior_precision * now.prior_mean - normal * state_.settings;
+    const Eigen::VectorXd downhill = now.moment +
+                                     linear::product(now.prior_precision, now.prior_mean) -
+                                     linear::product(normal, state_.settings);
     normal.diagonal() += damping * now.gram.diagonal();
     State next = state_;
-    next.settings += normal.ldlt().solve(downhill);
+    next.settings += linear::PivotedCholesky(normal).solve(downhill);
     is_linearised_ = next.settings.allFinite() && problem_->linearise(next).has_value();
     if (is_linearised_) {
       interp::PenalisedProblem there = problem_->weighted(weights_);

@@ -2,7 +2,8 @@
 /// Notation as in the header.
 #include "grid/estimation/free_sheet.hpp"
 
-#include <Eigen/LU>
+#include "grid/linear_algebra.hpp"
+
 
 namespace chaintrue::grid::estimation {
 namespace {
@@ -46,16 +47,15 @@ Eigen::VectorXd alongside(const PlacesOnSheet& places) {
 void add_free_directions(const PlacesOnSheet& places, FreeDirections& free) {
   if (places.free_columns.empty()) return;
   const Eigen::MatrixXd motion = whole_motion(places.commanded)(places.free_rows, Eigen::all);
-  const Eigen::MatrixXd by_unknown = motion * places.by_unknown;
-  const Eigen::MatrixXd inverse =
-      Eigen::MatrixXd(by_unknown(Eigen::all, places.free_columns)).inverse();
-  Eigen::MatrixXd following = -inverse * by_unknown;
+  const Eigen::MatrixXd by_unknown = linear::product(motion, places.by_unknown);
+  const Eigen::MatrixXd inverse = linear::inverse(by_unknown(Eigen::all, places.free_columns));
+  Eigen::MatrixXd following = -linear::product(inverse, by_unknown);
   following(Eigen::all, places.free_columns).setZero();
   const Eigen::Index before = free.constant.size();
   const Eigen::Index more = following.rows();
   free.columns.insert(free.columns.end(), places.free_columns.begin(), places.free_columns.end());
   free.constant.conservativeResize(before + more);
-  free.constant.tail(more) = -inverse * (motion * (alongside(places) - places.moved));
+  free.constant.tail(more) = -linear::product(inverse, linear::product(motion, alongside(places) - places.moved));
   free.following.conservativeResize(before + more, following.cols());
   free.following.bottomRows(more) = following;
 }
@@ -65,8 +65,9 @@ std::vector<MarkPoint> placed_as_a_whole(const PlacesOnSheet& places) {
   if (places.free_columns.empty()) return marks;
   const Eigen::MatrixXd motion = whole_motion(places.commanded)(places.free_rows, Eigen::all);
   const Eigen::MatrixXd by_free = places.by_unknown(Eigen::all, places.free_columns);
-  const Eigen::MatrixXd of_whole = motion * by_free;
-  const Eigen::VectorXd shift = -by_free * of_whole.inverse() * (motion * alongside(places));
+  const Eigen::MatrixXd inverse = linear::inverse(linear::product(motion, by_free));
+  const Eigen::VectorXd shift = -linear::product(
+      by_free, linear::product(inverse, linear::product(motion, alongside(places))));
   for (std::size_t i = 0; i < marks.size(); ++i) {
     const auto at = 2 * static_cast<Eigen::Index>(i);
     marks[i].x_mm += shift[at];

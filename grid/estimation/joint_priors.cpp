@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The problem that a fit is asked: weighted rows, and what is known beforehand.
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "grid/estimation/joint_problem.hpp"
 #include "grid/estimation/unknowns.hpp"
+#include "grid/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -56,11 +56,9 @@ void JointProblem::add_settings_prior(interp::PenalisedProblem& problem) const {
     std::vector<Eigen::Index> own;
     for (Eigen::Index i = 0; i < unknowns_->parameters(); ++i) own.push_back(i);
     for (Eigen::Index i = 0; i < unknowns_->scales(); ++i) own.push_back(unknowns_->settings() + i);
-    const auto known = static_cast<Eigen::Index>(own.size());
-    const Eigen::MatrixXd inverse =
-        input_.knowledge->covariance.llt().solve(Eigen::MatrixXd::Identity(known, known));
+    const Eigen::MatrixXd inverse = linear::Cholesky(input_.knowledge->covariance).inverse();
     precision(own, own) = inverse;
-    pull(own) = inverse * input_.knowledge->mean;
+    pull(own) = linear::product(inverse, input_.knowledge->mean);
   }
   for (Eigen::Index i = 0; i < sure_design_.rows(); ++i) {
     const Eigen::RowVectorXd row = sure_design_.row(i).head(count);
@@ -71,7 +69,7 @@ void JointProblem::add_settings_prior(interp::PenalisedProblem& problem) const {
   // No reading of the machine touches the scales: without more knowledge they stand apart.
   const Eigen::Index coupled = input_.knowledge ? count : unknowns_->settings();
   problem.prior_mean.head(coupled) =
-      precision.topLeftCorner(coupled, coupled).ldlt().solve(pull.head(coupled));
+      linear::PivotedCholesky(precision.topLeftCorner(coupled, coupled)).solve(pull.head(coupled));
 }
 
 /// Sheets other than the first, zeros of other sessions, and nuisances. Those of the noise are rows of data: the noise factor

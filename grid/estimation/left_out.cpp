@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/left_out.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <stdexcept>
+
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::estimation {
 namespace {
@@ -46,22 +46,19 @@ void LeftOut::prepare_units() {
 
 void LeftOut::prepare_all() {
   if (by_root_.size() > 0) return;
-  const Eigen::LLT<Eigen::MatrixXd> factor(fit_.covariance);
-  if (factor.info() == Eigen::Success) {
-    by_root_ = problem_.design() * factor.matrixL();
-    return;
-  }
+  const linear::Cholesky factor(fit_.covariance);
   // Positive but for rounding.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(fit_.covariance);
-  by_root_ = problem_.design() * parts.eigenvectors() *
-             parts.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  by_root_ = linear::product(problem_.design(),
+                             factor.is_positive_definite()
+                                 ? factor.lower()
+                                 : linear::covariance_root(fit_.covariance));
 }
 
 Eigen::MatrixXd LeftOut::spread_of(std::size_t unit) const {
   if (!spreads_.empty()) return spreads_[unit];
   if (by_root_.size() == 0) {
     const Eigen::MatrixXd design = rows_of(unit);
-    return design * fit_.covariance * design.transpose();
+    return linear::carried(design, fit_.covariance);
   }
   const SystemUnit& own = problem_.units()[unit];
   const auto root = by_root_.middleRows(own.first_row, own.rows);
@@ -92,7 +89,7 @@ LeftOut::Conditioned LeftOut::conditioned(std::size_t unit) const {
     if (const auto rest = fit_without({unit})) {
       const Eigen::MatrixXd rows = rows_of(unit);
       Conditioned conditioned{response_of(unit) - rows * rest->coefficients,
-                rows * rest->covariance * rows.transpose()};
+                linear::carried(rows, rest->covariance)};
       conditioned.covariance.diagonal().array() += fit_.sigma2;
       return conditioned;
     }
@@ -163,16 +160,15 @@ Eigen::MatrixXd LeftOut::covariance(std::size_t unit) const {
   const Eigen::MatrixXd noise =
       fit_.sigma2 * Eigen::MatrixXd::Identity(spread.rows(), spread.rows());
   if (weight > 0.0) {
-    const Eigen::MatrixXd kept = noise - weight * spread;
-    const Eigen::LLT<Eigen::MatrixXd> factor(kept);
-    if (factor.info() == Eigen::Success) spread = noise * factor.solve(spread);
+    const linear::Cholesky kept(noise - weight * spread);
+    if (kept.is_positive_definite()) spread = fit_.sigma2 * kept.solve(spread);
   }
   return noise + spread;
 }
 
 double LeftOut::distance(std::size_t unit) const {
   const Eigen::VectorXd residual = this->residual(unit);
-  return std::sqrt(residual.dot(covariance(unit).ldlt().solve(residual)));
+  return std::sqrt(residual.dot(linear::PivotedCholesky(covariance(unit)).solve(residual)));
 }
 
 }  // namespace chaintrue::grid::estimation

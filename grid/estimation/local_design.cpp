@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "grid/linear_algebra.hpp"
+
 namespace chaintrue::grid::estimation {
 
 using model::Side;
@@ -77,16 +79,16 @@ void LocalDesign::add_rows(const Eigen::VectorXd& response,
       ++problem.rows;
     }
   }
-  const Eigen::MatrixXd turned = gram.selfadjointView<Eigen::Lower>() * to_unknowns_;
-  problem.gram.triangularView<Eigen::Lower>() += to_unknowns_.transpose() * turned;
+  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+  linear::add_product(
+      problem.gram, 1.0, linear::transposed(to_unknowns_), linear::product(gram, to_unknowns_));
+  // Symmetric but for rounding.
   problem.gram.triangularView<Eigen::StrictlyUpper>() = problem.gram.transpose();
-  problem.moment.noalias() += to_unknowns_.transpose() * moment;
+  linear::add_product(problem.moment, 1.0, linear::transposed(to_unknowns_), moment);
 }
 
 std::vector<Eigen::MatrixXd> LocalDesign::spreads(const Eigen::MatrixXd& covariance) const {
-  const Eigen::MatrixXd turned = to_unknowns_ * covariance;
-  Eigen::MatrixXd local(to_unknowns_.rows(), to_unknowns_.rows());
-  local.noalias() = turned * to_unknowns_.transpose();
+  const Eigen::MatrixXd local = linear::carried(to_unknowns_, covariance);
   std::vector<Eigen::MatrixXd> result;
   result.reserve(units_.size());
   for (const SystemUnit& unit : units_) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/observed_subspace.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
+#include "grid/linear_algebra.hpp"
+
 
 namespace chaintrue::grid {
 namespace {
@@ -11,13 +11,13 @@ namespace {
 /// P + c Pi = L L', the inverse of L L' is the pseudo-inverse and Pi / c: R = (1 - Pi) L^-T.
 Eigen::MatrixXd bending_root(const Eigen::MatrixXd& penalty, const Eigen::MatrixXd& polynomials) {
   const Eigen::Index size = penalty.rows();
-  const Eigen::MatrixXd orthonormal =
-      Eigen::HouseholderQR<Eigen::MatrixXd>(polynomials).householderQ() *
-      Eigen::MatrixXd::Identity(size, polynomials.cols());
+  const Eigen::MatrixXd orthonormal = linear::orthonormal_columns(polynomials);
   const double scale = penalty.trace() / static_cast<double>(size);
-  const Eigen::LLT<Eigen::MatrixXd> factor(penalty + scale * orthonormal * orthonormal.transpose());
-  Eigen::MatrixXd root = factor.matrixU().solve(Eigen::MatrixXd::Identity(size, size));
-  root -= orthonormal * (orthonormal.transpose() * root);
+  Eigen::MatrixXd bent = penalty;
+  linear::add_outer(bent, scale, orthonormal);
+  Eigen::MatrixXd root = linear::Cholesky(std::move(bent)).root_of_inverse();
+  linear::add_product(
+      root, -1.0, orthonormal, linear::product(linear::transposed(orthonormal), root));
   return root;
 }
 
@@ -51,12 +51,11 @@ ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis,
   }
   // The rows are T' Q': the columns of Q are what the points see, the rest of the space what they
   // do not.
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(bend_rows_.transpose());
-  const Eigen::MatrixXd turned = root * qr.householderQ();
+  const linear::Qr parts = linear::qr(bend_rows_.transpose());
+  const Eigen::MatrixXd turned = linear::product(root, parts.q);
   penalised_basis_ = turned.leftCols(points);
   null_space_ = turned.rightCols(size - points);
-  bend_rows_ =
-      Eigen::MatrixXd(qr.matrixQR().topRows(points).triangularView<Eigen::Upper>()).transpose();
+  bend_rows_ = parts.r.transpose();
 }
 
 }  // namespace chaintrue::grid

@@ -13,7 +13,7 @@ void PlacementNormal::add_prior(const model::SheetPlacement& at,
   right_ -= precision.cwiseProduct(Eigen::Vector3d(at.x_mm, at.y_mm, at.rotation_rad));
 }
 
-Eigen::Vector3d PlacementNormal::solve() const { return normal_.ldlt().solve(right_); }
+Eigen::Vector3d PlacementNormal::solve() const { return Eigen::LDLT<Eigen::Matrix3d>(normal_).solve(right_); }
 
 model::SheetPlacement fit_placement(const LinearisedAt& linearised,
                                     const std::optional<observation::SheetPrior>& prior) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/reading_shifts.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::estimation {
 namespace {
@@ -24,11 +25,8 @@ double deleted_deviate(double r, double kept, double s2, double dof) {
 
 Eigen::MatrixXd without_readings(const SystemUnit& unit,
                                  const std::vector<Eigen::Index>& rejected) {
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(unit.rows, unit.rows);
-  if (rejected.empty()) return basis;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> taken(unit.by_reading(Eigen::all, rejected));
-  basis = taken.householderQ() * basis;
-  return basis.rightCols(unit.rows - taken.rank());
+  if (rejected.empty()) return Eigen::MatrixXd::Identity(unit.rows, unit.rows);
+  return linear::range_of(unit.by_reading(Eigen::all, rejected)).rest;
 }
 
 ReadingShift shift_of(const FittedRows& rows,

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -20,12 +21,10 @@ UnitWhitening::UnitWhitening(const Eigen::MatrixXd& covariance) {
   if (n == 1) {
     matrix_ = Matrix::Constant(1, 1, 1.0 / std::sqrt(covariance(0, 0)));
   } else if (n == 2) {
-    const Eigen::Matrix2d lower = Eigen::Matrix2d(covariance).llt().matrixL();
+    const Eigen::Matrix2d lower = Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL();
     matrix_ = lower.inverse();
   } else {
-    matrix_ = Eigen::MatrixXd(covariance.llt().matrixL())
-                  .triangularView<Eigen::Lower>()
-                  .solve(Eigen::MatrixXd::Identity(n, n));
+    matrix_ = linear::Cholesky(covariance).half_solve(Eigen::MatrixXd::Identity(n, n));
   }
 }
 

@@ -105,7 +105,7 @@ std::optional<Slope> slope_of(const std::vector<MeasuredPoint>& points, const Ge
   }
   constexpr double kThinnest = 1e-4;  // width to length, squared: a 1 : 100 strip spans no plane
   if (spread.determinant() <= kThinnest * spread.trace() * spread.trace()) return std::nullopt;
-  const Eigen::Vector2d slope = spread.ldlt().solve(together);
+  const Eigen::Vector2d slope = Eigen::LDLT<Eigen::Matrix2d>(spread).solve(together);
   return Slope{slope.x(), slope.y()};
 }
 

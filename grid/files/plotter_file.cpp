@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 
 #include "grid/files/plotter_record.hpp"
 #include "grid/files/provenance_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -38,7 +38,7 @@ void check_correlations(const Cursor& at, FoundPlotter& found) {
     of_ones.row(i) /= scale[i];
     of_ones.col(i) /= scale[i];
   }
-  if (Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(of_ones).eigenvalues().minCoeff() >= -kRounding)
+  if (linear::SymmetricEigen(of_ones).eigenvalues().minCoeff() >= -kRounding)
     return;
   at.problems().add(at.pointer() + "/correlations",
                     "numbers that no six quantities can have",

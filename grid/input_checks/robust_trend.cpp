@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/input_checks/robust_trend.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::input_checks {
@@ -75,7 +75,7 @@ RobustTrend robust_trend(const Eigen::MatrixXd& basis,
       count += static_cast<double>(components);
     }
     if (count == 0.0) break;
-    trend.coefficients = normal.ldlt().solve(right);
+    trend.coefficients = linear::PivotedCholesky(normal).solve(right);
     trend.scale_mm = std::max(kLeastScaleMm, std::sqrt(sum / count));
     take_residuals();
   }

@@ -2,11 +2,12 @@
 /// Notation as in the header; q, the changed quantities of a hypothesis.
 #include "grid/map/check_evidence.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
+
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -161,10 +162,6 @@ class Evidence {
   }
 
  private:
-  static double log_root_det(const Eigen::LLT<Eigen::MatrixXd>& factor) {
-    return factor.matrixLLT().diagonal().array().log().sum();
-  }
-
   /// (2) or (3) of log|V|^1/2 and r' V^-1 r.
   [[nodiscard]] double log_density(double log_root, double square) const {
     const double nu = readings_.noise_dof;
@@ -184,10 +181,10 @@ class Evidence {
     const Eigen::MatrixXd& precision = precision_[unit];
     Eigen::MatrixXd m = kOutlierSigmaMm * kOutlierSigmaMm * precision;
     m.diagonal().array() += 1.0;
-    const Eigen::LLT<Eigen::MatrixXd> factor(m);
+    const linear::Cholesky factor(std::move(m));
     const Eigen::VectorXd conditioned =
         kOutlierSigmaMm * pulled_.segment(first_row_[unit], precision.rows());
-    return log_density(nothing_.log_root_det() + log_root_det(factor),
+    return log_density(nothing_.log_root_det() + 0.5 * factor.log_det(),
                        residual_.squaredNorm() - conditioned.dot(factor.solve(conditioned)));
   }
 
@@ -197,16 +194,14 @@ class Evidence {
                                   : Eigen::VectorXd(residual_ - nothing_.conditioned(proposal.mean));
     if (proposal.by_q.cols() == 0) return log_density(nothing_.log_root_det(), y.squaredNorm());
     const Eigen::MatrixXd u = nothing_.conditioned(proposal.by_q * proposal.sigma.asDiagonal());
-    Eigen::MatrixXd m = u.transpose() * u;
-    m.diagonal().array() += 1.0;
-    const Eigen::LLT<Eigen::MatrixXd> factor(m);
-    const Eigen::VectorXd by_y = u.transpose() * y;
+    const linear::Cholesky factor(linear::one_plus_gram(u));
+    const Eigen::VectorXd by_y = linear::product(linear::transposed(u), y);
     const Eigen::VectorXd taken = factor.solve(by_y);
-    const double value = log_density(nothing_.log_root_det() + log_root_det(factor),
+    const double value = log_density(nothing_.log_root_det() + 0.5 * factor.log_det(),
                                      y.squaredNorm() - by_y.dot(taken));
     const Eigen::VectorXd q = proposal.sigma.cwiseProduct(taken);
     const Eigen::MatrixXd covariance = proposal.sigma.asDiagonal() *
-                                       factor.solve(Eigen::MatrixXd::Identity(m.rows(), m.cols())) *
+                                       factor.inverse() *
                                        proposal.sigma.asDiagonal();
     return value + take_posterior(proposal, q, covariance);
   }

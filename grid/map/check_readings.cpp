@@ -151,7 +151,7 @@ class Gathered {
     }
     if (at_.covariance.empty()) return;
     // The map's own doubt at the hole, which all of its distances share.
-    const Eigen::Matrix2d root = at_.covariance[first + hole].llt().matrixL();
+    const Eigen::Matrix2d root = Eigen::LLT<Eigen::Matrix2d>(at_.covariance[first + hole]).matrixL();
     const Eigen::RowVector2d found = by_length * root;
     const auto holes = 2 * static_cast<Eigen::Index>(set.holes.size());
     for (Eigen::Index axis = 0; axis < 2; ++axis)

@@ -3,16 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
+#include "grid/linear_algebra.hpp"
+
 
 namespace chaintrue::grid {
 namespace {
-
-/// F with C = F F'. Positive but for rounding.
-Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(covariance);
-  return parts.eigenvectors() * parts.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-}
 
 void name_rows(const observation::BeltLengthReadings& observed,
                const model::Mechanism& mechanism,
@@ -67,7 +62,7 @@ tl::expected<CheckReadings, CheckFailure> readings_of(
   }
   readings.by_length.setFromTriplets(by_length.begin(), by_length.end());
   readings.covariance.shared.resize(observed.rows(), 0);
-  readings.covariance.of_map = narrowed(readings.by_parameter * root_of(fitted.covariance));
+  readings.covariance.of_map = narrowed(readings.by_parameter * linear::covariance_root(fitted.covariance));
   readings.changes = fitted.mechanism->possible_changes();
   name_rows(observed, *fitted.mechanism, readings);
   return readings;

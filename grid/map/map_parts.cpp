@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -19,7 +19,7 @@ Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& covariance) {
   Eigen::MatrixXd lifted = 0.5 * (covariance + covariance.transpose());
   lifted.diagonal() *= 1.0 + kJitter;
   lifted.diagonal().array() += 1e-18;
-  return lifted.llt().matrixL();
+  return linear::Cholesky(std::move(lifted)).lower();
 }
 
 }  // namespace

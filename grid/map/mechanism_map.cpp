@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/map/mechanism_map.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <utility>
+
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -34,7 +35,7 @@ MechanismMap MechanismMap::of(const FittedMechanism& fitted,
   const auto same = std::make_shared<const SameFrame>();
   const PlacedMechanism best{fitted.mechanism, same};
   MechanismSpread spread{best, {}};
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(fitted.covariance);
+  const linear::SymmetricEigen parts(fitted.covariance);
   for (Eigen::Index i = 0; i < parts.eigenvalues().size(); ++i) {
     if (!(parts.eigenvalues()[i] > 0.0)) continue;
     spread.others.push_back(

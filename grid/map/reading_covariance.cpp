@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -16,13 +15,13 @@ namespace {
 
 /// L^-1 of a unit. Throws with the noise where it is not positive.
 Eigen::MatrixXd whitening_of_unit(const Eigen::MatrixXd& own) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(own);
-  if (factor.info() != Eigen::Success || !(own.diagonal().minCoeff() > 0.0)) {
+  const linear::Cholesky factor(own);
+  if (own.size() == 0 || !factor.is_positive_definite()) {
     throw precondition("{} readings of one unit whose least variance is {:g} mm^2",
                        own.rows(),
                        own.size() > 0 ? own.diagonal().minCoeff() : 0.0);
   }
-  return factor.matrixL().solve(Eigen::MatrixXd::Identity(own.rows(), own.cols()));
+  return factor.half_solve(Eigen::MatrixXd::Identity(own.rows(), own.cols()));
 }
 
 }  // namespace
@@ -42,7 +41,7 @@ Eigen::VectorXd ReadingCovariance::diagonal() const {
 }
 
 Eigen::MatrixXd ReadingCovariance::dense() const {
-  Eigen::MatrixXd sum = of_map * of_map.transpose();
+  Eigen::MatrixXd sum = linear::outer(of_map);
   sum += Eigen::MatrixXd(shared * shared.transpose());
   Eigen::Index row = 0;
   for (const Eigen::MatrixXd& unit : own) {
@@ -54,8 +53,7 @@ Eigen::MatrixXd ReadingCovariance::dense() const {
 
 Eigen::MatrixXd narrowed(const Eigen::MatrixXd& f) {
   if (f.cols() <= f.rows()) return f;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(f * f.transpose());
-  return parts.eigenvectors() * parts.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  return linear::covariance_root(linear::outer(f));
 }
 
 FactoredCovariance::FactoredCovariance(const ReadingCovariance& covariance) {
@@ -80,8 +78,8 @@ FactoredCovariance::FactoredCovariance(const ReadingCovariance& covariance) {
   white_.setFromTriplets(entries.begin(), entries.end());
   shared_ = white_ * covariance.shared;
   of_map_ = white_ * covariance.of_map;
-  factor_.compute(gram());
-  log_root_det_ += factor_.matrixLLT().diagonal().array().log().sum();
+  factor_ = linear::Cholesky(gram());
+  log_root_det_ += 0.5 * factor_.log_det();
 }
 
 /// M, its lower half.
@@ -93,7 +91,7 @@ Eigen::MatrixXd FactoredCovariance::gram() const {
     gram.topLeftCorner(k, k) += Eigen::MatrixXd(shared_.transpose() * shared_);
     gram.bottomLeftCorner(m, k) = (shared_.transpose() * of_map_).transpose();
   }
-  gram.bottomRightCorner(m, m).selfadjointView<Eigen::Lower>().rankUpdate(of_map_.transpose());
+  gram.bottomRightCorner(m, m) = linear::one_plus_gram(of_map_);
   return gram;
 }
 
@@ -101,7 +99,7 @@ Eigen::MatrixXd FactoredCovariance::gram() const {
 Eigen::MatrixXd FactoredCovariance::by_columns(const Eigen::MatrixXd& white) const {
   Eigen::MatrixXd result(columns(), white.cols());
   result.topRows(shared_.cols()) = shared_.transpose() * white;
-  result.bottomRows(of_map_.cols()) = of_map_.transpose() * white;
+  result.bottomRows(of_map_.cols()) = linear::product(linear::transposed(of_map_), white);
   return result;
 }
 
@@ -110,7 +108,8 @@ Eigen::MatrixXd FactoredCovariance::conditioned(const Eigen::MatrixXd& y) const 
   const Eigen::MatrixXd z = factor_.solve(by_columns(white));
   Eigen::MatrixXd result(white.rows() + z.rows(), y.cols());
   result.topRows(white.rows()) =
-      white - shared_ * z.topRows(shared_.cols()) - of_map_ * z.bottomRows(of_map_.cols());
+      white - shared_ * z.topRows(shared_.cols()) -
+      linear::product(of_map_, z.bottomRows(of_map_.cols()));
   result.bottomRows(z.rows()) = z;
   return result;
 }
@@ -133,14 +132,14 @@ std::vector<Eigen::MatrixXd> FactoredCovariance::precision_of_units() const {
     by_row.topRows(shared_.cols()) =
         Eigen::MatrixXd(shared_.middleRows(first_row, rows)).transpose();
     by_row.bottomRows(of_map_.cols()) = of_map_.middleRows(first_row, rows).transpose();
-    const Eigen::MatrixXd solved = factor_.matrixL().solve(by_row);
+    const Eigen::MatrixXd solved = factor_.half_solve(by_row);
     Eigen::Index row = 0;
     for (std::size_t u = first; u < end; ++u) {
       const Eigen::MatrixXd& white = whitening_[u];
       const auto own = solved.middleCols(row, white.rows());
       const double prior = by_row.middleCols(row, white.rows()).squaredNorm();
       // What all other readings leave open of a unit is no more than what was open before them.
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(own.transpose() * own);
+      const linear::SymmetricEigen parts(linear::gram(own));
       const Eigen::VectorXd left = (1.0 - parts.eigenvalues().array()).max(1.0 / (1.0 + prior));
       const Eigen::MatrixXd turned = parts.eigenvectors().transpose() * white;
       result.emplace_back(turned.transpose() * left.asDiagonal() * turned);

@@ -18,10 +18,11 @@
 /// Matrix Computations (2013), sections 2.1.4 and 5.3.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <vector>
+
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 
@@ -65,7 +66,7 @@ class FactoredCovariance {
   Eigen::SparseMatrix<double, Eigen::RowMajor> white_;   ///< L^-1
   Eigen::SparseMatrix<double, Eigen::RowMajor> shared_;  ///< L^-1 S
   Eigen::MatrixXd of_map_;                               ///< L^-1 F
-  Eigen::LLT<Eigen::MatrixXd> factor_;                   ///< of M
+  linear::Cholesky factor_;                              ///< of M
   double log_root_det_ = 0.0;
 };
 

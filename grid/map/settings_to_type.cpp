@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/map/settings_to_type.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/map/controller_error.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -78,10 +78,11 @@ std::optional<ControllerSettings> improved(const Machine& machine,
     prior_pull[k] =
         (*(now.*setting.value) - *(machine.controller.settings.*setting.value)) / setting.sigma;
   }
-  Eigen::MatrixXd normal = weight * by_setting.transpose() * by_setting;
-  normal.diagonal().array() += 1.0;
-  const Eigen::VectorXd right = -weight * by_setting.transpose() * *errors - prior_pull;
-  const Eigen::VectorXd step = normal.llt().solve(right);
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Identity(unknowns, unknowns);
+  linear::add_gram(normal, weight, by_setting);
+  const Eigen::VectorXd right =
+      -weight * linear::product(linear::transposed(by_setting), *errors) - prior_pull;
+  const Eigen::VectorXd step = linear::Cholesky(std::move(normal)).solve(right);
   ControllerSettings better = now;
   for (Eigen::Index k = 0; k < unknowns; ++k) {
     const FreeSetting& setting = free[static_cast<std::size_t>(k)];

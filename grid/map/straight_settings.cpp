@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/map/straight_settings.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <vector>
 
 #include "grid/chain_rows.hpp"
+#include "grid/linear_algebra.hpp"
 #include "grid/map/controller_error.hpp"
 
 namespace chaintrue::grid {
@@ -109,7 +109,7 @@ tl::expected<StraightSettings, StraightFailure> straight_settings(const Compensa
     Eigen::MatrixXd by_unknown;
     const Eigen::VectorXd errors = errors_with(places, origin->lengths, unknowns, &by_unknown);
     const Eigen::VectorXd change =
-        free * Eigen::MatrixXd(by_unknown * free).colPivHouseholderQr().solve(-errors);
+        linear::product(free, linear::least_squares(linear::product(by_unknown, free), -errors));
     if (!change.allFinite()) break;
     unknowns += change;
     converged = change.lpNorm<Eigen::Infinity>() < kConverged;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid::observation {
@@ -156,7 +157,7 @@ void BeltLengthReadings::number_rows(const Block& block, std::vector<double>& me
 /// whose size is not known beforehand.
 BeltLengthReadings::BlockRows BeltLengthReadings::rows_of_four(const BlockLine& line) const {
   const Eigen::Matrix<double, 4, 2> by_position = line.by_position;
-  const Eigen::Matrix4d q = by_position.householderQr().householderQ();
+  const Eigen::Matrix4d q = Eigen::HouseholderQR<Eigen::Matrix<double, 4, 2>>(by_position).householderQ();
   const Eigen::Matrix<double, 2, 4> checks = q.rightCols<2>().transpose();
   const double variance = noise_.length_mm * noise_.length_mm;
   return {-checks * line.residual_mm,
@@ -188,25 +189,25 @@ tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::row
         own.lengths_mm(rows) - line->residual_mm(rows),
         by_parameter,
         variance * Eigen::MatrixXd::Identity(count, count) +
-            noise_.position_mm * noise_.position_mm * by_position * by_position.transpose(),
+            noise_.position_mm * noise_.position_mm * linear::outer(by_position),
         {}};
   }
   const Eigen::VectorXd residual = root.cwiseProduct(line->residual_mm(rows));
   const Eigen::Index left = count - by_position.cols();
   BlockRows result;
   if (is_alone) {
-    const Eigen::MatrixXd q = by_position.householderQr().householderQ();
-    const Eigen::MatrixXd checks = q.rightCols(left).transpose();  // Q'
-    result = {-checks * residual, checks * by_parameter, {}, {}};
+    const Eigen::MatrixXd checks = linear::qr(by_position).q.rightCols(left).transpose();  // Q'
+    result = {-linear::product(checks, residual), linear::product(checks, by_parameter), {}, {}};
     result.by_reading = Eigen::MatrixXd::Zero(left, line->weight.size());
     result.by_reading(Eigen::all, rows) = checks;
   } else if (block.places.empty()) {
     result = {-residual, by_parameter, {}, {}};
   } else {
-    const auto q = by_position.householderQr();
-    const Eigen::VectorXd turned = q.householderQ().adjoint() * residual;
-    const Eigen::MatrixXd slopes = q.householderQ().adjoint() * by_parameter;
-    result = {-turned.tail(left), slopes.bottomRows(left), {}, {}};
+    const Eigen::MatrixXd checks = linear::qr(by_position).q.rightCols(left);  // Q
+    result = {-linear::product(linear::transposed(checks), residual),
+              linear::product(linear::transposed(checks), by_parameter),
+              {},
+              {}};
   }
   result.covariance = variance * Eigen::MatrixXd::Identity(left, left);
   return result;

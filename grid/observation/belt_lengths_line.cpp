@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/observation/belt_lengths.hpp"
 
 namespace chaintrue::grid::observation {
@@ -96,9 +96,9 @@ tl::expected<void, Unreachable> BeltLengthReadings::find_positions(const View& v
   constexpr double kConvergedMm = 1e-9;
   for (int step = 0; step < kMostSteps; ++step) {
     const Eigen::MatrixXd weighed = line.weight.asDiagonal() * line.by_position;
-    const Eigen::VectorXd move = (weighed.transpose() * line.by_position)
-                                     .ldlt()
-                                     .solve(weighed.transpose() * line.residual_mm);
+    const Eigen::VectorXd move =
+        linear::PivotedCholesky(linear::product(linear::transposed(weighed), line.by_position))
+            .solve(linear::product(linear::transposed(weighed), line.residual_mm));
     if (!move.allFinite()) break;
     std::vector<model::ToolPosition> next = line.positions;
     for (std::size_t p = 0; p < next.size(); ++p) {

@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/observation/measured.hpp"
 #include "grid/synthetic/holes.hpp"
@@ -20,8 +19,7 @@ using model::BedPoint;
 
 /// (1)
 Eigen::MatrixXd after_one_more(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after) {
-  const Eigen::MatrixXd information = 2.0 * after.inverse() - before.inverse();
-  return information.inverse();
+  return linear::inverse(2.0 * linear::inverse(after) - linear::inverse(before));
 }
 
 /// Rms of measured less intended distances between the holes.
@@ -109,10 +107,10 @@ double true_error_mm(const model::Machine& truth,
   }
   const auto count = static_cast<Eigen::Index>(errors.size());
   const Eigen::Map<const Eigen::VectorXd> all(errors.data(), count);
-  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> whole(
-      rigid.data(), count, 3);
-  const Eigen::VectorXd left =
-      all - whole * Eigen::MatrixXd(whole).colPivHouseholderQr().solve(Eigen::VectorXd(all));
+  const Eigen::MatrixXd whole =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(
+          rigid.data(), count, 3);
+  const Eigen::VectorXd left = all - linear::product(whole, linear::least_squares(whole, all));
   return count > 0 ? std::sqrt(2.0 * left.squaredNorm() / static_cast<double>(count)) : 0.0;
 }
 

@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/map/check_readings.hpp"
 #include "grid/precondition.hpp"
 #include "model/chains/chain_mechanism.hpp"
@@ -61,12 +61,11 @@ class Separation {
       for (Eigen::Index j = i % 2; j < count; j += 2)
         k(i, j) += model::kZeroShiftSigmaMm * model::kZeroShiftSigmaMm;
     }
-    const Eigen::LLT<Eigen::MatrixXd> factor(k);
     Eigen::MatrixXd grown = Eigen::MatrixXd::Zero(count, 2);
     for (Eigen::Index i = 0; i < count; ++i)
       grown(i, i % 2) =
           model::kPitchGrowthSigma * readings_.lengths_mm[rows[static_cast<std::size_t>(i)]];
-    const Eigen::MatrixXd white = factor.matrixL().solve(grown);
+    const Eigen::MatrixXd white = linear::Cholesky(std::move(k)).half_solve(grown);
     return {white.col(0).squaredNorm(), white.col(1).squaredNorm()};
   }
 

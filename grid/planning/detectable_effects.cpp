@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/planning/detectable_effects.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
+#include "grid/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -73,13 +73,13 @@ std::optional<Stated> stated_of(const MeasuredHoles& set) {
 std::vector<DetectableEffect> detectable_effects(const MeasuredHoles& set) {
   const auto stated = stated_of(set);
   if (!stated) return {};
-  const Eigen::LLT<Eigen::MatrixXd> factor(stated->covariance);
+  const linear::Cholesky covariance(stated->covariance);
   std::vector<Pattern> patterns;
   for (const Secant& secant : stated->secants) {
     Pattern pattern;
     pattern.found.effect = secant.effect->id;
     pattern.found.side = model::effects::name(secant.side);
-    pattern.white = factor.matrixL().solve(secant.change_mm);
+    pattern.white = covariance.half_solve(secant.change_mm);
     pattern.found.sigmas = pattern.white.norm();
     patterns.push_back(std::move(pattern));
   }

@@ -2,11 +2,11 @@
 /// Notation as in the header.
 #include "grid/planning/distance_choice.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/observation/tape_distances.hpp"
 
 namespace chaintrue::grid {
@@ -91,7 +91,7 @@ DistanceChooser::Choice DistanceChooser::greedy(const Holes& holes) const {
   const auto count = static_cast<Eigen::Index>(all.distances.size());
   const auto wanted = std::min(static_cast<Eigen::Index>(distances_of(request_)), count);
   Choice choice;
-  choice.variance_mm2 = (root_ * prior_ * root_.transpose()).trace();
+  choice.variance_mm2 = linear::carried(root_, prior_).trace();
   std::vector<bool> taken(all.distances.size(), false);
   for (Eigen::Index i = 0; i < wanted; ++i) {
     Eigen::Index best = -1;
@@ -118,8 +118,8 @@ double DistanceChooser::variance_mm2(const Measurable& all,
   Eigen::MatrixXd k = all.known(chosen, chosen);
   k.diagonal().array() += request_.tape_sigma_mm * request_.tape_sigma_mm;
   const Eigen::MatrixXd pull = all.pull(Eigen::all, chosen);
-  const Eigen::MatrixXd half = k.llt().matrixL().solve(pull.transpose());
-  return (root_ * prior_ * root_.transpose()).trace() - half.squaredNorm();
+  const Eigen::MatrixXd half = linear::Cholesky(std::move(k)).half_solve(pull.transpose());
+  return linear::carried(root_, prior_).trace() - half.squaredNorm();
 }
 
 DistanceChooser::Choice DistanceChooser::exchange(const Holes& holes, Choice choice) const {
@@ -168,8 +168,9 @@ Eigen::MatrixXd DistanceChooser::covariance(const Holes& holes,
   const Measurable measured = measurable(holes, distances);
   Eigen::MatrixXd k = measured.known;
   k.diagonal().array() += request_.tape_sigma_mm * request_.tape_sigma_mm;
-  const Eigen::MatrixXd cross = prior_ * measured.by_unknown.transpose();
-  return prior_ - cross * k.llt().solve(cross.transpose());
+  const Eigen::MatrixXd cross =
+      linear::product(prior_, linear::transposed(measured.by_unknown));
+  return prior_ - linear::product(cross, linear::Cholesky(std::move(k)).solve(cross.transpose()));
 }
 
 }  // namespace chaintrue::grid

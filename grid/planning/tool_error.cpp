@@ -2,10 +2,10 @@
 #include "grid/planning/tool_error.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
 #include <vector>
 
+#include "grid/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
@@ -53,18 +53,16 @@ ToolError tool_error(const model::Machine& machine, bool sheet_counts) {
     rigid.middleRows<2>(2 * i) = model::SheetPlacement{}.sensitivity(place.place);
   }
   ToolError error;
-  error.whole = rigid.colPivHouseholderQr().solve(motion);
-  if (!sheet_counts) motion -= rigid * error.whole;
-  error.root = motion.householderQr().matrixQR().topRows(kPlanUnknowns);
-  error.root = Eigen::MatrixXd(error.root.triangularView<Eigen::Upper>()) /
-               std::sqrt(static_cast<double>(count));
+  error.whole = linear::least_squares(rigid, motion);
+  if (!sheet_counts) linear::add_product(motion, -1.0, rigid, error.whole);
+  error.root = linear::upper_triangle(motion) / std::sqrt(static_cast<double>(count));
   return error;
 }
 
 double tool_sigma_mm(const model::Machine& machine, const Eigen::MatrixXd& covariance) {
   const Eigen::MatrixXd root =
       tool_error(machine, false).root.leftCols(estimation::kMachineUnknowns);
-  return std::sqrt(std::max(0.0, (root * covariance * root.transpose()).trace()));
+  return std::sqrt(std::max(0.0, linear::carried(root, covariance).trace()));
 }
 
 }  // namespace chaintrue::grid

@@ -3,11 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -111,7 +112,7 @@ Fitted fitted_of(const KnownPlotter& plotter) {
                              std::make_shared<const Page>(middle, middle_of(drawn), 0.0)};
   MechanismSpread spread{best, {}};
   // Each plotter one sigma away has its page where the crosses of the fit lie nearest to its own.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(plotter.found->covariance());
+  const linear::SymmetricEigen parts(plotter.found->covariance());
   std::vector<model::ChainLengths> of_fit;
   std::vector<BedPoint> on_page;
   for (std::size_t i = 0; i < crosses.size(); ++i) {

@@ -5,12 +5,12 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
+#include "grid/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 #include "grid/synthetic/design.hpp"
 #include "model/calibration/setting.hpp"
@@ -150,7 +150,7 @@ StrengthTable::StrengthTable(const Machine& stated,
         j * j.transpose() * (noise.position_mm * noise.position_mm) +
         Eigen::Matrix2d::Identity() * (noise.length_mm * noise.length_mm);
     length_by_xy_.push_back(j);
-    whitening_.emplace_back(Eigen::Matrix2d(covariance.llt().matrixL()).inverse());
+    whitening_.emplace_back(Eigen::Matrix2d(Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL()).inverse());
     for (Eigen::Index k = 0; k < settings; ++k) {
       by_setting.block<2, 1>(2 * i, k) =
           whitening_.back() *
@@ -163,8 +163,7 @@ StrengthTable::StrengthTable(const Machine& stated,
         std::max(kKnownSigma,
                  model::stated_sigma(stated, model::kMachineSettings[static_cast<std::size_t>(k)]));
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(by_setting);
-  settings_basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(by_setting.rows(), settings);
+  settings_basis_ = linear::orthonormal_columns(by_setting);
   for (const Effect* effect : model::effects::effects_of(stated_)) {
     for (const EffectSide side : effect->sides) add_entries(*effect, side);
   }

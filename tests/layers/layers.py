@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds the include graph: layers include downwards only, and folders of grid/ in no circle.
+"""Holds the include graph: layers include downwards only, and folders of grid/ in no circle. And dense matrices of
+any size are decomposed in grid/linear_algebra.cpp alone.
 
-    layers.py SOURCE        prints every include that breaks a layer and every circle; 1 where there is one
+    layers.py SOURCE        prints every include that breaks a layer, every circle and every decomposition elsewhere;
+                            1 where there is one
 """
 
 import pathlib
@@ -23,6 +25,16 @@ FOR_USERS = ("interp/interp.hpp", "model/model.hpp", "grid/grid.hpp")
 WITHOUT_COMMAND_LINE = ("tools/gcode", "tools/report")
 # The only folder that opens a connection: linked into the command alone, so that nothing else may need it.
 CONNECTED = "tools/live"
+# Decompositions are templates that take seconds to compile, and code for one processor (linear_algebra_kernels.hpp).
+DECOMPOSING = ("grid/linear_algebra.cpp", "grid/linear_algebra_kernels.cpp")
+DECOMPOSITION = re.compile(
+    r"\b(LLT|LDLT|PartialPivLU|FullPivLU|HouseholderQR|ColPivHouseholderQR|FullPivHouseholderQR|Tridiagonalization"
+    r"|CompleteOrthogonalDecomposition|BDCSVD|JacobiSVD|(?:Generalized)?SelfAdjointEigenSolver|EigenSolver)<([^<>]*(?:<[^<>]*>)?[^<>]*)>")
+DECOMPOSING_CALL = re.compile(
+    r"\.(llt|ldlt|lu|partialPivLu|fullPivLu|householderQr|colPivHouseholderQr|fullPivHouseholderQr"
+    r"|completeOrthogonalDecomposition|bdcSvd|jacobiSvd|selfadjointView)\b")
+# Of a size known to the compiler, or of one with a bound.
+SMALL = re.compile(r"Matrix[234]d|Matrix<double, \d+, \d+>|FewByFew")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
 
@@ -57,6 +69,19 @@ def broken_layer(path, included):
     return ""
 
 
+def decompositions(path, text):
+    """What decomposes matrices of any size where it must not."""
+    if path.parts[0] != "grid" or str(path) in DECOMPOSING:
+        return
+    for number, line in enumerate(text.splitlines(), 1):
+        code = line.split("//")[0]
+        for found in DECOMPOSITION.finditer(code):
+            if not SMALL.search(found[2]):
+                yield f"{path}:{number} {found[0]}: take grid/linear_algebra.hpp"
+        for found in DECOMPOSING_CALL.finditer(code):
+            yield f"{path}:{number} {found[0]}: take grid/linear_algebra.hpp, or name the fixed size"
+
+
 def circle(graph):
     """One circle of folders, in the order of includes; empty where there is none."""
     done = set()
@@ -85,7 +110,9 @@ def failures_of(root):
     graph = {}  # folder -> included folder -> the first include
     count = 0
     for path in sources(root):
-        for included in INCLUDE.findall((root / path).read_text(encoding="utf-8")):
+        text = (root / path).read_text(encoding="utf-8")
+        failures += decompositions(path, text)
+        for included in INCLUDE.findall(text):
             count += 1
             why = broken_layer(path, included)
             if why:
@@ -110,6 +137,8 @@ def finds_what_is_broken():
         "grid/estimation/estimate.hpp": '#include "grid/observation/observation.hpp"\n',
         "grid/observation/observation.hpp": '#include "grid/map/fit.hpp"\n',
         "tools/report/page.hpp": '#include "tools/cli/verb.hpp"\n#include "model/model.hpp"\n',
+        "grid/map/covariance.cpp": "const Eigen::LLT<Eigen::MatrixXd> factor(m);\nauto x = m.ldlt().solve(b);\n"
+                                   "const Eigen::LLT<Eigen::Matrix2d> small(n);\n",
         "tools/cli/verb.hpp": '#include "tools/live/connection.hpp"\n',
     }
     with tempfile.TemporaryDirectory() as folder:
@@ -118,7 +147,8 @@ def finds_what_is_broken():
             (root / name).parent.mkdir(parents=True, exist_ok=True)
             (root / name).write_text(text, encoding="utf-8")
         found = "\n".join(failures_of(root)[0])
-    return all(word in found for word in (
+    return "Matrix2d" not in found and all(word in found for word in (
+        "covariance.cpp:1 LLT<Eigen::MatrixXd>", "covariance.cpp:2 .ldlt",
         "interp must not include model", "tools/report must not include tools/cli",
         "tools/cli must not include tools/live", "it is for users",
         "what lies in grid/ itself", "grid/estimation -> grid/observation -> grid/map -> grid/estimation"))
