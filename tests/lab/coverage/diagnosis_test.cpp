@@ -17,7 +17,7 @@
 #include "tests/belts/frame.hpp"
 #include "tests/diagnosis/law_sessions.hpp"
 #include "tests/lab/coverage/rates.hpp"
-#include "tests/normal_numbers.hpp"
+#include "tests/support/random.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -148,7 +148,8 @@ TEST(NextForLaws, MakesTheRightLawLikelier) {
     const std::vector<NextMeasurement> next = next_for_laws(a, found);
     if (next.empty()) continue;
     const model::ReadingModel machine(*grid.machine);
-    chaintrue::testing_support::NormalNumbers noise(seed);
+    chaintrue::testing_support::Random random(seed);
+    const auto noise = [&random] { return random.normal(); };
     for (const NextMeasurement& one : next) {
       if (!one.mark) continue;
       MeasuredPoint point = grid.points.front();
