@@ -41,7 +41,7 @@ Grid uneven_grid(Random& random, int nx, int ny) {
 class SurfaceContract : public testing::TestWithParam<SurfaceMethod> {
  protected:
   SurfaceContract() : trace_(__FILE__, __LINE__, std::to_string(kSeed)) {}
-  Random random_;
+  Random random_{kSeed};
 
  private:
   testing::ScopedTrace trace_;
