@@ -134,7 +134,8 @@ TEST(LongWork, OfAPlanAndASimulationTellsItsShare) {
   ASSERT_TRUE(grid::plan_holes(model::Machine{}, request));
   EXPECT_THAT(planned.numbers(), ElementsAre(1, 2));
   EXPECT_GT(planned.steps[1].share, 0.5);
-  const std::vector<model::Visit> visits(100, model::Visit{});
+  std::vector<model::Visit> visits(100);
+  for (int i = 0; i < 100; ++i) visits[static_cast<std::size_t>(i)].order = i;
   (void)grid::synthetic::read_places(
       model::Machine{}, {}, visits, model::Model::elastic, read.progress());
   EXPECT_GT(read.steps[1].share, 0.5);
