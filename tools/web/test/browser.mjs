@@ -53,9 +53,10 @@ export function temporaryFolder() {
   return folder;
 }
 
-/** Runs the native command: {code, stdout, stderr}. */
+/** Runs the native command, with the page's order of sums: {code, stdout, stderr}. */
 export function runNative(words, folder) {
-  const {status, stdout, stderr} = spawnSync(native, words, {cwd: folder, encoding: "utf8", maxBuffer: 1e9});
+  const env = {...process.env, CHAINTRUE_BASELINE: "1"};
+  const {status, stdout, stderr} = spawnSync(native, words, {cwd: folder, env, encoding: "utf8", maxBuffer: 1e9});
   return {code: status, stdout, stderr};
 }
 
