@@ -23,7 +23,7 @@ using report::ErrorStep;
 constexpr int kColumns = 41;
 constexpr int kRows = 21;
 
-/// The tool beyond where the model thinks: the same arrow, drawn from the drawing.
+/// Where the tool landed minus where the model has it, as an arrow from the latter.
 report::ToolVector tool_vector(const Eigen::Vector2d& residual_mm) {
   return {residual_mm.x(), residual_mm.y()};
 }

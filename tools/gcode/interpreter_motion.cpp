@@ -115,7 +115,7 @@ Result<Axes> Interpreter::machine_target(const Block& block) const {
   return machine;
 }
 
-/// Passed as it is: what it is in the work's frame only the machine knows.
+/// Passed as it is: only the machine knows where that is in the work's frame.
 Result<void> Interpreter::machine_height(const Block& block, int motion) {
   std::string text = with_value(motion == 0 ? "G53 G0 Z" : "G53 G1 Z", length(block, 'z'));
   if (motion != 0) {
@@ -143,7 +143,7 @@ Result<void> Interpreter::check_height(const Block& block, const Axes& machine) 
     return refuse(ProblemName::unsupported_code,
                   block.place('z'),
                   "after a height in the machine's frame (G53) Z moves by itself first, without X "
-                  "and Y: from where, only the machine knows");
+                  "and Y: only the machine knows the height that it starts from");
   }
   return {};
 }
