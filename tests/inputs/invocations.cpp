@@ -79,7 +79,6 @@ const std::vector<Invocation>& invocations() {
       {"report", "map", facts::map, "report @map.json -o page.html"},
       {"report", "diagnosis", facts::diagnosis, "report @diagnosis.json -o page.html"},
       {"report", "anchors", facts::anchors, "report @anchors.json -o page.html"},
-      {"maslow4", "log", facts::replayed, "maslow4 --replay @log.txt"},
       {"export groundcontrol", "machine", facts::machine, "export groundcontrol @stated.json"},
       {"export groundcontrol", "map", facts::map, "export groundcontrol @map.json"},
       {"export groundcontrol", "diagnosis", facts::diagnosis,

@@ -21,10 +21,6 @@ struct Invocation {
 };
 [[nodiscard]] const std::vector<Invocation>& invocations();
 
-/// A machine to listen to at a port where none is: options are checked, then the connection fails.
-inline constexpr Invocation kNoListener = {
-    "maslow4", "machine", cli::facts::connected, "maslow4 --host 127.0.0.1 --port 1 -o log.txt"};
-
 /// Valid values of an option that takes neither any number, any file nor one of the choices that --help
 /// lists; empty for others.
 [[nodiscard]] const std::vector<std::string>& values_of(std::string_view option);

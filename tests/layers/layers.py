@@ -23,8 +23,6 @@ LAYERS = {
 FOR_USERS = ("interp/interp.hpp", "model/model.hpp", "grid/grid.hpp")
 # Libraries of tools/ that are independent of the command line.
 WITHOUT_COMMAND_LINE = ("tools/gcode", "tools/report")
-# The only folder that opens a connection: linked into the command alone, so that nothing else may need it.
-CONNECTED = "tools/live"
 # Decompositions are templates that take seconds to compile, and code for one processor (linear_algebra_kernels.hpp).
 DECOMPOSING = ("grid/linear_algebra.cpp", "grid/linear_algebra_kernels.cpp")
 DECOMPOSITION = re.compile(
@@ -62,8 +60,6 @@ def broken_layer(path, included):
     folder = "/".join(path.parts[:2])
     if folder in WITHOUT_COMMAND_LINE and included.startswith("tools/cli/"):
         return f"{folder} must not include tools/cli"
-    if folder != CONNECTED and included.startswith(CONNECTED + "/"):
-        return f"{folder} must not include {CONNECTED}"
     if str(path) not in FOR_USERS and folder_of(path) == "grid" and folder_of(included).startswith("grid/"):
         return "what lies in grid/ itself must not include its folders"
     return ""
@@ -139,7 +135,6 @@ def finds_what_is_broken():
         "tools/report/page.hpp": '#include "tools/cli/verb.hpp"\n#include "model/model.hpp"\n',
         "grid/map/covariance.cpp": "const Eigen::LLT<Eigen::MatrixXd> factor(m);\nauto x = m.ldlt().solve(b);\n"
                                    "const Eigen::LLT<Eigen::Matrix2d> small(n);\n",
-        "tools/cli/verb.hpp": '#include "tools/live/connection.hpp"\n',
     }
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
@@ -150,7 +145,7 @@ def finds_what_is_broken():
     return "Matrix2d" not in found and all(word in found for word in (
         "covariance.cpp:1 LLT<Eigen::MatrixXd>", "covariance.cpp:2 .ldlt",
         "interp must not include model", "tools/report must not include tools/cli",
-        "tools/cli must not include tools/live", "it is for users",
+        "it is for users",
         "what lies in grid/ itself", "grid/estimation -> grid/observation -> grid/map -> grid/estimation"))
 
 

@@ -18,7 +18,7 @@ IN_SENTENCES = IN_BOTH + ["held-out", "settled", "seen", "unseen", "set aside", 
 FEWEST_PAGES = 8
 FEWEST_SENTENCES = 3000
 
-FOLDERS = ["model", "grid", "tools/cli", "tools/gcode", "tools/live", "tools/report"]
+FOLDERS = ["model", "grid", "tools/cli", "tools/gcode", "tools/report"]
 # Tables of docs/methods.md: no verb prints them.
 OF_DOCUMENTS = {"constants.def"}
 # Strings stand before comments, so that a // within a string starts none.

@@ -57,9 +57,6 @@ inline constexpr Facts no_map = 1U << 23;
 inline constexpr Facts causes = 1U << 24;
 /// fit: on the machine as stated.
 inline constexpr Facts no_causes = 1U << 25;
-// maslow4: a machine that is listened to, or a log in its place.
-inline constexpr Facts connected = 1U << 26;
-inline constexpr Facts replayed = 1U << 27;
 /// A table (CSV) is among the files.
 inline constexpr Facts table = 1U << 28;
 /// fit and diagnose: a V-plotter's test drawing, alone.

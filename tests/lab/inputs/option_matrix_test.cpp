@@ -121,7 +121,7 @@ TEST_P(EveryOption, ChangesTheAnswer) {
   for (const Option& option : options_in(folder().run(verb + " --help").out)) {
     if (option.name != "--force") options.push_back(option.name);
   }
-  for (const Invocation& call : calls_with_options()) {
+  for (const Invocation& call : invocations()) {
     if (call.verb != verb) continue;
     const std::string then = then_of(call).empty() ? "" : "; " + then_of(call);
     const Ran base = folder().run(call.line + then);

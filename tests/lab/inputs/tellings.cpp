@@ -3,41 +3,7 @@
 
 #include <string>
 
-#include "tests/lab/inputs/log_server.hpp"
-
 namespace chaintrue::inputs {
-namespace {
-
-constexpr const char* kCheckOfCommands =
-    "check @map.json @commanded.csv --machine @classic.json --noise-length-mm 0.2 --noise-position-mm 0.3";
-
-const std::string& listening_line() {
-  static const std::string line =
-      "maslow4 --host 127.0.0.1 --port " + std::to_string(log_server_port()) + " --telnet -o log.txt";
-  return line;
-}
-/// By websocket, to something that is none.
-const std::string& websocket_line() {
-  static const std::string line =
-      "maslow4 --host 127.0.0.1 --port " + std::to_string(log_server_port()) + " -o log.txt";
-  return line;
-}
-const std::string& mute_line() {
-  static const std::string line = "maslow4 --host 127.0.0.1 --port " +
-                                  std::to_string(mute_server_port()) + " --patience-s 0.4 -o log.txt";
-  return line;
-}
-
-}  // namespace
-
-const std::vector<Invocation>& calls_with_options() {
-  static const std::vector<Invocation> all = [] {
-    std::vector<Invocation> calls = invocations();
-    calls.push_back({"maslow4", "machine", cli::facts::connected, listening_line().c_str()});
-    return calls;
-  }();
-  return all;
-}
 
 std::string then_of(const Invocation& call) {
   if (std::string_view(call.verb) != "fit" || (call.facts & (cli::facts::grid | cli::facts::holes)) == 0)
@@ -49,25 +15,12 @@ std::string then_of(const Invocation& call) {
 
 namespace {
 
+constexpr const char* kCheckOfCommands =
+    "check @map.json @commanded.csv --machine @classic.json --noise-length-mm 0.2 --noise-position-mm 0.3";
+
 std::vector<Telling> tellings() {
   using enum Shows;
   std::vector<Telling> all = {
-      // A machine that is listened to.
-      {"maslow4", "--host", "--host 127.0.0.9", in_words},
-      {"maslow4", "--replay", "--replay @notes.txt", in_form},
-      {"maslow4", "--port", "--port 1", in_words},
-      {"maslow4", "--telnet", "--telnet", in_words, "", websocket_line().c_str()},
-      {"maslow4", "--telnet", "--telnet", in_words, "log"},
-      {"maslow4", "--output", "-o other.txt", as_file},
-      {"maslow4", "--patience-s", "--patience-s 0.2", in_words, "", mute_line().c_str()},
-      {"maslow4", "--patience-s", "--patience-s 0.2", in_words, "log"},
-      {"maslow4", "--most-s", "--most-s 0.1", in_words, "", mute_line().c_str()},
-      {"maslow4", "--most-s", "--most-s 0.1", in_words, "log"},
-      {"maslow4", "--reconnect", "--reconnect 1", in_words},
-      {"maslow4", "--drive", "--drive", in_words},
-      {"maslow4", "--settings", "--settings @flat.yaml", in_form},
-      {"maslow4", "--lengths", "--lengths belt", in_form},
-      {"maslow4", "--orientation", "--orientation flat", in_form},
       // Files of measurements.
       {"fit", "--machine", "--machine @other.json"},
       {"fit", "--machine", "--machine @other.json", in_numbers, "direct",

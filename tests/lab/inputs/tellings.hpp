@@ -35,8 +35,6 @@ struct Telling {
                                         const std::string& option,
                                         const std::string& use);
 
-/// The table's invocations, and one of a machine that is listened to.
-[[nodiscard]] const std::vector<Invocation>& calls_with_options();
 /// Commands that read the numbers out of what this call wrote, where the file repeats the input.
 [[nodiscard]] std::string then_of(const Invocation& call);
 /// Adds the files that are named by the table.
