@@ -39,7 +39,6 @@
 #include "grid/map/query_points.hpp"
 #include "grid/map/settings_to_type.hpp"
 #include "grid/observation/measured.hpp"
-#include "grid/planning/calibration_rounds.hpp"
 #include "grid/planning/check_plan.hpp"
 #include "grid/planning/holes_plan.hpp"
 #include "grid/planning/measurement_plan.hpp"

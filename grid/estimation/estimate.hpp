@@ -120,8 +120,6 @@ struct EstimationInput {
   /// The splines' intervals; 0: from the places' own spacing.
   int intervals_x = 0;
   int intervals_y = 0;
-  /// In place of what the machine states.
-  std::optional<ParameterKnowledge> knowledge;
   /// Of each unit, 0: rejected; no reweighting then, and settings converge to 1e-6 sigmas.
   std::optional<Eigen::VectorXd> fixed_weights;
   /// Single readings are searched for outliers; with fixed_weights alone.

@@ -52,22 +52,14 @@ void JointProblem::add_settings_prior(interp::PenalisedProblem& problem) const {
   // Nothing where the mechanism begins at what was stated.
   const Eigen::VectorXd stated = unknowns_->stated_deviations();
   pull.head(stated.size()) = precision.diagonal().head(stated.size()).cwiseProduct(stated);
-  if (input_.knowledge) {
-    std::vector<Eigen::Index> own;
-    for (Eigen::Index i = 0; i < unknowns_->parameters(); ++i) own.push_back(i);
-    for (Eigen::Index i = 0; i < unknowns_->scales(); ++i) own.push_back(unknowns_->settings() + i);
-    const Eigen::MatrixXd inverse = linear::Cholesky(input_.knowledge->covariance).inverse();
-    precision(own, own) = inverse;
-    pull(own) = linear::product(inverse, input_.knowledge->mean);
-  }
   for (Eigen::Index i = 0; i < sure_design_.rows(); ++i) {
     const Eigen::RowVectorXd row = sure_design_.row(i).head(count);
     precision += row.transpose() * row;
     pull += row.transpose() * sure_response_[i];
   }
   problem.prior_precision.topLeftCorner(count, count) = precision;
-  // No reading of the machine touches the scales: without more knowledge they stand apart.
-  const Eigen::Index coupled = input_.knowledge ? count : unknowns_->settings();
+  // No reading of the machine touches the scales: they stand apart.
+  const Eigen::Index coupled = unknowns_->settings();
   problem.prior_mean.head(coupled) =
       linear::PivotedCholesky(precision.topLeftCorner(coupled, coupled)).solve(pull.head(coupled));
 }

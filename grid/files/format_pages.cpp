@@ -56,7 +56,7 @@ constexpr std::array kDescribed = {
         "Holes and distances",
         "Holes that the machine drilled, and what a tape said between them. `chaintrue plan "
         "--holes` "
-        "writes one to fill in; `fit`, `diagnose`, `check` and `passes` read them.\n\nAs CSV it is "
+        "writes one to fill in; `fit`, `diagnose` and `check` read them.\n\nAs CSV it is "
         "two "
         "tables, one below the other: `hole`, `x_mm`, `y_mm`, and `from`, `to`, `distance_mm`, and "
         "where wanted `sigma_mm`; the rest comes from options."},

@@ -346,7 +346,6 @@ tl::expected<JointFit, FitFailure> joint_fit(const Measured& measured,
     if (auto stated = state_noises(files, *parts); !stated) return tl::unexpected(stated.error());
   }
   estimation::EstimationInput input = estimation_input(*parts);
-  input.knowledge = options.knowledge;
   input.progress = options.progress;
   const bool finds_noise = input.noise.knowledge == interp::NoiseKnowledge::unknown;
   const int steps = !alone ? 3 : finds_noise ? FitPart::kStepsToFindNoise : 2;

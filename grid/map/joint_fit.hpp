@@ -31,8 +31,6 @@
 namespace chaintrue::grid {
 
 struct JointFitOptions {
-  /// In place of what the machine states.
-  std::optional<estimation::ParameterKnowledge> knowledge{};
   /// What the map does beyond the points.
   OutsideRule outside{};
   Progress progress{};

@@ -10,7 +10,6 @@
 
 #include "grid/map/joint_fit.hpp"
 #include "grid/map/fitted_points.hpp"
-#include "grid/planning/calibration_rounds.hpp"
 #include "tests/holes/hole_sets.hpp"
 
 namespace chaintrue::grid {
@@ -93,7 +92,7 @@ Errors errors_of(const char* what, int columns, int rows, Beyond beyond) {
       continue;
     }
     const auto square = [&own](const CompensationMap& map) {
-      return std::pow(true_error_mm(own.truth, classic(), &map), 2) / kSeeds;
+      return std::pow(testing_support::best_placed_rms_mm(map, own.truth), 2) / kSeeds;
     };
     sum.points2 += square(*points);
     sum.holes2 += square(holes->map);

@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "grid/estimation/estimate.hpp"
-#include "grid/planning/calibration_rounds.hpp"
+#include "grid/map/joint_fit.hpp"
 #include "grid/planning/detectable_effects.hpp"
 #include "tests/holes/hole_sets.hpp"
 
@@ -169,59 +169,6 @@ TEST(HolesPlan, NumbersOutOfRangeThrow) {
       << "fewer than the unknowns of machine and sheet";
   EXPECT_THROW((void)plan_holes(classic(), {.holes = 9, .margin_mm = 700.0}),
                std::invalid_argument);
-}
-
-TEST(HolesRounds, ConvergeInAtMostThree) {
-  SimulatedRoundsRequest request;
-  request.most = 4;
-  request.seed = 1;
-  const auto result = simulate_rounds(classic(), request);
-  ASSERT_TRUE(result) << result.error().sentence();
-  const HolesPass& last = result->passes.back();
-  EXPECT_FALSE(last.next_pays);
-  EXPECT_LE(last.number, 3);
-  for (std::size_t i = 1; i < result->passes.size(); ++i)
-    EXPECT_LT(result->passes[i].expected_mm, result->passes[i - 1].expected_mm);
-  EXPECT_LT(*last.true_mm, 0.6) << "four times the expected 0.15 mm, seed 1";
-  // The second round is cut through the first one's map: holes are at their intended positions.
-  ASSERT_GE(result->passes.size(), 2u);
-  EXPECT_LT(result->passes[1].as_cut_rms_mm, 1.5) << "mm of tape and holes, and what is left";
-}
-
-TEST(HolesRounds, ANearerAnswerIsAskedForOnlyWhereItPays) {
-  SimulatedRoundsRequest request;
-  request.worthwhile_mm = 1e-6;
-  request.most = 4;
-  const auto result = simulate_rounds(classic(), request);
-  EXPECT_EQ(result->passes.size(), 4u);
-  EXPECT_TRUE(result->passes.back().next_pays);
-}
-
-TEST(HolesRounds, AReadingOfTheMachineCountsAndOnceHoweverManyPassesStateIt) {
-  MeasuredHoles first = synthetic::simulate_holes(testing_support::nine_holes(),
-                                                  testing_support::usual_holes(4))->set;
-  const auto spacing_after = [&](const MeasuredHoles& second) {
-    HolesRounds passes(*first.machine);
-    EXPECT_TRUE(passes.add(first));
-    EXPECT_TRUE(passes.add(second));
-    const model::Machine& machine = passes.fit()->estimate.machine;
-    return machine.motors.right.x_mm - machine.motors.left.x_mm;
-  };
-  const MeasuredHoles silent = first;
-  const double without_mm = spacing_after(silent);
-  first.readings = {{ReadingOf::motor_spacing, "", without_mm + 10.0, 0.5}};
-  // 0.5 mm against some 1 mm of the distances of two rounds.
-  EXPECT_GT(spacing_after(silent), without_mm + 5.0);
-  EXPECT_EQ(spacing_after(first), spacing_after(silent)) << "the same reading once more";
-}
-
-TEST(HolesRounds, AnotherMachineIsRefused) {
-  HolesRounds passes(classic());
-  MeasuredHoles set = testing_support::nine_holes();
-  set.machine->motors.left.x_mm -= 5.0;
-  const auto pass = passes.add(set);
-  ASSERT_FALSE(pass);
-  EXPECT_THAT(pass.error().sentence(), HasSubstr("motor_left_x_mm is"));
 }
 
 }  // namespace

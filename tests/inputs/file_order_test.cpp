@@ -106,7 +106,6 @@ constexpr Reader kReaders[] = {
     {"few.json", "check @map.json FILE --json"},
     {"holes.json", kFitAndQuery},
     {"holes.json", kDiagnose},
-    {"holes.json", "passes FILE --json"},
     {"holes.json", "diagnose @grid.json --with FILE --json"},
     {"belts.json", kFitAndQuery},
     {"belts.json", kDiagnose},

@@ -59,8 +59,6 @@ const std::vector<Invocation>& invocations() {
        "plan @holes.json --after @holes_diagnosis.json"},
       {"plan", "after_belts", facts::follow_up | facts::belts,
        "plan @belts.json --after @belts_diagnosis.json"},
-      {"passes", "measured", facts::measured, "passes @holes.json @holes2.json"},
-      {"passes", "simulated", facts::simulated, "passes --machine @classic.json --passes 2"},
       {"simulate", "grid", facts::lattice,
        "simulate --machine @classic.json --grid 4x3 --length-noise-mm 0.2 --position-noise-mm 0.3"},
       {"simulate", "random", facts::scattered,

@@ -44,9 +44,6 @@ inline constexpr Facts places = 1U << 15;     ///< true places of a list
 inline constexpr Facts tape = 1U << 16;       ///< holes and a tape
 inline constexpr Facts check = 1U << 17;      ///< points that check a map
 inline constexpr Facts follow_up = 1U << 18;  ///< after a diagnosis
-// passes.
-inline constexpr Facts simulated = 1U << 19;
-inline constexpr Facts measured = 1U << 20;
 /// A program is written (--gcode).
 inline constexpr Facts program = 1U << 21;
 /// That drills, where it does not only stop above the marks.

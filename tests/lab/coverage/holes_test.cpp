@@ -8,7 +8,6 @@
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/joint_fit.hpp"
-#include "grid/planning/calibration_rounds.hpp"
 #include "grid/synthetic/random.hpp"
 #include "tests/holes/hole_sets.hpp"
 #include "tests/lab/coverage/rates.hpp"
@@ -117,19 +116,6 @@ TEST(HolesCoverage, PlansWithEdgesKeepTheirPromise) {
     error.add(3.0 * std::pow(true_mm / plan->expected_rms_mm, 2));
   }
   error.expect_unit();
-}
-
-TEST(HolesCoverage, RoundsConvergeInAtMostThree) {
-  for (const std::uint64_t seed : seeds(20)) {
-    SimulatedRoundsRequest request;
-    request.most = 4;
-    request.seed = seed;
-    const auto result = simulate_rounds(classic(), request);
-    ASSERT_TRUE(result) << "seed " << seed;
-    EXPECT_FALSE(result->passes.back().next_pays) << "seed " << seed;
-    EXPECT_LE(result->passes.back().number, 3) << "seed " << seed;
-    EXPECT_LT(*result->passes.back().true_mm, 0.6) << "four times the expected 0.15 mm, seed " << seed;
-  }
 }
 
 diagnosis::Diagnosis diagnosed(const std::vector<model::AppliedEffect>& hidden, std::uint64_t seed) {

@@ -7,7 +7,6 @@
 
 #include "grid/map/fit.hpp"
 #include "grid/map/joint_fit.hpp"
-#include "grid/planning/calibration_rounds.hpp"
 #include "grid/plotter/drawing_fit.hpp"
 #include "grid/synthetic/random.hpp"
 #include "tests/holes/checked_map.hpp"
@@ -63,7 +62,7 @@ TEST(MapCoverage, LengthsOfAMachineThatBendsAreWithinTheirIntervals) {
     const auto both = joint_fit({{"points", session.grid}, {"holes", cut->set}});
     ASSERT_TRUE(points && holes && both) << "seed " << seed;
     const auto square = [&](const CompensationMap& map) {
-      return std::pow(true_error_mm(session.answer.machine, classic, &map), 2);
+      return std::pow(testing_support::best_placed_rms_mm(map, session.answer.machine), 2);
     };
     points2 += square(*points);
     holes2 += square(holes->map);

@@ -42,7 +42,6 @@ constexpr Idle kIdle[] = {
     {"grid", "fit", "/points/0/order", "no effect of this machine depends on the visit"},
     {"grid", "fit", "/readings/1/sigma", "a link is taken to be as long as it was read; what is left is in the chains' scales"},
     {"holes", "fit", "/readings/1/sigma", "a link is taken to be as long as it was read; what is left is in the chains' scales"},
-    {"holes", "passes", "/readings/1/sigma", "a link is taken to be as long as it was read; what is left is in the chains' scales"},
     {"grid", "check", "/points/0/order", "no effect of this machine depends on the visit"},
     {"grid", "check", "/noise/dof", "a check takes the noise as known"},
     {"grid", "check", "/readings", "readings of the machine say nothing of a map"},
@@ -188,8 +187,7 @@ TEST_F(KeyMatrix, OfHoles) {
                         holes,
                         {{"fit", "fit FILE -o map.json; query map.json 0 0 700 300 -1100 500 --json"},
                          {"diagnose", "diagnose FILE --json"},
-                         {"check", "check @map.json FILE --json"},
-                         {"passes", "passes FILE --json"}});
+                         {"check", "check @map.json FILE --json"}});
 }
 
 TEST_F(KeyMatrix, OfBelts) {

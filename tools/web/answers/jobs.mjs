@@ -56,7 +56,6 @@ const verbs = [
   ["diagnose", "worn.json", "-o", "worn_diagnosis.json"],
   ["simulate", ...CLASSIC, "--holes", "9", "--distances", "20", "--draw-settings", "-o", "simulated_holes.json"],
   ["square", "--map", "map.json", "--size-mm", "900", "--gcode", "square.nc"],
-  ["passes", ...CLASSIC, "--passes", "2", "--seed", "1"],
   ["sweep", "fixtures/sweeps/quick.json", "-o", "sweep"],
   ["fit", "fixtures/belts/thirty_one_places.json", "-o", "anchors.json"],
   ["export", "maslow4", "anchors.json"],
