@@ -10,7 +10,6 @@
 #include "grid/belts/belts_fit.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/diagnose.hpp"
-#include "grid/diagnosis/trend.hpp"
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/check_file.hpp"

@@ -189,13 +189,8 @@ void test_significance(const RegressorSystem& causes, NoiseSize noise, Analysis&
   const int draws = causes.units.size() > kManyUnits ? 2000 : 4000;
   a.null = is_stated ? draw_null(score, marginalised.e.size(), draws, a.options.seed)
                      : draw_null_of_length(score, marginalised, draws, a.options.seed);
-  const Eigen::VectorXd by_cause = score.by_cause(marginalised.e);
-  a.score = by_cause.maxCoeff();
+  a.score = score.largest(marginalised.e);
   a.family_wise_p = a.null.p_value(a.score);
-  a.tested.clear();
-  if (is_stated) return;
-  for (std::size_t k = 0; k < score.causes().size(); ++k)
-    a.tested.emplace_back(score.causes()[k], by_cause(static_cast<Eigen::Index>(k)));
 }
 
 namespace {

@@ -26,8 +26,6 @@ struct Analysis {
   NullDistribution null;
   double score = 0.0;          ///< of the strongest single effect, log Bayes factor against nothing
   double family_wise_p = 1.0;  ///< chance that noise alone scores as high
-  /// Score of each cause where the test has rows of its own (test_significance); else empty.
-  std::vector<std::pair<CauseId, double>> tested;
   /// What quarters of the bed make of it; empty where there is no pattern, or no such parts.
   std::vector<PartPosterior> parts;
   /// What each session makes of it by itself; empty of a single one.
@@ -58,8 +56,8 @@ void estimate_decided(Analysis& analysis);
                                const MarginalisedSystem& marginalised,
                                const CauseId& cause);
 
-/// How often noise alone lets some cause look as strong as the strongest does: sets `null`, `score`,
-/// `family_wise_p` and `tested`, without what the best model rejects.
+/// How often noise alone lets some cause look as strong as the strongest does: sets `null`, `score` and
+/// `family_wise_p`, without what the best model rejects.
 ///
 /// `causes` holds the regressors that are tried, about what does not hang on the readings' noise. Where
 /// nothing is stated of the noise, what is left of it lies equally in every direction, however large it

@@ -116,14 +116,11 @@ std::string short_of_a_name(const Diagnosis& d) {
   for (const Hypothesis& own : d.hypotheses) {
     // Something is expected to give with the pull: where it is not named the readings speak against it.
     if (own.probability < kInTheSet || share_of_expected(own.effect) > 0.0) continue;
-    for (const Term& term : d.terms) {
-      const CauseId& cause = term.cause;
-      if (cause.effect->id != own.effect || model::effects::name(cause.side) != own.side) continue;
-      parts.push_back(fmt::format(
-          "{}{}, {}", cause.effect->cause, side_words(cause), percent(own.probability)));
-      most = std::max(most, own.probability);
-      break;
-    }
+    if (own.causes.empty()) continue;
+    const CauseId& cause = own.causes.front();
+    parts.push_back(fmt::format(
+        "{}{}, {}", cause.effect->cause, side_words(cause), percent(own.probability)));
+    most = std::max(most, own.probability);
   }
   if (most < kToThinkOf) return "";
   return parts.size() == 1

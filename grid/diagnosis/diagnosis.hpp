@@ -74,6 +74,8 @@ struct Hypothesis {
   std::string effect;
   std::string side;
   double probability = 0.0;
+  /// Its class, the cause that gives the name first; empty of those that are none, and of a file.
+  std::vector<CauseId> causes{};
 };
 
 /// What is left once the causes named are in the model.
@@ -135,26 +137,6 @@ struct BudgetLine {
 struct ErrorBudget {
   double uncalibrated_mm = 0.0;  ///< rms at the good points (or of the good distances)
   std::vector<BudgetLine> lines;
-};
-
-/// A cause's size now and in an earlier diagnosis.
-struct Change {
-  CauseId cause;
-  ParameterEstimate before;
-  ParameterEstimate after;
-  bool named_before = false;
-  bool named_now = false;
-  double probability = 0.5;  ///< that its size changed in the direction that it seems to have
-};
-
-/// What changed since an earlier diagnosis (trend.hpp).
-struct Trend {
-  std::string since;  ///< the earlier file
-  std::vector<Change> changes;
-  /// Rms error of the tool then and now, mm: of `tool_today` where both have it, else of the budgets
-  /// where both have one.
-  std::optional<double> uncalibrated_before_mm{};
-  std::optional<double> uncalibrated_mm{};
 };
 
 struct Outlier {
@@ -223,13 +205,6 @@ struct HeldOutImprovement {
   double drop_mm2 = 0.0;
   /// That drop over the mean square before it, the noise of the readings in neither.
   double drop_share = 0.0;
-  /// The same rows where the outermost points were held out and the inner ones fitted.
-  struct Border {
-    double calibrated_mm = 0.0;
-    double extended_mm = 0.0;
-    double extended_and_surface_mm = 0.0;
-    double surface_only_mm = 0.0;
-  } border;
   /// In so many of the folds the same cause was named.
   int folds = 0;
   int folds_agree = 0;
@@ -260,27 +235,6 @@ struct StatedTape {
   double tape_sigma_mm = 0.0;
   double hole_sigma_mm = 0.0;
   double dof = 0.0;
-};
-
-/// A line of the table of terms: every effect that these data can test.
-struct Term {
-  CauseId cause;
-  std::string parameter;  ///< the size; where there are two, their amplitude
-  double value = 0.0;     ///< if it acted alone
-  double sigma = 0.0;
-  double signal_to_noise = 0.0;
-  double share_left = 0.0;
-  double p_value = 1.0;  ///< family-wise: chance that noise alone lets any effect look as strong
-  double probability = 0.0;
-};
-
-/// How well the points at hand can tell two effects apart, whatever they show.
-struct Separation {
-  CauseId first;
-  CauseId second;
-  double collinearity = 0.0;
-  /// Strength at which 95 of 100 are distinguished; infinity: none.
-  double signal_to_noise_needed = 0.0;
 };
 
 /// How well a model, calibrated elsewhere, predicts another grid: nothing is fitted but, where the
@@ -328,16 +282,6 @@ struct PartFinding {
   std::vector<Hypothesis> named;  ///< what is named, with its probability here
 };
 
-/// What is left at the good points, whitened and in units of its own rms, against what normal noise
-/// would leave: a value a chain and point, ascending, all lists of one length.
-struct NormalPlot {
-  std::vector<double> values;
-  std::vector<double> expected;  ///< mean of the draws at that rank
-  std::vector<double> low;       ///< band that holds 95 of 100 sessions of noise whole
-  std::vector<double> high;
-  double p_value = 1.0;  ///< chance of noise to leave the band as far
-};
-
 struct Diagnosis {
   Verdict verdict = Verdict::nothing_found;
   std::string sentence;
@@ -371,8 +315,6 @@ struct Diagnosis {
 
   double noise_factor = 1.0;   ///< noise found, as a multiple of what was stated
   double family_wise_p = 1.0;  ///< of the first cause
-  std::vector<Term> terms;
-  std::vector<Separation> separations;  ///< of the leading causes and their nearest rivals
   std::vector<PointPicture> points;
   Observations observations = Observations::points;
   std::vector<HolePicture> holes;          ///< of distances
@@ -385,15 +327,12 @@ struct Diagnosis {
   std::optional<StatedTape> stated_tape;
   /// Empty where no cause is named or too few points would be left.
   std::optional<Stability> stability;
-  std::optional<NormalPlot> normal_plot;
   /// Quarters of the bed over which the probabilities are averaged; empty where no pattern stands.
   std::vector<PartFinding> bed_parts;
   /// Each session by itself, where causes are named and there is more than one.
   std::vector<PartFinding> sessions;
   /// Another grid predicted; empty where none was asked for.
   std::optional<Transfer> transferred;
-  /// Empty where no earlier diagnosis was given.
-  std::optional<Trend> trend;
 };
 
 }  // namespace chaintrue::grid::diagnosis

@@ -9,7 +9,6 @@
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/cause_parameters.hpp"
 #include "grid/diagnosis/constants.hpp"
-#include "grid/diagnosis/normal_plot.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -90,59 +89,21 @@ std::vector<Cause> causes_found(const Analysis& a) {
   return result;
 }
 
+Hypothesis hypothesis_of(const CauseClass& members, double probability) {
+  const CauseId& cause = members.front();
+  return {std::string(cause.effect->id), std::string(model::effects::name(cause.side)), probability, members};
+}
+
 std::vector<Hypothesis> hypotheses(const Analysis& a) {
   std::vector<Hypothesis> result;
   for (const ClassProbability& one : a.decision.marginal) {
-    const CauseId& cause = a.decision.classes[one.index].front();
-    result.push_back({std::string(cause.effect->id),
-                      std::string(model::effects::name(cause.side)),
-                      one.probability});
+    result.push_back(hypothesis_of(a.decision.classes[one.index], one.probability));
   }
   result.push_back({"nothing", "", a.decision.nothing});
   result.push_back({"unknown", "", a.decision.discrepancy});
   result.push_back({"noise", "", a.decision.noise});
   result.push_back({"bad_points", "", a.decision.outliers});
   std::stable_sort(result.begin(), result.end(), [](const Hypothesis& x, const Hypothesis& y) {
-    return x.probability > y.probability;
-  });
-  return result;
-}
-
-std::vector<Term> terms(const Analysis& a) {
-  const MarginalisedSystem& marginalised = marginalised_system(a);
-  const SingleScore score(a.system, marginalised, noise_dof(a));
-  const Eigen::VectorXd by_cause = score.by_cause(marginalised.e);
-  std::vector<Term> result;
-  for (std::size_t k = 0; k < score.causes().size(); ++k) {
-    const CauseId& cause = score.causes()[k];
-    const int column = best_regressor(a, cause);
-    if (column < 0) continue;
-    const Estimate alone = estimate_of(a, {column});
-    const double length = marginalised.g.col(column).norm();
-    Term term;
-    term.cause = cause;
-    term.parameter = cause.effect->parameters.front().name;
-    term.value = size_at(regressor(a, column), alone.coefficient(0));
-    term.sigma = std::abs(size_slope(regressor(a, column), alone.coefficient(0))) *
-                 alone.coefficient_sigma(0);
-    term.signal_to_noise = std::abs(alone.coefficient(0)) * length;
-    term.share_left = length / std::max(raw_length(a, column), 1e-12);
-    // Of a signature that the settings absorb but for rounding nothing is known but its prior.
-    constexpr double kRounding = 1e-9;
-    if (term.share_left < kRounding && !cause.effect->parameters.front().integer)
-      term.sigma = cause.effect->parameters.front().prior_sigma;
-    const auto tested = std::find_if(
-        a.tested.begin(), a.tested.end(), [&](const auto& one) { return one.first == cause; });
-    term.p_value = a.null.p_value(
-        tested != a.tested.end() ? tested->second : by_cause(static_cast<Eigen::Index>(k)));
-    for (std::size_t c = 0; c < a.decision.classes.size(); ++c) {
-      const auto& members = a.decision.classes[c];
-      if (std::find(members.begin(), members.end(), cause) != members.end())
-        term.probability = marginal(a, c);
-    }
-    result.push_back(std::move(term));
-  }
-  std::stable_sort(result.begin(), result.end(), [](const Term& x, const Term& y) {
     return x.probability > y.probability;
   });
   return result;
@@ -230,35 +191,8 @@ void take_findings(const Analysis& a, Diagnosis& d) {
   d.family_wise_p = a.family_wise_p;
   d.causes = causes_found(a);
   d.hypotheses = hypotheses(a);
-  d.terms = terms(a);
   d.not_testable = a.candidates.not_testable;
   d.bounds = bounds(a, d.not_testable);
-  d.separations = separations(a);
-  d.normal_plot = normal_plot(a);
-}
-
-std::vector<Separation> separations(const Analysis& a) {
-  constexpr std::size_t kShown = 10;
-  const MarginalisedSystem& marginalised = marginalised_system(a);
-  std::vector<std::size_t> shown;
-  for (const ClassProbability& one : a.decision.marginal) {
-    if (shown.size() < kShown) shown.push_back(one.index);
-  }
-  std::vector<Separation> result;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const CauseId& x = a.decision.classes[shown[j]].front();
-      const CauseId& y = a.decision.classes[shown[i]].front();
-      const auto gx = marginalised.g.col(best_regressor(a, x));
-      const auto gy = marginalised.g.col(best_regressor(a, y));
-      const double collinearity = std::min(1.0, collinearity_of(gx, gy));
-      // 1.645 sqrt(2 / (1 - collinearity)): 95 of 100 distinguished; a class is never distinguished.
-      const double needed =
-          kQuantile95 * std::sqrt(2.0 / std::max(1.0 - collinearity, 1.0 - kOneClass));
-      result.push_back({x, y, collinearity, needed});
-    }
-  }
-  return result;
 }
 
 }  // namespace chaintrue::grid::diagnosis

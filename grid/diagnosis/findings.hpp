@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// An analysis in the words of the answer: causes with sizes, hypotheses, terms, bounds, settings,
+/// An analysis in the words of the answer: causes with sizes, hypotheses, bounds, settings,
 /// outliers, the extended machine and the pictures.
 #pragma once
 
@@ -9,32 +9,32 @@
 namespace chaintrue::grid::diagnosis {
 
 [[nodiscard]] std::vector<Cause> causes_found(const Analysis& analysis);
+/// That some cause of a class acts.
+[[nodiscard]] Hypothesis hypothesis_of(const CauseClass& members, double probability);
 [[nodiscard]] std::vector<Hypothesis> hypotheses(const Analysis& analysis);
 /// The quarters of the bed, and each session by itself.
 [[nodiscard]] std::vector<PartFinding> bed_part_findings(const Analysis& analysis);
 [[nodiscard]] std::vector<PartFinding> session_findings(const Analysis& analysis,
                                                         const std::vector<std::string>& names);
-[[nodiscard]] std::vector<Term> terms(const Analysis& analysis);
 /// Also moves effects that the settings absorb to `not_testable`.
 [[nodiscard]] std::vector<Bound> bounds(const Analysis& analysis,
                                         std::vector<NotTestable>& not_testable);
 [[nodiscard]] std::vector<CalibratedSetting> settings_found(const Analysis& analysis);
 /// By their number, points first.
 [[nodiscard]] std::vector<Outlier> outliers_found(const Analysis& analysis);
-[[nodiscard]] std::vector<Separation> separations(const Analysis& analysis);
 [[nodiscard]] LeftOver left_over(const Analysis& analysis);
 [[nodiscard]] Unexplained unexplained(const Analysis& analysis);
 [[nodiscard]] ErrorBudget error_budget(const Analysis& analysis);
 
-/// In the order of the files' points, holes and distances.
 /// That a cause, or one of its class, acts; 0 where none of them was weighed.
 [[nodiscard]] double probability_of(const Analysis& analysis, const CauseId& cause);
+/// In the order of the files' points, holes and distances.
 [[nodiscard]] std::vector<PointPicture> point_pictures(const Analysis& analysis);
 [[nodiscard]] std::vector<HolePicture> hole_pictures(const Analysis& analysis);
 [[nodiscard]] std::vector<DistancePicture> distance_pictures(const Analysis& analysis);
 
-/// Verdict, causes, hypotheses, terms, bounds, what is not testable, separations and the normal plot:
-/// what every answer has, whatever was measured.
+/// Verdict, causes, hypotheses, bounds and what is not testable: what every answer has, whatever was
+/// measured.
 void take_findings(const Analysis& analysis, Diagnosis& diagnosis);
 
 /// Sets the machine and the corrections of the data from the causes; a class that may lie on the

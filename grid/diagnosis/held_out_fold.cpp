@@ -30,7 +30,7 @@ class Folds {
           a_.system, noise_dof(a_), excluded, a_.session.fewest_units, comparison);
     }
     const bool detected = options.given_cause.has_value() ||
-                      a_.null.p_value(score.by_cause(first.e).maxCoeff()) < kFalseAlarm;
+                      a_.null.p_value(score.largest(first.e)) < kFalseAlarm;
     const Decision decision = decide_for_leaders(a_.system, comparison, excluded, detected);
     const MarginalisedSystem& marginalised =
         comparison.marginalised_systems[decision.marginalised];

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/expected_improvement.hpp"
@@ -18,47 +17,6 @@
 
 namespace chaintrue::grid::diagnosis {
 namespace {
-
-constexpr double kBorderShare = 0.9;  // of the half width of the points: beyond is the border
-
-struct Extent {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  void take(double at) {
-    low = std::min(low, at);
-    high = std::max(high, at);
-  }
-  /// Distance from the middle over the half width.
-  [[nodiscard]] double share(double at) const {
-    return std::abs(at - 0.5 * (low + high)) / std::max(0.5 * (high - low), 1.0);
-  }
-};
-
-/// Units of the held-out kind with a place beyond kBorderShare of the measured half width or
-/// height.
-std::vector<std::size_t> border(const Analysis& a, bool of_the_bed) {
-  Extent x;
-  Extent y;
-  const auto counts = [&](const SystemUnit& unit) { return unit.reads_chains == of_the_bed; };
-  for (const SystemUnit& unit : a.system.units) {
-    for (const observation::PlaceColumns& place_columns : unit.places) {
-      if (!counts(unit)) continue;
-      x.take(a.system.places[place_columns.place].mark.x_mm);
-      y.take(a.system.places[place_columns.place].mark.y_mm);
-    }
-  }
-  std::vector<std::size_t> result;
-  for (std::size_t u = 0; u < a.system.units.size(); ++u) {
-    const SystemUnit& unit = a.system.units[u];
-    const bool outside = std::any_of(
-        unit.places.begin(), unit.places.end(), [&](const observation::PlaceColumns& place_columns) {
-          const model::MarkPoint& mark = a.system.places[place_columns.place].mark;
-          return std::max(x.share(mark.x_mm), y.share(mark.y_mm)) > kBorderShare;
-        });
-    if (counts(unit) && outside) result.push_back(u);
-  }
-  return result;
-}
 
 bool names_agree(const Fold& fold, const Analysis& a) {
   const auto leader = [](const std::vector<CauseClass>& named) {
@@ -238,14 +196,6 @@ std::optional<HeldOutImprovement> measure_improvement(const Analysis& a) {
     const ExpectedImprovement expected = expected_improvement(a);
     improvement.drop_mm2 = expected.drop_mm2;
     improvement.drop_share = expected.share;
-  }
-  const auto edge = border(a, blocks.of_the_bed);
-  if (a.session.units.size() - edge.size() >= a.session.fewest_units) {
-    const Errors outer = hold_out(a, edge).errors;
-    improvement.border = {rms_length(outer.calibrated),
-                          rms_length(outer.extended),
-                          rms_length(outer.extended_and_surface),
-                          rms_length(outer.surface_only)};
   }
   return improvement;
 }

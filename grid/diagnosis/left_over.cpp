@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/best_model.hpp"
-#include "grid/diagnosis/noise_draws.hpp"
+#include "grid/diagnosis/findings.hpp"
 #include "grid/linear_algebra.hpp"
+#include "grid/synthetic/random.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -18,6 +18,54 @@ constexpr double kFollowsShare = 0.2;
 /// Of what no place explains, so much must follow the visits before they are named.
 constexpr double kTimeOverPlace = 0.3;
 
+/// X in units of what each unknown may be beforehand.
+Eigen::MatrixXd design_of(const Analysis& a) {
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const Eigen::Index n = marginalised.kept.size();
+  const Eigen::Index settings = a.system.by_setting.cols();
+  const auto causes = static_cast<Eigen::Index>(a.estimate.free.size());
+  Eigen::MatrixXd design(n, settings + causes);
+  design.leftCols(settings) =
+      linear::scaled_columns(marginalised.kept.of(a.system.by_setting), a.system.sigma);
+  for (Eigen::Index k = 0; k < causes; ++k) {
+    const int column = a.estimate.regressors[a.estimate.free[static_cast<std::size_t>(k)]];
+    design.col(settings + k) = marginalised.kept(a.system.g.col(column)) * kWideSignalToNoise /
+                               std::max(marginalised.g.col(column).norm(), 1e-12);
+  }
+  return design;
+}
+
+/// What a fit leaves of noise, a column a draw: residuals have passed through the fit that made them, so the noise
+/// that they are held against has to pass through it too. The nuisances' share is put back, as left_of_machine()
+/// does.
+///
+///   y = B diag(s) u + z,  u and z standard normal;   r = y - X (X'X + P)^-1 X' y
+///
+/// X, the columns of settings, nuisances (B, with their sigmas s) and named causes; P, their precision beforehand.
+Eigen::MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream) {
+  const Eigen::MatrixXd design = design_of(a);
+  const Eigen::Index n = design.rows();
+  const Eigen::Index shared = a.system.nuisances;
+  const auto by_nuisance =
+      design.middleCols(a.system.by_setting.cols() - shared, shared);
+  const linear::Cholesky normal(linear::one_plus_gram(design));
+  synthetic::Random random(a.options.seed, stream);
+  Eigen::MatrixXd z(n, draws);
+  Eigen::VectorXd u(shared);
+  for (Eigen::Index draw = 0; draw < draws; ++draw) {
+    for (Eigen::Index i = 0; i < n; ++i) z(i, draw) = random.normal();
+    for (Eigen::Index q = 0; q < shared; ++q) u(q) = random.normal();
+    linear::add_product(z.col(draw), 1.0, by_nuisance, u);
+  }
+  const Eigen::MatrixXd taken = normal.solve(linear::product(linear::transposed(design), z));
+  linear::add_product(z, -1.0, design, taken);
+  if (shared > 0) {
+    linear::add_product(
+        z, 1.0, by_nuisance, taken.middleRows(a.system.by_setting.cols() - shared, shared));
+  }
+  return z;
+}
+
 /// e'K e / e'e against what a fit leaves of noise: is there more in common between neighbours than
 /// chance has?
 double p_of_structure(const Analysis& a) {
@@ -25,7 +73,7 @@ double p_of_structure(const Analysis& a) {
   Eigen::MatrixXd e(kept.size(), kLeftOverDraws + 1);
   e.col(0) = kept(left_of_machine(a.system, a.estimate, a.estimate.left));
   constexpr std::uint64_t kStream = 63;
-  e.rightCols(kLeftOverDraws) = left_of_noise(a, Nuisances::put_back, kLeftOverDraws, kStream);
+  e.rightCols(kLeftOverDraws) = left_of_noise(a, kLeftOverDraws, kStream);
   Eigen::MatrixXd k = discrepancy_covariance(a.system, kept, {{{FieldOf::place, kSmoothMm}}, 1.0});
   if (a.system.nuisances > 0) {
     const linear::Cholesky noise = nuisance_noise(a.system, kept);

@@ -26,8 +26,6 @@ SingleScore::SingleScore(const RegressorSystem& system,
   constant_.resize(square_.size());
   for (Eigen::Index k = 0; k < square_.size(); ++k) {
     const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
-    if (causes_.empty() || !(causes_.back() == d.cause)) causes_.push_back(d.cause);
-    cause_of_.push_back(causes_.size() - 1);
     fixed_.push_back(d.fixed);
     sign_.push_back(d.fixed || (d.lowest < 0.0 && d.highest > 0.0) ? 0
                                                                    : (d.highest > 0.0 ? 1 : -1));
@@ -58,16 +56,13 @@ double SingleScore::largest(const NormalEquations& equations, Eigen::Index rows)
   return result;
 }
 
-Eigen::VectorXd SingleScore::by_cause(const Eigen::VectorXd& e) const {
+double SingleScore::largest(const Eigen::VectorXd& e) const {
   const Eigen::VectorXd c = marginalised_.g.transpose_times(e);
   const double ee = e.squaredNorm();
   const auto n = static_cast<double>(e.size());
-  Eigen::VectorXd result =
-      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(causes_.size()), kNoScore);
-  for (Eigen::Index k = 0; k < c.size(); ++k) {
-    double& own = result(static_cast<Eigen::Index>(cause_of_[static_cast<std::size_t>(k)]));
-    own = std::max(own, score(k, square_(k), c(k), ee, n));
-  }
+  double result = kNoScore;
+  for (Eigen::Index k = 0; k < c.size(); ++k)
+    result = std::max(result, score(k, square_(k), c(k), ee, n));
   return result;
 }
 

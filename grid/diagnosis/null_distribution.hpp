@@ -24,13 +24,11 @@ class SingleScore {
   SingleScore(const RegressorSystem& system,
               const MarginalisedSystem& marginalised,
               double noise_dof);
-  /// The largest over all regressors of a cause, in the order of `causes()`; `e` like
-  /// MarginalisedSystem::e.
-  [[nodiscard]] Eigen::VectorXd by_cause(const Eigen::VectorXd& e) const;
-  [[nodiscard]] const std::vector<CauseId>& causes() const { return causes_; }
+  /// The largest of all; `e` like MarginalisedSystem::e.
+  [[nodiscard]] double largest(const Eigen::VectorXd& e) const;
   /// The largest over the columns of normal equations of so many rows.
   [[nodiscard]] double largest(const NormalEquations& equations, Eigen::Index rows) const;
-  /// The largest of all, for each column of `e`.
+  /// For each column of `e`.
   [[nodiscard]] Eigen::VectorXd largest(const Eigen::MatrixXd& e) const;
 
  private:
@@ -38,8 +36,6 @@ class SingleScore {
   [[nodiscard]] double score(Eigen::Index k, double square, double c, double ee, double n) const;
   const MarginalisedSystem& marginalised_;
   double dof_;
-  std::vector<CauseId> causes_;
-  std::vector<std::size_t> cause_of_;
   Eigen::VectorXd square_;
   Eigen::VectorXd constant_;
   std::vector<int> sign_;  ///< +1: coefficient >= 0 only, -1: <= 0, 0: either

@@ -17,12 +17,6 @@ namespace {
 constexpr double kHolds = 0.5;
 constexpr double kHoldsInSession = 0.9;
 
-Hypothesis hypothesis_of(const CauseId& cause, double probability) {
-  return {std::string(cause.effect->id),
-          std::string(model::effects::name(cause.side)),
-          probability};
-}
-
 double probability_of_class(const PartPosterior& part, const CauseClass& members) {
   double sum = 0.0;
   for (const auto& [cause, p] : part.causes) {
@@ -41,12 +35,12 @@ PartFinding finding_of(const Analysis& a, const PartPosterior& part) {
     const double p = probability_of_class(part, members);
     if (p > most) {
       most = p;
-      result.likeliest = hypothesis_of(members.front(), p);
+      result.likeliest = hypothesis_of(members, p);
     }
   }
   for (const std::size_t index : a.decision.listed) {
     const CauseClass& members = a.decision.classes[index];
-    result.named.push_back(hypothesis_of(members.front(), probability_of_class(part, members)));
+    result.named.push_back(hypothesis_of(members, probability_of_class(part, members)));
   }
   return result;
 }
@@ -58,13 +52,10 @@ std::string_view quarter(double towards_rad) {
   return kNames[static_cast<std::size_t>(eighth) % kNames.size()];
 }
 
-/// What a hypothesis is called in sentences: terms hold every cause that was weighed.
-std::string cause_words(const Diagnosis& d, const Hypothesis& one) {
-  for (const Term& term : d.terms) {
-    if (term.cause.effect->id == one.effect && model::effects::name(term.cause.side) == one.side)
-      return fmt::format("\"{}{}\"", term.cause.effect->cause, side_words(term.cause));
-  }
-  return one.effect;
+/// What a hypothesis is called in sentences.
+std::string cause_words(const Hypothesis& one) {
+  if (one.causes.empty()) return one.effect;
+  return fmt::format("\"{}{}\"", one.causes.front().effect->cause, side_words(one.causes.front()));
 }
 
 bool is_named(const PartFinding& part, const Hypothesis& one) {
@@ -93,7 +84,7 @@ struct OtherAnswer {
 };
 
 /// What a quarter's absence changes: another cause is the likeliest, or one that is named is not likely.
-OtherAnswer answer_without(const Diagnosis& d, const PartFinding& part) {
+OtherAnswer answer_without(const PartFinding& part) {
   const Hypothesis* lost = nullptr;
   for (const Hypothesis& own : part.named) {
     if (own.probability < kHolds && (lost == nullptr || own.probability < lost->probability))
@@ -102,15 +93,15 @@ OtherAnswer answer_without(const Diagnosis& d, const PartFinding& part) {
   const Hypothesis& best = part.likeliest;
   if (best.effect == "nothing") return {"no cause is likelier than not", {}, best.probability, best.probability};
   if (!is_named(part, best) || lost == nullptr)
-    return {fmt::format("it is {}", cause_words(d, best)), {}, best.probability, best.probability};
-  return {fmt::format("{} is not likely", cause_words(d, *lost)), {}, lost->probability, lost->probability};
+    return {fmt::format("it is {}", cause_words(best)), {}, best.probability, best.probability};
+  return {fmt::format("{} is not likely", cause_words(*lost)), {}, lost->probability, lost->probability};
 }
 
 std::string words_of_quarters(const Diagnosis& d) {
   std::vector<OtherAnswer> answers;
   for (const PartFinding& part : d.bed_parts) {
     if (!denies(d, part)) continue;
-    const OtherAnswer own = answer_without(d, part);
+    const OtherAnswer own = answer_without(part);
     const auto same = std::find_if(answers.begin(), answers.end(), [&](const OtherAnswer& other) {
       return other.words == own.words;
     });
@@ -146,7 +137,7 @@ std::vector<std::string> words_of_sessions(const Diagnosis& d) {
       else if (own.probability <= 1.0 - kHoldsInSession) without.push_back(std::move(words));
     }
     const Hypothesis& named = d.sessions.front().named[k];
-    const std::string cause = cause_words(d, named);
+    const std::string cause = cause_words(named);
     if (with.size() == d.sessions.size()) {
       result.push_back(fmt::format("Each session shows {} by itself.", cause));
     } else if (!with.empty() && !without.empty()) {

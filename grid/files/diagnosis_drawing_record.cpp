@@ -59,11 +59,6 @@ void take_causes_of_cords(diagnosis::Diagnosis& d) {
   for (auto& own : d.not_testable) take_cause_of_cords(own.cause);
   for (auto& own : d.bounds) take_cause_of_cords(own.cause);
   for (auto& own : d.declared) take_cause_of_cords(own.cause);
-  for (auto& own : d.terms) take_cause_of_cords(own.cause);
-  for (auto& own : d.separations) {
-    take_cause_of_cords(own.first);
-    take_cause_of_cords(own.second);
-  }
 }
 
 }  // namespace chaintrue::grid::files

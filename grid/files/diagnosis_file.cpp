@@ -269,18 +269,14 @@ Record<Diagnosis> make_diagnosis_record() {
       .required("data_corrections", &Diagnosis::data_corrections, list(object(effect_record())))
       .required("noise_factor", &Diagnosis::noise_factor, number(kNotNegative))
       .required("family_wise_p", &Diagnosis::family_wise_p, number(kShare))
-      .required("terms", &Diagnosis::terms, list(object(term_record())))
-      .required("separations", &Diagnosis::separations, list(object(separation_record())))
       .required("points", &Diagnosis::points, list(object(point_picture_record())))
       .required("seed", &Diagnosis::seed, seed_value())
       .required("grid_name", &Diagnosis::grid_name, text())
       .optional("stated_noise", &Diagnosis::stated_noise, object(stated_noise_record()))
       .optional("stability", &Diagnosis::stability, object(stability_record()))
-      .optional("normal_plot", &Diagnosis::normal_plot, object(normal_plot_record()))
       .sparse("bed_parts", &Diagnosis::bed_parts, list(object(bed_part_record())))
       .sparse("sessions", &Diagnosis::sessions, list(object(session_record())))
-      .optional("held_out_grid", &Diagnosis::transferred, object(transfer_record()))
-      .optional("trend", &Diagnosis::trend, object(trend_record()));
+      .optional("held_out_grid", &Diagnosis::transferred, object(transfer_record()));
   distance_keys(record);
   add_made_by_key(record).check(check_diagnosis);
   return record;

@@ -13,11 +13,10 @@
 ///     "bad_points": [indices], "bad_point_shifts": [ {"x_mm", "y_mm", "sigmas"} ],
 ///     "not_testable": [...], "bounds": [...], "settings": [...],
 ///     "gain": {"scheme", "position_rms_mm": {row: mm}, "position_percentile_95_mm": {row: mm},
-///              "position_rms_90_percent_mm": {row: [low, high]}, "border_rms_mm": {row: mm}, ...},
+///              "position_rms_90_percent_mm": {row: [low, high]}, ...},
 ///     "next_measurements": [...], "extended_machine": { a chaintrue_machine },
 ///     "stability":  {"probability", "removals": [ {"what": "point", "point": index, "points": 1,
-///                    "verdict", "causes", "stands", "probability", "support"} ]},
-///     "normal_plot": {"values", "expected", "low", "high", "p_value"}, ... }
+///                    "verdict", "causes", "stands", "probability", "support"} ]}, ... }
 ///
 /// For holes ("observations": "distances"; without the key: points) the file has, instead of
 /// points,

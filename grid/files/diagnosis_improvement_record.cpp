@@ -128,17 +128,6 @@ void error_figures(Record<T>& record, const std::array<ErrorRow<T>, kCount>& row
   nested(record, "position_rms_90_percent_mm", intervals);
 }
 
-const Record<HeldOutImprovement::Border>& border_record() {
-  using Border = HeldOutImprovement::Border;
-  static const auto record =
-      Record<Border>("errors at the border")
-          .required("calibrated", &Border::calibrated_mm, number(kSigmaMm))
-          .required("extended", &Border::extended_mm, number(kSigmaMm))
-          .required("extended_and_surface", &Border::extended_and_surface_mm, number(kSigmaMm))
-          .required("surface_only", &Border::surface_only_mm, number(kSigmaMm));
-  return record;
-}
-
 }  // namespace
 
 const Record<HeldOutImprovement>& improvement_record() {
@@ -148,7 +137,6 @@ const Record<HeldOutImprovement>& improvement_record() {
     error_figures(improvement, kImprovementRows);
     improvement.required("drop_mm2", &HeldOutImprovement::drop_mm2, number(kSigmaMm))
         .required("drop_share", &HeldOutImprovement::drop_share, number(kShare))
-        .required("border_rms_mm", &HeldOutImprovement::border, object(border_record()))
         .required("folds", &HeldOutImprovement::folds, integer(0, kMostFolds))
         .required("folds_agree", &HeldOutImprovement::folds_agree, integer(0, kMostFolds))
         .check([](const Cursor& at, HeldOutImprovement& object) {

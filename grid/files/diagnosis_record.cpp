@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/effect_record.hpp"
@@ -28,8 +26,6 @@ using diagnosis::LeftOver;
 using diagnosis::NotTestable;
 using diagnosis::ParameterEstimate;
 using diagnosis::SameCause;
-using diagnosis::Separation;
-using diagnosis::Term;
 using model::effects::Effect;
 using model::effects::EffectSide;
 
@@ -311,54 +307,6 @@ const Record<CalibratedSetting>& calibrated_setting_record() {
           .required("calibrated", &CalibratedSetting::calibrated, number(kAnyNumber))
           .required("sigma", &CalibratedSetting::sigma, number(kNotNegative))
           .required("off", &CalibratedSetting::off, boolean());
-  return record;
-}
-
-const Record<Term>& term_record() {
-  static const auto record = [] {
-    Record<Term> term("a term");
-    cause_keys(term, kCause);
-    term.required("parameter", &Term::parameter, text())
-        .required("value", &Term::value, number(kAnyNumber))
-        .required("sigma", &Term::sigma, number(kNotNegative))
-        .required("delta", &Term::signal_to_noise, number(kNotNegative))
-        .required("share_left", &Term::share_left, number(kShare))
-        .required("p_value", &Term::p_value, number(kShare))
-        .required("probability", &Term::probability, number(kShare));
-    return term;
-  }();
-  return record;
-}
-
-const Record<Separation>& separation_record() {
-  static const auto record = [] {
-    Record<Separation> separation("how well two effects are distinguished");
-    for (const auto& [key, member] :
-         {std::pair("first", &Separation::first), std::pair("second", &Separation::second)}) {
-      separation.required(key, member, object(cause_id_record()));
-    }
-    // Null: no strength is sufficient.
-    const Value<double> needed = number(kNotNegative);
-    separation.required("rho", &Separation::collinearity, number(kShare))
-        .custom(
-            "delta_needed",
-            false,
-            needed.expected,
-            [needed](const Cursor& at, Separation& object) {
-              if (const auto value = needed.read(at)) object.signal_to_noise_needed = *value;
-            },
-            [needed](const Separation& object) {
-              return std::optional<Json>(std::isfinite(object.signal_to_noise_needed)
-                                             ? needed.write(object.signal_to_noise_needed)
-                                             : Json(nullptr));
-            })
-        .check([](const Cursor& at, Separation& object) {
-          if (at.child("delta_needed").json().is_null()) {
-            object.signal_to_noise_needed = std::numeric_limits<double>::infinity();
-          }
-        });
-    return separation;
-  }();
   return record;
 }
 

@@ -15,15 +15,12 @@ namespace chaintrue::grid::files {
 /// diagnosis_remainder_record.cpp.
 [[nodiscard]] const Record<diagnosis::Unexplained>& unexplained_record();
 [[nodiscard]] const Record<diagnosis::ErrorBudget>& error_budget_record();
-[[nodiscard]] const Record<diagnosis::Trend>& trend_record();
 [[nodiscard]] const Record<diagnosis::NotTestable>& not_testable_record();
 [[nodiscard]] const Record<diagnosis::Bound>& bound_record();
 [[nodiscard]] const Record<diagnosis::DeclaredAnswer>& declared_answer_record();
 [[nodiscard]] const Record<diagnosis::CalibratedSetting>& calibrated_setting_record();
 [[nodiscard]] const Record<diagnosis::HolePicture>& hole_picture_record();
 [[nodiscard]] const Record<diagnosis::DistancePicture>& distance_picture_record();
-[[nodiscard]] const Record<diagnosis::Term>& term_record();
-[[nodiscard]] const Record<diagnosis::Separation>& separation_record();
 /// diagnosis_drawing_record.cpp.
 [[nodiscard]] const Record<diagnosis::DrawingFindings>& drawing_findings_record();
 /// Causes that chains have under the same name become those of cords: a diagnosis of a drawing names
@@ -33,7 +30,6 @@ void take_causes_of_cords(diagnosis::Diagnosis& diagnosis);
 [[nodiscard]] const Record<diagnosis::BeltsFindings>& belts_findings_record();
 /// diagnosis_stability_record.cpp.
 [[nodiscard]] const Record<diagnosis::Stability>& stability_record();
-[[nodiscard]] const Record<diagnosis::NormalPlot>& normal_plot_record();
 [[nodiscard]] const Record<diagnosis::PartFinding>& bed_part_record();
 [[nodiscard]] const Record<diagnosis::PartFinding>& session_record();
 /// Positions on the bed; diagnosis_point_record.cpp.

@@ -204,32 +204,4 @@ const Record<ErrorBudget>& error_budget_record() {
   return record;
 }
 
-namespace {
-
-const Record<diagnosis::Change>& change_record() {
-  using diagnosis::Change;
-  static const auto record =
-      Record<Change>("a change")
-          .required("cause", &Change::cause, object(cause_id_record()))
-          .required("before", &Change::before, object(named_estimate_record()))
-          .required("now", &Change::after, object(named_estimate_record()))
-          .required("named_before", &Change::named_before, boolean())
-          .required("named_now", &Change::named_now, boolean())
-          .required("probability", &Change::probability, number(kShare));
-  return record;
-}
-
-}  // namespace
-
-const Record<diagnosis::Trend>& trend_record() {
-  using diagnosis::Trend;
-  static const auto record =
-      Record<Trend>("what changed since an earlier diagnosis")
-          .required("since", &Trend::since, text())
-          .required("changes", &Trend::changes, list(object(change_record())))
-          .optional("as_delivered_before_mm", &Trend::uncalibrated_before_mm, number(kNotNegative))
-          .optional("as_delivered_mm", &Trend::uncalibrated_mm, number(kNotNegative));
-  return record;
-}
-
 }  // namespace chaintrue::grid::files

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The stability of a diagnosis, in a chaintrue_diagnosis file: its results without some of the points
-// or parts of the bed, and the test of normality of the residuals.
+// or parts of the bed.
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/record_values.hpp"
 
 namespace chaintrue::grid::files {
 
-using diagnosis::NormalPlot;
 using diagnosis::PartFinding;
 using diagnosis::Removal;
 using diagnosis::Stability;
@@ -162,29 +161,6 @@ const Record<PartFinding>& session_record() {
     part.required("session", &PartFinding::session, text());
     part_keys(part);
     return part;
-  }();
-  return record;
-}
-
-const Record<NormalPlot>& normal_plot_record() {
-  static const auto record = [] {
-    Record<NormalPlot> plot("a normal plot");
-    const Value<std::vector<double>> values = list(number(kAnyNumber));
-    plot.required("values", &NormalPlot::values, values)
-        .required("expected", &NormalPlot::expected, values)
-        .required("low", &NormalPlot::low, values)
-        .required("high", &NormalPlot::high, values)
-        .required("p_value", &NormalPlot::p_value, number(kShare))
-        .check([](const Cursor& at, NormalPlot& object) {
-          for (const auto& [key, list] : {std::pair("expected", &object.expected),
-                                          std::pair("low", &object.low),
-                                          std::pair("high", &object.high)}) {
-            if (at.clean() && list->size() != object.values.size()) {
-              at.child(key).expect("as many numbers as there are values");
-            }
-          }
-        });
-    return plot;
   }();
   return record;
 }

@@ -59,9 +59,6 @@ TEST(MixedDiagnosis, FillsTheWholeAnswer) {
   }
   EXPECT_EQ(distances, static_cast<int>(found->distances.size()));
   EXPECT_EQ(holes, static_cast<int>(found->holes.size()));
-  ASSERT_TRUE(found->normal_plot);
-  EXPECT_EQ(found->normal_plot->values.size(),
-            2 * found->points.size() + found->distances.size());
   ASSERT_TRUE(found->improvement);
   EXPECT_LT(found->improvement->extended.rms_mm, found->improvement->calibrated.rms_mm);
   EXPECT_TRUE(found->stated_noise);

@@ -14,7 +14,6 @@
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/expected_discrimination.hpp"
-#include "grid/diagnosis/trend.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "tests/diagnosis/sessions.hpp"
 
@@ -202,44 +201,6 @@ TEST(Budget, APartIsWrongByWhatTheCauseMakesOfIt) {
   ASSERT_TRUE(cause->part_mm);
   EXPECT_GT(*cause->part_mm, 0.1);
   EXPECT_LT(*cause->part_mm, 0.6);  // far from the left motor both chains hang steeply: a lever of 3
-}
-
-TEST(Trend, SaysWhatGrewAndHowSurely) {
-  const auto before = diagnose(session_of({kLongLeft}, 21), verdict_alone());
-  const model::AppliedEffect longer{"chain_pitch_error", "left", {{"elongation", 0.0025}}};
-  const auto now = diagnose(session_of({longer}, 22), verdict_alone());
-  const auto same = diagnose(session_of({kLongLeft}, 23), verdict_alone());
-  ASSERT_TRUE(before && now && same);
-  const Trend grown = trend(*before, *now, "old.json");
-  ASSERT_EQ(grown.changes.size(), 1U);
-  EXPECT_TRUE(grown.changes.front().named_before);
-  EXPECT_TRUE(grown.changes.front().named_now);
-  EXPECT_GT(grown.changes.front().probability, 0.99);  // 0.1 % against sigmas of a hundredth of that
-  EXPECT_THAT(change_in_words(grown.changes.front()), HasSubstr("grew"));
-  const Trend nothing = trend(*before, *same, "old.json");
-  ASSERT_EQ(nothing.changes.size(), 1U);
-  EXPECT_LT(nothing.changes.front().probability, 0.999);  // noise alone: 3.1 sigmas
-  // In the opposite direction it became smaller, with the same certainty.
-  EXPECT_THAT(change_in_words(trend(*now, *before, "new.json").changes.front()),
-              HasSubstr("became less"));
-}
-
-TEST(Trend, HoldsTheErrorOfTodayAgainstThatOfThen) {
-  Diagnosis before, now;
-  before.budget = ErrorBudget{6.0, {}};
-  now.budget = ErrorBudget{3.0, {}};
-  before.tool_today = ErrorSummary{5.0, 9.0};
-  // An older file has none: both are then said by the points.
-  Trend found = trend(before, now, "old.json");
-  EXPECT_EQ(found.uncalibrated_before_mm, 6.0);
-  EXPECT_EQ(found.uncalibrated_mm, 3.0);
-  now.tool_today = ErrorSummary{2.0, 4.0};
-  found = trend(before, now, "old.json");
-  EXPECT_EQ(found.uncalibrated_before_mm, 5.0);
-  EXPECT_EQ(found.uncalibrated_mm, 2.0);
-  before.budget.reset();
-  before.tool_today.reset();
-  EXPECT_FALSE(trend(before, now, "old.json").uncalibrated_mm);
 }
 
 }  // namespace

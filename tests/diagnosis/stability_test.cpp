@@ -12,7 +12,6 @@
 
 #include "grid/diagnosis/downdating.hpp"
 #include "grid/diagnosis/best_model.hpp"
-#include "grid/diagnosis/normal_plot.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "tests/diagnosis/sessions.hpp"
 

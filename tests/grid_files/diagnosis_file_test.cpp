@@ -61,11 +61,9 @@ TEST(DiagnosisFile, ReadsBackWhatItWrote) {
     EXPECT_EQ(read.improvement.has_value(), said.improvement.has_value());
     EXPECT_EQ(read.transferred.has_value(), said.transferred.has_value());
     EXPECT_EQ(read.stability.has_value(), said.stability.has_value());
-    EXPECT_EQ(read.normal_plot.has_value(), said.normal_plot.has_value());
   }
   const Diagnosis read = parse_diagnosis(write_diagnosis(sample_diagnosis()), "diagnosis.json");
   EXPECT_EQ(read.improvement->placed->high_mm, 2.44);
-  EXPECT_EQ(read.improvement->border.surface_only_mm, 0.95);
   EXPECT_EQ(read.transferred->extended.low_mm, 0.30);
   const auto& removals = read.stability->removals;
   EXPECT_EQ(removals[2].index, 2U);
@@ -74,10 +72,7 @@ TEST(DiagnosisFile, ReadsBackWhatItWrote) {
   EXPECT_EQ(removals.back().what, diagnosis::Removal::What::column);
   EXPECT_EQ(removals.back().at_mm, -1100.0);
   EXPECT_EQ(removals.back().points, 4U);
-  EXPECT_EQ(read.normal_plot->high, (std::vector<double>{-0.6, 0.7, 2.0}));
   EXPECT_EQ(read.outliers[0].shift_mm, Eigen::Vector2d(3.0, -4.0));
-  EXPECT_EQ(read.separations[1].signal_to_noise_needed, 3.1);
-  EXPECT_TRUE(std::isinf(read.separations[2].signal_to_noise_needed));
 }
 
 TEST(DiagnosisFile, HasItsKeysInTheOrderPromised) {
@@ -108,14 +103,11 @@ TEST(DiagnosisFile, HasItsKeysInTheOrderPromised) {
                           "data_corrections",
                           "noise_factor",
                           "family_wise_p",
-                          "terms",
-                          "separations",
                           "points",
                           "seed",
                           "grid_name",
                           "stated_noise",
                           "stability",
-                          "normal_plot",
                           "bed_parts",
                           "sessions",
                           "held_out_grid"));
@@ -132,36 +124,30 @@ TEST(DiagnosisFile, HasItsKeysInTheOrderPromised) {
   EXPECT_EQ(json["extended_machine"]["file_type"], "chaintrue_machine");
 }
 
-// A file of an earlier version has neither.
-TEST(DiagnosisFile, NeedsNeitherStabilityNorNormalPlot) {
+TEST(DiagnosisFile, NeedsNoStability) {
   ordered_json json = written_sample();
   json.erase("stability");
-  json.erase("normal_plot");
   EXPECT_THAT(problems_in(json), ::testing::IsEmpty());
 }
 
-TEST(DiagnosisFile, PointsLeftOutHaveTheirPlaceAndListsTheirLength) {
+TEST(DiagnosisFile, PointsLeftOutHaveTheirPlace) {
   ordered_json json = written_sample();
   json["stability"]["removals"][0]["point"] = nullptr;
   json["stability"]["removals"][1]["what"] = "diagonal";
   json["stability"]["removals"].back()["at_mm"] = nullptr;
-  json["normal_plot"]["low"].push_back(1.0);
   EXPECT_THAT(
       problems_in(json),
       ::testing::UnorderedElementsAre(
           HasSubstr("/stability/removals/0/point"),
           HasSubstr("/stability/removals/1/what"),
-          AllOf(HasSubstr("/at_mm"), HasSubstr("a number in mm")),
-          AllOf(HasSubstr("/normal_plot/low"), HasSubstr("as many numbers as there are values"))));
+          AllOf(HasSubstr("/at_mm"), HasSubstr("a number in mm"))));
 }
 
 TEST(DiagnosisFile, SaysNullWhereThereIsNone) {
   const ordered_json json = written_sample();
   EXPECT_TRUE(json["hypotheses"][2]["side"].is_null());
-  EXPECT_TRUE(json["terms"][2]["side"].is_null());
   EXPECT_TRUE(json["next_measurements"][0]["x_mm"].is_null());
   EXPECT_TRUE(json["next_measurements"][1]["side"].is_null());
-  EXPECT_TRUE(json["separations"][2]["delta_needed"].is_null());
   const ordered_json quiet = ordered_json::parse(write_diagnosis(quiet_diagnosis()));
   EXPECT_TRUE(quiet["left_over"]["follows"].is_null());
   EXPECT_FALSE(quiet.contains("gain"));

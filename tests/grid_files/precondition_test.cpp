@@ -10,7 +10,6 @@
 #include <limits>
 #include <string>
 
-#include "grid/diagnosis/periodogram.hpp"
 #include "grid/files/json_text.hpp"
 #include "grid/observation/single_readings.hpp"
 #include "grid/planning/holes_plan.hpp"
@@ -73,10 +72,6 @@ INSTANTIATE_TEST_SUITE_P(
              [](double bad) { (void)plan_measurement(model::Machine{}, {.margin_mm = bad}); }},
         Site{"plan_holes",
              [](double bad) { (void)plan_holes(model::Machine{}, {.tape_sigma_mm = bad}); }},
-        Site{"periodogram",
-             [](double bad) {
-               (void)diagnosis::Periodogram(std::vector<double>(50, 1.0), bad);
-             }},
         Site{"json", [](double bad) { (void)files::print_json(files::Json(bad)); }}),
     [](const auto& one) { return std::string(one.param.name); });
 

@@ -120,7 +120,7 @@ constexpr const char* kFoldedProbe = R"(
       const page = document.documentElement;
       page.dataset.highest = Math.round(Math.max(0, ...lines));
       page.dataset.high = Math.round(page.scrollHeight - lines.reduce((sum, line) => sum + line, 0));
-      const chart = document.querySelector('[data-spec="normal_plot"]');
+      const chart = document.querySelector('[data-spec="probability_bars"]');
       chart.closest("details").open = true;
       for (let i = 0; i < 200 && !page.dataset.fits; ++i) {
         await new Promise((done) => setTimeout(done, 20));
@@ -198,9 +198,7 @@ TEST(Browser, PagesAreDrawnWhole) {
                   {"residual_scatter", "point_marks", 14 * kPoints},
                   {"probability_bars", "bars", 4},
                   {"gain_bars", "bars", 6},
-                  {"separation_matrix", "cell_marks", 6},
                   {"name_support", "point_marks", kPoints},
-                  {"normal_plot", "quantile_marks", 3},
                   {"next_points", "next_marks", 2},
                   {"next_points", "measured_marks", kPoints}});
     expect_fits_a_phone(visits[3]);

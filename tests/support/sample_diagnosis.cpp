@@ -73,7 +73,6 @@ diagnosis::HeldOutImprovement sample_improvement() {
   improvement.extended_and_surface = {0.30, 0.53, 0.26, 0.35};
   improvement.surface_only = {0.52, 0.99, 0.44, 0.61};
   improvement.noise_floor_mm = 0.29;
-  improvement.border = {1.40, 0.34, 0.36, 0.95};
   improvement.folds = 8;
   improvement.folds_agree = 7;
   return improvement;
@@ -96,34 +95,6 @@ void add_causes(Diagnosis& found) {
                       {"beam_flex", "", 0.01},
                       {"unknown", "", 0.004},
                       {"nothing", "", 0.001}};
-  found.terms = {{cause("chain_pitch_error", EffectSide::left),
-                  "elongation",
-                  kElongation,
-                  1e-4,
-                  11.3,
-                  0.28,
-                  1e-4,
-                  0.97},
-                 {cause("tooth_skip", EffectSide::left), "links", 0.4, 0.05, 8.1, 0.6, 1e-3, 0.015},
-                 {cause("beam_flex"), "flexibility_mm_per_n", 0.008, 0.002, 4.2, 0.31, 0.2, 0.01},
-                 {cause("sprocket_eccentricity", EffectSide::right),
-                  "amplitude_mm",
-                  0.05,
-                  0.04,
-                  1.1,
-                  0.97,
-                  1.0,
-                  0.0}};
-  found.separations = {
-      {cause("chain_pitch_error", EffectSide::left),
-       cause("tooth_skip", EffectSide::left),
-       0.81,
-       5.3},
-      {cause("chain_pitch_error", EffectSide::left), cause("beam_flex"), 0.42, 3.1},
-      {cause("chain_pitch_error", EffectSide::left),
-       cause("tape_scale", EffectSide::both),
-       1.0,
-       std::numeric_limits<double>::infinity()}};
 }
 
 void add_follow_up(Diagnosis& found) {
@@ -204,8 +175,6 @@ Diagnosis sample_diagnosis() {
   found.grid_name = "workshop grid";
   found.stated_noise = StatedNoise{0.2, 0.3, 12.0};
   found.stability = sample_stability(found.points);
-  found.normal_plot = diagnosis::NormalPlot{
-      {-1.4, 0.1, 1.5}, {-1.3, 0.0, 1.3}, {-2.0, -0.7, 0.6}, {-0.6, 0.7, 2.0}, 0.42};
   found.bed_parts = {
       {0.2, "", 8, {"chain_pitch_error", "left", 0.96}, {{"chain_pitch_error", "left", 0.96}}},
       {2.2, "", 8, {"nothing", "", 0.7}, {{"chain_pitch_error", "left", 0.2}}}};
@@ -234,7 +203,6 @@ Diagnosis quiet_diagnosis() {
   found.left_over = {};
   found.outliers.clear();
   found.hypotheses = {{"nothing", "", 0.99}, {"unknown", "", 0.01}};
-  found.separations.clear();
   found.next_measurements.clear();
   found.data_corrections.clear();
   found.extended_machine.effects.clear();
@@ -243,7 +211,6 @@ Diagnosis quiet_diagnosis() {
   found.stability.reset();
   found.bed_parts.clear();
   found.sessions.clear();
-  found.normal_plot.reset();
   found.stated_noise.reset();
   found.seed = 1;
   for (PointPicture& point : found.points) {

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "grid/diagnosis/order_search.hpp"
-#include "grid/diagnosis/trend.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/diagnosed.hpp"
@@ -84,9 +83,6 @@ Facts facts_of(const std::vector<InputFile>& files) {
 }
 
 int run_diagnose(Verb verb, const DiagnoseCommand& command) {
-  // A wrong file is reported before the work.
-  std::optional<Diagnosis> before;
-  if (!command.before.empty()) before = files::read_diagnosis(command.before);
   const std::vector<InputFile> opened = open_inputs(command.input.grid, command.with);
   const InputFile& file = opened.front();
   require_kind(file,
@@ -105,7 +101,6 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
     fmt::print(stderr, "{}\n", found.error());
     return kBadInput;
   }
-  if (before) found->trend = grid::diagnosis::trend(*before, *found, file_name(command.before));
   const std::string source = file_name(command.input.grid);
   const grid::Provenance origin = made_by(verb);
   const std::string written = files::write_diagnosis(*found, origin);
@@ -195,10 +190,6 @@ void add_diagnose(Verb app, Run& run) {
             "--held-out",
             command->held_out,
             "Another grid of the same machine: how well the result predicts it");
-  add_input(verb,
-            "--before",
-            command->before,
-            "An earlier diagnosis of the same machine (JSON): says what changed since");
   verb.add_option("--assume-order",
                   command->assume_order,
                   "Order of the visits if the points have none, lines from the top left; for "
@@ -223,8 +214,7 @@ void add_diagnose(Verb app, Run& run) {
       "--extended-machine worn_machine.json\n  build/chaintrue fit worn.json --machine "
       "worn_machine.json -o map.json\n  build/chaintrue diagnose fixtures/holes/nine_holes.json "
       "--report holes.html\n  build/chaintrue diagnose fixtures/belts/thirty_one_places.json -o "
-      "belts_diagnosis.json\n  build/chaintrue diagnose fixtures/plotter/mural_drawing.json\n  build/chaintrue diagnose "
-      "worn.json --before diagnosis.json");
+      "belts_diagnosis.json\n  build/chaintrue diagnose fixtures/plotter/mural_drawing.json");
   verb.when_chosen(
       [command, verb, &run] { run = [command, verb] { return run_diagnose(verb, *command); }; });
 }

@@ -24,7 +24,6 @@ struct DiagnoseCommand {
   std::string corrected_grid;
   std::string law;
   std::string held_out;
-  std::string before;
   std::string assume_order;
   bool accept_class = false;
   std::string without;  ///< points of belts, from 1

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How sure the diagnosis is, what it gains and what the points can tell apart.
+// How sure the diagnosis is, and what it gains.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "model/effects/effect.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
@@ -79,37 +78,6 @@ Chart improvement_chart(const Diagnosis& found) {
   }
   chart.data.push_back(std::move(table));
   chart.signals = {{"floor_mm", found.improvement->noise_floor_mm}};
-  return chart;
-}
-
-Chart separation_chart(const Diagnosis& found) {
-  Chart chart{
-      .specification = "separation_matrix",
-      .title =
-          fmt::format("How much two causes look the same to these {}", name(found.observations)),
-      .caption = fmt::format("0: nothing in common; 1: no number of such {} tells them apart.",
-                             name(found.observations))};
-  std::vector<std::string> names;
-  const auto number_of = [&names](const std::string& what) {
-    const auto at = std::find(names.begin(), names.end(), what);
-    if (at != names.end()) return static_cast<double>(at - names.begin() + 1);
-    names.push_back(what);
-    return static_cast<double>(names.size());
-  };
-  DataTable cells{"cells", {"row", "column", "first", "second", "rho", "needed"}, {}};
-  for (const auto& pair : found.separations) {
-    const std::string first = cause_title(pair.first), second = cause_title(pair.second);
-    const double a = number_of(first), b = number_of(second);
-    const std::string needed = std::isfinite(pair.signal_to_noise_needed)
-                                   ? fmt::format("{:.1f}", pair.signal_to_noise_needed)
-                                   : "never";
-    cells.rows.push_back({a, b, first, second, pair.collinearity, needed});
-    cells.rows.push_back({b, a, second, first, pair.collinearity, needed});
-  }
-  DataTable list{"names", {"number", "what"}, {}};
-  for (std::size_t i = 0; i < names.size(); ++i)
-    list.rows.push_back({static_cast<double>(i + 1), names[i]});
-  chart.data = {std::move(list), std::move(cells)};
   return chart;
 }
 

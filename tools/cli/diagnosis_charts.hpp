@@ -41,7 +41,6 @@ namespace chaintrue::cli {
 [[nodiscard]] report::Chart probability_chart(const grid::diagnosis::Diagnosis& found);
 /// Precondition: the diagnosis has a gain.
 [[nodiscard]] report::Chart improvement_chart(const grid::diagnosis::Diagnosis& found);
-[[nodiscard]] report::Chart separation_chart(const grid::diagnosis::Diagnosis& found);
 /// The follow-up's places on the bed.
 [[nodiscard]] report::Chart next_points_chart(const grid::diagnosis::Diagnosis& found);
 

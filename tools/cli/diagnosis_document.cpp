@@ -149,7 +149,6 @@ void add_sections(const Diagnosis& found, Detail detail, std::vector<Section>& a
   const bool named = !found.causes.empty();
   Sections sections(all, detail);
   sections.add(found.budget && !found.budget->lines.empty(), budget_section, found);
-  sections.add_open(found.trend.has_value(), trend_section, found);
   sections.add_open(named, causes_section, found);
   sections.add_open(found.unexplained && !found.unexplained->laws.empty(), laws_section, found);
   sections.add_open(!found.declared.empty(), declared_section, found);
@@ -170,10 +169,6 @@ void add_sections(const Diagnosis& found, Detail detail, std::vector<Section>& a
   sections.add_to_page(has_readings, residuals_section, found);
   sections.add(!found.hypotheses.empty(), probabilities_section, found);
   sections.add_open_to_page(found.stability.has_value(), stability_section, found);
-  sections.add_to_page(waves_can_be_sought(found), waves_section, found);
-  sections.add_to_page(found.normal_plot.has_value(), normal_section, found);
-  sections.add_to_page(!found.terms.empty(), terms_section, found);
-  sections.add_to_page(!found.separations.empty(), separation_section, found);
   sections.add(found.drawing.has_value(), drawn_measures_section, found);
   sections.add(!found.settings.empty(), settings_section, found);
   sections.add(!found.outliers.empty(), outliers_section, found);

@@ -13,32 +13,21 @@ namespace {
 
 using grid::diagnosis::Diagnosis;
 using report::Cell;
-using report::Detail;
 using report::Light;
 using report::Paragraph;
 using report::Section;
 using report::Table;
 using report::Tone;
 
-std::string border_sentence(const grid::diagnosis::HeldOutImprovement& improvement) {
-  const char* outermost = is_improvement_of_distances(improvement)
-                              ? "the distances that end at an outermost hole"
-                              : "the outermost points";
-  return improvement.border.calibrated_mm > 0.0
-             ? fmt::format("At the border {} were left out.", outermost)
-             : fmt::format("No error at the border is given: without {} too few would be left.",
-                           outermost);
-}
-
 std::vector<ImprovementRow> transfer_rows(const grid::diagnosis::Diagnosis& diagnosis) {
   const grid::diagnosis::Transfer& transfer = *diagnosis.transferred;
-  std::vector<ImprovementRow> rows = {{"uncorrected, at these points", &transfer.uncalibrated, {}},
-                                      {"calibrated", &transfer.calibrated, {}}};
+  std::vector<ImprovementRow> rows = {{"uncorrected, at these points", &transfer.uncalibrated},
+                                      {"calibrated", &transfer.calibrated}};
   if (!diagnosis.causes.empty()) {
-    rows.push_back({"with the cause", &transfer.extended, {}});
-    rows.push_back({"with the cause and a surface", &transfer.extended_and_surface, {}});
+    rows.push_back({"with the cause", &transfer.extended});
+    rows.push_back({"with the cause and a surface", &transfer.extended_and_surface});
   } else {
-    rows.push_back({"with a surface", &transfer.extended_and_surface, {}});
+    rows.push_back({"with a surface", &transfer.extended_and_surface});
   }
   return rows;
 }
@@ -54,19 +43,12 @@ Table error_table(const std::vector<ImprovementRow>& rows,
                    .is_number = true,
                    .page_heading = fmt::format("95 % of {} below", readings),
                    .width = 9}}};
-  const bool has_border = std::any_of(
-      rows.begin(), rows.end(), [](const ImprovementRow& row) { return row.border_mm; });
-  if (has_border) {
-    table.columns.push_back(
-        {.heading = "border", .is_number = true, .page_heading = "at the border, rms", .width = 9});
-  }
   for (const ImprovementRow& row : rows) {
     const grid::diagnosis::HeldOut& error = *row.held_out;
     table.rows.push_back({{row.what,
                            error.rms_mm,
                            fmt::format("{:.2f} to {:.2f}", error.low_mm, error.high_mm),
                            error.percentile_95_mm}});
-    if (has_border) table.rows.back().cells.emplace_back(row.border_mm);
   }
   table.rows.push_back({{"noise of the readings", floor_mm}});
   return table;
@@ -82,23 +64,14 @@ std::vector<ImprovementRow> improvement_rows(const grid::diagnosis::Diagnosis& d
   const grid::diagnosis::HeldOutImprovement& improvement = *diagnosis.improvement;
   std::vector<ImprovementRow> rows = {
       {is_improvement_of_distances(improvement) ? "uncorrected" : "uncorrected, at these points",
-       &improvement.uncalibrated,
-       {}}};
-  if (improvement.placed) rows.push_back({"uncorrected, sheet placed", &*improvement.placed, {}});
-  // Nothing was held out there where too few would have been left.
-  const auto border = [&](double mm) {
-    return improvement.border.calibrated_mm > 0.0 ? std::optional(mm) : std::nullopt;
-  };
-  rows.push_back({"calibrated", &improvement.calibrated, border(improvement.border.calibrated_mm)});
+       &improvement.uncalibrated}};
+  if (improvement.placed) rows.push_back({"uncorrected, sheet placed", &*improvement.placed});
+  rows.push_back({"calibrated", &improvement.calibrated});
   if (!diagnosis.causes.empty()) {
-    rows.push_back(
-        {"with the cause", &improvement.extended, border(improvement.border.extended_mm)});
-    rows.push_back({"with the cause and a surface",
-                    &improvement.extended_and_surface,
-                    border(improvement.border.extended_and_surface_mm)});
+    rows.push_back({"with the cause", &improvement.extended});
+    rows.push_back({"with the cause and a surface", &improvement.extended_and_surface});
   }
-  rows.push_back(
-      {"a surface only", &improvement.surface_only, border(improvement.border.surface_only_mm)});
+  rows.push_back({"a surface only", &improvement.surface_only});
   return rows;
 }
 
@@ -146,7 +119,6 @@ std::vector<report::Figure> figures_of_improvement(const Diagnosis& found) {
 Section improvement_section(const Diagnosis& found) {
   const auto& improvement = *found.improvement;
   const bool of_distances = is_improvement_of_distances(improvement);
-  const bool has_border = improvement.border.calibrated_mm > 0.0;
   return {
       of_distances ? "Error of distances left out, mm" : "Error of the tool at points left out, mm",
       {improvement_chart(found),
@@ -156,8 +128,7 @@ Section improvement_section(const Diagnosis& found) {
        Paragraph{fmt::format("{}; the same cause was named {} of {} times.",
                              improvement.scheme,
                              improvement.folds_agree,
-                             improvement.folds)},
-       Paragraph{border_sentence(improvement), has_border ? Detail::page : Detail::always}}};
+                             improvement.folds)}}};
 }
 
 Section transfer_section(const Diagnosis& found) {

@@ -3,7 +3,6 @@
 /// What naming the causes gains: errors at points and distances that were held out.
 #pragma once
 
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -16,7 +15,6 @@ namespace chaintrue::cli {
 struct ImprovementRow {
   std::string_view what;
   const grid::diagnosis::HeldOut* held_out = nullptr;
-  std::optional<double> border_mm;
 };
 /// Rows point into the diagnosis. Precondition: it has a gain. Rows of an extension are left out
 /// where nothing was named.

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "grid/diagnosis/trend.hpp"
 #include "tools/cli/cause_pictures.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
@@ -74,18 +73,6 @@ std::string budget_words(const Diagnosis& found) {
       of_distances ? "" : " The part of 100 mm: how far it comes out wrong in the worst corner.");
 }
 
-/// What became of a term, in one word.
-std::string fate_of(const Diagnosis& found, const grid::diagnosis::Term& term) {
-  for (const Cause& cause : found.causes) {
-    if (cause.cause == term.cause)
-      return found.verdict == Verdict::named_set ? "in the set" : "named";
-  }
-  for (const auto& bound : found.bounds) {
-    if (bound.cause == term.cause) return "absent";
-  }
-  return "not named";
-}
-
 }  // namespace
 
 Section budget_section(const Diagnosis& found) {
@@ -110,23 +97,6 @@ Section budget_section(const Diagnosis& found) {
                            changes_words(line)}});
   }
   return {"What the error is made of", {std::move(table), Paragraph{budget_words(found)}}};
-}
-
-Section trend_section(const Diagnosis& found) {
-  Section section{fmt::format("What changed since {}", found.trend->since), {}};
-  const auto say = [&section](std::string text) {
-    section.blocks.emplace_back(Paragraph{std::move(text)});
-  };
-  for (const auto& change : found.trend->changes) {
-    say(capitalised(grid::diagnosis::change_in_words(change)) + ".");
-  }
-  if (found.trend->changes.empty()) say("Neither diagnosis names a cause that both could test.");
-  if (found.trend->uncalibrated_before_mm && found.trend->uncalibrated_mm) {
-    say(fmt::format("Uncorrected, the machine misses by about {} mm, before by about {} mm.",
-                    about_mm(*found.trend->uncalibrated_mm),
-                    about_mm(*found.trend->uncalibrated_before_mm)));
-  }
-  return section;
 }
 
 Section causes_section(const Diagnosis& found) {
@@ -169,51 +139,6 @@ Section probabilities_section(const Diagnosis& found) {
   if (!found.belts && !found.drawing)
     section.blocks.emplace_back(Paragraph{left_over_sentence(found.left_over)});
   return section;
-}
-
-Section terms_section(const Diagnosis& found) {
-  Table table{
-      {{"cause"},
-       {"size if alone"},
-       {"strength", true, 1},
-       {"share left", true},
-       {"chance of noise", true},
-       {"probability", true},
-       {"verdict"}},
-      {},
-      "Strength in units of noise. Share left: how much of the cause no setting can take up. "
-      "Chance of noise (causes not named): that noise alone lets any cause look as strong."};
-  for (const auto& term : found.terms) {
-    const std::string fate = fate_of(found, term);
-    const bool is_named = fate == "named" || fate == "in the set";
-    table.rows.push_back({{cause_title(term.cause),
-                           size_in_words(term.cause, term.parameter, term.value, term.sigma),
-                           term.signal_to_noise,
-                           share_percent(term.share_left),
-                           is_named ? std::string() : share_percent(term.p_value),
-                           percent(term.probability),
-                           fate},
-                          is_named});
-  }
-  return {"Every cause that was tested", {std::move(table)}};
-}
-
-Section separation_section(const Diagnosis& found) {
-  Table table{
-      {{"cause"}, {"and"}, {"the same to", true, 3}, {"strength to tell apart", true, 1}},
-      {},
-      "Strength in units of noise; at that strength 95 of 100 such machines are named right. The "
-      "strengths found here are in the table of every cause."};
-  for (const auto& pair : found.separations) {
-    const double needed = pair.signal_to_noise_needed;
-    table.rows.push_back({{cause_title(pair.first),
-                           cause_title(pair.second),
-                           pair.collinearity,
-                           std::isfinite(needed) ? report::Cell(needed) : report::Cell("never")}});
-  }
-  return {fmt::format("What these {} can tell apart", name(found.observations)),
-          {separation_chart(found), std::move(table)},
-          found.belts.has_value()};
 }
 
 }  // namespace chaintrue::cli

@@ -10,8 +10,6 @@ namespace chaintrue::cli {
 
 /// What the error is made of. Precondition: the diagnosis has a budget.
 [[nodiscard]] report::Section budget_section(const grid::diagnosis::Diagnosis& found);
-/// What changed. Precondition: an earlier diagnosis was given.
-[[nodiscard]] report::Section trend_section(const grid::diagnosis::Diagnosis& found);
 /// What is named, with its size, probability and remedy. Precondition: a cause is named.
 [[nodiscard]] report::Section causes_section(const grid::diagnosis::Diagnosis& found);
 /// What the rest may be a function of. Precondition: some law is reported.
@@ -22,10 +20,6 @@ namespace chaintrue::cli {
 [[nodiscard]] report::Section next_section(const grid::diagnosis::Diagnosis& found);
 /// Every hypothesis that is worth a line, and what is left over.
 [[nodiscard]] report::Section probabilities_section(const grid::diagnosis::Diagnosis& found);
-/// Every cause that was tested, and what became of it.
-[[nodiscard]] report::Section terms_section(const grid::diagnosis::Diagnosis& found);
-/// Which causes these readings can tell apart.
-[[nodiscard]] report::Section separation_section(const grid::diagnosis::Diagnosis& found);
 [[nodiscard]] report::Section settings_section(const grid::diagnosis::Diagnosis& found);
 [[nodiscard]] report::Section outliers_section(const grid::diagnosis::Diagnosis& found);
 /// What was looked for and is absent.

@@ -61,6 +61,13 @@ bool same_place(const NextMeasurement& a, const NextMeasurement& b) {
   return a.mark && b.mark && same_place(*a.mark, *b.mark);
 }
 
+/// A share or a chance: 100 % and 0 % are possible, "below 0.1 %" where it is neither.
+std::string share_percent(double share) {
+  if (share > 0.0 && share < 0.001) return "below 0.1 %";
+  const double in_percent = 100.0 * share;
+  return fmt::format("{:.{}f} %", in_percent, in_percent < 9.95 ? 1 : 0);
+}
+
 std::string reading_in_words(const NextMeasurement& next) {
   std::string text =
       fmt::format("Measure {}", grid::diagnosis::reading_words(*next.reading, next.side));
@@ -158,17 +165,10 @@ std::string off_in_words(double residual_mm) {
       "{:.1f} mm too {}", std::abs(residual_mm), residual_mm > 0.0 ? "long" : "short");
 }
 
-std::string size_in_words(const grid::diagnosis::CauseId& cause,
-                          std::string_view parameter,
-                          double value,
-                          double sigma) {
-  return grid::diagnosis::in_workshop_units(cause, {std::string(parameter), value, sigma});
-}
-
 std::string bound_in_words(const grid::diagnosis::Bound& bound) {
   if (bound.parameter == "links" && bound.upper_95 == 0.0) return "not one link";
   if (bound.parameter == "teeth" && bound.upper_95 == 0.0) return "not one tooth";
-  return size_in_words(bound.cause, bound.parameter, bound.upper_95, 0.0);
+  return grid::diagnosis::in_workshop_units(bound.cause, {bound.parameter, bound.upper_95, 0.0});
 }
 
 std::string sizes_in_words(const grid::diagnosis::CauseId& cause,
@@ -243,12 +243,6 @@ std::vector<FollowUpPlace> follow_up_places(const grid::diagnosis::Diagnosis& di
     }
   }
   return places;
-}
-
-std::string share_percent(double share) {
-  if (share > 0.0 && share < 0.001) return "below 0.1 %";
-  const double in_percent = 100.0 * share;
-  return fmt::format("{:.{}f} %", in_percent, in_percent < 9.95 ? 1 : 0);
 }
 
 std::string bad_belt_in_words(const grid::diagnosis::Outlier& bad) {

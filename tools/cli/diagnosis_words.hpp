@@ -29,13 +29,7 @@ namespace chaintrue::cli {
 /// "1.2 mm too short"
 [[nodiscard]] std::string off_in_words(double residual_mm);
 
-/// A parameter in a workshop unit: `elongation` 0.0012 is "0.12 % longer links"; without a sigma
-/// where it is 0.
-[[nodiscard]] std::string size_in_words(const grid::diagnosis::CauseId& cause,
-                                        std::string_view parameter,
-                                        double value,
-                                        double sigma);
-/// A bound in the same unit.
+/// A bound in a workshop unit.
 [[nodiscard]] std::string bound_in_words(const grid::diagnosis::Bound& bound);
 /// All parameters, parted by commas.
 [[nodiscard]] std::string sizes_in_words(
@@ -72,8 +66,6 @@ struct FollowUpPlace {
     const grid::diagnosis::Diagnosis& diagnosis);
 
 using grid::diagnosis::percent;
-/// A share or a chance: 100 % and 0 % are possible, "below 0.1 %" where it is neither.
-[[nodiscard]] std::string share_percent(double share);
 /// "the top left belt at point 17: read 80.2 mm too long (31.0 sigmas)"
 [[nodiscard]] std::string bad_belt_in_words(const grid::diagnosis::Outlier& bad);
 using report::capitalised;

@@ -11,8 +11,6 @@
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
-#include "grid/diagnosis/normal_plot.hpp"
-#include "grid/diagnosis/periodogram.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "tests/belts/frame.hpp"
 #include "tests/diagnosis/law_sessions.hpp"
@@ -29,17 +27,15 @@ using testing_support::session_of;
 using testing_support::verdict_alone;
 
 TEST(PValues, AreUniformWhereNothingIsHidden) {
-  std::vector<double> remainder, normality, family_wise;
+  std::vector<double> remainder, family_wise;
   for (const std::uint64_t seed : seeds(120)) {
     DiagnosisOptions options = verdict_alone();
     options.seed = seed;
     const auto a = analyse(observations_of(session_of({}, 5000 + seed, 6, 4)).value(), options);
     remainder.push_back(left_over(*a).p_value);
-    normality.push_back(normal_plot(*a)->p_value);
     family_wise.push_back(a->family_wise_p);
   }
   expect_uniform(remainder);
-  expect_uniform(normality);
   expect_uniform(family_wise);
 }
 
@@ -65,24 +61,6 @@ TEST(PValues, AreUniformWhereNothingIsHiddenInFourBelts) {
   }
   expect_uniform(family_wise);
   tail.expect_at_most(0.01);  // names depend on it
-}
-
-TEST(PValues, NoisePassesThePeriodogramsLevelOnceInAHundred) {
-  synthetic::Random random(16);
-  std::vector<double> places;
-  for (int i = 0; i < 34; ++i) places.push_back(random.uniform(800.0, 3000.0));
-  const Periodogram waves(places, 5.7);
-  // The tenth largest of 999 draws: its chance is 1 % within a third, three sigmas either way.
-  const double level = waves.level(0.01, 999, 1);
-  Rate above;
-  for ([[maybe_unused]] const std::uint64_t seed : seeds(2000)) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < places.size(); ++i) values.push_back(random.normal());
-    const auto power = waves.power(values);
-    above.add(*std::max_element(power.begin(), power.end()) > level);
-  }
-  above.expect_at_most(0.02);
-  above.expect_at_least(0.0033);
 }
 
 TEST(PlaceSigma, IsTheScatterOfThePlace) {

@@ -80,8 +80,6 @@ std::map<std::string, std::string> more_made_files() {
       {"lattice.json",
        "simulate --machine @classic.json --grid 5x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
        "--seed 9 -o @lattice.json"},
-      {"belts2.json",
-       "simulate --belts @anchors.json --grid 5x5 --length-noise-mm 1 --seed 9 -o @belts2.json"},
       {"worn_holes.json",
        "simulate --machine @classic.json --holes 9 --effect chain_pitch_error:both:elongation=0.003 "
        "--seed 5 -o @worn_holes.json"},
@@ -108,8 +106,7 @@ std::map<std::string, std::string> more_made_files() {
       {"slow_plotter_true.nc",
        "gcode compensate @slow.nc --map @wide_plotter.json -o @slow_plotter_true.nc"},
       {"slow_true.nc", "gcode compensate @slow.nc --map @map.json -o @slow_true.nc"},
-      {"slow_belts_true.nc", "gcode compensate @slow.nc --map @anchors.json -o @slow_belts_true.nc"},
-      {"belts_before.json", "diagnose @belts2.json -o @belts_before.json"}};
+      {"slow_belts_true.nc", "gcode compensate @slow.nc --map @anchors.json -o @slow_belts_true.nc"}};
 }
 
 }  // namespace

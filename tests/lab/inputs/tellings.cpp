@@ -98,8 +98,6 @@ std::vector<Telling> tellings() {
        "diagnose @wave.json --with @wave_holes.json --machine @classic.json -o d.json"},
       {"diagnose", "--law", "--law law.json", as_file},
       {"diagnose", "--held-out", "--held-out @lattice.json"},
-      {"diagnose", "--before", "--before @diagnosis.json"},
-      {"diagnose", "--before", "--before @belts_before.json", in_numbers, "belts"},
       {"diagnose", "--assume-order", "--assume-order rows"},
       {"diagnose", "--accept-class", "--accept-class", in_form, "grid", "diagnose @worn_both.json -o d.json"},
       {"diagnose", "--accept-class", "--accept-class", in_form, "csv",

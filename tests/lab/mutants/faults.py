@@ -135,10 +135,6 @@ FAULTS = [
           "take_away(noise, settings);",
           "",
           "budget"),
-    Fault("trend_sigma_of_one", "grid/diagnosis/trend.cpp",
-          "std::hypot(first->sigma, second->sigma)",
-          "first->sigma",
-          "trend"),
     # grid/files
     Fault("sled_weight_unit", "grid/files/groundcontrol_file.cpp",
           "*weight_n / kGroundcontrolGravity_m_per_s2",

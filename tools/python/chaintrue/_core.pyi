@@ -89,11 +89,6 @@ class Diagnosis:
     def text(self, made_by: _MadeBy) -> str: ...
     def page(self, source: str, made_by: _MadeBy) -> str: ...
 
-class Alongside:
-    def __init__(
-        self, before: Optional[Diagnosis], name_of_before: str, held_out: Optional[Grid]
-    ) -> None: ...
-
 class Asked:
     def __init__(
         self,

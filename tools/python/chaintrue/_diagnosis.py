@@ -61,11 +61,6 @@ class Diagnosis(Made):
         return records(self.to_dict().get("next_measurements", []))
 
     @property
-    def trend(self) -> Optional[Record]:
-        """What has changed since the Diagnosis before: since, and changes; None where there is none."""
-        return Record.of(self.to_dict().get("trend"))
-
-    @property
     def held_out(self) -> Optional[Record]:
         """How well the result predicts another Grid, mm; None where none was given."""
         return Record.of(self.to_dict().get("held_out_grid"))
@@ -91,7 +86,6 @@ def diagnose(
     *measured: Measured,
     seed: int = 1,
     gain: bool = True,
-    before: Optional[Diagnosis] = None,
     held_out: Optional[Grid] = None,
 ) -> Diagnosis:
     """The Diagnosis of any mix of Grids and Holes of one machine; or of one Belts.
@@ -99,30 +93,22 @@ def diagnose(
     seed  of the draws that chances are counted with; same input, same answer
     gain  also what naming the cause gains on points left out, which takes most of the time; not of
           Belts
-    before    an earlier Diagnosis of the same machine: `trend` then says what has changed since
     held_out  another Grid of the same machine: `held_out` then says how well the result predicts it;
               of one Grid
     """
     grids, holes, belts = sorted_out(measured, "diagnose")
-    if before is not None and not isinstance(before, Diagnosis):
-        raise TypeError(f"before is a Diagnosis, not {type(before).__name__}")
     if held_out is not None and not isinstance(held_out, Grid):
         raise TypeError(f"held_out is a Grid, not {type(held_out).__name__}")
     if held_out is not None and (len(grids) != 1 or holes or belts):
         raise ValueError("held_out is predicted by what one Grid alone says")
-    alongside = _core.Alongside(
-        None if before is None else before._core,
-        "" if before is None else before.name,
-        None if held_out is None else held_out._core,
-    )
     options = {"--seed": None if seed == 1 else seed}
-    sources = sources_of(*measured, before, held_out)
+    sources = sources_of(*measured, held_out)
     if not belts:
-        core = _core.diagnose(grids, holes, seed, gain, alongside)
+        core = _core.diagnose(grids, holes, seed, gain, None if held_out is None else held_out._core)
     elif len(belts) > 1 or grids or holes:
         raise ValueError("Belts are diagnosed by themselves, one at a time")
     else:
-        core = _core.diagnose_belts(belts[0], seed, alongside)
+        core = _core.diagnose_belts(belts[0], seed)
     return Diagnosis._made(core, "diagnose", options, sources)
 
 

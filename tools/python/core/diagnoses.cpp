@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "grid/diagnosis/diagnose.hpp"
-#include "grid/diagnosis/trend.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "tools/cli/diagnosis_document.hpp"
 #include "tools/cli/made_by.hpp"
@@ -20,45 +19,28 @@ namespace {
 namespace files = grid::files;
 using grid::diagnosis::Diagnosis;
 
-/// What else is asked for.
-struct Alongside {
-  std::optional<Diagnosis> before;
-  std::string name_of_before;
-  std::optional<grid::MeasuredGrid> held_out;
-};
-
-/// The same with what has changed since the diagnosis before.
-Diagnosis compared(Diagnosis found, const Alongside& alongside) {
-  if (alongside.before)
-    found.trend = grid::diagnosis::trend(*alongside.before, found, alongside.name_of_before);
-  return found;
-}
-
 Diagnosis diagnose(const Grids& grids,
                    const HolesRead& holes,
                    std::uint64_t seed,
                    bool improvement,
-                   const Alongside& alongside) {
+                   const std::optional<grid::MeasuredGrid>& held_out) {
   const py::gil_scoped_release others_may_work;
   grid::diagnosis::DiagnosisOptions options;
   options.seed = seed;
   options.improvement = improvement;
   Diagnosis found = value_or_throw(grid::diagnosis::diagnose(gathered(grids, holes), options));
-  if (alongside.held_out) {
-    found.transferred =
-        value_or_throw(grid::diagnosis::transfer(grids.front(), found, *alongside.held_out));
-    if (found.transferred->to.empty()) found.transferred->to = alongside.held_out->name;
+  if (held_out) {
+    found.transferred = value_or_throw(grid::diagnosis::transfer(grids.front(), found, *held_out));
+    if (found.transferred->to.empty()) found.transferred->to = held_out->name;
   }
-  return compared(std::move(found), alongside);
+  return found;
 }
 
-Diagnosis diagnose_belts(const grid::MeasuredBelts& belts,
-                         std::uint64_t seed,
-                         const Alongside& alongside) {
+Diagnosis diagnose_belts(const grid::MeasuredBelts& belts, std::uint64_t seed) {
   const py::gil_scoped_release others_may_work;
   grid::diagnosis::DiagnosisOptions options;
   options.seed = seed;
-  return compared(value_or_throw(grid::diagnosis::diagnose(belts, options)), alongside);
+  return value_or_throw(grid::diagnosis::diagnose(belts, options));
 }
 
 }  // namespace
@@ -79,12 +61,6 @@ void add_diagnoses(py::module_& module) {
         cli::add_made_by(provenance_of(made_by), document.sections);
         return report::render_html(document);
       });
-  py::class_<Alongside>(module, "Alongside")
-      .def(py::init([](std::optional<Diagnosis> before,
-                       std::string name_of_before,
-                       std::optional<grid::MeasuredGrid> held_out) {
-        return Alongside{std::move(before), std::move(name_of_before), std::move(held_out)};
-      }));
   module.def("diagnose", diagnose);
   module.def("diagnose_belts", diagnose_belts);
   module.def("parse_diagnosis", [](const std::string& text, const std::string& file) {

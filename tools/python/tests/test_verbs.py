@@ -114,12 +114,11 @@ def test_what_to_measure_after_a_diagnosis(tmp_path, grid, diagnosis, belts):
         chaintrue.plan(grid.machine, after=diagnosis)
 
 
-def test_a_diagnosis_is_compared_with_one_before(grid, diagnosis, belts):
-    now = chaintrue.diagnose(grid, gain=False, before=diagnosis, held_out=grid)
-    assert now.trend.since == diagnosis.name
-    assert now.held_out is not None and diagnosis.held_out is diagnosis.trend is None
-    with pytest.raises(TypeError, match="before is a Diagnosis"):
-        chaintrue.diagnose(grid, before=grid)
+def test_a_diagnosis_predicts_another_grid(grid, diagnosis, belts):
+    now = chaintrue.diagnose(grid, gain=False, held_out=grid)
+    assert now.held_out is not None and diagnosis.held_out is None
+    with pytest.raises(TypeError, match="held_out is a Grid"):
+        chaintrue.diagnose(grid, held_out=diagnosis)
     with pytest.raises(ValueError, match="one Grid"):
         chaintrue.diagnose(belts, held_out=grid)
 

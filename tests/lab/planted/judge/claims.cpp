@@ -75,15 +75,8 @@ std::vector<Claim> claims_of(const grid::diagnosis::Diagnosis& found) {
                           h.effect != "bad_points" && h.effect != "law";
     if (!is_cause || h.probability < kLeastWritten) continue;
     Claim claim{{id_of(h)}, std::round(1e4 * h.probability) / 1e4};
-    // A hypothesis has the name of its class; the table of terms has all members, with the class's
-    // probability.
-    for (const auto& term : found.terms) {
-      const std::string id = sealed::id_of(term.cause);
-      const bool leads = std::any_of(found.hypotheses.begin(),
-                                     found.hypotheses.end(),
-                                     [&](const auto& other) { return id_of(other) == id; });
-      if (term.probability == h.probability && !leads) claim.members.push_back(id);
-    }
+    // A hypothesis has the name of its class.
+    for (std::size_t i = 1; i < h.causes.size(); ++i) claim.members.push_back(sealed::id_of(h.causes[i]));
     std::sort(claim.members.begin() + 1, claim.members.end());
     claims.push_back(std::move(claim));
   }

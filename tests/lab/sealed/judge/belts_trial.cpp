@@ -2,8 +2,13 @@
 #include "sealed/judge/belts_trial.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "grid/diagnosis/belts_analysis.hpp"
+#include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/diagnose.hpp"
+#include "grid/diagnosis/evidence.hpp"
 
 namespace chaintrue::sealed {
 
@@ -34,18 +39,30 @@ bool same_bad(const generator::BeltSecret& secret, const grid::diagnosis::Diagno
   });
 }
 
-/// Also false if it is not among the compared causes.
-bool is_separable(const generator::BeltSecret& secret, const grid::diagnosis::Diagnosis& found) {
-  const auto is_hidden = [&](const auto& cause) {
-    return cause.effect->id == secret.effect && name(cause.side) == secret.side;
-  };
-  bool compared = false;
-  for (const auto& pair : found.separations) {
-    if (!is_hidden(pair.first) && !is_hidden(pair.second)) continue;
-    compared = true;
-    if (pair.signal_to_noise_needed > secret.strength) return false;
+/// Of the ten leading classes of causes. Also false if the hidden cause leads none of them.
+bool is_separable(const generator::BeltSecret& secret, const grid::MeasuredBelts& belts) {
+  namespace diagnosis = grid::diagnosis;
+  constexpr std::size_t kCompared = 10;
+  const auto analysed = diagnosis::analyse(belts, {});
+  if (!analysed) return false;
+  const diagnosis::Analysis& a = analysed->analysis;
+  std::vector<diagnosis::CauseId> leading;
+  for (const diagnosis::ClassProbability& one : a.decision.marginal) {
+    if (leading.size() < kCompared) leading.push_back(a.decision.classes[one.index].front());
   }
-  return compared;
+  const auto hidden = std::find_if(leading.begin(), leading.end(), [&](const auto& cause) {
+    return cause.effect->id == secret.effect && name(cause.side) == secret.side;
+  });
+  if (hidden == leading.end()) return false;
+  const auto& g = diagnosis::marginalised_system(a).g;
+  return std::all_of(leading.begin(), leading.end(), [&](const diagnosis::CauseId& other) {
+    if (other == *hidden) return true;
+    const double collinearity = diagnosis::collinearity_of(g.col(diagnosis::best_regressor(a, *hidden)),
+                                                           g.col(diagnosis::best_regressor(a, other)));
+    // 1.645 sqrt(2 / (1 - collinearity)) tells 95 of 100 apart; a class is never told apart.
+    const double apart = std::max(1.0 - collinearity, 1.0 - diagnosis::kOneClass);
+    return 1.645 * std::sqrt(2.0 / apart) <= secret.strength;
+  });
 }
 
 /// Adds the hidden machine's readings at the proposed positions to the measurements. \returns their
@@ -111,7 +128,7 @@ BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t se
   trial.held = std::any_of(found->causes.begin(), found->causes.end(), holds);
   trial.exact = found->verdict == grid::diagnosis::Verdict::named && trial.held;
   trial.right_belt = trial.named && name(found->causes.front().cause.side) == draw.secret.side;
-  trial.separable = is_separable(draw.secret, *found);
+  trial.separable = !draw.secret.effect.empty() && is_separable(draw.secret, belts);
   trial.bad_found = same_bad(draw.secret, *found);
   for (const auto& h : found->hypotheses) {
     if (h.effect == draw.secret.effect && h.side == draw.secret.side)
