@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "grid/files/blanks.hpp"
+#include "grid/files/parse_double.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -15,10 +16,8 @@ constexpr std::array<std::string_view, 2> kLongMinuses = {"\xE2\x88\x92", "\xE2\
 constexpr std::array<std::string_view, 4> kFirmSpaces = {
     "\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89", "\xE2\x80\x87"};
 
-bool is_a_digit(char c) { return c >= '0' && c <= '9'; }
-
 std::size_t digits_at(std::string_view text) {
-  const auto end = std::find_if_not(text.begin(), text.end(), is_a_digit);
+  const auto end = std::find_if_not(text.begin(), text.end(), is_digit);
   return static_cast<std::size_t>(end - text.begin());
 }
 
@@ -36,8 +35,8 @@ std::string_view figures_of(std::string_view text) {
   if (text.starts_with('-') || text.starts_with('+')) text = trimmed(text.substr(1));
   const std::size_t end = std::min(text.find_first_not_of("0123456789.,"), text.size());
   const std::string_view unit = text.substr(end);
-  const bool is_number = digits_at(text) > 0 && is_a_digit(text[end - 1]);
-  return is_number && std::none_of(unit.begin(), unit.end(), is_a_digit) ? text.substr(0, end)
+  const bool is_number = digits_at(text) > 0 && is_digit(text[end - 1]);
+  return is_number && std::none_of(unit.begin(), unit.end(), is_digit) ? text.substr(0, end)
                                                                          : std::string_view{};
 }
 
@@ -122,7 +121,7 @@ std::string with_plain_signs(std::string_view text) {
       text.remove_prefix(minus);
     } else if (const std::size_t space = size_of_one(text, kFirmSpaces); space > 0) {
       text.remove_prefix(space);
-      const bool in_number = !result.empty() && is_a_digit(result.back()) && digits_at(text) == 3 &&
+      const bool in_number = !result.empty() && is_digit(result.back()) && digits_at(text) == 3 &&
                              (text.size() == 3 || text[3] != '/');
       if (!in_number) result += ' ';
     } else {

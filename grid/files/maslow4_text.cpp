@@ -6,11 +6,10 @@
 #include <cmath>
 
 #include "grid/files/number_text.hpp"
+#include "grid/files/parse_double.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
-
-bool is_decimal_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// The length of a colour code at `at` ("\x1b[0;32m", or "[0;32m" where a clipboard lost the first
 /// character); 0 where there is none.
@@ -19,7 +18,7 @@ std::size_t colour_code(std::string_view text, std::size_t at) {
   std::size_t next = at + (has_escape ? 1 : 0);
   if (next >= text.size() || text[next] != '[') return has_escape ? 1 : 0;
   const std::size_t first = ++next;
-  while (next < text.size() && (is_decimal_digit(text[next]) || text[next] == ';')) ++next;
+  while (next < text.size() && (is_digit(text[next]) || text[next] == ';')) ++next;
   if (next >= text.size()) return has_escape ? next - at : 0;
   const bool is_code = has_escape ? std::isalpha(static_cast<unsigned char>(text[next])) != 0
                                   : text[next] == 'm' && next > first;

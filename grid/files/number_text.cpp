@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "grid/files/parse_double.hpp"
@@ -11,8 +12,6 @@
 
 namespace chaintrue::grid::files {
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// parse_double takes no plus sign.
 std::string_view without_plus(std::string_view text) {
@@ -56,6 +55,16 @@ std::optional<double> number_of(std::string_view text) {
   if (!parsed.is_whole) return std::nullopt;
   if (parsed.is_out_of_range) return is_near_zero(text) ? std::optional(0.0) : std::nullopt;
   return std::isfinite(parsed.value) ? std::optional(parsed.value) : std::nullopt;
+}
+
+std::optional<std::array<int, 2>> pair_of(std::string_view text, char between, int least, int most) {
+  std::array<int, 2> pair{};
+  const char* const end = text.data() + text.size();
+  const auto [middle, first] = std::from_chars(text.data(), end, pair[0]);
+  if (first != std::errc{} || middle == end || *middle != between) return std::nullopt;
+  const auto [last, second] = std::from_chars(middle + 1, end, pair[1]);
+  const bool holds = std::min(pair[0], pair[1]) >= least && std::max(pair[0], pair[1]) <= most;
+  return second == std::errc{} && last == end && holds ? std::optional(pair) : std::nullopt;
 }
 
 bool is_beyond_double(std::string_view text) {

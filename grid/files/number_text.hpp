@@ -4,6 +4,7 @@
 /// the locale.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,6 +26,9 @@ struct Range {
 /// to zero than the smallest double is zero; numbers beyond the largest, NaN and infinity are
 /// rejected.
 [[nodiscard]] std::optional<double> number_of(std::string_view text);
+
+/// "7x4" for 'x': two whole numbers from `least` to `most`; empty for any other text.
+[[nodiscard]] std::optional<std::array<int, 2>> pair_of(std::string_view text, char between, int least, int most);
 
 /// True for a number outside a double's range: 1e999, NaN, Infinity.
 [[nodiscard]] bool is_beyond_double(std::string_view text);

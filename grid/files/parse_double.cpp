@@ -25,12 +25,10 @@ ParsedDouble parse_double(const char* first, const char* last, double& value, Nu
 
 namespace {
 
-bool is_digit_of_number(char c) { return c >= '0' && c <= '9'; }
-
 /// fast_float returns infinity or zero where the standard requires out of range: infinity for a
 /// text of digits, zero for a text whose mantissa is not zero.
 bool is_out_of_range(const char* first, const char* end, double value) {
-  if (std::isinf(value)) return std::any_of(first, end, is_digit_of_number);
+  if (std::isinf(value)) return std::any_of(first, end, is_digit);
   if (value != 0.0) return false;
   const char* const mantissa_end =
       std::find_if(first, end, [](char c) { return c == 'e' || c == 'E'; });

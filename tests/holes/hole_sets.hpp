@@ -6,7 +6,6 @@
 #include <Eigen/QR>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,7 +60,8 @@ inline double best_placed_rms_mm(const grid::CompensationMap& map, const model::
     const model::BedPoint wanted{0.9 * bed.width_mm * ((i % kAcross + 0.5) / kAcross - 0.5),
                                  0.9 * bed.height_mm * ((i / kAcross + 0.5) / kUp - 0.5)};
     const auto answer = map.lengths(model::identity_placement(wanted));
-    const auto reading = answer ? model.find(answer->lengths, wanted) : std::nullopt;
+    if (!answer) continue;
+    const auto reading = model.find(answer->lengths, wanted);
     if (!reading) continue;
     errors.push_back(reading->pose.position.x_mm - wanted.x_mm);
     errors.push_back(reading->pose.position.y_mm - wanted.y_mm);

@@ -87,21 +87,9 @@ grid::MeasuredGrid grid_of(const InputFile& file,
   return std::move(read.grid);
 }
 
-void check_tape(const TapeInput& tape) {
-  OptionProblems problems;
-  if (tape.sigma_mm) problems.require("--tape-sigma-mm", *tape.sigma_mm, 0.001, 100.0);
-  if (tape.tape_zero_offset_mm)
-    problems.require("--hook-offset-mm", *tape.tape_zero_offset_mm, -1000.0, 1000.0);
-  if (tape.tape_zero_offset_sigma_mm)
-    problems.require("--hook-sigma-mm", *tape.tape_zero_offset_sigma_mm, 0.0, 100.0);
-  if (tape.hole_sigma_mm) problems.require("--hole-sigma-mm", *tape.hole_sigma_mm, 0.0, 100.0);
-  problems.throw_if_any();
-}
-
 }  // namespace
 
 files::HolesOptions holes_options(const TapeInput& tape) {
-  check_tape(tape);
   files::HolesOptions options;
   options.tape_sigma_mm = tape.sigma_mm;
   options.tape_zero_offset_mm = tape.tape_zero_offset_mm;

@@ -64,7 +64,6 @@ void check_options(const PlanOptions& options, const model::Bed& bed) {
   const double half = 0.5 * std::min(bed.width_mm, bed.height_mm);
   problems.require("--second-visits", options.second_visits, 0, request.points / 3);
   problems.require("--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 50.0));
-  problems.require("--length-noise-mm", request.noise.length_mm, 0.001, 50.0);
   problems.require("--position-noise-mm", request.noise.position_mm, 0.001, 50.0);
   problems.throw_if_any();
 }

@@ -24,8 +24,6 @@ namespace files = grid::files;
 void check_options(const grid::CheckPlanRequest& request, const grid::CompensationMap& map) {
   OptionProblems problems;
   problems.require("--points", request.points, grid::kFewestCheckPoints, grid::kMostCheckPoints);
-  problems.require("--length-noise-mm", request.length_mm, 0.001, 50.0);
-  problems.require("--position-noise-mm", request.position_mm, 0.0, 50.0);
   if (const model::Machine* machine = map.machine()) {
     const double half = 0.5 * std::min(machine->bed.width_mm, machine->bed.height_mm);
     problems.require("--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 50.0));

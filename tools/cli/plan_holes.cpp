@@ -28,7 +28,6 @@ void check(const HolesPlanOptions& options, const model::Bed& bed) {
   OptionProblems problems;
   const grid::HolesPlanRequest& request = options.request;
   require_sound(problems, request);
-  problems.require("--tape-length-mm", request.longest_mm, 500.0, 100000.0);
   const double half = 0.5 * std::min(bed.width_mm, bed.height_mm);
   problems.require(
       "--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 0.5 * grid::kLeastPlannedSideMm));
@@ -38,15 +37,11 @@ void check(const HolesPlanOptions& options, const model::Bed& bed) {
 }  // namespace
 
 void require_sound(OptionProblems& problems, const grid::HolesPlanRequest& request) {
-  problems.require("--holes", request.holes, grid::kFewestPlannedHoles, grid::kMostPlannedHoles);
-  if (request.distances != 0) {
-    problems.require("--distances",
-                     request.distances,
-                     grid::fewest_distances(request.edges),
-                     grid::most_distances(request.holes, request.edges));
-  }
-  problems.require("--tape-sigma-mm", request.tape_sigma_mm, 0.001, 100.0);
-  problems.require("--hole-sigma-mm", request.hole_sigma_mm, 0.0, 100.0);
+  if (request.distances == 0) return;
+  problems.require("--distances",
+                   request.distances,
+                   grid::fewest_distances(request.edges),
+                   grid::most_distances(request.holes, request.edges));
 }
 
 void add_plan_holes_options(Verb verb, HolesPlanOptions& options, Option points) {

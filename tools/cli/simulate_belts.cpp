@@ -11,6 +11,7 @@
 
 #include "grid/files/belts_file.hpp"
 #include "grid/files/maslow4_session.hpp"
+#include "grid/files/number_text.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/belt_readings.hpp"
@@ -65,20 +66,10 @@ void add_causes(std::vector<model::AppliedEffect> causes, synthetic::BeltsSpec& 
 
 /// "9x7".
 void take_grid(const std::string& text, synthetic::BeltsSpec& spec, OptionProblems& problems) {
-  constexpr double kMost = 100.0;
-  const std::size_t cross = text.find('x');
-  double columns = 0.0;
-  double rows = 0.0;
-  const bool is_grid = cross != std::string::npos && parse_number(text.substr(0, cross), columns) &&
-                       parse_number(text.substr(cross + 1), rows) && columns >= 2.0 &&
-                       rows >= 2.0 && columns <= kMost && rows <= kMost &&
-                       columns == static_cast<int>(columns) && rows == static_cast<int>(rows);
-  if (!is_grid) {
-    problems.add("--grid", text, "columns x rows of places, 2 to 100 of each, as in 9x7");
-    return;
-  }
-  spec.columns = static_cast<int>(columns);
-  spec.rows = static_cast<int>(rows);
+  const auto size = grid::files::pair_of(text, 'x', 2, 100);
+  if (!size) return problems.add("--grid", text, "columns x rows of places, 2 to 100 of each, as in 9x7");
+  spec.columns = (*size)[0];
+  spec.rows = (*size)[1];
 }
 
 /// `tl_x_mm=5`: truth less stated.

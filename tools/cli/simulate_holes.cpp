@@ -27,8 +27,6 @@ void check_values(const SimulateOptions& options,
                   const model::Machine& stated,
                   OptionProblems& problems) {
   require_sound(problems, options.holes.plan);
-  problems.require("--hook-offset-mm", options.holes.tape_zero_offset_mm, -1000.0, 1000.0);
-  problems.require("--tape-rounding-mm", options.holes.rounding_mm, 0.0, 100.0);
   if (options.margin_mm) {
     const double half = 0.5 * std::min(stated.bed.width_mm, stated.bed.height_mm);
     problems.require("--margin-mm", *options.margin_mm, 0.0, std::max(0.0, half - 0.5 * grid::kLeastPlannedSideMm));

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "grid/files/number_text.hpp"
 #include "grid/files/points_file.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -37,20 +38,10 @@ Enum parse_word(std::string_view option,
 }
 
 void parse_grid_size(const std::string& text, synthetic::Design& design, OptionProblems& problems) {
-  constexpr double kMost = 1000.0;
-  const std::size_t times = text.find('x');
-  double columns = 0.0;
-  double rows = 0.0;
-  const bool numbers = times != std::string::npos && parse_number(text.substr(0, times), columns) &&
-                       parse_number(text.substr(times + 1), rows);
-  const auto whole = [](double n) { return n == static_cast<int>(n); };
-  if (!numbers || columns < 2.0 || rows < 2.0 || columns > kMost || rows > kMost ||
-      !whole(columns) || !whole(rows)) {
-    problems.add("--grid", text, "columns x rows, each 2 to 1000, as in 7x4");
-    return;
-  }
-  design.columns = static_cast<int>(columns);
-  design.rows = static_cast<int>(rows);
+  const auto size = grid::files::pair_of(text, 'x', 2, 1000);
+  if (!size) return problems.add("--grid", text, "columns x rows, each 2 to 1000, as in 7x4");
+  design.columns = (*size)[0];
+  design.rows = (*size)[1];
 }
 
 void parse_lattice(const SimulateOptions& options,
@@ -89,8 +80,6 @@ synthetic::Design parse_design(const SimulateOptions& options, OptionProblems& p
     design.kind = synthetic::DesignKind::given;
     design.given = files::read_points(options.marks);
   } else if (options.random_points != 0) {
-    constexpr double kMostPoints = 1e6;
-    problems.require("--random", options.random_points, 1.0, kMostPoints);
     design.kind = synthetic::DesignKind::random;
     design.points = options.random_points;
   } else {
@@ -99,43 +88,14 @@ synthetic::Design parse_design(const SimulateOptions& options, OptionProblems& p
   return design;
 }
 
-std::optional<grid::StatedNoise> parse_stated(const SimulateOptions& options,
-                                              OptionProblems& problems) {
-  constexpr double kMostMm = 100.0;
+std::optional<grid::StatedNoise> parse_stated(const SimulateOptions& options) {
   if (!options.stated_length_mm && !options.stated_position_mm && !options.stated_dof)
     return std::nullopt;
   grid::StatedNoise stated;
   stated.length_mm = options.stated_length_mm.value_or(options.noise.length_mm);
   stated.position_mm = options.stated_position_mm.value_or(options.noise.position_mm);
   stated.dof = options.stated_dof.value_or(stated.dof);
-  problems.require("--stated-length-noise-mm", stated.length_mm, 0.0, kMostMm);
-  problems.require("--stated-position-noise-mm", stated.position_mm, 0.0, kMostMm);
-  problems.require("--stated-dof", stated.dof, 1.0, 1e9);
   return stated;
-}
-
-void check_ranges(const SimulateOptions& options,
-                  const model::Machine& machine,
-                  OptionProblems& problems) {
-  constexpr double kMostNoiseMm = 100.0;
-  constexpr double kMostRepeats = 1e6;
-  problems.require("--jitter-mm", options.jitter_mm, 0.0, 1000.0);
-  problems.require("--length-noise-mm", options.noise.length_mm, 0.0, kMostNoiseMm);
-  problems.require("--position-noise-mm", options.noise.position_mm, 0.0, kMostNoiseMm);
-  problems.require("--length-rounding-mm", options.noise.length_rounding_mm, 0.0, kMostNoiseMm);
-  problems.require("--position-rounding-mm", options.noise.position_rounding_mm, 0.0, kMostNoiseMm);
-  problems.require("--repeats", options.repeats, 0.0, kMostRepeats);
-  problems.require("--bad-points", options.bad.count, 0.0, kMostRepeats);
-  problems.require("--bad-size-mm", options.bad.size_mm, 0.0, 10000.0);
-  if (options.margin_mm) {
-    const double half = 0.49 * std::min(machine.bed.width_mm, machine.bed.height_mm);
-    problems.require("--margin-mm", *options.margin_mm, 0.0, half);
-  }
-  if (options.sheet_shift_mm)
-    problems.require("--sheet-shift-mm", *options.sheet_shift_mm, 0.0, 1000.0);
-  if (options.sheet_rotation_mrad) {
-    problems.require("--sheet-rotation-mrad", *options.sheet_rotation_mrad, 0.0, 500.0);
-  }
 }
 
 }  // namespace
@@ -189,7 +149,7 @@ synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const model:
   spec.repeats = options.repeats;
   spec.jitter_mm = options.jitter_mm;
   spec.noise = options.noise;
-  spec.stated = parse_stated(options, problems);
+  spec.stated = parse_stated(options);
   spec.bad = options.bad;
   spec.hidden = parse_effects(options.effects, machine, problems);
   spec.offsets = parse_offsets(options.offsets, problems);
@@ -202,7 +162,10 @@ synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const model:
   }
   spec.model = parse_model(options.model, problems);
   spec.seed = options.seed;
-  check_ranges(options, machine, problems);
+  if (options.margin_mm) {
+    const double half = 0.49 * std::min(machine.bed.width_mm, machine.bed.height_mm);
+    problems.require("--margin-mm", *options.margin_mm, 0.0, half);
+  }
   problems.throw_if_any();
   for (const model::MachineProblem& problem :
        problems_of(synthetic::truth_of(machine, spec).machine)) {
