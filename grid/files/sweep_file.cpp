@@ -2,7 +2,6 @@
 #include "grid/files/sweep_file.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <set>
 #include <utility>
@@ -11,7 +10,9 @@
 #include "grid/files/effect_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/machine_record.hpp"
+#include "grid/files/number_text.hpp"
 #include "grid/files/schemas.hpp"
+#include "grid/files/sha256.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
@@ -43,27 +44,16 @@ struct StatedSweep {
   std::vector<StatedMachine> machines;
 };
 
-std::optional<GridLevel> parse_size(const std::string& text, int least) {
-  GridLevel size;
-  const char* const end = text.data() + text.size();
-  const auto [middle, first_error] = std::from_chars(text.data(), end, size.columns);
-  if (first_error != std::errc{} || middle == end || *middle != 'x') return std::nullopt;
-  const auto [last, second_error] = std::from_chars(middle + 1, end, size.rows);
-  constexpr int kMost = 1000;
-  const bool in_range =
-      size.columns >= least && size.rows >= least && size.columns <= kMost && size.rows <= kMost;
-  if (second_error != std::errc{} || last != end || !in_range) return std::nullopt;
-  return size;
-}
-
 Value<GridLevel> grid_size(int least) {
   const std::string expected = fmt::format("columns x rows, each {} to 1000, as in \"7x4\"", least);
   return {[expected, least](const Cursor& at) -> std::optional<GridLevel> {
             const auto word = at.text();
             if (!word) return std::nullopt;
-            const auto size = parse_size(*word, least);
-            if (!size) at.expect(expected);
-            return size;
+            constexpr int kMost = 1000;
+            const auto size = pair_of(*word, 'x', least, kMost);
+            if (size) return GridLevel{(*size)[0], (*size)[1]};
+            at.expect(expected);
+            return std::nullopt;
           },
           [](const GridLevel& size) { return Json(fmt::format("{}x{}", size.columns, size.rows)); },
           {expected, [] {
@@ -280,13 +270,6 @@ void check_given(const SweepSpec& spec, std::set<std::string> given, Problems& p
     problems.add("/effects", "", fmt::format("a line that names {}, or --effects without its file", id));
 }
 
-// FNV-1a, 64 bits.
-std::uint64_t hash_of(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash;
-}
-
 Json median_and_worst(const std::vector<sweep::CellResult>& done,
                       double sweep::CellResult::*member) {
   std::vector<double> values;
@@ -306,11 +289,13 @@ ReadSweep read_sweep(const fs::path& path, const std::vector<std::string>& effec
   check_effects(stated.spec, problems);
   check_given(stated.spec, std::move(given), problems);
   problems.throw_if_any();
-  std::string depends_on = write_document(sweep_record(), stated);
+  Sha256 hash;
+  hash.add(write_document(sweep_record(), stated));
   for (const sweep::MachineLevel& level : stated.spec.machines) {
-    depends_on += write_machine(level.truth) + write_machine(level.stated);
+    hash.add(write_machine(level.truth));
+    hash.add(write_machine(level.stated));
   }
-  return {stated.spec, hash_of(depends_on), problems.warnings()};
+  return {stated.spec, hash.text(), problems.warnings()};
 }
 
 std::string sweep_summary_head(const SweepSpec& spec) {

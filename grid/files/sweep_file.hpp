@@ -29,8 +29,8 @@ namespace chaintrue::grid::files {
 
 struct ReadSweep {
   sweep::SweepSpec spec;
-  /// Hash of everything that the results depend on, machines included.
-  std::uint64_t hash = 0;
+  /// SHA-256 of everything that the results depend on, machines included.
+  std::string hash;
   std::vector<Warning> warnings;
 };
 

@@ -7,6 +7,7 @@
 #include "grid/files/pending_file.hpp"
 #include "grid/files/sweep_file.hpp"
 #include "grid/files/sweep_store.hpp"
+#include "grid/precondition.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -91,8 +92,10 @@ class LevelSums {
 }  // namespace
 
 std::vector<LevelError> write_results(const SweepSpec& spec,
-                                      const ResultStore& store,
+                                      const FinishedCells& cells,
                                       const fs::path& directory) {
+  const auto missing = std::count(cells.begin(), cells.end(), std::nullopt);
+  if (missing > 0) throw precondition("sweep: {} of {} cells are missing", missing, cells.size());
   PendingFile csv(directory / "results.csv");
   PendingFile summary(directory / "summary.json");
   csv.write(csv_header());
@@ -102,7 +105,8 @@ std::vector<LevelError> write_results(const SweepSpec& spec,
   std::vector<CellResult> combination;
   std::string levels_text;
   Levels levels{};
-  store.for_each([&](std::uint64_t cell, const CellResult& result) {
+  for (std::uint64_t cell = 0; cell < cells.size(); ++cell) {
+    const CellResult& result = *cells[static_cast<std::size_t>(cell)];
     const std::uint64_t repetition = cell % repetitions;
     if (repetition == 0) {
       levels = levels_of(spec, cell / repetitions);
@@ -114,10 +118,10 @@ std::vector<LevelError> write_results(const SweepSpec& spec,
     sums.add(levels, result);
     combination.push_back(result);
     if (repetition + 1 == repetitions) {
-      const bool last = cell + 1 == store.cells();
+      const bool last = cell + 1 == cells.size();
       summary.write(sweep_summary_line(spec, levels, combination) + (last ? "\n" : ",\n"));
     }
-  });
+  }
   summary.write(sweep_summary_tail());
   take_places({&csv, &summary});
   return std::move(sums).finished();

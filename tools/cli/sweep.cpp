@@ -4,6 +4,7 @@
 /// split and merged at will.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/files/number_text.hpp"
 #include "grid/files/sweep_file.hpp"
 #include "grid/files/sweep_store.hpp"
 #include "grid/files/whole_file.hpp"
@@ -44,25 +46,13 @@ struct SweepOptions {
 };
 
 sweep::Share parse_shard(const std::string& text, OptionProblems& problems) {
-  sweep::Share share;
-  if (text.empty()) return share;
-  const std::size_t slash = text.find('/');
-  double index = 0.0;
-  double count = 0.0;
-  constexpr double kMost = 1e6;
-  const bool numbers = slash != std::string::npos && parse_number(text.substr(0, slash), index) &&
-                       parse_number(text.substr(slash + 1), count);
-  const auto whole = [](double n) {
-    return n == static_cast<double>(static_cast<std::int64_t>(n));
-  };
-  if (!numbers || !(index >= 1.0 && index <= count && count <= kMost) || !whole(index) ||
-      !whole(count)) {
-    problems.add("--shard", text, "shard/shards, as in 3/16");
-    return share;
-  }
-  share.index = static_cast<std::uint64_t>(index) - 1;
-  share.count = static_cast<std::uint64_t>(count);
-  return share;
+  if (text.empty()) return {};
+  constexpr int kMost = 1000000;
+  const auto numbers = files::pair_of(text, '/', 1, kMost);
+  if (numbers && (*numbers)[0] <= (*numbers)[1])
+    return {static_cast<std::uint64_t>((*numbers)[0]) - 1, static_cast<std::uint64_t>((*numbers)[1])};
+  problems.add("--shard", text, "shard/shards, as in 3/16");
+  return {};
 }
 
 void check_options(const SweepOptions& options, OptionProblems& problems) {
@@ -91,15 +81,16 @@ std::vector<FolderFile> results() {
 
 int assemble(Verb verb,
              const sweep::SweepSpec& spec,
-             const files::ResultStore& store,
+             const files::FinishedCells& cells,
              const SweepOptions& options) {
-  if (!store.complete()) {
+  const auto missing = std::count(cells.begin(), cells.end(), std::nullopt);
+  if (missing > 0) {
     fmt::print(stderr,
                "chaintrue sweep: {} of {} cells are finished; results.csv is written once the "
                "parts of all shards "
                "stand in {}/parts\n",
-               store.finished(),
-               store.cells(),
+               static_cast<std::ptrdiff_t>(cells.size()) - missing,
+               cells.size(),
                options.directory);
     std::vector<std::string> next = {"sweep", options.specification, "-o", options.directory};
     for (const std::string& effect : options.effects) next.insert(next.end(), {"--effects", effect});
@@ -108,13 +99,13 @@ int assemble(Verb verb,
     return kDone;
   }
   check_folder(verb, options.directory, results());
-  const auto errors = write_results(spec, store, options.directory);
+  const auto errors = files::write_results(spec, cells, options.directory);
   files::write_whole_file(
       fs::path(options.directory) / "report.html",
       files::signed_text(report::render_html(sweep_page(spec, errors)), Origin::page));
   fmt::print(stderr,
              "{} cells: {}/results.csv, summary.json, report.html (open it in any browser)\n",
-             store.cells(),
+             cells.size(),
              options.directory);
   say_next({"start"});
   return kDone;
@@ -148,17 +139,14 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
         };
       sweep::run_sweep(
           read->spec,
-          files::cells_kept_in(options.directory, read->spec, read->hash, run.share),
+          files::cells_kept_in(options.directory, *read, run.share),
           run);
     } catch (...) {
       failure = std::current_exception();
     }
     end_progress();
     if (processes.all(failure == nullptr) && processes.rank() == 0) {
-      return assemble(verb,
-                      read->spec,
-                      files::ResultStore(options.directory, read->hash, cells(read->spec)),
-                      options);
+      return assemble(verb, read->spec, files::finished_cells(options.directory, *read), options);
     }
   }
   // One message for an error that all processes found.

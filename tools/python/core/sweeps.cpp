@@ -34,10 +34,8 @@ py::dict run(const std::string& specification, const std::string& directory, int
   settings.threads = threads;
   const std::vector<files::LevelError> errors = [&] {
     const py::gil_scoped_release others_may_work;
-    sweep::run_sweep(
-        read.spec, files::cells_kept_in(directory, read.spec, read.hash, settings.share), settings);
-    return files::write_results(
-        read.spec, files::ResultStore(directory, read.hash, cells(read.spec)), directory);
+    sweep::run_sweep(read.spec, files::cells_kept_in(directory, read, settings.share), settings);
+    return files::write_results(read.spec, files::finished_cells(directory, read), directory);
   }();
   py::dict result;
   result["name"] = read.spec.name;
