@@ -132,19 +132,25 @@ std::vector<LoggedRun> logged(const std::vector<ScannedRun>& runs) {
   return result;
 }
 
+const int* chosen_run(const Maslow4Options& options) {
+  return options.part ? std::get_if<int>(&*options.part) : nullptr;
+}
+const PointRange* chosen_points(const Maslow4Options& options) {
+  return options.part ? std::get_if<PointRange>(&*options.part) : nullptr;
+}
+
 void check_choice(const Maslow4Options& options,
                   const std::vector<LoggedRun>& runs,
                   Problems& problems) {
-  if (options.run && (*options.run < 1 || static_cast<std::size_t>(*options.run) > runs.size())) {
-    problems.add("--run",
-                 fmt::format("{}", *options.run),
-                 fmt::format("a run of this file, 1 to {}", runs.size()));
+  const int* const run = chosen_run(options);
+  const PointRange* const points = chosen_points(options);
+  if (run != nullptr && (*run < 1 || static_cast<std::size_t>(*run) > runs.size())) {
+    problems.add("--runs", fmt::format("{}", *run), fmt::format("a run of this file, 1 to {}", runs.size()));
   }
-  if (options.points && options.points->last > runs.back().points.last) {
-    problems.add(
-        "--points",
-        fmt::format("{}:{}", options.points->first, options.points->last),
-        fmt::format("first and last of this file's points, 0:{}", runs.back().points.last));
+  if (points != nullptr && points->last > runs.back().points.last) {
+    problems.add("--runs",
+                 fmt::format("{}:{}", points->first, points->last),
+                 fmt::format("first and last of this file's points, 0:{}", runs.back().points.last));
   }
 }
 
@@ -166,22 +172,27 @@ void choose_lengths(const Maslow4Options& options,
 
 }  // namespace
 
-PointRange point_range_of(const std::string& text, const std::string& option) {
-  const std::size_t colon = text.find(':');
-  const auto whole = [](const std::optional<double>& number) {
-    constexpr double kMost = 1e6;
-    return number && *number >= 0.0 && *number <= kMost && *number == std::floor(*number);
-  };
-  if (colon != std::string::npos) {
-    const auto first = number_of(text.substr(0, colon));
-    const auto last = number_of(text.substr(colon + 1));
-    if (whole(first) && whole(last) && *first <= *last)
-      return {static_cast<std::size_t>(*first), static_cast<std::size_t>(*last)};
+std::vector<LogPart> log_parts_of(const std::string& text, const std::string& option) {
+  constexpr int kMost = 1000000;
+  std::vector<LogPart> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    const std::string part = text.substr(begin, comma - begin);
+    begin = comma + 1;
+    const auto points = pair_of(part, ':', 0, kMost);
+    const auto run = number_of(part);
+    if (points && (*points)[0] <= (*points)[1]) {
+      parts.emplace_back(PointRange{static_cast<std::size_t>((*points)[0]), static_cast<std::size_t>((*points)[1])});
+    } else if (run && *run >= 1.0 && *run <= kMost && *run == std::floor(*run)) {
+      parts.emplace_back(static_cast<int>(*run));
+    } else {
+      throw InputError({{"the command line",
+                         option,
+                         shortened(text),
+                         "runs, counted from 1, as in 1,2; or first and last point, counted from 0, as in 0:98"}});
+    }
   }
-  throw InputError({{"the command line",
-                     option,
-                     shortened(text),
-                     "first and last point, counted from 0, as in 0:98"}});
+  return parts;
 }
 
 namespace {
@@ -293,8 +304,10 @@ Maslow4Import parse_maslow4(const std::string& text,
   problems.throw_if_any();
   MeasuredBelts& belts = result.belts;
   belts.name = std::filesystem::path(file).filename().string();
-  result.taken = options.run ? static_cast<std::size_t>(*options.run - 1) : runs.size() - 1;
-  const PointRange wanted = options.points.value_or(result.runs[result.taken].points);
+  const int* const run = chosen_run(options);
+  const PointRange* const points = chosen_points(options);
+  result.taken = run != nullptr ? static_cast<std::size_t>(*run - 1) : runs.size() - 1;
+  const PointRange wanted = points != nullptr ? *points : result.runs[result.taken].points;
   PlacesOfLog places = take_wanted(runs, wanted, result, problems);
   problems.throw_if_any();
   belts.points = std::move(places.points);

@@ -35,6 +35,7 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "grid/belts/measured_belts.hpp"
@@ -47,14 +48,15 @@ struct PointRange {
   std::size_t first = 0;
   std::size_t last = 0;
 };
-/// "0:98". \throws InputError otherwise.
-[[nodiscard]] PointRange point_range_of(const std::string& text, const std::string& option);
+/// A run, counted from 1, or points; empty: the last run.
+using LogPart = std::optional<std::variant<int, PointRange>>;
+/// "2", "1,2" or "0:98". \throws InputError otherwise.
+[[nodiscard]] std::vector<LogPart> log_parts_of(const std::string& text, const std::string& option);
 
 struct Maslow4Options {
   std::optional<std::string> settings;  ///< text of maslow.yaml
   std::string settings_file = "maslow.yaml";
-  std::optional<int> run;            ///< from 1; absent: the last
-  std::optional<PointRange> points;  ///< instead of a run
+  LogPart part;
   std::optional<model::BeltLengths> lengths;
   std::optional<model::Orientation> orientation;
 };

@@ -94,7 +94,7 @@ std::vector<NamedSet> real_sets() {
                            Named{"ten_runs_1_to_5.txt", 5},
                            Named{"clbm_2026-01.txt", 1}}) {
     files::Maslow4Options options;
-    options.run = set.run;
+    options.part = set.run;
     sets.push_back(
         {fmt::format("{}_{}", set.file, set.run),
          files::parse_maslow4(files::read_whole_file(folder / set.file), set.file, options).belts});

@@ -33,7 +33,7 @@ class RealBelts : public testing::TestWithParam<RealSet> {
       GTEST_SKIP() << "../shared/data/maslow4 is not part of a checkout and is not here: " << folder;
     }
     files::Maslow4Options options;
-    options.run = GetParam().run;
+    options.part = GetParam().run;
     import_ = files::parse_maslow4(
         files::read_whole_file(folder / GetParam().file), GetParam().file, options);
   }

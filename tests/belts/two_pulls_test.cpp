@@ -120,8 +120,7 @@ TEST_F(TwoPullCommands, WhatIsNoSessionIsRefused) {
   refused("first.log second.log --pulls 1", "a pull for each of the 2 runs");
   refused("first.log second.log --pulls 1,150N", "one number for each run");
   refused("first.log second.log --pulls 1,0", "one number for each run");
-  refused("first.log second.log --pulls 1,1.6 --run 1", "one log: of several");
-  refused("first.log --runs 1,2 --run 1", "to stand without --run");
+  refused("first.log second.log --pulls 1,1.6 --runs 1", "one log: of several");
   MeasuredBelts other = measured({}, {}, 0.3, 7);
   for (BeltPoint& point : other.points) {
     point.lengths_mm.bl += 300.0;

@@ -109,20 +109,21 @@ TEST(Maslow4Log, SeveralRunsAreToldApart) {
   EXPECT_THAT(last.belts.points, SizeIs(9));
   EXPECT_THAT(last.assumed, Contains(HasSubstr("looks older than October 2024")));
   Maslow4Options options;
-  options.run = 1;
+  options.part = 1;
   EXPECT_THAT(parse_maslow4(text, "notes.txt", options).belts.points, SizeIs(6));
-  options.run = 3;
+  options.part = 3;
   EXPECT_THROW((void)parse_maslow4(text, "notes.txt", options), InputError);
   Maslow4Options range;
-  range.points = point_range_of("7:14", "--points");
+  range.part = log_parts_of("7:14", "--runs").front();
   const Maslow4Import part = parse_maslow4(text, "notes.txt", range);
   EXPECT_EQ(part.taken, 1U);
   EXPECT_THAT(part.belts.points, SizeIs(8));
   EXPECT_EQ(part.belts.points[0].lengths_mm, last.belts.points[1].lengths_mm);
-  range.points = PointRange{3, 40};
+  range.part = PointRange{3, 40};
   EXPECT_THROW((void)parse_maslow4(text, "notes.txt", range), InputError);
-  for (const char* wrong : {"7", "7:", ":7", "9:3", "-1:4", "1.5:4", "a:b", "1:2:3"})
-    EXPECT_THROW((void)point_range_of(wrong, "--points"), InputError) << wrong;
+  EXPECT_EQ(std::get<int>(*log_parts_of("1,2", "--runs")[1]), 2);
+  for (const char* wrong : {"", "0", "1,", "1.5", "7:", ":7", "9:3", "-1:4", "1.5:4", "a:b", "1:2:3"})
+    EXPECT_THROW((void)log_parts_of(wrong, "--runs"), InputError) << wrong;
 }
 
 TEST(Maslow4Log, ListsOfOneGoOnAndAnotherListIsAnotherRun) {

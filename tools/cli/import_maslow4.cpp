@@ -12,7 +12,6 @@
 #include "grid/files/maslow4_log.hpp"
 #include "grid/files/maslow4_session.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/warnings.hpp"
@@ -24,42 +23,46 @@ namespace files = grid::files;
 
 struct Maslow4Command {
   std::vector<std::string> inputs;
-  LogReading reading;
-  std::string points;
-  std::optional<int> run;
+  std::string settings;
+  std::string lengths;
+  std::string orientation;
   std::string runs;
   std::string pulls;
   std::string output = "-";
 };
 
-[[noreturn]] void refuse_option(const char* option, const std::string& value, std::string expected) {
-  throw files::InputError({{"the command line", option, value, std::move(expected)}});
+files::Maslow4Options options_of(const Maslow4Command& command) {
+  files::Maslow4Options options;
+  if (!command.settings.empty()) {
+    options.settings = files::read_whole_file(command.settings);
+    options.settings_file = files::name_in_messages(command.settings);
+  }
+  for (const model::BeltLengths lengths :
+       {model::BeltLengths::belt, model::BeltLengths::belt_and_arm, model::BeltLengths::span}) {
+    if (command.lengths == name(lengths)) options.lengths = lengths;
+  }
+  if (command.orientation == "upright") options.orientation = model::Orientation::upright;
+  if (command.orientation == "flat") options.orientation = model::Orientation::flat;
+  return options;
 }
 
-/// One log's run, or several of one log, or the last run of each of several.
+/// Parts of one log, or the last run of each of several.
 std::vector<files::Maslow4Import> runs_of(const Maslow4Command& command) {
-  files::Maslow4Options options = options_of(command.reading);
-  if (!command.points.empty()) options.points = files::point_range_of(command.points, "--points");
-  options.run = command.run;
-  if (!command.runs.empty() && (command.run || options.points))
-    refuse_option("--runs", command.runs, "to stand without --run and --points, which take one run");
-  const bool are_several = command.inputs.size() > 1;
-  if (are_several && (options.run || options.points || !command.runs.empty())) {
-    refuse_option("--run, --runs, --points",
-                  fmt::format("together with {} logs", command.inputs.size()),
-                  "one log: of several the last run of each is taken");
+  files::Maslow4Options options = options_of(command);
+  if (command.inputs.size() > 1 && !command.runs.empty()) {
+    throw files::InputError({{"the command line",
+                              "--runs",
+                              fmt::format("together with {} logs", command.inputs.size()),
+                              "one log: of several the last run of each is taken"}});
   }
   std::vector<files::Maslow4Import> runs;
   for (const std::string& input : command.inputs) {
     const std::string text = files::read_whole_file(input);
-    const std::string name = files::name_in_messages(input);
-    if (command.runs.empty()) {
-      runs.push_back(files::parse_maslow4(text, name, options));
-      continue;
-    }
-    for (const std::size_t number : files::point_numbers_of(command.runs, "--runs", "the log's runs")) {
-      options.run = static_cast<int>(number);
-      runs.push_back(files::parse_maslow4(text, name, options));
+    std::vector<files::LogPart> parts = {std::nullopt};
+    if (!command.runs.empty()) parts = files::log_parts_of(command.runs, "--runs");
+    for (const files::LogPart& part : parts) {
+      options.part = part;
+      runs.push_back(files::parse_maslow4(text, files::name_in_messages(input), options));
     }
   }
   return runs;
@@ -82,7 +85,7 @@ void tell_runs(const files::Maslow4Import& read, bool was_chosen) {
                run.heading);
   }
   if (!was_chosen) {
-    fmt::print(stderr, "Taken is the last one; --run N or --points A:B takes another.\n");
+    fmt::print(stderr, "Taken is the last one; --runs takes others.\n");
   }
 }
 
@@ -107,7 +110,7 @@ int import_maslow4(const Maslow4Command& command) {
   for (const std::string& sentence : read.assumed) comments.push_back("assumed: " + sentence);
   write_output(command.output, files::write_belts(read.belts, comments));
   print_warnings(read.warnings);
-  if (is_one) tell_runs(read, command.run || !command.points.empty());
+  if (is_one) tell_runs(read, !command.runs.empty());
   tell_pulls(read.belts);
   fmt::print(stderr, "{} points read.\n", read.belts.points.size());
   for (const std::string& sentence : read.assumed) fmt::print(stderr, "Assumed: {}.\n", sentence);
@@ -124,33 +127,6 @@ int import_maslow4(const Maslow4Command& command) {
 
 }  // namespace
 
-void add_log_reading(Verb verb, LogReading& reading) {
-  add_input(verb, "--settings", reading.settings, "The machine's maslow.yaml");
-  verb.add_option("--lengths",
-                  reading.lengths,
-                  "What a length counts: the belt alone, slanting; the belt with its extension and "
-                  "arm, as printed before October 2024; or the level span from anchor to tool, as "
-                  "since")
-      .one_of({"belt", "belt_and_arm", "span"});
-  verb.add_option("--orientation", reading.orientation, "How the frame stands")
-      .one_of({"upright", "flat"});
-}
-
-files::Maslow4Options options_of(const LogReading& reading) {
-  files::Maslow4Options options;
-  if (!reading.settings.empty()) {
-    options.settings = files::read_whole_file(reading.settings);
-    options.settings_file = files::name_in_messages(reading.settings);
-  }
-  for (const model::BeltLengths lengths :
-       {model::BeltLengths::belt, model::BeltLengths::belt_and_arm, model::BeltLengths::span}) {
-    if (reading.lengths == name(lengths)) options.lengths = lengths;
-  }
-  if (reading.orientation == "upright") options.orientation = model::Orientation::upright;
-  if (reading.orientation == "flat") options.orientation = model::Orientation::flat;
-  return options;
-}
-
 void add_import_maslow4(Verb import, Run& run) {
   auto command = std::make_shared<Maslow4Command>();
   Verb verb = import.add_verb(
@@ -161,15 +137,20 @@ void add_import_maslow4(Verb import, Run& run) {
             "The log, or a list of readings {bl:.., br:.., tr:.., tl:..}; - is standard input. Several "
             "logs are runs of one session on one frame, each with a pull of its own")
       .required();
-  add_log_reading(verb, command->reading);
-  verb.add_option("--points",
-                  command->points,
-                  "First and last point to take, counted from 0 over all runs, as in 0:98");
-  add_number(
-      verb, "--run", command->run, {"", 1.0, 10000.0}, "Which run to take; the last if unsaid");
+  add_input(verb, "--settings", command->settings, "The machine's maslow.yaml");
+  verb.add_option("--lengths",
+                  command->lengths,
+                  "What a length counts: the belt alone, slanting; the belt with its extension and "
+                  "arm, as printed before October 2024; or the level span from anchor to tool, as "
+                  "since")
+      .one_of({"belt", "belt_and_arm", "span"});
+  verb.add_option("--orientation", command->orientation, "How the frame stands")
+      .one_of({"upright", "flat"});
   verb.add_option("--runs",
                   command->runs,
-                  "Runs of the one log that are one session, as in 1,2");
+                  "Which runs of the one log to take, as one session where there are several: 2 or 1,2; a "
+                  "run may be given by its first and last point, counted from 0 over all runs, as in 0:98. "
+                  "Unsaid: the last");
   verb.add_option("--pulls",
                   command->pulls,
                   "How hard belts were pulled in each run: 1,1.6 against each other, 1300mA,1900mA of "

@@ -119,7 +119,7 @@ export class Belts {
 
   #import(files, {lengths, orientation, run}) {
     const words = ["import", "maslow4", LOG, ...(files[MASLOW_SETTINGS] ? ["--settings", MASLOW_SETTINGS] : []),
-      ...(lengths ? ["--lengths", lengths] : []), ...(orientation ? ["--orientation", orientation] : []), ...(run ? ["--run", String(run)] : []),
+      ...(lengths ? ["--lengths", lengths] : []), ...(orientation ? ["--orientation", orientation] : []), ...(run ? ["--runs", String(run)] : []),
       "-o", BELTS, "--force"];
     return runVerb(this.#page, words, {files: Object.fromEntries(Object.entries(files).filter(([path]) => [LOG, MASLOW_SETTINGS].includes(path)))});
   }

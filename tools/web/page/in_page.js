@@ -15,7 +15,7 @@ const OPTIONS = [
   [/ \(--lengths belt_and_arm\)/g, " (choose that under \"How the log is read\")"],
   [/ \(--orientation\)/g, " (a frame on the floor: choose that under \"How the log is read\")"],
   [/--settings maslow\.yaml says it, and the arm and the heights\./g, "maslow.yaml says it, and the arm and the heights: paste it into the box as well."],
-  [/; --run N or --points A:B takes another\./g, ". Choose another under \"How the log is read\"."],
+  [/; --runs takes others\./g, ". Choose another under \"How the log is read\"."],
   [/: chaintrue diagnose of the same belts says whether they do, with anchors and sigmas that count it\./g,
     ": the causes say whether they do, and the lines to paste count it."],
   [/and add it to the file's "distances"/g, "and type it into the box \"A taped distance\""],

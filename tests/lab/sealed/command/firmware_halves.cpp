@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
     const std::filesystem::path path = std::filesystem::path(folder) / set.file;
     if (!std::filesystem::exists(path)) continue;
     chaintrue::grid::files::Maslow4Options options;
-    options.run = set.run;
+    options.part = set.run;
     print_row(set.name,
               chaintrue::grid::files::parse_maslow4(
                   chaintrue::grid::files::read_whole_file(path), set.file, options)
