@@ -351,8 +351,9 @@ std::string write_format_page(std::string_view name) {
       "# {0}\n\n{1}\n\nA JSON file of type `{2}`, version {3}. Unknown keys are errors, but for "
       "`comment`, "
       "which may hold anything; a key that may be left out may be null as well. "
-      "[{4}.schema.json]({4}.schema.json) lets editors complete and check such files. This page is "
-      "written by `chaintrue formats {4}` from the tables that the reader goes by.\n",
+      "`chaintrue formats {4} --schema` prints the JSON Schema, with which editors complete and check "
+      "such files. This page is written by `chaintrue formats {4}` from the tables that the reader goes "
+      "by.\n",
       d.title,
       d.about,
       d.format->file_type,

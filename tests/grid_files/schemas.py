@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The schemas of docs/formats, by a validator that is not ours: every good fixture is valid, and bad
+"""The schemas that `chaintrue formats --all` writes, by a validator that is not ours: every good fixture is valid, and bad
 ones are refused where a schema can tell (how points and machine fit together it cannot).
 
-Usage: schemas.py ROOT. Exits 77 where Debian's python3-jsonschema is missing.
+Usage: schemas.py COMMAND ROOT. Exits 77 where Debian's python3-jsonschema is missing.
 """
 
 import json
 import pathlib
+import subprocess
 import sys
+import tempfile
 import warnings
 
 try:
@@ -18,8 +20,10 @@ except ImportError:
     sys.exit(77)
 warnings.simplefilter("ignore", DeprecationWarning)
 
-ROOT = pathlib.Path(sys.argv[1])
-FORMATS = ROOT / "docs" / "formats"
+ROOT = pathlib.Path(sys.argv[2])
+FOLDER = tempfile.TemporaryDirectory()
+FORMATS = pathlib.Path(FOLDER.name)
+subprocess.run([sys.argv[1], "formats", "--all", FORMATS], stdout=subprocess.DEVNULL, check=True)
 # Files with mistakes of one key, one type, one choice or one range each.
 BAD = """diagnosis_slips drawing_slips plotter_pins_too_near grid_bad_values grid_machine_and_machine_file grid_machine_inside_is_bad
 grid_misspelt_columns grid_neither_nor_both grid_orders grid_points_missing grid_points_not_a_list
