@@ -3,31 +3,19 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-#include <string_view>
 #include <utility>
+
+#include "grid/files/sha256.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
-
-class Fnv1a {
- public:
-  void add(std::string_view bytes) {
-    constexpr std::uint64_t kPrime = 0x100000001B3ULL;
-    for (const char byte : bytes) state_ = (state_ ^ static_cast<unsigned char>(byte)) * kPrime;
-  }
-  [[nodiscard]] std::string text() const { return fmt::format("{:016x}", state_); }
-
- private:
-  std::uint64_t state_ = 0xCBF29CE484222325ULL;
-};
 
 /// A number's text depends on its value alone, however it was written.
 std::string scalar_text(const Json& value) {
   return value.is_number() ? fmt::format("{}", value.get<double>() + 0.0) : compact_json(value);
 }
 
-void add(const Json& value, bool is_root, Fnv1a& hash) {
+void add(const Json& value, bool is_root, Sha256& hash) {
   if (!value.is_structured()) {
     hash.add(scalar_text(value));
     return;
@@ -48,7 +36,7 @@ void add(const Json& value, bool is_root, Fnv1a& hash) {
 }  // namespace
 
 std::string content_hash(const Json& document) {
-  Fnv1a hash;
+  Sha256 hash;
   add(document, true, hash);
   return hash.text();
 }

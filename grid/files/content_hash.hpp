@@ -2,8 +2,7 @@
 /// \file
 /// A hash that detects changes of a file since it was written. Private to grid/files.
 ///
-/// FNV-1a, 64 bits (http://www.isthe.com/chongo/tech/comp/fnv/), over the values as the writer
-/// would write them on one line: layout and comments do not count; every number, name and key does.
+/// SHA-256 over the values as the writer would write them on one line: layout and comments do not count; every number, name and key does.
 /// It detects mistakes and damage, not tampering.
 #pragma once
 
@@ -14,7 +13,7 @@
 
 namespace chaintrue::grid::files {
 
-/// 16 hexadecimal digits. The root's "content_hash" and "comment" keys anywhere are left out.
+/// 64 hexadecimal digits. The root's "content_hash" and "comment" keys anywhere are left out.
 [[nodiscard]] std::string content_hash(const Json& document);
 
 /// The text of the document with the hash of its content as its last key.

@@ -3,9 +3,9 @@
 /// chaintrue_map files: a compensation map with its machine, surface, hull, noise, covariance and
 /// its own error. Unknown keys are errors, except "comment". Same map, same bytes.
 ///
-/// Version 1.1 ends in a "content_hash" over everything else (FNV-1a, 64 bits; layout and comments
-/// do not count): a map that does not match it is rejected, since its chain lengths would be
-/// silently wrong. Version 1.0 has none and is accepted with a warning.
+/// It ends in a "content_hash" over everything else (SHA-256; layout and comments do not
+/// count): a map that does not match it is rejected, since its chain lengths would be
+/// silently wrong.
 ///
 /// The covariance of the unknowns is kept as the rows of its lower triangular factor, to seven
 /// digits: a sigma is never known better.
