@@ -124,33 +124,11 @@ BasisSupport BsplineBasis::at(double x, double y) const {
   return result;
 }
 
-namespace {
-
-Eigen::VectorXd spread(Eigen::Index size,
-                       const BasisSupport& support,
-                       const std::array<double, 16>& entries) {
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(size);
-  for (std::size_t k = 0; k < 16; ++k) {
-    row(support.index[k]) = entries[k];
-  }
-  return row;
-}
-
-}  // namespace
-
 Eigen::VectorXd BsplineBasis::row(double x, double y) const {
   const BasisSupport support = at(x, y);
-  return spread(size(), support, support.value);
-}
-
-Eigen::VectorXd BsplineBasis::row_dx(double x, double y) const {
-  const BasisSupport support = at(x, y);
-  return spread(size(), support, support.dx);
-}
-
-Eigen::VectorXd BsplineBasis::row_dy(double x, double y) const {
-  const BasisSupport support = at(x, y);
-  return spread(size(), support, support.dy);
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(size());
+  for (std::size_t k = 0; k < 16; ++k) row(support.index[k]) = support.value[k];
+  return row;
 }
 
 ValueGradient BsplineBasis::evaluate(const Eigen::Ref<const Eigen::VectorXd>& coefficients,

@@ -2,7 +2,7 @@
 #pragma once
 
 /// \file
-/// Uniform cubic B-spline tensor basis over a rectangle, with its thin-plate penalty.
+/// Uniform cubic B-spline tensor basis over a rectangle, with its bending penalties.
 ///
 /// nx by ny intervals carry (nx + 3)(ny + 3) coefficients, numbered with x fastest: coefficient
 /// (ix, iy) is number iy (nx + 3) + ix. The functions are the uniform cubic B-splines on the knots
@@ -45,10 +45,8 @@ class BsplineBasis {
 
   [[nodiscard]] BasisSupport at(double x, double y) const;
 
-  /// The same as dense rows of size(): f(x, y) = row . c, df/dx = row_dx . c, df/dy = row_dy . c.
+  /// The same as a dense row of size(): f(x, y) = row . c.
   [[nodiscard]] Eigen::VectorXd row(double x, double y) const;
-  [[nodiscard]] Eigen::VectorXd row_dx(double x, double y) const;
-  [[nodiscard]] Eigen::VectorXd row_dy(double x, double y) const;
 
   /// Value and gradient of the surface with these coefficients.
   [[nodiscard]] ValueGradient evaluate(const Eigen::Ref<const Eigen::VectorXd>& coefficients,
@@ -60,18 +58,11 @@ class BsplineBasis {
   /// f_yyy^2. Symmetric, positive semidefinite; its null space are the polynomials of lower degree.
   /// Unit: length^(2 - 2 order). Throws std::invalid_argument for other orders.
   [[nodiscard]] Eigen::MatrixXd bending_penalty(int order) const;
-  [[nodiscard]] Eigen::Index bending_rank(int order) const {
-    return size() - order * (order + 1) / 2;
-  }
-
-  [[nodiscard]] Eigen::MatrixXd thin_plate_penalty() const { return bending_penalty(2); }
-  [[nodiscard]] Eigen::Index thin_plate_rank() const { return bending_rank(2); }
 
   /// The coefficients of the polynomials up to a degree of 1 or 2, the null space of the penalties:
   /// columns 1, u, v and, for degree 2, u^2, u v, v^2, with u = (x - x_centre) / half width and v
   /// likewise. Throws std::invalid_argument for other degrees.
   [[nodiscard]] Eigen::MatrixXd polynomial_coefficients(int degree) const;
-  [[nodiscard]] Eigen::MatrixXd plane_coefficients() const { return polynomial_coefficients(1); }
 
  private:
   Rectangle rectangle_;

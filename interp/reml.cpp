@@ -1,21 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Notation as in reml.hpp; theta are the logarithms of lambda_k, then of sigma2 where it is free.
+// Notation as in reml.hpp; theta is (log lambda, log sigma2).
 #include "interp/reml.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <Eigen/Cholesky>
 
-#include "interp/reml_average.hpp"
-#include "interp/reml_marginal.hpp"
 #include "interp/reml_search.hpp"
 
 namespace chaintrue::interp {
+
+PenalisedProblem::PenalisedProblem(Eigen::Index columns)
+    : gram(Eigen::MatrixXd::Zero(columns, columns)),
+      moment(Eigen::VectorXd::Zero(columns)),
+      prior_precision(gram),
+      prior_mean(moment) {}
+
+void PenalisedProblem::add_rows(const Eigen::Ref<const Eigen::MatrixXd>& x,
+                                const Eigen::Ref<const Eigen::VectorXd>& y) {
+  if (x.cols() != columns() || x.rows() != y.size()) {
+    throw std::invalid_argument(fmt::format("{} x {} design rows and {} responses for {} columns",
+                                            x.rows(),
+                                            x.cols(),
+                                            y.size(),
+                                            columns()));
+  }
+  gram.selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
+  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+  moment.noalias() += x.transpose() * y;
+  response_square += y.squaredNorm();
+  rows += x.rows();
+  if (keeps_rows) {
+    design.conservativeResize(rows, columns());
+    design.bottomRows(x.rows()) = x;
+    response.conservativeResize(rows);
+    response.tail(y.size()) = y;
+  }
+}
+
 namespace {
 
 tl::unexpected<FitFailure> rank_deficient() {
@@ -24,51 +48,19 @@ tl::unexpected<FitFailure> rank_deficient() {
       "the points do not determine the fit: some combination of its unknowns is left free"});
 }
 
-// What follows from the coefficients and their covariance.
-void fill_residuals(const PenalisedProblem& problem, PenalisedFit& fit) {
-  const Eigen::VectorXd& b = fit.coefficients;
-  fit.residual_square = problem.keeps_rows
-                            ? (problem.response - problem.design * b).squaredNorm()
-                            : std::max(0.0,
-                                       problem.response_square - 2.0 * b.dot(problem.moment) +
-                                           b.dot(problem.gram * b));
-  fit.column_edf = fit.covariance.cwiseProduct(problem.gram).rowwise().sum() / fit.sigma2;
-  fit.edf = fit.column_edf.sum();
-}
-
-PenalisedFit assemble(const PenalisedProblem& problem,
-                      const reml::Marginal& marginal,
-                      const reml::SearchResult& found,
-                      const FitOptions& options) {
-  const reml::State state = marginal.evaluate(found.theta, reml::Order::hessian).value();
-  const reml::Structure& structure = marginal.structure();
-  const Eigen::Index k = marginal.penalties();
+PenalisedFit fit_at(const PenalisedProblem& problem,
+                    const reml::Likelihood& likelihood,
+                    const reml::Theta& theta,
+                    const reml::State& state) {
   PenalisedFit fit;
-  fit.coefficients = structure.to_columns(state.coefficients);
-  reml::WorkingCovariance inverse;
-  marginal.add_inverse(found.theta, 1.0, inverse);
-  fit.covariance = structure.covariance_to_columns(inverse, Eigen::MatrixXd(problem.columns(), 0));
-  fit.lambda = found.theta.head(k).array().exp();
-  fit.sigma2 = marginal.sigma2(found.theta);
-  fill_residuals(problem, fit);
-  fit.minus_two_log_reml = state.value;
-  fit.iterations = found.iterations;
-  fit.ends = found.ends;
-  const Eigen::MatrixXd spread = reml::covariance_from_hessian(state.hessian, found.ends);
-  Eigen::VectorXd sigma = spread.diagonal().cwiseSqrt();
-  for (Eigen::Index i = 0; i < k; ++i) {
-    if (found.ends[static_cast<std::size_t>(i)] != SmoothingEnd::inside) {
-      sigma(i) = std::numeric_limits<double>::infinity();
-    }
-  }
-  fit.log_lambda_sigma = sigma.head(k);
-  fit.inverse_lambda = fit.lambda.cwiseInverse();
+  fit.coefficients = likelihood.to_columns(state.coefficients);
+  fit.covariance = likelihood.covariance({{theta, 1.0}}, state);
   fit.corrected_covariance = fit.covariance;
-  if (options.correct_covariance && marginal.unknowns() > 0) {
-    reml::Averaged averaged = reml::averaged_covariance(marginal, found, sigma);
-    fit.corrected_covariance = std::move(averaged.covariance);
-    fit.inverse_lambda = std::move(averaged.inverse_lambda);
-  }
+  fit.lambda = std::exp(theta[0]);
+  fit.inverse_lambda = 1.0 / fit.lambda;
+  fit.sigma2 = std::exp(theta[1]);
+  fit.edf = fit.covariance.cwiseProduct(problem.gram).sum() / fit.sigma2;
+  fit.minus_two_log_reml = state.value;
   return fit;
 }
 
@@ -76,76 +68,42 @@ PenalisedFit assemble(const PenalisedProblem& problem,
 
 tl::expected<PenalisedFit, FitFailure> fit_penalised(const PenalisedProblem& problem,
                                                      const FitOptions& options) {
-  reml::check(problem);
-  const reml::Marginal marginal(problem, std::nullopt, options.prior);
-  if (!marginal.positive()) {
-    return rank_deficient();
-  }
-  const auto found = reml::search(marginal, options.maximum_iterations);
+  const reml::Likelihood likelihood(problem, options.prior);
+  const auto found = reml::search(likelihood, options.maximum_iterations);
+  if (!found && found.error() == FitReason::rank_deficient) return rank_deficient();
   if (!found) {
-    return found.error() == FitFailure::Reason::rank_deficient
-               ? rank_deficient()
-               : tl::unexpected(
-                     FitFailure{found.error(),
-                                fmt::format("the choice of smoothing did not settle in {} steps",
-                                            options.maximum_iterations)});
+    return tl::unexpected(FitFailure{found.error(),
+                                     fmt::format("the choice of smoothing did not settle in {} steps",
+                                                 options.maximum_iterations)});
   }
-  return assemble(problem, marginal, *found, options);
-}
-
-tl::expected<PenalisedFit, FitFailure> fit_with_smoothing(
-    const PenalisedProblem& problem,
-    const Eigen::Ref<const Eigen::VectorXd>& lambda,
-    double sigma2) {
-  reml::check(problem);
-  if (lambda.size() != static_cast<Eigen::Index>(problem.penalties.size()) ||
-      !(lambda.array() > 0.0).all() || !(sigma2 > 0.0)) {
-    throw std::invalid_argument(
-        "each penalty needs a positive lambda, and sigma2 must be positive");
+  PenalisedFit fit = fit_at(problem, likelihood, found->theta, found->state);
+  if (options.correct_covariance && (likelihood.has_ridge() || likelihood.finds_sigma2())) {
+    const auto nodes = reml::posterior_nodes(likelihood, *found);
+    fit.corrected_covariance = likelihood.covariance(nodes, found->state);
+    fit.inverse_lambda = 0.0;
+    for (const auto& node : nodes) fit.inverse_lambda += node.weight * std::exp(-node.theta[0]);
   }
-  // For one lambda the dense form costs less than the preparation for many lambdas, if it is
-  // accurate enough.
-  const Eigen::VectorXd theta = lambda.array().log();
-  std::optional<reml::Marginal> marginal;
-  std::optional<reml::State> state;
-  for (const reml::Shape shape : {reml::Shape::dense, reml::Shape::any}) {
-    marginal.emplace(problem, sigma2, SmoothingPrior::none, shape);
-    state = marginal->positive() ? marginal->evaluate(theta, reml::Order::value) : std::nullopt;
-    if (state) {
-      break;
-    }
-  }
-  if (!state) {
-    return rank_deficient();
-  }
-  const reml::Structure& structure = marginal->structure();
-  PenalisedFit fit;
-  fit.coefficients = structure.to_columns(state->coefficients);
-  reml::WorkingCovariance inverse;
-  marginal->add_inverse(theta, 1.0, inverse);
-  fit.covariance = structure.covariance_to_columns(inverse, Eigen::MatrixXd(problem.columns(), 0));
-  fit.corrected_covariance = fit.covariance;
-  fit.lambda = lambda;
-  fit.inverse_lambda = lambda.cwiseInverse();
-  fit.log_lambda_sigma = Eigen::VectorXd::Zero(lambda.size());
-  fit.ends.assign(problem.penalties.size(), SmoothingEnd::inside);
-  fit.sigma2 = sigma2;
-  fill_residuals(problem, fit);
-  fit.minus_two_log_reml = state->value;
   return fit;
 }
 
-tl::expected<double, FitFailure> minus_two_log_reml(const PenalisedProblem& problem,
-                                                    const Eigen::Ref<const Eigen::VectorXd>& lambda,
-                                                    double sigma2) {
-  reml::check(problem);
-  const reml::Marginal marginal(problem, sigma2);
-  if (marginal.positive()) {
-    if (const auto state = marginal.evaluate(lambda.array().log(), reml::Order::value)) {
-      return state->value;
-    }
+tl::expected<PenalisedFit, FitFailure> fit_with_smoothing(const PenalisedProblem& problem,
+                                                          double lambda,
+                                                          double sigma2) {
+  if (!(lambda > 0.0) || !(sigma2 > 0.0)) {
+    throw std::invalid_argument(
+        fmt::format("a fit with lambda {} and sigma2 {}; both are positive", lambda, sigma2));
   }
-  return rank_deficient();
+  const reml::Theta theta(std::log(lambda), std::log(sigma2));
+  // One Cholesky factor costs less than the preparation for many lambdas, if it is accurate enough.
+  const reml::Likelihood once(problem, theta);
+  if (auto state = once.evaluate(theta, reml::Order::value)) {
+    state->value -= static_cast<double>(problem.ridge.count) * theta[0];
+    return fit_at(problem, once, theta, *state);
+  }
+  const reml::Likelihood likelihood(problem, SmoothingPrior::none);
+  const auto state = likelihood.evaluate(theta, reml::Order::value);
+  if (!state) return rank_deficient();
+  return fit_at(problem, likelihood, theta, *state);
 }
 
 namespace {
@@ -166,27 +124,6 @@ tl::expected<Eigen::LLT<Eigen::MatrixXd>, FitFailure> without_group(
 }
 
 }  // namespace
-
-tl::expected<HeldOut, FitFailure> PenalisedFit::held_out(
-    const Eigen::Ref<const Eigen::MatrixXd>& design,
-    const Eigen::Ref<const Eigen::VectorXd>& response) const {
-  if (design.cols() != coefficients.size() || design.rows() != response.size()) {
-    throw std::invalid_argument(fmt::format("{} x {} held-out rows and {} responses for {} columns",
-                                            design.rows(),
-                                            design.cols(),
-                                            response.size(),
-                                            coefficients.size()));
-  }
-  const auto factor = without_group(design * covariance * design.transpose(), sigma2);
-  if (!factor) {
-    return tl::unexpected(factor.error());
-  }
-  HeldOut result;
-  result.residual = factor->solve(response - design * coefficients);
-  result.covariance =
-      sigma2 * factor->solve(Eigen::MatrixXd::Identity(design.rows(), design.rows()));
-  return result;
-}
 
 tl::expected<Eigen::VectorXd, FitFailure> held_out_residual(
     const Eigen::Ref<const Eigen::VectorXd>& residual,

@@ -10,65 +10,61 @@
 namespace chaintrue::interp::reml {
 namespace {
 
-// Ten decades either side of balance: beyond, the penalty (or the data) is below the rounding of
-// the other.
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Ten decades either side of balance: beyond, the ridge (or the data) is below the rounding of the
+// other.
 constexpr double kHalfRange = 23.0;
-constexpr double kScanStep = 3.0;
 constexpr double kLongestStep = 4.0;
 // V is of order one near its minimum; a gradient of 1e-7 moves theta by about 1e-7 of its sigma.
 constexpr double kGradientTolerance = 1e-7;
 
 struct Limits {
-  Eigen::VectorXd low;
-  Eigen::VectorXd high;
+  Theta low = Theta::Zero();
+  Theta high = Theta::Zero();
+  [[nodiscard]] Theta clamp(const Theta& theta) const {
+    return theta.cwiseMax(low).cwiseMin(high);
+  }
 };
 
-Limits limits_of(const Marginal& marginal) {
-  const Eigen::Index n = marginal.unknowns();
-  Limits limits{Eigen::VectorXd::Constant(n, -kHalfRange),
-                Eigen::VectorXd::Constant(n, kHalfRange)};
-  for (Eigen::Index k = 0; k < marginal.penalties(); ++k) {
-    limits.low(k) += marginal.balanced_log_lambda(k);
-    limits.high(k) += marginal.balanced_log_lambda(k);
+Limits limits_of(const Likelihood& likelihood) {
+  Limits limits;
+  if (likelihood.has_ridge()) {
+    const double middle = std::log(likelihood.balance());
+    limits.low[0] = middle - kHalfRange;
+    limits.high[0] = middle + kHalfRange;
   }
-  if (marginal.sigma2_free()) {
+  if (likelihood.finds_sigma2()) {
     // Noise below 1e-5 of the responses cannot be distinguished from the rounding of a leverage
     // near one.
-    const double largest = std::log(marginal.response_variance());
-    limits.low(n - 1) = std::min(largest - kHalfRange, 0.0);
-    limits.high(n - 1) = std::max(largest, 0.0) + 1.0;
+    const double largest = std::log(likelihood.response_variance());
+    limits.low[1] = std::min(largest - kHalfRange, 0.0);
+    limits.high[1] = std::max(largest, 0.0) + 1.0;
   }
   return limits;
 }
 
-double value_at(const Marginal& marginal, const Eigen::VectorXd& theta) {
-  const auto state = marginal.evaluate(theta, Order::value);
-  return state ? state->value : std::numeric_limits<double>::infinity();
+double value_at(const Likelihood& likelihood, const Theta& theta) {
+  const auto state = likelihood.evaluate(theta, Order::value);
+  return state ? state->value : kInfinity;
 }
 
-// All lambdas are moved together over the range, and sigma2 below the responses' variance where it
-// is unknown; the best of them starts the search.
-Eigen::VectorXd scan(const Marginal& marginal,
-                     const Eigen::VectorXd& balance,
-                     const Limits& limits) {
-  const Eigen::Index k = marginal.penalties();
+// lambda is moved over the range, and sigma2 below the responses' variance where it is unknown; the
+// best of them starts the search.
+Theta scan(const Likelihood& likelihood, const Theta& balance, const Limits& limits) {
+  constexpr double kReach = 15.0;
+  constexpr double kStep = 3.0;
   std::vector<double> log_sigma2 = {0.0};
-  if (marginal.sigma2_free() && !marginal.noise_from_repeats()) {
-    const double largest = std::log(marginal.response_variance());
+  if (likelihood.finds_sigma2() && !likelihood.noise_from_repeats()) {
+    const double largest = std::log(likelihood.response_variance());
     log_sigma2 = {largest, largest - 5.0, largest - 10.0, largest - 15.0};
   }
-  Eigen::VectorXd best = balance;
-  double best_value = std::numeric_limits<double>::infinity();
+  const double reach = likelihood.has_ridge() ? kReach : 0.0;
+  Theta best = balance;
+  double best_value = kInfinity;
   for (const double s : log_sigma2) {
-    for (double offset = -15.0; offset <= 15.0; offset += kScanStep) {
-      Eigen::VectorXd theta = balance;
-      theta.head(k).array() += offset;
-      if (marginal.sigma2_free()) {
-        theta.head(k).array() -= s;
-        theta(k) = s;
-      }
-      theta = theta.cwiseMax(limits.low).cwiseMin(limits.high);
-      const double value = value_at(marginal, theta);
+    for (double offset = -reach; offset <= reach; offset += kStep) {
+      const Theta theta = limits.clamp({balance[0] + offset - s, s});
+      const double value = value_at(likelihood, theta);
       if (value < best_value) {
         best_value = value;
         best = theta;
@@ -78,76 +74,53 @@ Eigen::VectorXd scan(const Marginal& marginal,
   return best;
 }
 
-std::vector<bool> held_at_limit(const Eigen::VectorXd& theta,
-                                const Eigen::VectorXd& gradient,
-                                const Limits& limits) {
-  std::vector<bool> held(static_cast<std::size_t>(theta.size()), false);
-  for (Eigen::Index i = 0; i < theta.size(); ++i) {
-    held[static_cast<std::size_t>(i)] = (theta(i) <= limits.low(i) && gradient(i) > 0.0) ||
-                                        (theta(i) >= limits.high(i) && gradient(i) < 0.0);
+// 1 for an unknown that may move, 0 for one that is given or that V presses against a limit.
+Theta free_of(const Theta& theta, const Theta& gradient, const Limits& limits) {
+  Theta free = Theta::Ones();
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    if (limits.low[i] == limits.high[i] || (theta[i] <= limits.low[i] && gradient[i] > 0.0) ||
+        (theta[i] >= limits.high[i] && gradient[i] < 0.0)) {
+      free[i] = 0.0;
+    }
   }
-  return held;
+  return free;
+}
+
+// Where the others have a curvature of 1 and no part in the rest.
+Eigen::Matrix2d restricted(const Eigen::Matrix2d& hessian, const Theta& free) {
+  Eigen::Matrix2d result = hessian.cwiseProduct(free * free.transpose());
+  result.diagonal() += Theta::Ones() - free;
+  return result;
 }
 
 // Newton's step with the Hessian's eigenvalues made positive, no longer than kLongestStep.
-Eigen::VectorXd newton_step(const State& state, const std::vector<bool>& held) {
-  Eigen::MatrixXd hessian = state.hessian;
-  Eigen::VectorXd gradient = state.gradient;
-  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
-    if (held[static_cast<std::size_t>(i)]) {
-      hessian.row(i).setZero();
-      hessian.col(i).setZero();
-      hessian(i, i) = 1.0;
-      gradient(i) = 0.0;
-    }
-  }
-  const SymmetricEigen solver(hessian);
+Theta newton_step(const State& state, const Theta& free) {
+  const SymmetricEigen solver(restricted(state.hessian, free));
   const double floor = 1e-8 * std::max(1.0, solver.eigenvalues().cwiseAbs().maxCoeff());
-  const Eigen::VectorXd curvature = solver.eigenvalues().cwiseAbs().cwiseMax(floor);
-  Eigen::VectorXd step = -(solver.eigenvectors() *
-                           (solver.eigenvectors().transpose() * gradient).cwiseQuotient(curvature));
+  const Eigen::VectorXd turned = solver.eigenvectors().transpose() * free.cwiseProduct(state.gradient);
+  const Theta step = -(solver.eigenvectors() *
+                       turned.cwiseQuotient(solver.eigenvalues().cwiseAbs().cwiseMax(floor)));
   const double longest = step.cwiseAbs().maxCoeff();
-  return longest > kLongestStep ? Eigen::VectorXd(step * (kLongestStep / longest)) : step;
+  return longest > kLongestStep ? Theta(step * (kLongestStep / longest)) : step;
 }
 
-// Far out V approaches its limit slowly: a flat gradient there is a boundary, not a minimum.
-SmoothingEnd end_of(double theta, double low, double high, double curvature) {
-  constexpr double kFlat = 1e-4;
-  const double middle = 0.5 * (low + high);
-  if (theta >= high || (curvature < kFlat && theta > middle)) {
-    return SmoothingEnd::stiff;
-  }
-  if (theta <= low || (curvature < kFlat && theta < middle)) {
-    return SmoothingEnd::interpolate;
-  }
-  return SmoothingEnd::inside;
-}
-
-double largest_free_gradient(const Eigen::VectorXd& gradient, const std::vector<bool>& held) {
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
-    if (!held[static_cast<std::size_t>(i)]) {
-      largest = std::max(largest, std::abs(gradient(i)));
-    }
-  }
-  return largest;
+double largest_free_gradient(const Theta& theta, const State& state, const Limits& limits) {
+  return free_of(theta, state.gradient, limits).cwiseProduct(state.gradient).cwiseAbs().maxCoeff();
 }
 
 // V determines theta only to the square root of its rounding; its gradient to its own. Near a minimum
 // Newton's steps continue as long as the gradient decreases.
-void polish(const Marginal& marginal, const Limits& limits, Eigen::VectorXd& theta, State& state) {
+void polish(const Likelihood& likelihood, const Limits& limits, Theta& theta, State& state) {
   constexpr int kMostSteps = 4;
-  constexpr double kNear =
-      1e-2;  // longer steps creep along a V that is flat, or leave another one's minimum
+  // Longer steps creep along a V that is flat, or leave another one's minimum.
+  constexpr double kNear = 1e-2;
   for (int i = 0; i < kMostSteps; ++i) {
-    const std::vector<bool> held = held_at_limit(theta, state.gradient, limits);
-    const Eigen::VectorXd step = newton_step(state, held);
+    const Theta step = newton_step(state, free_of(theta, state.gradient, limits));
     if (step.cwiseAbs().maxCoeff() > kNear) return;
-    const Eigen::VectorXd next = (theta + step).cwiseMax(limits.low).cwiseMin(limits.high);
-    auto there = marginal.evaluate(next, Order::hessian);
-    if (!there ||
-        largest_free_gradient(there->gradient, held_at_limit(next, there->gradient, limits)) >=
-            largest_free_gradient(state.gradient, held)) {
+    const Theta next = limits.clamp(theta + step);
+    auto there = likelihood.evaluate(next, Order::hessian);
+    if (!there || largest_free_gradient(next, *there, limits) >=
+                      largest_free_gradient(theta, state, limits)) {
       return;
     }
     theta = next;
@@ -155,86 +128,142 @@ void polish(const Marginal& marginal, const Limits& limits, Eigen::VectorXd& the
   }
 }
 
+// Far out V approaches its limit slowly: a flat gradient there is a boundary, not a minimum.
+bool ends_inside(double theta, double low, double high, double curvature) {
+  constexpr double kFlat = 1e-4;
+  return theta > low && theta < high && (curvature >= kFlat || theta == 0.5 * (low + high));
+}
+
+// One standard error of each theta from the Hessian of V (twice the information).
+Theta standard_errors(const SearchResult& found) {
+  const bool lambda_inside =
+      found.low[0] < found.high[0] &&
+      ends_inside(found.theta[0], found.low[0], found.high[0], found.state.hessian(0, 0));
+  const SymmetricEigen solver(
+      restricted(0.5 * found.state.hessian,
+                 {lambda_inside ? 1.0 : 0.0, found.low[1] < found.high[1] ? 1.0 : 0.0}));
+  // A flat direction would have an unbounded variance: ten decades of lambda are the limit.
+  const Eigen::VectorXd variance =
+      solver.eigenvalues().cwiseMax(1.0 / (kHalfRange * kHalfRange)).cwiseInverse();
+  Theta sigma = (solver.eigenvectors().cwiseAbs2() * variance).cwiseSqrt();
+  if (!lambda_inside) sigma[0] = kInfinity;
+  return sigma;
+}
+
+// Walks over the posterior's density.
+class Walker {
+ public:
+  Walker(const Likelihood& likelihood, const SearchResult& found)
+      : likelihood_(likelihood),
+        found_(found),
+        step_(standard_errors(found).cwiseMax(0.2).cwiseMin(1.0)) {}
+
+  std::vector<Likelihood::Node> nodes() {
+    for (const double direction : {-1.0, 1.0}) {
+      Theta from = found_.theta;
+      for (int j = direction < 0.0 ? 0 : 1; j < kLongest; ++j) {
+        from[1] = found_.theta[1] + direction * step_[1] * j;
+        if (from[1] < found_.low[1] || from[1] > found_.high[1]) break;
+        const Likelihood::Node best = along_lambda(from);
+        if (!(best.weight > peak_ - kNegligible)) break;
+        from[0] = best.theta[0];
+      }
+    }
+    return normalized();
+  }
+
+ private:
+  static constexpr double kNegligible = 4.0;
+  static constexpr int kLongest = 60;
+
+  // The average always includes the prior, so that the posterior is proper; the fit includes it on
+  // request.
+  [[nodiscard]] double log_density(const State& state, const Theta& theta) const {
+    const bool has_prior = likelihood_.prior() == SmoothingPrior::avoids_boundary;
+    return -0.5 * (state.value + (has_prior ? 0.0 : likelihood_.flat_slope().dot(theta)));
+  }
+
+  // The node of the highest density. Weights are logarithms here.
+  Likelihood::Node along_lambda(const Theta& from) {
+    Likelihood::Node best{from, -kInfinity};
+    for (const double direction : {-1.0, 1.0}) {
+      for (int j = direction < 0.0 ? 0 : 1; j < kLongest; ++j) {
+        const Theta theta(from[0] + direction * step_[0] * j, from[1]);
+        if (theta[0] < found_.low[0] || theta[0] > found_.high[0]) break;
+        const auto state = likelihood_.evaluate(theta, Order::value);
+        if (!state) break;
+        const Likelihood::Node node{theta, log_density(*state, theta)};
+        if (node.weight > best.weight) best = node;
+        peak_ = std::max(peak_, node.weight);
+        if (node.weight < best.weight - kNegligible) break;
+        nodes_.push_back(node);
+      }
+    }
+    return best;
+  }
+
+  [[nodiscard]] std::vector<Likelihood::Node> normalized() const {
+    std::vector<Likelihood::Node> kept;
+    double sum = 0.0;
+    for (const Likelihood::Node& node : nodes_) {
+      if (node.weight <= peak_ - kNegligible) continue;
+      kept.push_back({node.theta, std::exp(node.weight - peak_)});
+      sum += kept.back().weight;
+    }
+    for (Likelihood::Node& node : kept) node.weight /= sum;
+    return kept;
+  }
+
+  const Likelihood& likelihood_;
+  const SearchResult& found_;
+  Theta step_;
+  double peak_ = -kInfinity;
+  std::vector<Likelihood::Node> nodes_;
+};
+
 }  // namespace
 
-tl::expected<SearchResult, FitFailure::Reason> search(const Marginal& marginal,
-                                                      int maximum_iterations) {
-  const Limits limits = limits_of(marginal);
-  SearchResult result;
-  result.low = limits.low;
-  result.high = limits.high;
-  Eigen::VectorXd balance = 0.5 * (limits.low + limits.high);
-  if (marginal.sigma2_free()) {
-    balance(balance.size() - 1) = 0.0;
-  }
-  if (!marginal.evaluate(balance, Order::value)) {
-    return tl::unexpected(FitFailure::Reason::rank_deficient);
-  }
-  result.theta = scan(marginal, balance, limits);
-  auto state = marginal.evaluate(result.theta, Order::hessian);
-  if (!state) return tl::unexpected(FitFailure::Reason::rank_deficient);
+tl::expected<SearchResult, FitReason> search(const Likelihood& likelihood,
+                                             int maximum_iterations) {
+  const auto rank_deficient = tl::unexpected(FitReason::rank_deficient);
+  if (likelihood.has_ridge() && !(likelihood.balance() > 0.0)) return rank_deficient;
+  const Limits limits = limits_of(likelihood);
+  const Theta balance(0.5 * (limits.low[0] + limits.high[0]), 0.0);
+  if (!likelihood.evaluate(balance, Order::value)) return rank_deficient;
+  Theta theta = scan(likelihood, balance, limits);
+  auto state = likelihood.evaluate(theta, Order::hessian);
+  if (!state) return rank_deficient;
   bool converged = false;
-  while (!converged) {
-    const std::vector<bool> held = held_at_limit(result.theta, state->gradient, limits);
-    if (largest_free_gradient(state->gradient, held) < kGradientTolerance) {
-      break;
-    }
-    if (result.iterations == maximum_iterations) {
-      return tl::unexpected(FitFailure::Reason::not_converged);
-    }
-    ++result.iterations;
-    Eigen::VectorXd step = newton_step(*state, held);
+  for (int iteration = 0; !converged; ++iteration) {
+    if (largest_free_gradient(theta, *state, limits) < kGradientTolerance) break;
+    if (iteration == maximum_iterations) return tl::unexpected(FitReason::not_converged);
+    const Theta step = newton_step(*state, free_of(theta, state->gradient, limits));
     double fraction = 1.0;
-    Eigen::VectorXd next;
+    Theta next;
     // Halve until V decreases; if it does not, the rounding of V is reached.
     for (; fraction > 1e-6; fraction *= 0.5) {
-      next = (result.theta + fraction * step).cwiseMax(limits.low).cwiseMin(limits.high);
-      if (value_at(marginal, next) < state->value) {
-        break;
-      }
+      next = limits.clamp(theta + fraction * step);
+      if (value_at(likelihood, next) < state->value) break;
     }
     converged = fraction <= 1e-6;
     if (!converged) {
       const double before = state->value;
-      result.theta = next;
-      state = marginal.evaluate(result.theta, Order::hessian);
-      if (!state) return tl::unexpected(FitFailure::Reason::rank_deficient);
+      theta = next;
+      state = likelihood.evaluate(theta, Order::hessian);
+      if (!state) return rank_deficient;
       // Changes of V below 1e-10 are negligible; where its gradient is all rounding it never gets
       // small.
       converged = before - state->value < 1e-10;
     }
   }
   // If the gradient itself ended the search there is nothing to refine.
-  if (converged) polish(marginal, limits, result.theta, *state);
-  for (Eigen::Index k = 0; k < marginal.penalties(); ++k) {
-    result.ends.push_back(
-        end_of(result.theta(k), limits.low(k), limits.high(k), state->hessian(k, k)));
-  }
-  return result;
+  if (converged) polish(likelihood, limits, theta, *state);
+  return SearchResult{theta, limits.low, limits.high, *std::move(state)};
 }
 
-Eigen::MatrixXd covariance_from_hessian(const Eigen::MatrixXd& hessian,
-                                        const std::vector<SmoothingEnd>& ends) {
-  const Eigen::Index n = hessian.rows();
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    if (k >= ends.size() || ends[k] == SmoothingEnd::inside) {
-      free.push_back(i);
-    }
-  }
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
-  if (free.empty()) {
-    return covariance;
-  }
-  const Eigen::MatrixXd information = 0.5 * hessian(free, free);
-  const SymmetricEigen solver(information);
-  // A flat direction would have an unbounded variance: ten decades of lambda are the limit.
-  const double floor = 1.0 / (kHalfRange * kHalfRange);
-  const Eigen::VectorXd variance = solver.eigenvalues().cwiseMax(floor).cwiseInverse();
-  covariance(free, free) =
-      solver.eigenvectors() * variance.asDiagonal() * solver.eigenvectors().transpose();
-  return covariance;
+std::vector<Likelihood::Node> posterior_nodes(const Likelihood& likelihood,
+                                              const SearchResult& found) {
+  return Walker(likelihood, found).nodes();
 }
 
 }  // namespace chaintrue::interp::reml

@@ -2,29 +2,31 @@
 #pragma once
 
 /// \file
-/// The minimiser of V over theta: a coarse scan, then Newton with a bounded step. Internal to
-/// interp.
+/// The minimiser of V over theta, and the posterior averaged about it. Internal to interp; notation
+/// as in reml.hpp and reml_likelihood.hpp.
 
 #include <vector>
 
-#include "interp/reml_marginal.hpp"
+#include "interp/reml_likelihood.hpp"
 
 namespace chaintrue::interp::reml {
 
 struct SearchResult {
-  Eigen::VectorXd theta;
-  Eigen::VectorXd low;  ///< the search's limits
-  Eigen::VectorXd high;
-  std::vector<SmoothingEnd> ends;  ///< one for each penalty
-  int iterations = 0;
+  Theta theta;
+  /// The search's limits; equal where there is nothing to search.
+  Theta low;
+  Theta high;
+  State state;  ///< with the derivatives
 };
 
-[[nodiscard]] tl::expected<SearchResult, FitFailure::Reason> search(const Marginal& marginal,
-                                                                    int maximum_iterations);
+/// A coarse scan, then Newton with a bounded step.
+[[nodiscard]] tl::expected<SearchResult, FitReason> search(const Likelihood& likelihood,
+                                                           int maximum_iterations);
 
-/// The covariance of theta from the Hessian of V (twice the information). The rows and columns of
-/// unknowns that ended at a limit are zero.
-[[nodiscard]] Eigen::MatrixXd covariance_from_hessian(const Eigen::MatrixXd& hessian,
-                                                      const std::vector<SmoothingEnd>& ends);
+/// Points of the posterior of theta with their weights, of sum 1: steps of one standard error
+/// outward from the optimum while the density is above e^-4 of its peak, of lambda anew at each
+/// sigma2.
+[[nodiscard]] std::vector<Likelihood::Node> posterior_nodes(const Likelihood& likelihood,
+                                                            const SearchResult& found);
 
 }  // namespace chaintrue::interp::reml

@@ -12,9 +12,4 @@ SymmetricEigen::SymmetricEigen(const Eigen::MatrixXd& matrix) {
   vectors_ = solver.eigenvectors();
 }
 
-Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
-      .eigenvalues();
-}
-
 }  // namespace chaintrue::interp

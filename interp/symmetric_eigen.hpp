@@ -22,7 +22,4 @@ class SymmetricEigen {
   Eigen::MatrixXd vectors_;
 };
 
-/// The values alone, at a fraction of the cost.
-[[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
-
 }  // namespace chaintrue::interp

@@ -47,10 +47,7 @@ Estimator::Fit Estimator::solve(const Eigen::VectorXd& weights,
   interp::FitOptions options;
   options.correct_covariance = correct_covariance;
   options.prior = input_.noise_prior;
-  const bool nothing_to_choose =
-      problem.penalties.empty() && problem.noise.knowledge == interp::NoiseKnowledge::exact;
-  auto fit = nothing_to_choose ? interp::fit_with_smoothing(problem, Eigen::VectorXd(0), 1.0)
-             : smoothing == Smoothing::choose
+  auto fit = smoothing == Smoothing::choose
                  ? interp::fit_penalised(problem, options)
                  : interp::fit_with_smoothing(problem, fit_.lambda, fit_.sigma2);
   if (!fit) return tl::unexpected(failure_of(fit.error()));

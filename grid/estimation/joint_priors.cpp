@@ -104,28 +104,21 @@ void JointProblem::add_surface_prior(interp::PenalisedProblem& problem,
       .segment(unknowns_->polynomial(Side::left), 2 * surface.polynomials)
       .setConstant(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
   // One smoothness for both chains: the same causes act on both surfaces.
-  interp::Penalty penalty;
-  penalty.first_column = unknowns_->first_penalised_of(Side::left);
-  penalty.matrix = Eigen::MatrixXd::Identity(2 * surface.penalised, 2 * surface.penalised);
-  penalty.rank = 2 * surface.penalised;
+  problem.ridge = {unknowns_->first_penalised_of(Side::left), 2 * surface.penalised};
   // Where the splines' own penalty would weigh as much as the data.
   for (std::size_t u = 0; u < units_.size(); ++u) {
     const double weight = weights[static_cast<Eigen::Index>(u)];
     for (const observation::PlaceColumns& place : units_[u].places) {
       const double square = observed_->squares()[static_cast<Eigen::Index>(place.place)];
-      penalty.balance +=
+      problem.ridge.balance +=
           weight * square * place.by_chain.squaredNorm() / (2.0 * observed_->penalty_trace());
     }
   }
-  problem.penalties = {std::move(penalty)};
 }
 
 interp::PenalisedProblem JointProblem::weighted(const Eigen::VectorXd& weights) const {
-  const Eigen::Index total = unknowns_->total();
-  interp::PenalisedProblem problem(total);
+  interp::PenalisedProblem problem(unknowns_->total());
   problem.keeps_rows = !local_;
-  problem.prior_precision = Eigen::MatrixXd::Zero(total, total);
-  problem.prior_mean = Eigen::VectorXd::Zero(total);
   problem.noise = input_.noise;
   add_rows(problem, weights);
   add_settings_prior(problem);

@@ -341,7 +341,7 @@ Eigen::MatrixXd JointProblem::map_covariance(const interp::PenalisedFit& fit,
   }
   Eigen::MatrixXd result = to_splines * covariance(fit) * to_splines.transpose();
   if (!has_surface_) return result;
-  const Eigen::MatrixXd unobserved = fit.inverse_lambda[0] * observed_->null_space_coefficients() *
+  const Eigen::MatrixXd unobserved = fit.inverse_lambda * observed_->null_space_coefficients() *
                                      observed_->null_space_coefficients().transpose();
   for (const Side side : model::kSides) {
     result.block(columns.spline(side), columns.spline(side), columns.basis, columns.basis) +=

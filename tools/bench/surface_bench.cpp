@@ -207,14 +207,14 @@ std::vector<NoisyPoint> noisy_points(std::size_t count) {
   return points;
 }
 
-// Two fields and eight shared settings, as for a machine's two chains: the REML problem of the
-// joint fit.
+// Two fields under one ridge and eight shared settings, as for a machine's two chains.
 void joint_reml(benchmark::State& state, std::size_t count, bool corrected) {
   constexpr Eigen::Index kShared = 8;
   const BsplineBasis basis(kBed, 8, 4);
   const Eigen::Index m = basis.size();
   const auto points = noisy_points(count);
   PenalisedProblem problem(2 * m + kShared);
+  problem.keeps_rows = true;
   for (const NoisyPoint& p : points) {
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, 2 * m + kShared);
     for (Eigen::Index k = 0; k < 2; ++k) {
@@ -226,10 +226,7 @@ void joint_reml(benchmark::State& state, std::size_t count, bool corrected) {
     }
     problem.add_rows(rows, Eigen::VectorXd::Constant(2, p.z / p.sigma));
   }
-  for (Eigen::Index k = 0; k < 2; ++k) {
-    problem.penalties.push_back({k * m, basis.thin_plate_penalty(), basis.thin_plate_rank()});
-  }
-  problem.prior_precision = Eigen::MatrixXd::Zero(2 * m + kShared, 2 * m + kShared);
+  problem.ridge = {0, 2 * m};
   problem.prior_precision.bottomRightCorner(kShared, kShared).setIdentity();
   FitOptions options;
   options.correct_covariance = corrected;

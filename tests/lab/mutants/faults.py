@@ -55,9 +55,9 @@ FAULTS = [
           "-6.0 * s * (1.0 - s) / policy.fade_width",
           "-6.0 * s * (1.0 - s)",
           "region|fade"),
-    Fault("average_without_prior", "interp/reml_average.cpp",
-          "-0.5 * (state->value + missing_prior(theta))",
-          "-0.5 * state->value",
+    Fault("average_without_prior", "interp/reml_search.cpp",
+          "(has_prior ? 0.0 : likelihood_.flat_slope().dot(theta))",
+          "0.0",
           "interp.*reml"),
     # grid/observation
     Fault("mark_sigma_unsquared", "grid/observation/chain_lengths.cpp",
