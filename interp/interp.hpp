@@ -4,15 +4,14 @@
 /// suits which data.
 #pragma once
 
-#include "interp/alglib_spline.hpp"
 #include "interp/bspline_basis.hpp"
-#include "interp/compiled_pair.hpp"
+#include "interp/checked_field.hpp"
 #include "interp/measured_region.hpp"
 #include "interp/missing_nodes.hpp"
 #include "interp/planner_nodes.hpp"
 #include "interp/quintic_spline.hpp"
 #include "interp/reml.hpp"
 #include "interp/spline_axis.hpp"
+#include "interp/spline_pair.hpp"
 #include "interp/surface.hpp"
-#include "interp/surface_methods.hpp"
 #include "interp/tensor_spline.hpp"

@@ -11,7 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include "interp/compiled_pair.hpp"
 #include "interp/surface.hpp"
 
 namespace chaintrue::interp {

@@ -14,6 +14,11 @@ struct ValueGradient {
   double dy = 0.0;
 };
 
+struct PlanePoint {
+  double x = 0.0;
+  double y = 0.0;
+};
+
 /// A closed rectangle of the plane.
 struct Rectangle {
   double x_min = 0.0;

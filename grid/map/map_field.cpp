@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid/chain_rows.hpp"
+#include "interp/spline_pair.hpp"
 #include "model/chains/chain_mechanism.hpp"
 
 namespace chaintrue::grid {
@@ -174,6 +175,7 @@ class DirectField final : public MapField {
         right_(axes_,
                surface.lengths_mm.right,
                parabola_slopes(surface.x_nodes_mm, surface.y_nodes_mm, surface.lengths_mm.right)),
+        both_(left_, right_),
         noise_(noise),
         interpolation_sigma_mm_(surface.interpolation_sigma_mm) {}
 
@@ -197,11 +199,10 @@ class DirectField final : public MapField {
   }
 
   [[nodiscard]] MapLengths lengths(MarkPoint mark) const {
-    const auto left = left_.at(mark.x_mm, mark.y_mm);
-    const auto right = right_.at(mark.x_mm, mark.y_mm);
+    const interp::PairGradient z = both_.at(mark.x_mm, mark.y_mm);
     MapLengths here;
-    here.lengths = {left.value, right.value};
-    here.mark_jacobian << left.dx, left.dy, right.dx, right.dy;
+    here.lengths = {z.value[0], z.value[1]};
+    here.mark_jacobian << z.dx[0], z.dy[0], z.dx[1], z.dy[1];
     return here;
   }
 
@@ -212,6 +213,7 @@ class DirectField final : public MapField {
   std::shared_ptr<const interp::TensorAxes> axes_;
   interp::TensorSpline left_;
   interp::TensorSpline right_;
+  interp::SplinePair both_;
   MapNoise noise_;
   double interpolation_sigma_mm_;
 };

@@ -4,34 +4,38 @@
 ///
 /// \code
 ///   const std::vector<model::MarkPoint> path = {{0.0, 0.0}, {10.0, 0.0}};
-///   for (const auto& answer : query(map, path)) if (answer) use(answer->lengths);
+///   std::vector<MapAnswerOrFailure> answers(path.size());
+///   query(map, path, answers);
+///   for (const auto& answer : answers) if (answer) use(answer->lengths);
 /// \endcode
 #pragma once
 
 #include <span>
+#include <stdexcept>
 #include <tl/expected.hpp>
-#include <vector>
 
 #include "grid/map/compensation_map.hpp"
 
 namespace chaintrue::grid {
 
-/// In the order of the marks.
-[[nodiscard]] inline std::vector<tl::expected<MapAnswer, MapFailure>> query(
-    const CompensationMap& map, std::span<const model::MarkPoint> marks) {
-  std::vector<tl::expected<MapAnswer, MapFailure>> answers;
-  answers.reserve(marks.size());
-  for (const model::MarkPoint mark : marks) answers.push_back(map.query(mark));
-  return answers;
+using MapAnswerOrFailure = tl::expected<MapAnswer, MapFailure>;
+using MapLengthsOrFailure = tl::expected<MapLengths, MapFailure>;
+
+/// answers[k] = map.query(marks[k]); nothing is allocated.
+/// \throws std::invalid_argument where the spans differ in length.
+inline void query(const CompensationMap& map,
+                  std::span<const model::MarkPoint> marks,
+                  std::span<MapAnswerOrFailure> answers) {
+  if (marks.size() != answers.size()) throw std::invalid_argument("an answer for each mark");
+  for (std::size_t k = 0; k < marks.size(); ++k) answers[k] = map.query(marks[k]);
 }
 
 /// Lengths and their derivative alone, some ten times faster (CompensationMap::lengths).
-[[nodiscard]] inline std::vector<tl::expected<MapLengths, MapFailure>> lengths(
-    const CompensationMap& map, std::span<const model::MarkPoint> marks) {
-  std::vector<tl::expected<MapLengths, MapFailure>> answers;
-  answers.reserve(marks.size());
-  for (const model::MarkPoint mark : marks) answers.push_back(map.lengths(mark));
-  return answers;
+inline void lengths(const CompensationMap& map,
+                    std::span<const model::MarkPoint> marks,
+                    std::span<MapLengthsOrFailure> answers) {
+  if (marks.size() != answers.size()) throw std::invalid_argument("an answer for each mark");
+  for (std::size_t k = 0; k < marks.size(); ++k) answers[k] = map.lengths(marks[k]);
 }
 
 }  // namespace chaintrue::grid

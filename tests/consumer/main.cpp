@@ -26,7 +26,9 @@ int main(int count, char** arguments) try {
              there->lengths.left_mm,
              there->lengths.right_mm);
   const std::vector<chaintrue::model::MarkPoint> path = {{0.0, 0.0}, {50.0, 0.0}, {1e4, 0.0}};
-  for (const auto& answer : grid::query(*map, path)) {
+  std::vector<grid::MapAnswerOrFailure> answers(path.size());
+  grid::query(*map, path, answers);
+  for (const auto& answer : answers) {
     fmt::print("{}\n",
                answer ? fmt::format("{:.3f}", answer->lengths.left_mm) : answer.error().sentence());
   }

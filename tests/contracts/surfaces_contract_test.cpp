@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of every surface method of interp/surface_methods.def. A new line there is tested here
-// without a new test.
+// Laws of every surface method of surface_methods.hpp. A new line there is tested here without a
+// new test.
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "interp/surface_methods.hpp"
+#include "tests/contracts/surface_methods.hpp"
 #include "tests/support/in_threads.hpp"
 #include "tests/support/random.hpp"
 
@@ -161,17 +161,10 @@ TEST_P(SurfaceContract, RefusesWhatIsNoGrid) {
 
 INSTANTIATE_TEST_SUITE_P(Methods,
                          SurfaceContract,
-                         testing::ValuesIn(surface_methods().begin(), surface_methods().end()),
+                         testing::ValuesIn(kSurfaceMethods),
                          [](const testing::TestParamInfo<SurfaceMethod>& method) {
                            return std::string(method.param.id);
                          });
-
-TEST(SurfaceMethods, AreFoundByTheirNames) {
-  for (const SurfaceMethod& method : surface_methods()) {
-    EXPECT_EQ(find_surface_method(method.id), &method);
-  }
-  EXPECT_EQ(find_surface_method("akima"), nullptr);
-}
 
 }  // namespace
 }  // namespace chaintrue::interp

@@ -9,8 +9,8 @@
 #include <libalglib/interpolation.h>
 
 #include "interp/bspline_basis.hpp"
-#include "interp/compiled_pair.hpp"
 #include "interp/reml.hpp"
+#include "interp/spline_pair.hpp"
 #include "interp/tensor_spline.hpp"
 
 namespace {
@@ -52,9 +52,9 @@ Samples sample(int nx, int ny) {
   return s;
 }
 
-CompiledPair table(const Samples& s) {
+SplinePair table(const Samples& s) {
   const auto axes = std::make_shared<const TensorAxes>(s.x, s.y);
-  return CompiledPair::from_splines(TensorSpline(axes, s.left), TensorSpline(axes, s.right));
+  return SplinePair(TensorSpline(axes, s.left), TensorSpline(axes, s.right));
 }
 
 std::vector<PlanePoint> random_points(std::size_t count) {
@@ -94,14 +94,11 @@ std::vector<PlanePoint> path_points(std::size_t count) {
 
 enum class Order { random, path };
 
-void value_gradient(
-    benchmark::State& state, int nx, int ny, bool plain, Order order = Order::random) {
-  const CompiledPair surfaces = table(sample(nx, ny));
+void value_gradient(benchmark::State& state, int nx, int ny, Order order) {
+  const SplinePair surfaces = table(sample(nx, ny));
   const auto points =
       order == Order::random ? random_points(64 * kBlock) : path_points(64 * kBlock);
   std::vector<PairGradient> results(kBlock);
-  force_plain_instructions(plain);
-  state.SetLabel(compiled_pair_instructions());
   for (auto _ : state) {
     for (std::size_t first = 0; first < points.size(); first += kBlock) {
       surfaces.at(std::span(points).subspan(first, kBlock), results);
@@ -109,7 +106,6 @@ void value_gradient(
       benchmark::ClobberMemory();
     }
   }
-  force_plain_instructions(false);
   per_point(state, points.size());
 }
 
@@ -158,33 +154,6 @@ void alglib_build(benchmark::State& state, int nx, int ny) {
   for (auto _ : state) {
     benchmark::DoNotOptimize(alglib_pair(s));
   }
-}
-
-void inverse(benchmark::State& state) {
-  const CompiledPair surfaces = table(sample(101, 51));
-  // A serpentine path in steps of 1 mm.
-  std::vector<std::array<double, 2>> targets;
-  for (int row = 0; row < 6; ++row) {
-    for (int i = 0; i < 2000; ++i) {
-      const double along = row % 2 == 0 ? i - 1000.0 : 999.0 - i;
-      targets.push_back(surfaces.value(along, -500.0 + 200.0 * row));
-    }
-  }
-  std::vector<InverseResult> results(targets.size());
-  for (auto _ : state) {
-    surfaces.inverse(targets, {-1000.0, -500.0}, results);
-    benchmark::DoNotOptimize(results.data());
-    benchmark::ClobberMemory();
-  }
-  double sum = 0.0;
-  int most = 0;
-  for (const InverseResult& r : results) {
-    sum += r.evaluations;
-    most = std::max(most, r.evaluations);
-  }
-  state.counters["evaluations"] = sum / static_cast<double>(results.size());
-  state.counters["most_evaluations"] = most;
-  per_point(state, targets.size());
 }
 
 double smooth(double x, double y) { return 0.8 * std::sin(x / 500 + 0.3) * std::cos(y / 400); }
@@ -249,17 +218,14 @@ const bool registered = [] {
       benchmark::RegisterBenchmark(full.c_str(), function);
     };
     add("surface/value_gradient/" + name,
-        [=](benchmark::State& s) { value_gradient(s, nx, ny, false); });
+        [=](benchmark::State& s) { value_gradient(s, nx, ny, Order::random); });
     add("surface/value_gradient_path/" + name,
-        [=](benchmark::State& s) { value_gradient(s, nx, ny, false, Order::path); });
-    add("surface/value_gradient_plain/" + name,
-        [=](benchmark::State& s) { value_gradient(s, nx, ny, true); });
+        [=](benchmark::State& s) { value_gradient(s, nx, ny, Order::path); });
     add("surface/alglib/value_gradient/" + name,
         [=](benchmark::State& s) { alglib_value_gradient(s, nx, ny); });
     add("surface/build/" + name, [=](benchmark::State& s) { build(s, nx, ny); });
     add("surface/alglib/build/" + name, [=](benchmark::State& s) { alglib_build(s, nx, ny); });
   }
-  benchmark::RegisterBenchmark("surface/inverse/100x50", inverse);
   for (const bool corrected : {false, true}) {
     const std::string name =
         corrected ? "surface/joint_reml_averaged/28_points" : "surface/joint_reml/28_points";

@@ -20,9 +20,7 @@ install(EXPORT chaintrueTargets NAMESPACE chaintrue:: DESTINATION ${package_dir}
 configure_package_config_file(tools/cmake/chaintrueConfig.cmake.in
   ${PROJECT_BINARY_DIR}/chaintrueConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/chaintrueConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-# The libraries are static, so their users link ALGLIB too, by the same imported target.
 install(FILES
   ${PROJECT_BINARY_DIR}/chaintrueConfig.cmake
   ${PROJECT_BINARY_DIR}/chaintrueConfigVersion.cmake
-  tools/cmake/alglib.cmake
   DESTINATION ${package_dir} COMPONENT library)

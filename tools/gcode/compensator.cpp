@@ -30,6 +30,12 @@ constexpr double kSpare = 0.045;
 constexpr double kSinglePrecisionMm = 0.5 * 1.25e-4 * 1.5;
 /// Share of the tolerance for the error of the tables; included in kSpare.
 constexpr double kTableShare = 0.005;
+/// The correction of a smooth map is interpolated to 1e-6 mm in cells of 16 mm; cells of 4 mm
+/// resolve a wave with the period of a sprocket's turn (63.5 mm).
+constexpr double kCellMm = 16.0;
+constexpr int kHalvings = 2;
+/// A program of fewer places needs no tables to be quick.
+constexpr int kExactFirst = 2000;
 /// A circle keeps its shape even if the tolerance would allow a point.
 constexpr double kMostTurnRad = 0.25 * std::numbers::pi;
 
@@ -65,7 +71,8 @@ Compensator::Compensator(const Corrector& corrector, CompensateOptions options, 
       options_(std::move(options)),
       emitter_(std::move(out), options_.decimals, corrector.firmware().semicolon_comments),
       segmenter_(corrector, chord_tolerance(options_, corrector.firmware().single_precision)),
-      field_(corrector, kTableShare * options_.tolerance_mm) {
+      table_(offsets_of_command(corrector),
+             {kCellMm, kTableShare * options_.tolerance_mm, kHalvings, kExactFirst}) {
   const double curvature = kCurvatureSafety * corrector.sampled_curvature_per_mm();
   const bool straight = !is_chain_linear(corrector.firmware());
   if (straight) {
@@ -101,12 +108,22 @@ Move Compensator::placed(const Move& move) const {
   return result;
 }
 
+tl::expected<model::BedPoint, CorrectionFailure> Compensator::command(model::BedPoint target) {
+  // Beyond the measured points a map may refuse, place by place.
+  if (corrector_.map().status(target) < grid::MapStatus::extrapolated) {
+    if (const auto offset = table_.value(target.x_mm, target.y_mm)) {
+      return model::BedPoint{target.x_mm + (*offset)[0], target.y_mm + (*offset)[1]};
+    }
+  }
+  return corrector_.command(target);
+}
+
 Curve Compensator::curve(const Move& move, ChainDirections directions) {
   return [this, &move, directions](double t) -> tl::expected<PathSample, CorrectionFailure> {
     const Point target = at(move, t);
     const model::BedPoint place{target.x_mm, target.y_mm};
     const auto command = has_play() ? corrector_.command(place, options_.half_play_mm, directions)
-                                    : field_.command(place);
+                                    : this->command(place);
     if (!command) return tl::unexpected(command.error());
     return PathSample{t, target, {command->x_mm, command->y_mm, target.z_mm}};
   };

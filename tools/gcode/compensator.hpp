@@ -27,7 +27,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/gcode/command_field.hpp"
+#include "interp/checked_field.hpp"
+#include "tools/gcode/corrector.hpp"
 #include "tools/gcode/emitter.hpp"
 #include "tools/gcode/program.hpp"
 #include "tools/gcode/segmenter.hpp"
@@ -105,6 +106,8 @@ class Compensator final : private Sink {
   void note(const Note& note) override;
   Result<void> end(std::size_t line, std::string_view word) override;
 
+  /// Corrector::command, from tables in the regions where a program cuts often.
+  [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> command(model::BedPoint target);
   [[nodiscard]] Curve curve(const Move& move, ChainDirections directions);
   Result<void> go_to_assumed_start(const Move& move);
   Result<void> along(const Move& move, double feed);
@@ -125,7 +128,7 @@ class Compensator final : private Sink {
   CompensateOptions options_;
   Emitter emitter_;
   Segmenter segmenter_;
-  CommandField field_;
+  interp::CheckedField table_;  // of command(p) - p, without play
   double unchecked_length_mm_ = 0.0;
   Findings findings_;
   CompensateSummary summary_;

@@ -99,4 +99,20 @@ double Corrector::sampled_curvature_per_mm() const {
   return worst;
 }
 
+interp::CheckedField::Function offsets_of_command(const Corrector& corrector) {
+  return [&corrector](double x, double y) -> std::optional<interp::CheckedField::Value> {
+    const auto command = corrector.command({x, y});
+    if (!command) return std::nullopt;
+    return interp::CheckedField::Value{command->x_mm - x, command->y_mm - y};
+  };
+}
+
+interp::CheckedField::Function offsets_of_tool(const Corrector& corrector) {
+  return [&corrector](double x, double y) -> std::optional<interp::CheckedField::Value> {
+    const auto tool = corrector.tool({x, y});
+    if (!tool) return std::nullopt;
+    return interp::CheckedField::Value{tool->x_mm - x, tool->y_mm - y};
+  };
+}
+
 }  // namespace chaintrue::gcode

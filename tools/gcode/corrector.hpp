@@ -11,6 +11,7 @@
 
 #include <tl/expected.hpp>
 
+#include "interp/checked_field.hpp"
 #include "model/controllers/payout.hpp"
 #include "tools/gcode/correction_failure.hpp"
 #include "tools/gcode/firmware.hpp"
@@ -61,5 +62,9 @@ class Corrector {
   const model::ControllerKinematics& kinematics_;
   const Firmware& firmware_;
 };
+
+/// command(p) - p and tool(c) - c of a corrector that outlives them, for tables.
+[[nodiscard]] interp::CheckedField::Function offsets_of_command(const Corrector& corrector);
+[[nodiscard]] interp::CheckedField::Function offsets_of_tool(const Corrector& corrector);
 
 }  // namespace chaintrue::gcode

@@ -48,7 +48,10 @@ Result<Point> SimulatedMachine::place(Point command, std::size_t line) {
 Result<Point> SimulatedMachine::tool(Point command, std::size_t line) {
   const model::BedPoint place{command.x_mm, command.y_mm};
   if (!play_) {
-    const auto found = field_.tool(place);
+    if (const auto offset = field_.value(place.x_mm, place.y_mm)) {
+      return Point{place.x_mm + (*offset)[0], place.y_mm + (*offset)[1], command.z_mm};
+    }
+    const auto found = corrector_.tool(place);
     if (!found) return no_place(found.error(), command, line);
     return Point{found->x_mm, found->y_mm, command.z_mm};
   }
@@ -64,6 +67,17 @@ Result<Point> SimulatedMachine::tool(Point command, std::size_t line) {
                              follow(right_mm_, paid->right_mm, options_.half_play_mm.right_mm)});
   if (!found) return no_place(CorrectionReason::outside_map, command, line);
   return Point{found->x_mm, found->y_mm, command.z_mm};
+}
+
+/// How far a straight command may continue from here until the tool's path bows by the flatness from
+/// its chord.
+double SimulatedMachine::straight_mm(Point command) {
+  constexpr double kCarefulStepMm = 1.0;  // where the curvature is unknown
+  constexpr double kLongestStepMm = 24.0;
+  const double curvature = kCurvatureSafety * field_.curvature(command.x_mm, command.y_mm);
+  if (!std::isfinite(curvature)) return kCarefulStepMm;
+  return std::min(kLongestStepMm,
+                  std::sqrt(8.0 * options_.flatness_mm / std::max(curvature, 1e-12)));
 }
 
 void SimulatedMachine::count_ticks(const Move& move) {
@@ -105,7 +119,7 @@ Result<bool> SimulatedMachine::straight(Point from,
     if (!play_) {
       const auto way = [&](double along) {
         const Point here = between(from, to, std::min(1.0, along / length));
-        return field_.straight_mm({here.x_mm, here.y_mm}, options_.flatness_mm);
+        return straight_mm(here);
       };
       step = way(gone);
       step = std::min(step, std::max(0.25 * step, way(gone + step)));

@@ -10,8 +10,9 @@
 #include <functional>
 #include <optional>
 
+#include "interp/checked_field.hpp"
 #include "tools/gcode/events.hpp"
-#include "tools/gcode/tool_field.hpp"
+#include "tools/gcode/corrector.hpp"
 
 namespace chaintrue::gcode {
 
@@ -21,7 +22,7 @@ class SimulatedMachine {
     model::ChainLengths half_play_mm;
     /// Between two visited points the tool is within this distance of their chord.
     double flatness_mm = 5e-4;
-    /// Error bound of interpolating the map; see ToolField.
+    /// Error bound of interpolating the map; docs/gcode.md states it as part of what verify proves.
     double field_bound_mm = 2.5e-4;
     /// Only the ends of rapids are visited.
     bool rapids_whole = false;
@@ -33,7 +34,7 @@ class SimulatedMachine {
   SimulatedMachine(const Corrector& corrector, const Options& options)
       : corrector_(corrector),
         options_(options),
-        field_(corrector, options.field_bound_mm),
+        field_(offsets_of_tool(corrector), {16.0, options.field_bound_mm}),
         play_(options.half_play_mm.left_mm != 0.0 || options.half_play_mm.right_mm != 0.0) {}
 
   /// The tool's position when the controller's position is `command`.
@@ -46,6 +47,7 @@ class SimulatedMachine {
  private:
   [[nodiscard]] Point as_read(Point point) const;
   [[nodiscard]] Result<Point> tool(Point command, std::size_t line);
+  [[nodiscard]] double straight_mm(Point command);
   Result<bool> straight(Point from, Point to, const Move& move, const Visit& visit);
   Result<bool> chain_linear(Point from, Point to, const Move& move, const Visit& visit);
   Result<bool> arc(const Move& move, const Visit& visit);
@@ -53,7 +55,7 @@ class SimulatedMachine {
 
   const Corrector& corrector_;
   Options options_;
-  ToolField field_;
+  interp::CheckedField field_;
   bool play_;
   std::optional<double> left_mm_;  // of the chains after the play
   std::optional<double> right_mm_;
