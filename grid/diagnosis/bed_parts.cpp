@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "grid/diagnosis/downdating.hpp"
+#include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -180,11 +181,14 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
   if (parts.empty()) return result;
   const Downdating downdating(system, comparison, noise_dof, followed_of(system));
   const std::vector<const CandidateModel*> models = downdating.followed();
+  std::vector<std::vector<double>> of_part(parts.size());
+  for_each_index(parts.size(), [&](std::size_t p) {
+    of_part[p] = downdating.probabilities_without(parts[p].units, CountAs::all);
+  });
   std::vector<double> sum(models.size(), 0.0);
-  for (BedPart& part : parts) {
-    const std::vector<double> own = downdating.probabilities_without(part.units, CountAs::all);
-    for (std::size_t k = 0; k < own.size(); ++k) sum[k] += own[k];
-    result.push_back(summary(system, models, own, std::move(part)));
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    for (std::size_t k = 0; k < models.size(); ++k) sum[k] += of_part[p][k];
+    result.push_back(summary(system, models, of_part[p], std::move(parts[p])));
   }
   share_anew(shares_of_patterns(models, sum), pattern, comparison);
   return result;

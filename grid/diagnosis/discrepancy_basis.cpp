@@ -7,6 +7,7 @@
 #include <map>
 
 #include "grid/linear_algebra.hpp"
+#include "grid/parallel.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -172,26 +173,62 @@ class DiscrepancyBasis::Fields {
 
   /// Inner products of a block with the residual and these columns.
   Eigen::MatrixXd with(const Block& block, const NormalEquations& plain) {
-    auto [at, is_new] = block.products->with.try_emplace(&plain);
-    auto& [first, second] = at->second;
-    if (is_new) {
-      const Components& parts = block.products->parts;
-      Eigen::MatrixXd e(marginalised_.e.size(),
-                        static_cast<Eigen::Index>(plain.columns.size()) + 1);
-      e.col(0) = marginalised_.e;
-      e.rightCols(e.cols() - 1) = marginalised_.g.dense(plain.columns);
-      first = linear::product(linear::transposed(parts.first), e);
-      second = linear::product(linear::transposed(parts.second), e);
-    }
+    auto known = block.products->with.find(&plain);
+    if (known == block.products->with.end())
+      known = block.products->with.emplace(&plain, products_with(*block.products, columns_of(plain))).first;
+    const auto& [first, second] = known->second;
     return block.c * first + block.s * second;
   }
 
+  /// Makes the inner products of all fields with these columns, so that `with` changes nothing.
+  void relate_all(const NormalEquations& plain) {
+    const Eigen::MatrixXd e = columns_of(plain);
+    for (Products& own : all_) own.with.try_emplace(&plain);
+    for_each_index(all_.size(), [&](std::size_t k) { all_[k].with.at(&plain) = products_with(all_[k], e); });
+  }
+
  private:
+  /// The residual and these columns.
+  [[nodiscard]] Eigen::MatrixXd columns_of(const NormalEquations& plain) const {
+    Eigen::MatrixXd e(marginalised_.e.size(), static_cast<Eigen::Index>(plain.columns.size()) + 1);
+    e.col(0) = marginalised_.e;
+    e.rightCols(e.cols() - 1) = marginalised_.g.dense(plain.columns);
+    return e;
+  }
+
+  static std::pair<Eigen::MatrixXd, Eigen::MatrixXd> products_with(const Products& products,
+                                                                   const Eigen::MatrixXd& e) {
+    return {linear::product(linear::transposed(products.parts.first), e),
+            linear::product(linear::transposed(products.parts.second), e)};
+  }
+
   const RegressorSystem& system_;
   const MarginalisedSystem& marginalised_;
   std::vector<DiscrepancyPlace> places_;
   std::deque<Products> all_;  ///< blocks point into it
 };
+
+namespace {
+
+/// B'B
+Eigen::MatrixXd gram_of(const std::vector<Block>& blocks) {
+  Eigen::Index rank = 0;
+  for (const Block& block : blocks) rank += block.products->gram11.cols();
+  Eigen::MatrixXd all(rank, rank);
+  Eigen::Index row = 0;
+  for (const Block& a : blocks) {
+    Eigen::Index column = 0;
+    for (const Block& b : blocks) {
+      const Eigen::MatrixXd part = gram(a, b);
+      all.block(row, column, part.rows(), part.cols()) = part;
+      column += part.cols();
+    }
+    row += a.products->gram11.cols();
+  }
+  return all;
+}
+
+}  // namespace
 
 struct DiscrepancyBasis::Kernel {
   std::vector<Block> blocks;
@@ -220,25 +257,17 @@ DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system,
         own.blocks.push_back({products, 0.0, share});
       }
     }
-    Eigen::Index rank = 0;
-    for (const Block& block : own.blocks) rank += block.products->gram11.cols();
-    Eigen::MatrixXd all(rank, rank);
-    Eigen::Index row = 0;
-    for (const Block& a : own.blocks) {
-      Eigen::Index column = 0;
-      for (const Block& b : own.blocks) {
-        const Eigen::MatrixXd part = gram(a, b);
-        all.block(row, column, part.rows(), part.cols()) = part;
-        column += part.cols();
-      }
-      row += a.products->gram11.cols();
-    }
-    marginalised.discrepancy_trace[number] = all.trace();
-    own.tridiagonal = linear::Tridiagonal(std::move(all));
   }
+  for_each_index(kernels.size(), [&](std::size_t k) {
+    Eigen::MatrixXd all = gram_of(kernels_[kernels[k]].blocks);
+    marginalised.discrepancy_trace[kernels[k]] = all.trace();
+    kernels_[kernels[k]].tridiagonal = linear::Tridiagonal(std::move(all));
+  });
 }
 
 DiscrepancyBasis::~DiscrepancyBasis() = default;
+
+void DiscrepancyBasis::relate(const NormalEquations& plain) { fields_->relate_all(plain); }
 
 DiscrepancyBasis::GivenKernel DiscrepancyBasis::given(std::size_t kernel,
                                                   const NormalEquations& plain) {

@@ -9,6 +9,7 @@
 
 #include "grid/diagnosis/discrepancy_basis.hpp"
 #include "grid/diagnosis/ties.hpp"
+#include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -287,18 +288,17 @@ std::vector<double> search_given_discrepancies(const RegressorSystem& system,
   const Scout first_look(system, few, best_models, collector);
   const DiscrepancyFamily& family = *system.discrepancies;
   const auto strengths = static_cast<int>(family.strengths.size());
-  std::vector<Scouted> scouted;
-  std::vector<double> of_kernel;
-  for (const std::size_t kernel : kernels) {
-    const DiscrepancyBasis::GivenKernel given = basis.given(kernel, few);
-    double best = kMinusInfinity;
+  std::vector<Scouted> scouted(kernels.size() * family.strengths.size());
+  std::vector<double> of_kernel(kernels.size(), kMinusInfinity);
+  basis.relate(few);
+  for_each_index(kernels.size(), [&](std::size_t k) {
+    const DiscrepancyBasis::GivenKernel given = basis.given(kernels[k], few);
     for (int strength = 0; strength < strengths; ++strength) {
-      scouted.push_back(
-          first_look.look_at(given, static_cast<int>(kernel) * strengths + strength));
-      best = std::max(best, scouted.back().weight);
+      Scouted& own = scouted[k * family.strengths.size() + static_cast<std::size_t>(strength)];
+      own = first_look.look_at(given, static_cast<int>(kernels[k]) * strengths + strength);
+      of_kernel[k] = std::max(of_kernel[k], own.weight);
     }
-    of_kernel.push_back(best);
-  }
+  });
   const Scout closer_look(system, plain, best_models, collector);
   std::map<std::size_t, DiscrepancyBasis::GivenKernel> all_columns;
   for (const int discrepancy : worth_searching(std::move(scouted))) {

@@ -7,89 +7,53 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-class Folds {
+/// Errors at the units of a fold, of models fitted without them.
+class FoldErrors {
  public:
-  explicit Folds(const Analysis& analysis) : a_(analysis) {}
+  FoldErrors(const Analysis& analysis, const Downdating::Without& without, const Decision& decision)
+      : a_(analysis),
+        comparison_(without.comparison),
+        decision_(decision),
+        marginalised_(marginalise(
+            a_.system, comparison_.marginalised_systems[decision.marginalised].outliers, a_.options.steps)) {}
 
-  [[nodiscard]] Fold without(const std::vector<std::size_t>& units) const {
-    std::vector<bool> excluded(a_.session.units.size(), false);
-    for (const std::size_t u : units) excluded[u] = true;
-    const DiagnosisOptions& options = a_.options;
-    ModelComparison comparison =
-        compare_models(a_.system,
-                       excluded,
-                       {.steps = options.steps,
-                        .kernels = best_kernels(a_.comparison),
-                        .given_cause = options.given_cause});
-    // The same gate as for all units: the strongest score against what noise does.
-    const MarginalisedSystem& first =
-        comparison.marginalised_systems[comparison.best().marginalised];
-    const SingleScore score(a_.system, first, a_.session.noise_dof);
-    if (!a_.parts.empty()) {
-      (void)average_over_parts(
-          a_.system, noise_dof(a_), excluded, a_.session.fewest_units, comparison);
-    }
-    const bool detected = options.given_cause.has_value() ||
-                      a_.null.p_value(score.largest(first.e)) < kFalseAlarm;
-    const Decision decision = decide_for_leaders(a_.system, comparison, excluded, detected);
-    const MarginalisedSystem& marginalised =
-        comparison.marginalised_systems[decision.marginalised];
-    // A reading wrong at its own visit alone says nothing of any other.
-    std::vector<bool> out = marginalised_system(a_).outliers;
-    reject_slips(a_, out);
-    Fold fold;
-    for (const std::size_t u : units) {
-      if (!out[u]) fold.units.push_back(u);
-    }
-    for (const std::size_t index : decision.listed) fold.named.push_back(decision.classes[index]);
-    measure(comparison, decision, marginalised, fold);
-    return fold;
+  [[nodiscard]] Errors at(const std::vector<std::size_t>& units) const {
+    const std::vector<int>& all = a_.decision.regressors;
+    Errors errors;
+    errors.calibrated = left_at(units, fit(without_slips(a_, marginalised_), {}));
+    errors.surface_only = left_at(units, given_surface({}));
+    errors.extended = left_at(units, fit(marginalised_, decision_.regressors));
+    errors.extended_and_surface = left_at(units, given_surface(decision_.regressors));
+    errors.fixed_naming = left_at(units, fit(marginalised_, all));
+    errors.fixed_naming_and_surface = left_at(units, given_surface(all));
+    return errors;
   }
 
  private:
-  void measure(const ModelComparison& comparison,
-               const Decision& decision,
-               const MarginalisedSystem& marginalised,
-               Fold& fold) const {
-    const std::vector<int>& all = a_.decision.regressors;
-    const auto without = [&](const std::vector<int>& regressors) {
-      return errors(fit(marginalised, regressors), fold.units);
-    };
-    const auto given = [&](const std::vector<int>& regressors) {
-      const int discrepancy =
-          preferred_discrepancy(comparison, decision.marginalised, regressors);
-      return errors(fit(marginalised, regressors, discrepancy), fold.units);
-    };
-    fold.errors.calibrated = errors(fit(without_slips(a_, marginalised), {}), fold.units);
-    fold.errors.surface_only = given({});
-    fold.errors.extended = without(decision.regressors);
-    fold.errors.extended_and_surface = given(decision.regressors);
-    fold.errors.fixed_naming = without(all);
-    fold.errors.fixed_naming_and_surface = given(all);
-  }
-
   [[nodiscard]] Estimate fit(const MarginalisedSystem& marginalised,
                              const std::vector<int>& regressors,
                              int discrepancy = -1) const {
     return estimate(a_.system, marginalised, regressors, discrepancy);
   }
 
+  [[nodiscard]] Estimate given_surface(const std::vector<int>& regressors) const {
+    return fit(marginalised_, regressors, preferred_discrepancy(regressors));
+  }
+
   /// The discrepancy that the readings prefer given these causes, none where they would rather
   /// have none. Causes that the comparison does not hold at all are far from the best: what is left
   /// given them is taken as given the best.
-  static int preferred_discrepancy(const ModelComparison& comparison,
-                                   std::size_t marginalised,
-                                   const std::vector<int>& regressors) {
-    for (const CandidateModel& model : comparison.models) {
-      if (model.regressors == regressors && model.marginalised == marginalised)
+  [[nodiscard]] int preferred_discrepancy(const std::vector<int>& regressors) const {
+    for (const CandidateModel& model : comparison_.models) {
+      if (model.regressors == regressors && model.marginalised == decision_.marginalised)
         return model.discrepancy;
     }
-    return comparison.best().discrepancy;
+    return comparison_.best().discrepancy;
   }
 
   /// What the model leaves, the discrepancy that it may have taken out.
-  [[nodiscard]] std::vector<Eigen::Vector2d> errors(const Estimate& model,
-                                                    const std::vector<std::size_t>& units) const {
+  [[nodiscard]] std::vector<Eigen::Vector2d> left_at(const std::vector<std::size_t>& units,
+                                                     const Estimate& model) const {
     const Eigen::VectorXd left = left_of_machine(a_.system, model, model.left_given_discrepancy);
     std::vector<Eigen::Vector2d> result;
     for (const std::size_t u : units) result.push_back(error_of_unit(a_.system, left, u));
@@ -97,12 +61,35 @@ class Folds {
   }
 
   const Analysis& a_;
+  const ModelComparison& comparison_;
+  const Decision& decision_;
+  MarginalisedSystem marginalised_;
 };
 
 }  // namespace
 
-Fold hold_out(const Analysis& analysis, const std::vector<std::size_t>& units) {
-  return Folds(analysis).without(units);
+HeldOutFolds::HeldOutFolds(const Analysis& analysis)
+    : analysis_(analysis), downdating_(analysis.system, analysis.comparison, noise_dof(analysis)) {}
+
+Fold HeldOutFolds::without(const std::vector<std::size_t>& units) const {
+  const Analysis& a = analysis_;
+  const Downdating::Without without = downdating_.without(units);
+  std::vector<bool> excluded(a.session.units.size(), false);
+  for (const std::size_t u : units) excluded[u] = true;
+  const bool detected =
+      a.options.given_cause.has_value() || a.null.p_value(without.score) < kFalseAlarm;
+  const Decision decision =
+      decide(a.system, without.comparison, excluded, detected, a.decision.classes);
+  // A reading wrong at its own visit alone says nothing of any other.
+  std::vector<bool> out = marginalised_system(a).outliers;
+  reject_slips(a, out);
+  Fold fold;
+  for (const std::size_t u : units) {
+    if (!out[u]) fold.units.push_back(u);
+  }
+  for (const std::size_t index : decision.listed) fold.named.push_back(decision.classes[index]);
+  fold.errors = FoldErrors(a, without, decision).at(fold.units);
+  return fold;
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// One fold of what a name gains: the naming and every fit repeated without its units, and what
-/// each way of modelling then leaves at them.
+/// Folds of what a name gains: the naming and every fit repeated without some units, and what each way of
+/// modelling then leaves at them.
+///
+/// \code
+///   const HeldOutFolds folds(analysis);
+///   const Fold fold = folds.without(block);   // fold.errors.extended: mm at the units of the block
+/// \endcode
 #pragma once
 
 #include <Eigen/Core>
@@ -9,6 +14,7 @@
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/downdating.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -28,9 +34,19 @@ struct Fold {
   std::vector<CauseClass> named;
 };
 
-/// \param units  of the analysis' session, to be left out of everything. The same gate, comparison and
-/// decision as for all units; units that are outliers or slips of the whole session are not among
-/// the fold's.
-[[nodiscard]] Fold hold_out(const Analysis& analysis, const std::vector<std::size_t>& units);
+class HeldOutFolds {
+ public:
+  /// Keeps the analysis by reference.
+  explicit HeldOutFolds(const Analysis& analysis);
+
+  /// \param units  of the analysis' session, to be left out of everything. The gate and the decision are those for all
+  /// units; the models are those that the whole comparison holds, weighed without these units (downdating.hpp). Units
+  /// that are outliers or slips of the whole session are not among the fold's.
+  [[nodiscard]] Fold without(const std::vector<std::size_t>& units) const;
+
+ private:
+  const Analysis& analysis_;
+  Downdating downdating_;
+};
 
 }  // namespace chaintrue::grid::diagnosis

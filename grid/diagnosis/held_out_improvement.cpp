@@ -12,6 +12,7 @@
 #include "grid/diagnosis/held_out_fold.hpp"
 #include "grid/diagnosis/uncalibrated.hpp"
 #include "grid/linear_algebra.hpp"
+#include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 #include "grid/synthetic/random.hpp"
 
@@ -170,10 +171,12 @@ std::optional<HeldOutImprovement> measure_improvement(const Analysis& a) {
   std::vector<std::size_t> units;
   std::vector<std::size_t> number;
   Errors all;
-  for (std::size_t b = 0; b < blocks.units.size(); ++b) {
-    const double share = static_cast<double>(b) / static_cast<double>(blocks.units.size());
-    tell(a.options.progress, {"what a name gains, block by block", 3, 4, share});
-    const Fold fold = hold_out(a, blocks.units[b]);
+  tell(a.options.progress, {"what a name gains", 3, 4});
+  const HeldOutFolds held_out(a);
+  std::vector<Fold> folds(blocks.units.size());
+  for_each_index(folds.size(), [&](std::size_t b) { folds[b] = held_out.without(blocks.units[b]); });
+  for (std::size_t b = 0; b < folds.size(); ++b) {
+    const Fold& fold = folds[b];
     improvement.folds += 1;
     improvement.folds_agree += names_agree(fold, a) ? 1 : 0;
     units.insert(units.end(), fold.units.begin(), fold.units.end());

@@ -15,6 +15,7 @@
 #include "grid/diagnosis/law_parts.hpp"
 #include "grid/diagnosis/law_residuals.hpp"
 #include "grid/linear_algebra.hpp"
+#include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -261,9 +262,13 @@ LawsFound laws_of(const Analysis& a, std::vector<LawEvidence> evidence) {
       answers[{curve.of, curve.enters}].push_back({&own, &law});
     }
   }
+  std::vector<std::vector<FoundPoint>> points;  // of each variable and way to enter
+  for (auto& [key, own] : answers) points.push_back(std::move(own));
+  std::vector<std::optional<std::pair<Law, FoundPoint>>> worth(points.size());
+  for_each_index(points.size(), [&](std::size_t k) { worth[k] = law_of(a, points[k], log_all); });
   std::vector<std::pair<Law, FoundPoint>> laws;
-  for (const auto& [key, points] : answers) {
-    if (auto law = law_of(a, points, log_all)) laws.push_back(*std::move(law));
+  for (auto& law : worth) {
+    if (law) laws.push_back(*std::move(law));
   }
   std::stable_sort(laws.begin(), laws.end(), [](const auto& x, const auto& y) {
     return x.first.probability > y.first.probability;
@@ -294,9 +299,9 @@ LawsFound laws_found(const Analysis& a) {
     });
   }
   if (curves.empty()) return {};
-  std::vector<LawEvidence> evidence;
-  for (const std::size_t number : systems_to_weigh(a.comparison))
-    evidence.push_back(weigh_laws(a, number, curves));
+  const std::vector<std::size_t> systems = systems_to_weigh(a.comparison);
+  std::vector<LawEvidence> evidence(systems.size());
+  for_each_index(systems.size(), [&](std::size_t k) { evidence[k] = weigh_laws(a, systems[k], curves); });
   return laws_of(a, std::move(evidence));
 }
 

@@ -21,6 +21,9 @@ namespace chaintrue::grid::diagnosis {
 
 /// log of the chance between low < high, in sigmas about the mean.
 [[nodiscard]] inline double log_normal_mass(double low, double high) {
+  // The tails beyond are below half of a double's last digit of one.
+  constexpr double kNoTail = 8.3;
+  if (low < -kNoTail && high > kNoTail) return 0.0;
   if (high < 0.0) return log_normal_mass(-high, -low);
   if (low <= 0.0) {
     const double outside = normal_upper(-low) + normal_upper(high);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "grid/linear_algebra.hpp"
+#include "grid/parallel.hpp"
 #include "grid/synthetic/random.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -35,11 +36,22 @@ SingleScore::SingleScore(const RegressorSystem& system,
   }
 }
 
+double SingleScore::share_taken(std::size_t at, double square, double c, double ee) const {
+  const double drop = fixed_[at] ? 2.0 * c - square : c * c / (square * (1.0 + precision()));
+  return drop / (dof_ + ee);
+}
+
 double SingleScore::score(Eigen::Index k, double square, double c, double ee, double n) const {
   const auto at = static_cast<std::size_t>(k);
   if (!(square > 1e-8) || sign_[at] * c < 0.0) return kNoScore;
-  const double drop = fixed_[at] ? 2.0 * c - square : c * c / (square * (1.0 + precision()));
-  return constant_(k) - 0.5 * (n + dof_) * std::log1p(-drop / (dof_ + ee));
+  return constant_(k) - 0.5 * (n + dof_) * std::log1p(-share_taken(at, square, c, ee));
+}
+
+double SingleScore::most(Eigen::Index k, double square, double c, double ee, double n) const {
+  // -log(1 - x) <= x / (1 - x); the last digits of either side do not matter to a score that is far below.
+  constexpr double kRounding = 1e-9;
+  const double taken = share_taken(static_cast<std::size_t>(k), square, c, ee);
+  return constant_(k) + 0.5 * (n + dof_) * taken / (1.0 - taken) + kRounding;
 }
 
 double SingleScore::largest(const NormalEquations& equations, Eigen::Index rows) const {
@@ -75,7 +87,8 @@ Eigen::VectorXd SingleScore::largest(const Eigen::MatrixXd& e) const {
     const double ee = e.col(draw).squaredNorm();
     for (Eigen::Index k = 0; k < g.cols(); ++k) {
       const double own = g.factor(k) * c(g.index(k), draw);
-      result(draw) = std::max(result(draw), score(k, square_(k), own, ee, n));
+      if (most(k, square_(k), own, ee, n) > result(draw))
+        result(draw) = std::max(result(draw), score(k, square_(k), own, ee, n));
     }
   }
   return result;
@@ -98,16 +111,19 @@ NullDistribution drawn(const SingleScore& score,
                        const Prepare& prepare) {
   constexpr std::uint64_t kStream = 61;
   synthetic::Random random(seed, kStream);
-  NullDistribution result;
+  std::vector<Eigen::MatrixXd> blocks;
   for (int done = 0; done < draws; done += kBlock) {
-    Eigen::MatrixXd e(rows, std::min(kBlock, draws - done));
-    for (Eigen::Index k = 0; k < e.cols(); ++k) {
-      for (Eigen::Index i = 0; i < rows; ++i) e(i, k) = random.normal();
-    }
-    prepare(e);
-    const Eigen::VectorXd largest = score.largest(e);
-    result.largest.insert(result.largest.end(), largest.begin(), largest.end());
+    Eigen::MatrixXd& e = blocks.emplace_back(rows, std::min(kBlock, draws - done));
+    for (double& own : e.reshaped()) own = random.normal();
   }
+  NullDistribution result;
+  result.largest.resize(static_cast<std::size_t>(draws));
+  for_each_index(blocks.size(), [&](std::size_t k) {
+    prepare(blocks[k]);
+    const Eigen::VectorXd largest = score.largest(blocks[k]);
+    std::copy(largest.begin(), largest.end(), result.largest.begin() + static_cast<std::ptrdiff_t>(k) * kBlock);
+    blocks[k].resize(0, 0);
+  });
   std::sort(result.largest.begin(), result.largest.end());
   return result;
 }

@@ -34,6 +34,10 @@ class SingleScore {
  private:
   /// Of a regressor with this square and inner product with the residual, in so many rows.
   [[nodiscard]] double score(Eigen::Index k, double square, double c, double ee, double n) const;
+  /// A bound of it that takes no logarithm.
+  [[nodiscard]] double most(Eigen::Index k, double square, double c, double ee, double n) const;
+  /// What the regressor's best size takes of the noise's and the residual's squares.
+  [[nodiscard]] double share_taken(std::size_t at, double square, double c, double ee) const;
   const MarginalisedSystem& marginalised_;
   double dof_;
   Eigen::VectorXd square_;

@@ -7,6 +7,7 @@
 
 #include "grid/diagnosis/downdating.hpp"
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/parallel.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -179,10 +180,10 @@ std::optional<Stability> examine_stability(const Analysis& a) {
   const double all = statement.log_odds(downdating.without({}).comparison);
   Stability result;
   result.probability = probability_of(all);
-  for (std::size_t k = 0; k < groups.size(); ++k) {
+  tell(a.options.progress, {"the name without each reading", 2, 4});
+  result.removals.resize(groups.size());
+  for_each_index(groups.size(), [&](std::size_t k) {
     const LeftOut& group = groups[k];
-    const double share = static_cast<double>(k) / static_cast<double>(groups.size());
-    tell(a.options.progress, {"the name without each reading", 2, 4, share});
     const auto without = downdating.without(group.units);
     std::vector<bool> excluded(a.session.units.size(), false);
     for (const std::size_t u : group.units) excluded[u] = true;
@@ -191,7 +192,7 @@ std::optional<Stability> examine_stability(const Analysis& a) {
     const Decision decision =
         decide(a.system, without.comparison, excluded, detected, a.decision.classes);
     const double log_odds = statement.log_odds(without.comparison);
-    Removal removal;
+    Removal& removal = result.removals[k];
     removal.what = group.what;
     removal.index = group.index;
     removal.at_mm = group.at_mm;
@@ -203,8 +204,7 @@ std::optional<Stability> examine_stability(const Analysis& a) {
     removal.stands = still_named(a.decision, decision);
     removal.probability = probability_of(log_odds);
     removal.support = all - log_odds;
-    result.removals.push_back(std::move(removal));
-  }
+  });
   return result;
 }
 

@@ -31,7 +31,6 @@ struct CellStore {
 
 struct SweepRun {
   Share share;
-  int threads = 0;  ///< 0: all cores
   /// Called after each cell with the number of finished cells and of all cells of this run; one
   /// call at a time.
   std::function<void(std::uint64_t, std::uint64_t)> progress;

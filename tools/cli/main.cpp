@@ -18,7 +18,9 @@
 #include "grid/files/input_error.hpp"
 #include "grid/files/pending_file.hpp"
 #include "grid/printing.hpp"
+#include "grid/threads/use_threads.hpp"
 #include "tools/cli/command_line.hpp"
+#include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
@@ -63,9 +65,10 @@ int finish_standard_output(int code, int error_number) {
         grid::ProblemKind::output_place}}));
 }
 
-int run_verb(const Run& run, const std::string& verb) {
+int run_verb(const Run& run, const std::string& verb, int threads) {
   try {
     check_command_line();
+    grid::use_threads(threads);
     const ProgressLine line(verb);
     return finish_standard_output(run(), 0);
   } catch (const grid::files::InputError& error) {
@@ -88,7 +91,7 @@ int run_verb(const Run& run, const std::string& verb) {
   }
 }
 
-/// --quiet may stand behind the verb as well.
+/// --quiet and --threads may stand behind the verb as well.
 void let_verbs_pass_on(CLI::App& app) {
   for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
     // A group of options has no name and belongs to its verb.
@@ -113,6 +116,8 @@ int main_with_exit_code(int argc, char** argv) {
   app.set_version_flag("-V,--version", CHAINTRUE_VERSION);
   bool is_quiet = false;
   app.add_flag("-q,--quiet", is_quiet, "Say nothing but what goes wrong");
+  int threads = 0;
+  add_number(Verb(app), "--threads", threads, {"", 0.0, 4096.0}, "Cores to use at most, 0 for all: the answers are the same");
   app.footer("chaintrue help VERB, or VERB --help, says what a verb takes, with an example.");
   app.set_help_all_flag("--help-all", "The help of every verb");
   Run run;
@@ -137,7 +142,7 @@ int main_with_exit_code(int argc, char** argv) {
     return finish_standard_output(app.exit(error) == 0 ? kDone : kUsage, 0);
   }
   QuietTalk talk(is_quiet);
-  const int code = run_verb(run, app.get_subcommands().front()->get_name());
+  const int code = run_verb(run, app.get_subcommands().front()->get_name(), threads);
   talk.end(code != kDone && code != kCheckFailed);
   return code;
 }

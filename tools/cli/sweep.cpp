@@ -42,7 +42,6 @@ struct SweepOptions {
   std::vector<std::string> effects;
   std::string shard;
   bool resume = false;
-  int threads = 0;
 };
 
 sweep::Share parse_shard(const std::string& text, OptionProblems& problems) {
@@ -121,7 +120,6 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
     run.share = parse_shard(options.shard, sound);
     run.share.rank = processes.rank();
     run.share.ranks = processes.count();
-    run.threads = options.threads;
     read = files::read_sweep(options.specification, options.effects);
     if (processes.rank() == 0) print_warnings(read->warnings);
     refuse_old_results(options);
@@ -170,7 +168,6 @@ void add_sweep(Verb app, Run& run) {
   verb.add_flag("--resume",
                 options->resume,
                 "Go on with the finished cells that the folder holds; merges shards too");
-  add_number(verb, "--threads", options->threads, {"", 0.0, 4096.0}, "0: all cores");
   verb.footer(
       "Over several machines: mpirun -n 4 build/chaintrue sweep SPEC.json -o DIR\n\n"
       "Example:\n"

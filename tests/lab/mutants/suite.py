@@ -45,7 +45,7 @@ def _cases_of(command, environment, folder):
     """Suite.Name of each case that a command would run; empty if it is no GoogleTest program."""
     try:
         listed = subprocess.run(command + ["--gtest_list_tests"], cwd=folder, env=environment,
-                                capture_output=True, text=True, timeout=60, check=False)
+                                capture_output=True, text=True, errors="replace", timeout=60, check=False)
     except (OSError, subprocess.TimeoutExpired):
         return []
     cases = []
@@ -83,7 +83,7 @@ class Suite:
         self.excluded = set()  # tests that fail without a fault
         self.seconds = {}      # of each command that passed
         listed = subprocess.run(["ctest", "--show-only=json-v1"], cwd=build, check=True,
-                                capture_output=True, text=True).stdout
+                                capture_output=True, text=True, errors="replace").stdout
         self.programs = self._grouped(json.loads(listed)["tests"])
 
     def _grouped(self, tests):
@@ -142,7 +142,7 @@ class Suite:
         for program, entry in sorted(entries, key=lambda e: self._rank(e, folder)):
             if LATE.search(program.name):
                 continue
-            cases = [c for c in entry.cases if near.search(f"{program.name}/{c}")][:MOST_CASES]
+            cases = [c for c in entry.cases if near.search(f"{program.name}/{entry.name}/{c}")][:MOST_CASES]
             if cases:
                 yield entry, cases
             elif not entry.cases and near.search(entry.name):

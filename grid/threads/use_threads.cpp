@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/threads/use_threads.hpp"
+
+#ifdef CHAINTRUE_HAS_TBB
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <optional>
+
+#include "grid/parallel.hpp"
+#endif
+
+namespace chaintrue::grid {
+
+#ifdef CHAINTRUE_HAS_TBB
+
+void use_threads(int count) {
+  static std::optional<tbb::global_control> limit;
+  limit.reset();
+  if (count > 0)
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
+  set_index_loop([](std::size_t indices, const IndexWork& work) {
+    tbb::parallel_for(std::size_t{0}, indices, work);
+  });
+}
+
+#else
+
+void use_threads(int /*count*/) {}
+
+#endif
+
+}  // namespace chaintrue::grid
