@@ -14,7 +14,7 @@
 #include "grid/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -146,7 +146,7 @@ HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
   }
   constexpr int kDraws = 400;  // the 5th and 95th percentile to a tenth of the interval
   constexpr std::uint64_t kStream = 62;
-  synthetic::Random random(seed, kStream);
+  Random random(seed, kStream);
   std::vector<double> drawn;
   for (int draw = 0; draw < kDraws; ++draw) {
     double s = 0.0;

@@ -5,7 +5,7 @@
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/linear_algebra.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -49,7 +49,7 @@ Eigen::MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream
   const auto by_nuisance =
       design.middleCols(a.system.by_setting.cols() - shared, shared);
   const linear::Cholesky normal(linear::one_plus_gram(design));
-  synthetic::Random random(a.options.seed, stream);
+  Random random(a.options.seed, stream);
   Eigen::MatrixXd z(n, draws);
   Eigen::VectorXd u(shared);
   for (Eigen::Index draw = 0; draw < draws; ++draw) {

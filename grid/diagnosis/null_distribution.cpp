@@ -7,7 +7,7 @@
 
 #include "grid/linear_algebra.hpp"
 #include "grid/parallel.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -110,7 +110,7 @@ NullDistribution drawn(const SingleScore& score,
                        std::uint64_t seed,
                        const Prepare& prepare) {
   constexpr std::uint64_t kStream = 61;
-  synthetic::Random random(seed, kStream);
+  Random random(seed, kStream);
   std::vector<Eigen::MatrixXd> blocks;
   for (int done = 0; done < draws; done += kBlock) {
     Eigen::MatrixXd& e = blocks.emplace_back(rows, std::min(kBlock, draws - done));

@@ -16,7 +16,7 @@ constexpr std::uint64_t kSessionStream = 1U << 20U;
 constexpr std::uint64_t kOtherMachineStream = 1U << 21U;
 
 std::uint64_t seed_of(const SweepSpec& spec, std::uint64_t stream, std::uint64_t repetition) {
-  synthetic::Random random(spec.seed, stream + (repetition << 24U));
+  Random random(spec.seed, stream + (repetition << 24U));
   return random.bits();
 }
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "model/machine.hpp"
 
 namespace chaintrue::grid::synthetic {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "grid/observation/tape_distances.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::synthetic {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "model/belts/belt_readings.hpp"
 
 namespace chaintrue::grid::synthetic {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "grid/map/fit.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "model/reading_model.hpp"
 
 namespace chaintrue {
@@ -138,7 +138,7 @@ TEST_P(ModelSurface, MeetsAMachineThatNoModelDescribes) {
 }
 
 TEST_P(ModelSurface, TakesTheSledWhereItStood) {
-  grid::synthetic::Random random(1000);
+  grid::Random random(1000);
   auto places = marks(GetParam().layout);
   for (MarkPoint& place : places) {
     place.x_mm += 40.0 * random.uniform() - 20.0;

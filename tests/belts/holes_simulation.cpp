@@ -5,7 +5,7 @@
 #include <cmath>
 #include <complex>
 
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -38,7 +38,7 @@ BedPoint SimulatedHoles::tool(double left_mm, double right_mm) const {
 }
 
 SimulatedHoles simulate_with_holes(const HolesSimulation& simulation) {
-  synthetic::Random random(simulation.seed);
+  Random random(simulation.seed);
   SimulatedHoles result;
   result.scale = simulation.scale;
   result.unmodelled_mm = simulation.unmodelled_mm;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/belts/simulated_belts.hpp"
 
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid {
 
 SimulatedBelts simulate(const BeltSimulation& simulation) {
-  synthetic::Random random(simulation.seed);
+  Random random(simulation.seed);
   SimulatedBelts result;
   model::BeltMachine& truth = result.truth;
   const double width = random.uniform(2400.0, 3600.0);

@@ -12,7 +12,7 @@
 
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/mechanism_map.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "model/chains/chain_mechanism.hpp"
 #include "tests/contracts/toy_mechanism.hpp"
@@ -72,7 +72,7 @@ std::vector<LengthsAtPlace> read(const Mechanism& truth,
                                  int columns,
                                  int rows,
                                  bool some_unknown,
-                                 synthetic::Random& random) {
+                                 Random& random) {
   const model::MechanismExtent e = truth.extent();
   std::vector<LengthsAtPlace> places;
   for (int iy = 0; iy < rows; ++iy) {
@@ -94,7 +94,7 @@ std::vector<LengthsAtPlace> read(const Mechanism& truth,
 
 class CalibratedMechanism : public testing::TestWithParam<Hung> {
  protected:
-  static FittedMechanism fitted(const Hung& hung, synthetic::Random& random) {
+  static FittedMechanism fitted(const Hung& hung, Random& random) {
     const MechanismPtr truth = hung.make();
     const auto readings = std::make_shared<const observation::BeltLengthReadings>(
         read(*truth, 6, 4, hung.some_unknown, random),
@@ -121,7 +121,7 @@ class CalibratedMechanism : public testing::TestWithParam<Hung> {
 };
 
 TEST_P(CalibratedMechanism, ItsMapAnswersBothWays) {
-  synthetic::Random random(1, 17);
+  Random random(1, 17);
   const FittedMechanism fit = fitted(GetParam(), random);
   const model::MechanismExtent e = fit.mechanism->extent();
   const MechanismMap map = MechanismMap::of(
@@ -151,7 +151,7 @@ TEST_P(CalibratedMechanism, ItsMapAnswersBothWays) {
 }
 
 TEST_P(CalibratedMechanism, ItsMapsSigmasAreThoseOfItsParameters) {
-  synthetic::Random random(2, 17);
+  Random random(2, 17);
   const FittedMechanism fit = fitted(GetParam(), random);
   const model::ToolPosition at = fit.mechanism->extent().centre();
   const MechanismMap map =
@@ -167,12 +167,12 @@ TEST_P(CalibratedMechanism, ItsMapsSigmasAreThoseOfItsParameters) {
 /// How often a check of six new places comes to each verdict, over kSets calibrations.
 constexpr int kSets = 40;
 std::array<int, 3> verdicts(const Hung& hung,
-                            const std::function<FittedMechanism(synthetic::Random&)>& fit,
+                            const std::function<FittedMechanism(Random&)>& fit,
                             const std::function<MechanismPtr(const Mechanism&)>& moved,
                             double zero_mm) {
   std::array<int, 3> count{};
   for (int seed = 1; seed <= kSets; ++seed) {
-    synthetic::Random random(static_cast<std::uint64_t>(seed), 23);
+    Random random(static_cast<std::uint64_t>(seed), 23);
     const FittedMechanism fitted = fit(random);
     const MechanismPtr now = moved ? moved(*hung.make()) : hung.make();
     auto places = read(*now, 3, 2, hung.some_unknown, random);
@@ -212,7 +212,7 @@ TEST_P(CalibratedMechanism, WhatNoZeroMendsIsToBeMeasuredAgain) {
 }
 
 TEST_P(CalibratedMechanism, AReadingThatIsWrongByItselfIsNamed) {
-  synthetic::Random random(3, 29);
+  Random random(3, 29);
   const FittedMechanism fit = fitted(GetParam(), random);
   auto places = read(*GetParam().make(), 3, 2, GetParam().some_unknown, random);
   places[3].lengths_mm[0] += 25.0;

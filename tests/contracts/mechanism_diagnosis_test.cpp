@@ -7,7 +7,7 @@
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/observation/drawn_measures.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "tests/contracts/toy_mechanism.hpp"
 
 namespace chaintrue::grid::diagnosis::toy_tests {
@@ -35,7 +35,7 @@ std::shared_ptr<const observation::DrawnMeasures> drawn(const model::Mechanism& 
       pens.emplace_back(pen.x_mm, pen.y_mm);
     }
   }
-  synthetic::Random random(kSeed, 1);
+  Random random(kSeed, 1);
   std::vector<DrawnMeasure> measures;
   const auto add = [&](DrawnMeasure m) {
     m.value_mm = observation::measured_between(m.kind, pens[m.from], pens[m.to], pens[m.middle]) +

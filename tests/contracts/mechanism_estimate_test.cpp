@@ -8,7 +8,7 @@
 
 #include "grid/estimation/estimate.hpp"
 #include "grid/observation/belt_lengths.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "tests/contracts/toy_mechanism.hpp"
 
@@ -23,7 +23,7 @@ constexpr double kNoiseMm = 0.4;
 /// 24 positions over the middle of the mechanism's extent.
 std::vector<LengthsAtPlace> read_lengths(const model::Mechanism& truth,
                                          bool known,
-                                         synthetic::Random& random) {
+                                         Random& random) {
   const model::MechanismExtent e = truth.extent();
   std::vector<LengthsAtPlace> places;
   for (const double y : {0.25, 0.4, 0.6, 0.75}) {
@@ -55,7 +55,7 @@ Calibrations calibrate(const model::Mechanism& truth,
                        int sets) {
   Calibrations mean;
   for (int seed = 1; seed <= sets; ++seed) {
-    synthetic::Random random(static_cast<std::uint64_t>(seed), 91);
+    Random random(static_cast<std::uint64_t>(seed), 91);
     const auto readings = std::make_shared<const BeltLengthReadings>(
         read_lengths(truth, known, random), false, observation::BeltNoise{.length_mm = 1.0}, 0.0);
     EstimationInput input;

@@ -17,7 +17,7 @@
 #include "grid/observation/tape_distances.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "grid/synthetic/holes.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "model/chains/chain_mechanism.hpp"
 #include "model/plotter/plotter_mechanism.hpp"
@@ -91,7 +91,7 @@ MeasuredHoles holes_design() {
 std::shared_ptr<const Observation> holes(const Wanted& wanted) {
   MeasuredHoles design = holes_design();
   auto made = synthetic::simulate_holes(design, {.seed = wanted.seed});
-  synthetic::Random random(wanted.seed, 77);
+  Random random(wanted.seed, 77);
   MeasuredHoles set = made->set;
   const double tape_zero = 0.4 * random.normal();
   const double wider[] = {random.normal(), random.normal()};
@@ -114,7 +114,7 @@ std::shared_ptr<const Observation> holes(const Wanted& wanted) {
 }
 
 std::shared_ptr<const Observation> parts(const Wanted& wanted) {
-  synthetic::Random random(wanted.seed, 78);
+  Random random(wanted.seed, 78);
   std::vector<ExtraReading> readings = {{ReadingOf::motor_spacing, "", 0.0, 1.0},
                                         {ReadingOf::beam_rise, "", 0.0, 0.5},
                                         {ReadingOf::ring_radius, "", 0.0, 0.5},
@@ -142,7 +142,7 @@ const std::shared_ptr<const model::Mechanism>& four_belts() {
 /// Unknown positions, one of them with a reading that does not count; two known ones.
 std::shared_ptr<const Observation> belts_at_places(const Wanted& wanted) {
   constexpr BeltNoise kNoise{.length_mm = 0.5, .position_mm = 0.3};
-  synthetic::Random random(wanted.seed, 79);
+  Random random(wanted.seed, 79);
   const auto normal = [&] { return wanted.exact ? 0.0 : random.normal(); };
   std::vector<LengthsAtPlace> places;
   for (const double y : {700.0, 1050.0, 1400.0}) {
@@ -193,7 +193,7 @@ std::shared_ptr<const Observation> drawing(const Wanted& wanted) {
     measures.push_back({DrawnMeasure::Kind::bow, row, row + 2, row + 1, 0.0, 0.3});
   const DrawnMeasures exact(points, measures, 15.0);
   const Eigen::VectorXd rows = *exact.predicted(View(plotter()));
-  synthetic::Random random(wanted.seed, 80);
+  Random random(wanted.seed, 80);
   for (const Unit& unit : exact.units())
     measures[unit.index].value_mm =
         rows[unit.first_row] + measures[unit.index].sigma_mm * random.normal();

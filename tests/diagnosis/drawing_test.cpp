@@ -11,7 +11,7 @@
 #include "grid/files/drawing_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/plotter/drawing_fit.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::grid::diagnosis::drawing_tests {
 namespace {
@@ -32,7 +32,7 @@ TestDrawing drawn_with(const model::PlotterMachine& set,
     const auto pen = plotter->locate_by_first(cross.paid_out).value();
     pens.emplace_back(pen.x_mm, pen.y_mm);
   }
-  synthetic::Random random(seed, 43);
+  Random random(seed, 43);
   for (auto& m : drawing.measures) {
     m.value_mm = observation::measured_between(m.kind, pens[m.from], pens[m.to], pens[m.middle]) +
                  kRulerSigmaMm * random.normal();

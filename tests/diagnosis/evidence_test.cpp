@@ -16,7 +16,7 @@
 #include "grid/diagnosis/model_comparison.hpp"
 #include "grid/diagnosis/normal.hpp"
 #include "grid/diagnosis/null_distribution.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -209,7 +209,7 @@ TEST(NullDistribution, HoldsItsSize) {
   const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
   const SingleScore score(system, marginalised, kDof);
   const NullDistribution null = draw_null(score, 6, 4000, 1);
-  synthetic::Random random(20261121);
+  Random random(20261121);
   SCOPED_TRACE("seed 20261121");
   int below = 0;
   constexpr int kSets = 4000;

@@ -16,7 +16,7 @@
 #include "grid/diagnosis/belts_system.hpp"
 #include "grid/diagnosis/law_curves.hpp"
 #include "grid/files/belts_file.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "tests/diagnosis/law_sessions.hpp"
 
 namespace chaintrue::grid::diagnosis::law_places {
@@ -96,7 +96,7 @@ TEST(WavesOverEvenlySpacedMarks, AreNoShorterThanTwoColumns) {
   EXPECT_GT(most_waves(even, LawOf::length_left, LawShape::wave), 40.0);
   // Marks that stand anywhere tell short waves too.
   constexpr std::uint64_t kSeed = 7;
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   for (MeasuredPoint& point : grid.points) {
     point.mark.x_mm += 90.0 * (random.uniform() - 0.5);
     point.mark.y_mm += 90.0 * (random.uniform() - 0.5);

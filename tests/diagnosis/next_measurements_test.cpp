@@ -13,7 +13,7 @@
 #include "grid/diagnosis/next_candidates.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/diagnosis/expected_discrimination.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "tests/diagnosis/sessions.hpp"
 #include "tests/holes/hole_sets.hpp"
 
@@ -109,7 +109,7 @@ std::vector<double> posterior(const std::vector<Alternative>& alternatives,
 double drawn_named_alone(const std::vector<Alternative>& alternatives,
                          const Rows& rows,
                          std::uint64_t seed) {
-  synthetic::Random random(seed, 1);
+  Random random(seed, 1);
   constexpr int kDraws = 2000;
   double named = 0.0;
   for (const Alternative& truth : alternatives) {

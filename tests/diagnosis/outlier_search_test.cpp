@@ -12,7 +12,7 @@
 #include <limits>
 
 #include "grid/diagnosis/model_comparison.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kUnits = 24;
 
 /// Outlier groups of one row and of two in turn, three settings, one cause, some groups far off.
-RegressorSystem random_system(synthetic::Random& random) {
+RegressorSystem random_system(Random& random) {
   RegressorSystem system;
   Eigen::Index row = 0;
   for (std::size_t u = 0; u < kUnits; ++u) {
@@ -130,7 +130,7 @@ std::vector<bool> one_by_one(const RegressorSystem& system, const std::vector<in
 TEST(OutlierSearch, IsThatOfTheWholeCovariance) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
-    synthetic::Random random(seed);
+    Random random(seed);
     const RegressorSystem system = random_system(random);
     const std::vector<bool> none(kUnits, false);
     for (const std::vector<int>& set : {std::vector<int>{}, std::vector<int>{0}}) {
@@ -148,7 +148,7 @@ struct Places {
 constexpr std::size_t kPlaces = 12;
 constexpr std::size_t kDirections = 4;
 
-Places random_places(synthetic::Random& random) {
+Places random_places(Random& random) {
   Places places;
   places.system = random_system(random);
   const Eigen::Index rows = 2 * kPlaces;
@@ -203,7 +203,7 @@ Eigen::MatrixXd basis_without(const Places& places, const std::vector<bool>& out
 TEST(OutlierSearch, DirectionsAreThoseOfTheWholeCovariance) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(seed);
-    synthetic::Random random(seed);
+    Random random(seed);
     const Places places = random_places(random);
     const RegressorSystem& system = places.system;
     const Eigen::MatrixXd scaled = system.by_setting * system.sigma.asDiagonal();

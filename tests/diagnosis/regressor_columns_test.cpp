@@ -6,7 +6,7 @@
 
 #include <stdexcept>
 
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -19,7 +19,7 @@ struct Both {
 };
 
 Both both(std::uint64_t seed) {
-  synthetic::Random random(seed);
+  Random random(seed);
   Both result;
   const auto append = [&](const Eigen::VectorXd& column) {
     result.dense.conservativeResize(Eigen::NoChange, result.dense.cols() + 1);

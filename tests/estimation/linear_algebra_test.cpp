@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "grid/linear_algebra_kernels.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::grid::linear {
 namespace {
@@ -29,7 +29,7 @@ constexpr double kRounding = 1e-10;
 // Few enough for plain loops, one block of the kernels, and several with a remainder.
 constexpr Index kSizes[] = {0, 1, 2, 3, 7, 31, 150};
 
-MatrixXd random_matrix(Index rows, Index columns, synthetic::Random& random) {
+MatrixXd random_matrix(Index rows, Index columns, Random& random) {
   MatrixXd matrix(rows, columns);
   for (Index k = 0; k < columns; ++k) {
     for (Index i = 0; i < rows; ++i) matrix(i, k) = random.normal();
@@ -37,7 +37,7 @@ MatrixXd random_matrix(Index rows, Index columns, synthetic::Random& random) {
   return matrix;
 }
 
-MatrixXd random_definite(Index n, synthetic::Random& random) {
+MatrixXd random_definite(Index n, Random& random) {
   const MatrixXd root = random_matrix(n, n, random);
   return MatrixXd::Identity(n, n) + root * root.transpose() / std::max<double>(1.0, static_cast<double>(n));
 }
@@ -67,7 +67,7 @@ MatrixXd plain_product(const MatrixXd& a, const MatrixXd& b) {
 
 TEST(LinearProduct, IsTheSumOfProducts) {
   SCOPED_TRACE(kSeed);
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   for (const Index n : kSizes) {
     for (const Index m : {Index{0}, Index{1}, Index{5}, Index{40}}) {
       SCOPED_TRACE(testing::Message() << n << " x " << m);
@@ -93,7 +93,7 @@ TEST(LinearProduct, IsTheSumOfProducts) {
 
 TEST(LinearProduct, AddsToABlockFromBlocks) {
   SCOPED_TRACE(kSeed);
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   const MatrixXd a = random_matrix(20, 30, random);
   const MatrixXd b = random_matrix(40, 12, random);
   const MatrixXd before = random_matrix(16, 14, random);
@@ -128,7 +128,7 @@ TEST(LinearProduct, RefusesSizesThatDoNotFit) {
 
 TEST(Cholesky, FactorsSolvesAndInverts) {
   SCOPED_TRACE(kSeed);
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   for (const Index n : kSizes) {
     SCOPED_TRACE(n);
     const MatrixXd m = random_definite(n, random);
@@ -170,7 +170,7 @@ TEST(Cholesky, SaysWhatIsNotPositiveDefinite) {
 
 TEST(PivotedCholesky, SolvesWhatIsSemidefinite) {
   SCOPED_TRACE(kSeed);
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   for (const Index n : {Index{0}, Index{1}, Index{5}, Index{20}}) {
     SCOPED_TRACE(n);
     const MatrixXd m = random_definite(n, random);
@@ -192,7 +192,7 @@ TEST(PivotedCholesky, SolvesWhatIsSemidefinite) {
 
 TEST(CovarianceRoot, SquaredIsTheCovariance) {
   SCOPED_TRACE(kSeed);
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   for (const Index n : kSizes) {
     const MatrixXd thin = random_matrix(n, n / 2, random);
     const MatrixXd covariance = plain_product(thin, thin.transpose());
@@ -204,7 +204,7 @@ TEST(CovarianceRoot, SquaredIsTheCovariance) {
 
 TEST(Tridiagonal, TurnsBackToTheMatrix) {
   SCOPED_TRACE(kSeed);
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   for (const Index n : kSizes) {
     SCOPED_TRACE(n);
     const MatrixXd m = random_definite(n, random);
@@ -223,7 +223,7 @@ TEST(Tridiagonal, TurnsBackToTheMatrix) {
 
 TEST(Qr, ColumnsAreOrthonormalAndSpanTheMatrix) {
   SCOPED_TRACE(kSeed);
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   for (const Index n : {Index{1}, Index{4}, Index{30}, Index{120}}) {
     for (const Index m : {Index{0}, Index{1}, std::min<Index>(n, 7)}) {
       SCOPED_TRACE(testing::Message() << n << " x " << m);
@@ -239,7 +239,7 @@ TEST(Qr, ColumnsAreOrthonormalAndSpanTheMatrix) {
 
 TEST(Range, SplitsTheSpaceAtTheRank) {
   SCOPED_TRACE(kSeed);
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   const MatrixXd a = plain_product(random_matrix(12, 3, random), random_matrix(3, 5, random));
   const Range found = range_of(a);
   ASSERT_EQ(found.range.cols(), 3);
@@ -254,7 +254,7 @@ TEST(Range, SplitsTheSpaceAtTheRank) {
 
 TEST(LeastSquares, LeavesWhatIsOrthogonalAndIsShortest) {
   SCOPED_TRACE(kSeed);
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   const MatrixXd full = random_matrix(20, 4, random);
   const MatrixXd flat = plain_product(random_matrix(20, 2, random), random_matrix(2, 4, random));
   for (const MatrixXd& a : {full, flat}) {
@@ -271,7 +271,7 @@ TEST(LeastSquares, LeavesWhatIsOrthogonalAndIsShortest) {
 
 TEST(ThinSvd, HasTheEigenvaluesOfTheSquare) {
   SCOPED_TRACE(kSeed);
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   for (const Index m : {Index{0}, Index{1}, Index{6}, Index{25}}) {
     SCOPED_TRACE(m);
     const MatrixXd a = random_matrix(40, m, random);
@@ -284,7 +284,7 @@ TEST(ThinSvd, HasTheEigenvaluesOfTheSquare) {
 
 TEST(Inverse, UndoesTheMatrix) {
   SCOPED_TRACE(kSeed);
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   const MatrixXd a = random_definite(5, random) + 0.1 * random_matrix(5, 5, random);
   expect_near(plain_product(a, inverse(a)), identity(5));
 }
@@ -313,7 +313,7 @@ class Placed {
 
 /// What a table makes of the same input, one after another in a column.
 VectorXd answers_of(const kernels::Table& table, Index n, std::size_t offset) {
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   const Placed a(random_matrix(n, n, random), offset);
   const MatrixXd columns = random_matrix(n, 5, random);
   const Placed b(columns, offset);

@@ -6,12 +6,12 @@
 #include <Eigen/Core>
 #include <stdexcept>
 
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::grid::estimation {
 namespace {
 
-Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, synthetic::Random& random) {
+Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, Random& random) {
   Eigen::MatrixXd matrix(rows, columns);
   for (Eigen::Index i = 0; i < rows; ++i) {
     for (Eigen::Index k = 0; k < columns; ++k) matrix(i, k) = random.normal();
@@ -27,7 +27,7 @@ constexpr double kRoundingOfSums = 1e-12;
 TEST(UnitWhitening, BringsReadingsToUnitsOfNoiseAndBack) {
   constexpr std::uint64_t kSeed = 3;
   SCOPED_TRACE(kSeed);
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   for (Eigen::Index n = 1; n <= kMostUnitReadings; ++n) {
     SCOPED_TRACE(n);
     const Eigen::MatrixXd root = random_matrix(n, n, random);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::testing_support {
 
@@ -30,7 +30,7 @@ inline std::string text_of(const std::vector<std::string>& lines) {
 }
 
 /// One to three characters become others, are lost, or are printed twice.
-inline std::string garbled(std::string line, grid::synthetic::Random& random) {
+inline std::string garbled(std::string line, grid::Random& random) {
   const auto any = [&random](std::size_t count) { return random.below(count); };
   const std::size_t times = 1 + any(3);
   for (std::size_t i = 0; i < times && !line.empty(); ++i) {
@@ -55,7 +55,7 @@ enum class Damage { cut, deleted, doubled, garbled };
 template <class Read>
 void damage_every(const std::string& text, std::size_t step, Read read) {
   const std::vector<std::string> lines = lines_of(text);
-  grid::synthetic::Random random(kDamageSeed, lines.size());
+  grid::Random random(kDamageSeed, lines.size());
   for (std::size_t k = 0; k < lines.size(); k += step) {
     const auto at = static_cast<std::ptrdiff_t>(k);
     read(Damage::cut, text_of({lines.begin(), lines.begin() + at}));

@@ -14,7 +14,7 @@
 #include "grid/observation/single_readings.hpp"
 #include "grid/planning/holes_plan.hpp"
 #include "grid/planning/measurement_plan.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "grid/synthetic/strength.hpp"
 
 namespace chaintrue::grid {
@@ -56,8 +56,8 @@ INSTANTIATE_TEST_SUITE_P(
     Sites,
     BrokenBy,
     ::testing::Values(
-        Site{"normal_quantile", [](double bad) { (void)synthetic::normal_quantile(bad); }},
-        Site{"portable_log", [](double bad) { (void)synthetic::portable_log(bad); }},
+        Site{"normal_quantile", [](double bad) { (void)normal_quantile(bad); }},
+        Site{"portable_log", [](double bad) { (void)portable_log(bad); }},
         Site{"strength",
              [](double bad) {
                (void)synthetic::StrengthTable(model::Machine{}, {}, {.length_mm = bad});

@@ -10,7 +10,7 @@
 #include "grid/map/fit.hpp"
 #include "grid/map/map_check.hpp"
 #include "grid/planning/check_plan.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "tests/holes/hole_sets.hpp"
 
 namespace chaintrue::testing_support {
@@ -37,7 +37,7 @@ inline MeasuredMachine measured_machine(std::uint64_t seed) {
 
 inline grid::MeasuredGrid read_at(const std::vector<model::MarkPoint>& marks,
                                   const model::Machine& machine,
-                                  grid::synthetic::Random& random) {
+                                  grid::Random& random) {
   const model::ReadingModel model(machine);
   grid::MeasuredGrid grid;
   grid.noise = grid::StatedNoise{kNoiseMm, 0.0, 15.0};
@@ -59,7 +59,7 @@ struct MachineChange {
   const char* name;
   grid::CheckVerdict verdict;
   model::Change what;
-  std::function<void(model::Machine&, grid::synthetic::Random&)> happens;
+  std::function<void(model::Machine&, grid::Random&)> happens;
 };
 
 inline const std::vector<MachineChange>& machine_changes() {
@@ -69,14 +69,14 @@ inline const std::vector<MachineChange>& machine_changes() {
       {"zeros shifted by up to 3 mm",
        grid::CheckVerdict::valid_after_rezeroing,
        Change::zero,
-       [](model::Machine& machine, grid::synthetic::Random& random) {
+       [](model::Machine& machine, grid::Random& random) {
          machine.chain_zero.left_mm += random.uniform(-3.0, 3.0);
          machine.chain_zero.right_mm += random.uniform(-3.0, 3.0);
        }},
       {"one tooth skipped",
        grid::CheckVerdict::valid_after_rezeroing,
        Change::tooth,
-       [](model::Machine& machine, grid::synthetic::Random& random) {
+       [](model::Machine& machine, grid::Random& random) {
          const double skip_mm = random.uniform() < 0.5 ? -6.35 : 6.35;
          (random.uniform() < 0.5 ? machine.chain_zero.left_mm : machine.chain_zero.right_mm) +=
              skip_mm;

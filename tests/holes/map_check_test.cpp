@@ -16,7 +16,7 @@
 #include "grid/map/joint_fit.hpp"
 #include "grid/map/map_check.hpp"
 #include "grid/planning/check_plan.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "model/chains/chain_mechanism.hpp"
 #include "tests/holes/checked_map.hpp"
 
@@ -24,7 +24,6 @@ namespace chaintrue::grid {
 namespace {
 
 using model::MarkPoint;
-using synthetic::Random;
 using testing::HasSubstr;
 using testing_support::classic;
 using testing_support::grow;

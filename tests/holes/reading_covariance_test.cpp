@@ -10,12 +10,11 @@
 #include <limits>
 #include <stdexcept>
 
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::grid {
 namespace {
 
-using synthetic::Random;
 
 Eigen::MatrixXd normal(Random& random, Eigen::Index rows, Eigen::Index cols) {
   return Eigen::MatrixXd::NullaryExpr(rows, cols, [&random] { return random.normal(); });

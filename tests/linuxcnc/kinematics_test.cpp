@@ -13,7 +13,7 @@
 #include "grid/files/whole_file.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "grid/map/map_in_frame.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "tests/map/synthetic_grid.hpp"
 
 extern "C" {
@@ -97,7 +97,7 @@ TEST(LinuxcncKinematics, CompiledItsLengthsAreTheMapsThereAndBack) {
   ASSERT_TRUE(module.is_loaded());
   EXPECT_EQ(module.start(), 0);
   constexpr std::uint64_t kSeed = 17;
-  synthetic::Random random(kSeed, 1);
+  Random random(kSeed, 1);
   const interp::Rectangle& area = map.domain();
   double worst = 0.0;
   for (int i = 0; i < 3000; ++i) {

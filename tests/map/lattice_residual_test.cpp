@@ -11,7 +11,7 @@
 #include "grid/files/input_error.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/map/fit.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "model/reading_model.hpp"
 
 namespace chaintrue {
@@ -112,7 +112,7 @@ TEST(LatticeResidual, SigmaGrowsBeyondTheLattice) {
 }
 
 TEST(LatticeResidual, ReadingsThatBearNoiseKeepThePenalisedSurface) {
-  grid::synthetic::Random random(1);
+  grid::Random random(1);
   auto grid = lattice();
   for (auto& point : grid.points) {
     point.lengths->left_mm += 0.3 * random.normal();

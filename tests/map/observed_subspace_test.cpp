@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t kSeed = 5;
 
 std::vector<model::MarkPoint> places(int count) {
-  synthetic::Random random(kSeed);
+  Random random(kSeed);
   std::vector<model::MarkPoint> marks;
   for (int i = 0; i < count; ++i)
     marks.push_back({2400.0 * random.uniform() - 1200.0, 1200.0 * random.uniform() - 600.0});

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "grid/plotter/plotter_map.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::grid::plotter_test {
 namespace {
@@ -31,7 +31,7 @@ TEST(PlotterController, CommandsComeBack) {
     const PlotterMachine machine = machine_of(firmware);
     const BedPoint middle{310.0, 220.0};
     const PlotterController controller(firmware, machine, middle);
-    synthetic::Random random(5, 3);
+    Random random(5, 3);
     for (int i = 0; i < 200; ++i) {
       const model::DrawingArea& area = machine.area;
       const BedPoint command{

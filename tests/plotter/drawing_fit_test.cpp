@@ -9,7 +9,7 @@
 #include <cmath>
 #include <functional>
 
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::grid::plotter_test {
 namespace {
@@ -33,7 +33,7 @@ TestDrawing measured(const PlotterMachine& stated,
     EXPECT_TRUE(pen) << cross.name;
     pens.emplace_back(pen->x_mm, pen->y_mm);
   }
-  synthetic::Random random(seed, 41);
+  Random random(seed, 41);
   for (DrawnMeasure& m : drawing.measures) {
     m.value_mm = observation::measured_between(m.kind, pens[m.from], pens[m.to], pens[m.middle]) +
                  noise_mm * random.normal();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@
 #include "grid/map/joint_fit.hpp"
 #include "grid/map/map_check.hpp"
 #include "grid/synthetic/generator.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace {
 
@@ -36,7 +36,7 @@ grid::MeasuredHoles distances(std::int64_t count, std::int64_t holes) {
   constexpr double kHoleMm = 0.3;
   constexpr double kTapeMm = 0.5;
   constexpr double kNearestMm = 100.0;
-  grid::synthetic::Random random(1, 19);
+  grid::Random random(1, 19);
   grid::MeasuredHoles set;
   set.machine = kMachine;
   std::vector<std::pair<double, double>> places;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "grid/diagnosis/anchors_with_causes.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -25,7 +25,7 @@ grid::MeasuredBelts measured_again(const grid::MeasuredBelts& belts,
                                    const grid::BeltsFit& fit,
                                    std::size_t times) {
   constexpr std::uint64_t kSeed = 31;
-  grid::synthetic::Random random(kSeed, times);
+  grid::Random random(kSeed, times);
   grid::MeasuredBelts result = belts;
   result.points.clear();
   const int factor = static_cast<int>(times);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "grid/belts/belts_fit.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "model/belts/belt_kinematics.hpp"
 #include "tests/belts/holes_simulation.hpp"
 #include "tests/belts/simulated_belts.hpp"
@@ -56,7 +56,7 @@ TEST(ScaleCoverage, OfTapesBetweenAnchorsAndPoints) {
   Squares scale(1.0), anchors(5.0);
   for (const std::uint64_t seed : seeds(80)) {
     SimulatedBelts set = simulate({.seed = seed});
-    synthetic::Random random(seed, 77);
+    Random random(seed, 77);
     const auto taped = [&](BeltEnd from, BeltEnd to, model::FramePoint a, model::FramePoint b) {
       const double distance = kTrueScale * std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm);
       set.belts.distances.push_back({from, to, distance + kTapeMm * random.normal(), kTapeMm});

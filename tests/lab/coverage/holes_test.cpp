@@ -8,7 +8,7 @@
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/joint_fit.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "tests/holes/hole_sets.hpp"
 #include "tests/lab/coverage/rates.hpp"
 
@@ -56,7 +56,7 @@ TEST(HolesCoverage, SpacingAndScalesAreAsStated) {
 
 TEST(HolesCoverage, TapeZeroIsAsStated) {
   constexpr double kSigmaMm = 0.8;
-  synthetic::Random random(21);
+  Random random(21);
   Squares zero(1.0);
   Rate mentioned;
   for (const std::uint64_t seed : seeds(300)) {
@@ -97,7 +97,7 @@ TEST(HolesCoverage, BadDistancesAreFoundAndGoodOnesKept) {
 TEST(HolesCoverage, PlansWithEdgesKeepTheirPromise) {
   const auto plan = plan_holes(classic(), {.holes = 9, .edges = true});
   ASSERT_TRUE(plan);
-  synthetic::Random size(77);
+  Random size(77);
   // Shift and rotation of the sheet dominate: three free numbers for each set.
   Squares error(3.0);
   for (const std::uint64_t seed : seeds(200)) {

@@ -8,7 +8,7 @@
 #include "grid/map/fit.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "grid/plotter/drawing_fit.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "tests/holes/checked_map.hpp"
 #include "tests/lab/coverage/rates.hpp"
 
@@ -94,7 +94,7 @@ TEST(DrawingCoverage, SettingsAreAsStatedAndSoundOnesAreNotOff) {
   Squares settings(2.0);
   Rate off;
   for (const std::uint64_t seed : seeds(60)) {
-    synthetic::Random random(seed, 42);
+    Random random(seed, 42);
     const auto measured = [&](const model::PlotterMachine& truth) {
       TestDrawing drawing = planned_drawing(stated, model::PlotterFirmware::mural);
       const auto machine = model::make_plotter_mechanism(truth);
@@ -141,7 +141,7 @@ TEST(MapCheckRates, VerdictsAreRightInNineteenOfTwentyCases) {
     Rate right, named;
     for (const std::uint64_t seed : seeds(1200)) {
       const testing_support::MeasuredMachine& one = machines[seed % machines.size()];
-      synthetic::Random random(seed, 40);
+      Random random(seed, 40);
       model::Machine changed = one.truth;
       change.happens(changed, random);
       const auto check = check_map(one.map, testing_support::read_at(one.planned, changed, random));

@@ -9,7 +9,7 @@
 
 #include "grid/belts/anchor_fit.hpp"
 #include "grid/diagnosis/anchors_with_causes.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/effects/belt_effect.hpp"
 
@@ -41,7 +41,7 @@ bool shows(const UsualCause& cause, model::belts::BeltSide side) {
          (cause.effect != "belt_scale" && cause.effect != "anchor_moved");
 }
 
-model::AppliedEffect drawn(const UsualCause& cause, int places, grid::synthetic::Random& random) {
+model::AppliedEffect drawn(const UsualCause& cause, int places, grid::Random& random) {
   const model::belts::BeltEffect& effect = *model::belts::find_belt_effect(cause.effect);
   std::vector<model::belts::BeltSide> sides;
   for (const auto side : effect.sides) {
@@ -77,7 +77,7 @@ Coverage coverage_of(const UsualCause& cause, std::uint64_t first_seed, int sess
     grid::synthetic::BeltsSpec spec;
     spec.columns = spec.rows = side;
     spec.seed = seed;
-    grid::synthetic::Random random(seed, cause.effect.size());
+    grid::Random random(seed, cause.effect.size());
     if (!cause.effect.empty()) spec.hidden.push_back(drawn(cause, side * side, random));
     const auto belts = grid::synthetic::simulate_belts(truth, truth, spec);
     if (!belts) throw std::logic_error("a session that cannot be simulated");

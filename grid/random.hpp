@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace chaintrue::grid::synthetic {
+namespace chaintrue::grid {
 
 /// Cheap to make and to copy; not shared between threads.
 class Random {
@@ -50,4 +50,4 @@ class Random {
 /// alone.
 [[nodiscard]] double portable_log(double x);
 
-}  // namespace chaintrue::grid::synthetic
+}  // namespace chaintrue::grid

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "grid/precondition.hpp"
 
-namespace chaintrue::grid::synthetic {
+namespace chaintrue::grid {
 namespace {
 
 std::uint64_t split_mix(std::uint64_t& state) {
@@ -156,4 +156,4 @@ double portable_log(double x) {
   return e * kLn2 + 2.0 * t * (1.0 + series);
 }
 
-}  // namespace chaintrue::grid::synthetic
+}  // namespace chaintrue::grid
