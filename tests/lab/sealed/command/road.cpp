@@ -10,6 +10,7 @@
 ///   road --zeros --sets 8                       // zeros that move: on the way, and between two sessions
 ///   road --start --sets 100                     // what the second visits of the list of start find
 ///   road --stated rows.txt --sets 40            // at usual sizes: stated errors against true ones
+///   road --promised --sets 31                   // what owners are promised: rms, and at worst
 ///
 /// The rows of --stated are kept: what the file has is not run again, so that a run may be stopped
 /// and continued, and shards of --cause may share one file one after the other.
@@ -28,6 +29,7 @@
 #include "grid/files/grid_file.hpp"
 #include "grid/observation/length_points.hpp"
 #include "sealed/judge/map_errors.hpp"
+#include "sealed/judge/promised_errors.hpp"
 #include "sealed/judge/stated_errors.hpp"
 #include "sealed/judge/trial.hpp"
 
@@ -39,6 +41,7 @@ using sealed::MapErrors;
 struct Arguments {
   bool zeros = false;
   bool start = false;
+  bool promised = false;
   int sets = 40;
   int points = 28;
   std::uint64_t first_seed = 1;
@@ -274,6 +277,20 @@ void print_stated(const Arguments& arguments) {
   fmt::print("{}", sealed::stated_table(rows));
 }
 
+void print_promised(const Arguments& arguments) {
+  std::vector<sealed::PromisedRow> rows;
+  for (const sealed::PromisedSession& session : sealed::promised_sessions()) {
+    for (int k = 0; k < arguments.sets; ++k) {
+      const std::uint64_t seed = arguments.first_seed + static_cast<std::uint64_t>(k);
+      if (auto row = sealed::promised_row(session, seed))
+        rows.push_back(*std::move(row));
+      else
+        fmt::print(stderr, "{}, {}, {}: nothing is promised\n", session.machine, session.way, seed);
+    }
+  }
+  fmt::print("{}", sealed::promised_table(rows));
+}
+
 /// Tool's rms at the marks that a map was not made of.
 double error_at(const grid::CompensationMap& map,
                 const std::vector<grid::LengthPoint>& points,
@@ -337,6 +354,7 @@ int main(int argc, char** argv) {
   app.add_option("--cause", arguments.cause, "this effect alone");
   app.add_flag("--zeros", arguments.zeros, "zeros that move, in place of each effect");
   app.add_flag("--start", arguments.start, "what the list of start finds, in place of maps");
+  app.add_flag("--promised", arguments.promised, "errors that owners are promised, in place of maps");
   app.add_option("--scan", arguments.scan, "a chaintrue_grid of a real scan, in place of machines");
   app.add_option("--draws", arguments.draws, "of its marks")->check(CLI::Range(1, 100000));
   app.add_option("--drawn-marks", arguments.drawn_marks, "in each draw")->check(CLI::Range(12, 400));
@@ -346,6 +364,8 @@ int main(int argc, char** argv) {
     print_zeros(arguments);
   } else if (arguments.start) {
     print_start(arguments);
+  } else if (arguments.promised) {
+    print_promised(arguments);
   } else if (!arguments.stated.empty()) {
     print_stated(arguments);
   } else if (arguments.scan.empty()) {

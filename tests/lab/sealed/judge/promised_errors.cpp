@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sealed/judge/promised_errors.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+
+#include "generator/hidden/draw.hpp"
+#include "grid/belts/belts_error.hpp"
+#include "grid/diagnosis/anchors_with_causes.hpp"
+#include "grid/diagnosis/causes_fit.hpp"
+#include "grid/files/grid_file.hpp"
+#include "grid/map/controller_error.hpp"
+#include "grid/map/map_for_settings.hpp"
+#include "grid/map/settings_to_type.hpp"
+#include "interp/measured_region.hpp"
+#include "sealed/judge/belts_trial.hpp"
+#include "sealed/judge/map_errors.hpp"
+
+namespace chaintrue::sealed {
+namespace {
+
+using generator::HiddenMachine;
+using generator::Lengths;
+using generator::TrueMachine;
+using generator::Vec2;
+using model::ControllerSettings;
+
+constexpr double kBedWidthMm = 2438.4;
+constexpr double kBedHeightMm = 1219.2;
+
+/// What an owner would have typed in of the machine as he knows it; the sag for its weights.
+ControllerSettings settings_of(const TrueMachine& stated) {
+  ControllerSettings s;
+  s.bed_width_mm = kBedWidthMm;
+  s.bed_height_mm = kBedHeightMm;
+  s.motor_spacing_mm = stated.axis[1].x - stated.axis[0].x;
+  s.motor_offset_y_mm = 0.5 * (stated.axis[0].y + stated.axis[1].y) - 0.5 * kBedHeightMm;
+  s.rotation_radius_mm = stated.ring_radius_mm;
+  s.chain_sag_correction = 6.07;
+  s.left_chain_tolerance_percent = s.right_chain_tolerance_percent = 0.0;
+  s.chain_pitch_mm = stated.pitch_mm;
+  s.gear_teeth = stated.teeth;
+  s.chain_over_sprocket_top = stated.over_top;
+  return s;
+}
+
+/// MaslowCNC/Firmware, Kinematics.cpp, triangularInverse, chains over the top.
+Lengths firmware(const ControllerSettings& s, Vec2 command) {
+  const double radius = *s.chain_pitch_mm * *s.gear_teeth / (2.0 * std::numbers::pi);
+  const double down = 0.5 * *s.bed_height_mm + *s.motor_offset_y_mm - command.y;
+  std::array<double, 2> angle{}, straight{};
+  for (const std::size_t i : {0, 1}) {
+    const double across = command.x + (i == 0 ? 0.5 : -0.5) * *s.motor_spacing_mm;
+    const double apart = std::hypot(across, down);
+    angle[i] = std::asin(down / apart) + std::asin(radius / apart);
+    straight[i] = std::sqrt(apart * apart - radius * radius);
+  }
+  Lengths lengths{};
+  for (const std::size_t i : {0, 1}) {
+    const double c = std::cos(angle[i]);
+    const double pull = std::tan(angle[1 - i]) * c + std::sin(angle[i]);
+    const double sag = 1e-12 * *s.chain_sag_correction * std::pow(c * straight[i] * pull, 2);
+    const double tolerance = i == 0 ? *s.left_chain_tolerance_percent : *s.right_chain_tolerance_percent;
+    lengths[i] = radius * angle[i] + straight[i] * (1.0 + sag) / (1.0 + tolerance / 100.0) -
+                 *s.rotation_radius_mm;
+  }
+  return lengths;
+}
+
+constexpr std::string_view kWornChain = "a worn chain";
+constexpr std::string_view kBendingBeam = "a beam that bends";
+constexpr std::string_view kWrongSettings = "settings three times as far off";
+constexpr std::string_view kBelts = "four belts";
+
+generator::Recipe recipe_of(const PromisedSession& session) {
+  generator::Recipe recipe;
+  if (session.way == "start")
+    recipe = recipe_of_start();
+  else
+    std::from_chars(session.way.data(), session.way.data() + session.way.size(), recipe.points);
+  recipe.kind = generator::Mix::single;
+  if (session.machine == kWornChain) {
+    recipe.exactly = {{generator::Cause::chain_pitch_error, generator::Where::right, 0.0015, 0.0}};
+  } else if (session.machine == kBendingBeam) {
+    recipe.exactly = {{generator::Cause::beam_flex,
+                       generator::Where::nowhere,
+                       generator::card(generator::Cause::beam_flex).usual,
+                       0.0}};
+  } else {
+    recipe.kind = generator::Mix::nothing;
+    recipe.settings_off = 3.0;
+  }
+  return recipe;
+}
+
+/// A place of the measured area.
+struct Place {
+  Vec2 at;
+  Lengths needed{};  ///< for the tool to be there
+  Eigen::Matrix2d to_tool;
+  bool is_on_edge = false;
+};
+
+/// What the marks span: squares of 75 mm, and its edge every 50 mm.
+std::vector<Place> places_of(const generator::SealedSet& set, const grid::CompensationMap& map) {
+  std::vector<interp::PlanePoint> marks;
+  for (const model::MarkPoint corner : map.contents().hull) marks.push_back({corner.x_mm, corner.y_mm});
+  const interp::ConvexHull hull(marks);
+  std::vector<Place> places;
+  const auto add = [&](Vec2 at, bool is_on_edge) {
+    const auto here = map.lengths({at.x, at.y});
+    if (!here) throw std::runtime_error("a map without lengths within its points");
+    places.push_back({at, {}, here->mark_jacobian.inverse(), is_on_edge});
+  };
+  constexpr double kSquareMm = 75.0, kEdgeMm = 50.0;
+  for (double x = -0.5 * kBedWidthMm; x <= 0.5 * kBedWidthMm; x += kSquareMm) {
+    for (double y = -0.5 * kBedHeightMm; y <= 0.5 * kBedHeightMm; y += kSquareMm)
+      if (hull.contains(x, y)) add({x, y}, false);
+  }
+  const auto& corners = hull.corners();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const interp::PlanePoint from = corners[i], to = corners[(i + 1) % corners.size()];
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    for (double at = 0.0; at < length; at += kEdgeMm)
+      add({from.x + (to.x - from.x) * at / length, from.y + (to.y - from.y) * at / length}, true);
+  }
+  std::vector<generator::Visit> visits;
+  for (const Place& place : places) visits.push_back({place.at, static_cast<int>(visits.size())});
+  const auto exact = set.machine.exact(visits);
+  if (!exact) throw std::runtime_error("a hidden machine that does not reach its bed");
+  for (std::size_t i = 0; i < places.size(); ++i) places[i].needed = (*exact)[i];
+  return places;
+}
+
+grid::ErrorSummary true_error(const std::vector<Place>& places,
+                              const std::function<Lengths(Vec2)>& paid_out) {
+  grid::ErrorSummary error;
+  double squares_mm2 = 0.0;
+  int within = 0;
+  for (const Place& place : places) {
+    const Lengths lengths = paid_out(place.at);
+    const double mm = (place.to_tool * Eigen::Vector2d(lengths[0] - place.needed[0],
+                                                       lengths[1] - place.needed[1]))
+                          .norm();
+    error.maximum_mm = std::max(error.maximum_mm, mm);
+    if (place.is_on_edge) continue;
+    squares_mm2 += mm * mm;
+    ++within;
+  }
+  error.rms_mm = std::sqrt(squares_mm2 / within);
+  return error;
+}
+
+std::function<Lengths(Vec2)> by_map(const grid::CompensationMap& map) {
+  return [&map](Vec2 at) {
+    const auto answer = map.lengths({at.x, at.y}).value();
+    return Lengths{answer.lengths.left_mm, answer.lengths.right_mm};
+  };
+}
+
+using FrameAnchors = std::array<std::array<double, 3>, 4>;
+
+/// Where the sled of a true frame comes to rest when its upper belts are paid out for `command` by other
+/// anchors.
+Eigen::Vector2d rest_for(const generator::BeltFrame& frame, const FrameAnchors& anchors, Eigen::Vector2d command) {
+  generator::FourLengths held{}, pulls{};
+  for (const std::size_t i : {0, 1}) {
+    const double level = std::hypot(command.x() - anchors[i][0], command.y() - anchors[i][1]);
+    held[i] = std::hypot(level - frame.reach_mm, anchors[i][2]);
+  }
+  pulls[2] = pulls[3] = frame.pull_n;
+  const auto rest = generator::rest_on_belts(
+      frame, {false, false, true, true}, held, pulls, command.x(), command.y());
+  return {rest.x_mm, rest.y_mm};
+}
+
+/// Over the hull of the places; the sheet, and the belts' millimetre, as well as they can be.
+grid::ErrorSummary true_error_of_belts(const generator::BeltFrame& frame,
+                                       const FrameAnchors& anchors,
+                                       const grid::BeltsFit& fit) {
+  std::vector<interp::PlanePoint> measured;
+  for (const grid::FittedPlace& place : fit.places) measured.push_back({place.at.x_mm, place.at.y_mm});
+  const interp::ConvexHull hull(measured);
+  std::vector<Eigen::Vector2d> within;
+  for (double x = 0.0; x <= 5000.0; x += 80.0) {
+    for (double y = 0.0; y <= 5000.0; y += 80.0)
+      if (hull.contains(x, y)) within.emplace_back(x, y);
+  }
+  const std::size_t inner = within.size();
+  for (const interp::PlanePoint& corner : hull.corners()) within.emplace_back(corner.x, corner.y);
+  Eigen::Matrix2Xd commands(2, std::ssize(within)), tools(2, std::ssize(within));
+  for (std::size_t i = 0; i < within.size(); ++i) {
+    commands.col(static_cast<Eigen::Index>(i)) = within[i];
+    tools.col(static_cast<Eigen::Index>(i)) = rest_for(frame, anchors, within[i]);
+  }
+  const Eigen::Matrix3d laid = Eigen::umeyama(tools, commands, true);
+  const Eigen::RowVectorXd squares = ((laid.topLeftCorner<2, 2>() * tools).colwise() +
+                                      laid.topRightCorner<2, 1>() - commands)
+                                         .colwise()
+                                         .squaredNorm();
+  return {std::sqrt(squares.head(static_cast<Eigen::Index>(inner)).mean()), std::sqrt(squares.maxCoeff())};
+}
+
+std::optional<PromisedRow> promised_by_belts(const PromisedSession& session, std::uint64_t seed) {
+  generator::BeltRecipe recipe;
+  recipe.nothing = true;
+  const generator::BeltDraw draw = generator::draw_belts(recipe, seed);
+  // As well as a tape along the frame says it.
+  constexpr double kStatedSigmaMm = 6.0;
+  generator::Dice dice(seed, "stated anchors");
+  FrameAnchors stated = draw.frame.anchors;
+  for (double* one : {&stated[0][0], &stated[0][1], &stated[1][0], &stated[1][1], &stated[3][0]})
+    *one += kStatedSigmaMm * dice.normal();
+  grid::MeasuredBelts belts = measured_belts_of(draw);
+  belts.machine.anchors_known = true;
+  for (std::size_t i = 0; i < stated.size(); ++i)
+    belts.machine.anchors[model::kBelts[i]] = {stated[i][0], stated[i][1], stated[i][2]};
+  const auto fit = grid::diagnosis::fit_with_causes(belts);
+  const auto error = fit ? grid::error_of_belts(*fit) : std::nullopt;
+  if (!error || !error->today) return std::nullopt;
+  FrameAnchors typed = stated;
+  for (std::size_t i = 0; i < typed.size(); ++i) {
+    const model::Anchor& anchor = fit->machine.anchors[model::kBelts[i]];
+    typed[i] = {anchor.x_mm, anchor.y_mm, anchor.z_mm};
+  }
+  PromisedRow row{session, {}};
+  row.of[0] = Promised{*error->today, true_error_of_belts(draw.frame, stated, *fit)};
+  row.of[2] = Promised{error->expected, true_error_of_belts(draw.frame, typed, *fit)};
+  return row;
+}
+
+}  // namespace
+
+std::vector<PromisedSession> promised_sessions() {
+  std::vector<PromisedSession> sessions;
+  for (const std::string_view machine : {kWornChain, kBendingBeam, kWrongSettings}) {
+    for (const std::string_view way : {"28", "60", "117", "start"}) sessions.push_back({machine, way});
+  }
+  sessions.push_back({kBelts, "places"});
+  return sessions;
+}
+
+std::optional<PromisedRow> promised_row(const PromisedSession& session, std::uint64_t seed) {
+  if (session.machine == kBelts) return promised_by_belts(session, seed);
+  const generator::SealedSet set = generator::draw_set(recipe_of(session), seed);
+  const ControllerSettings in_force = settings_of(set.machine.stated());
+  grid::MeasuredGrid measured = grid::files::parse_grid(set.grid_text, "sealed.json").grid;
+  measured.machine->controller = {model::ControllerKind::maslow_classic, in_force};
+  const auto fit = grid::diagnosis::fit_with_causes(measured);
+  if (!fit) return std::nullopt;
+  const grid::CompensationMap& map = fit->fit.map;
+  const auto today = grid::error_in_use(map);
+  const auto typed = grid::settings_to_type(map);
+  if (!today || !typed) return std::nullopt;
+  const grid::CompensationMap after =
+      grid::map_for_settings(map, {model::ControllerKind::maslow_classic, typed->settings}, "");
+  const std::vector<Place> places = places_of(set, map);
+  const auto by_settings = [&places](const ControllerSettings& settings) {
+    return true_error(places, [&settings](Vec2 at) { return firmware(settings, at); });
+  };
+  const auto expected_of = [](const grid::CompensationMap& one) { return one.contents().accuracy.expected_tool; };
+  return PromisedRow{session,
+                     {Promised{*today, by_settings(in_force)},
+                      Promised{expected_of(map), true_error(places, by_map(map))},
+                      Promised{typed->typed, by_settings(typed->settings)},
+                      Promised{expected_of(after), true_error(places, by_map(after))}}};
+}
+
+std::string promised_table(const std::vector<PromisedRow>& rows) {
+  std::string text = "| machine | sessions ";
+  for (const char* what : {"today", "map", "typed numbers", "with map.after"})
+    text += fmt::format("| {}: stated | true | worst: stated | true | exceeded ", what);
+  text += "|\n|---|---" ;
+  for (std::size_t i = 0; i < 5 * kPromises; ++i) text += "|---";
+  text += "|\n";
+  const auto pooled = [&](std::string_view what, const std::function<bool(const PromisedRow&)>& is_in) {
+    int sessions = 0;
+    std::string cells;
+    for (std::size_t k = 0; k < kPromises; ++k) {
+      std::array<double, 4> squares{};
+      int promised = 0, exceeded = 0;
+      for (const PromisedRow& row : rows) {
+        if (!is_in(row) || !row.of[k]) continue;
+        ++promised;
+        const auto& [stated, truth] = *row.of[k];
+        const double values[] = {stated.rms_mm, truth.rms_mm, stated.maximum_mm, truth.maximum_mm};
+        for (std::size_t i = 0; i < squares.size(); ++i) squares[i] += values[i] * values[i];
+        exceeded += truth.maximum_mm > stated.maximum_mm ? 1 : 0;
+      }
+      sessions = std::max(sessions, promised);
+      for (const double square : squares)
+        cells += promised > 0 ? fmt::format("| {:.2f} ", std::sqrt(square / promised)) : "| ";
+      cells += promised > 0 ? fmt::format("| {:.1f} % ", 100.0 * exceeded / promised) : "| ";
+    }
+    text += fmt::format("| {} | {} {}|\n", what, sessions, cells);
+  };
+  for (const std::string_view machine : {kWornChain, kBendingBeam, kWrongSettings, kBelts})
+    pooled(machine, [&](const PromisedRow& row) { return row.session.machine == machine; });
+  for (const std::string_view way : {"28", "60", "117", "start"})
+    pooled(fmt::format("chains, {}", way), [&](const PromisedRow& row) { return row.session.way == way; });
+  pooled("all", [](const PromisedRow&) { return true; });
+  return text;
+}
+
+}  // namespace chaintrue::sealed
