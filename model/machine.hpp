@@ -90,6 +90,8 @@ struct AppliedEffect {
   /// "left", "right", "both", "x", "y" or "" where the effect has no side.
   std::string side;
   std::map<std::string, double> parameters;
+  /// That it acts, where a diagnosis put it in; empty: somebody stated it.
+  std::optional<double> probability = std::nullopt;
 };
 
 struct Machine {

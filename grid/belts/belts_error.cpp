@@ -23,21 +23,6 @@ BeltsFit by_its_own_anchors(BeltsFit fit) {
   return fit;
 }
 
-std::optional<ErrorSummary> error_today(const BeltMap& map,
-                                        const std::vector<model::BedPoint>& places) {
-  const model::BeltController controller(map.in_force());
-  Eigen::VectorXd errors(2 * static_cast<Eigen::Index>(places.size()));
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto paid_out = controller.lengths(places[i]);
-    if (!paid_out) return std::nullopt;
-    const auto tool = map.tool(*paid_out);
-    if (!tool) return std::nullopt;
-    errors.segment<2>(2 * static_cast<Eigen::Index>(i)) << tool->x_mm - places[i].x_mm,
-        tool->y_mm - places[i].y_mm;
-  }
-  return summary_of_errors(errors);
-}
-
 }  // namespace
 
 std::optional<BeltsError> error_of_belts(const BeltsFit& fit, const HolesWithBelts* holes) {
@@ -45,27 +30,35 @@ std::optional<BeltsError> error_of_belts(const BeltsFit& fit, const HolesWithBel
   if (holes == nullptr && fit.places.size() < kFewestPlaces) return std::nullopt;
   const bool knows_today = holes != nullptr || anchors_were_known(fit);
   const BeltMap map(knows_today ? fit : by_its_own_anchors(fit), holes);
-  std::vector<model::BedPoint> places = raster_over(map.domain());
-  std::erase_if(places, [&map](model::BedPoint at) {
-    return map.status(at) != MapStatus::inside || !map.lengths(at);
-  });
+  const std::vector<MeasuredPlace> places = measured_places(map, map.hull());
   if (places.empty()) return std::nullopt;
 
   BeltsError error;
-  if (knows_today) error.today = error_today(map, places);
+  if (knows_today) {
+    const model::BeltController controller(map.in_force());
+    const auto errors = controller_errors(
+        [&controller](model::BedPoint at) -> std::optional<model::ChainLengths> {
+          const auto paid_out = controller.lengths(at);
+          return paid_out ? std::optional(*paid_out) : std::nullopt;
+        },
+        places);
+    if (errors) error.today = summary_of_errors(places, *errors);
+  }
   const auto displacement = holes != nullptr && holes->displacement
                                 ? std::optional<ToolDisplacement>(*holes->displacement)
                                 : std::nullopt;
-  double squares_mm2 = 0.0;
-  for (const model::BedPoint at : places) {
-    double error_mm = map.tool_sigma_mm(at);
-    if (displacement) error_mm = std::hypot(error_mm, displacement->at({at.x_mm, at.y_mm}).norm());
-    squares_mm2 += error_mm * error_mm;
-    if (error_mm <= error.expected.maximum_mm) continue;
-    error.expected.maximum_mm = error_mm;
+  Eigen::VectorXd left_mm = Eigen::VectorXd::Zero(2 * std::ssize(places));
+  double worst_mm = -1.0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const model::BedPoint at = places[i].commanded;
+    const auto row = 2 * static_cast<Eigen::Index>(i);
+    if (displacement) left_mm.segment<2>(row) = displacement->at({at.x_mm, at.y_mm});
+    const double error_mm = std::hypot(places[i].spread_mm.norm(), left_mm.segment<2>(row).norm());
+    if (error_mm <= worst_mm) continue;
+    worst_mm = error_mm;
     error.worst_at = at;
   }
-  error.expected.rms_mm = std::sqrt(squares_mm2 / static_cast<double>(places.size()));
+  error.expected = summary_of_errors(places, left_mm);
   return error;
 }
 

@@ -3,11 +3,10 @@
 /// By how much a router on four belts misses over the measured part of its sheet: today, and with the
 /// anchors that were fitted.
 ///
-///   today      |tool(lengths(p; A0)) - p|, A0 the anchors in force, tool() the fitted map's
-///   expected   root of what is uncertain of the tool at p and, where holes show one, of the
-///              displacement that no anchors take out
+///   today      the controller with the anchors in force, on the fitted map
+///   expected   the map itself; where holes show a displacement that no anchors take out, with that
 ///
-/// over the raster of controller_error.hpp; the sheet lies as belt_map.hpp lays it. Without a tape both
+/// as controller_error.hpp defines an error; the sheet lies as belt_map.hpp lays it. Without a tape both
 /// are in the belts' own millimetres: what the scale is off by is in neither.
 ///
 /// \code

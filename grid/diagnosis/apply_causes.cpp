@@ -34,7 +34,9 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
     if (paper_too && !scale_read && !a.options.accept_class) continue;
     const bool in_machine = !model::effects::depends_on_visit(*cause.cause.effect) &&
                             cause.cause.effect->station != model::effects::Station::paper;
-    (in_machine ? into_machine : diagnosis.data_corrections).push_back(applied(cause));
+    auto& into = in_machine ? into_machine : diagnosis.data_corrections;
+    into.push_back(applied(cause));
+    into.back().probability = cause.probability;
     taken.push_back(column);
   }
   // The settings that belong to what is taken, and to nothing else.

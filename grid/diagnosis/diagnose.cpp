@@ -124,12 +124,15 @@ std::optional<ErrorSummary> tool_today(const Measured& measured) {
 }
 
 /// A map holds nothing that is shorter than the way between two marks: of a law that is claimed the tool
-/// misses by no less than what the law makes at these.
+/// misses by no less than what the law makes at these. What settings would take up again is no error of the
+/// tool: it is no more than the whole error there.
 void count_law(Diagnosis& d) {
   const Law* law = claimed_law(d);
   if (!d.tool_today || law == nullptr || d.observations != Observations::points) return;
-  d.tool_today->rms_mm = std::max(d.tool_today->rms_mm, law->rms_mm);
-  d.tool_today->maximum_mm = std::max(d.tool_today->maximum_mm, law->rms_mm);
+  const double most_mm = d.budget ? d.budget->uncalibrated_mm : d.tool_today->rms_mm;
+  const double law_mm = std::min(law->rms_mm, most_mm);
+  d.tool_today->rms_mm = std::max(d.tool_today->rms_mm, law_mm);
+  d.tool_today->maximum_mm = std::max(d.tool_today->maximum_mm, law_mm);
 }
 
 /// What is named once a claimed law is known; what is not any more is no name.

@@ -375,8 +375,8 @@ void put_into_words(const Analysis& a, Diagnosis& d) {
   if (session.noise_from_repeats && !chains.empty()) {
     const observation::PointNoise& noise = chains.front().second->noise();
     d.notes.push_back(
-        fmt::format("By the marks that were measured twice, a length is good to {:.2f} mm and a "
-                    "position to {:.2f} mm.",
+        fmt::format("By the marks that were measured twice, one sigma of a length is {:.2f} mm, and of "
+                    "each coordinate of a mark {:.2f} mm.",
                     noise.length_mm,
                     noise.position_mm));
   }

@@ -2,21 +2,19 @@
 // The export of groundcontrol_file.hpp: a machine as the numbers to type in.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <string_view>
 
 #include "grid/files/groundcontrol_file.hpp"
-#include "model/effects/catalogue.hpp"
 #include "model/kinematics.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
 using model::Machine;
-using model::Side;
 
 /// Four decimals, without the zeros at their end.
 std::string to_type(double value) {
@@ -77,243 +75,74 @@ class Lines {
   GroundcontrolText& out_;
 };
 
-/// The machine with the effects that a setting can represent applied to its numbers, and its chain
-/// tolerances in GroundControl's terms.
-struct TypedMachine {
-  Machine machine;
-  model::PerSide<double> tolerance_percent;
-  /// The pitch is stated by some effect; otherwise the tolerance is unchanged.
-  model::PerSide<bool> pitch_is_stated;
-  bool stretch_was_named = false;
-  bool sag_was_named = false;
-};
-
-double parameter_of(const model::AppliedEffect& effect, const std::string& name) {
-  const auto found = effect.parameters.find(name);
-  return found == effect.parameters.end() ? 0.0 : found->second;
+void write_sled(const Machine& machine, Lines& lines) {
+  const auto* brackets = std::get_if<model::Brackets>(&machine.attachment);
+  if (brackets == nullptr) return;
+  lines.number("sledwidth", brackets->spacing_mm);
+  lines.number("sledheight", brackets->height_mm);
+  lines.number("sledcg", brackets->cg_below_bit_mm);
 }
 
-using TakeUp = void (*)(TypedMachine&, const model::AppliedEffect&);
-
-void take_ring_radius(TypedMachine& typed, const model::AppliedEffect& effect) {
-  if (auto* ring = std::get_if<model::Ring>(&typed.machine.attachment))
-    ring->radius_mm += parameter_of(effect, "offset_mm");
-}
-
-void take_pitch_error(TypedMachine& typed, const model::AppliedEffect& effect) {
-  const double percent = 100.0 * parameter_of(effect, "elongation");
-  for (const Side side : model::kSides) {
-    if (effect.side == (side == Side::left ? "right" : "left")) continue;
-    typed.tolerance_percent[side] += percent;
-    typed.pitch_is_stated[side] = true;
-  }
-}
-
-void take_sag(TypedMachine& typed, const model::AppliedEffect& effect) {
-  typed.machine.chain.mass_kg_per_m *= 1.0 + parameter_of(effect, "relative_weight");
-  typed.sag_was_named = true;
-}
-
-void take_stretch(TypedMachine& typed, const model::AppliedEffect& effect) {
-  typed.machine.chain.compliance_per_n += parameter_of(effect, "compliance_per_n");
-  typed.stretch_was_named = true;
-}
-
-/// No setting represents it; the remark gives the resulting radius of the sprocket.
-void take_sprocket_radius(TypedMachine& typed, const model::AppliedEffect& effect) {
-  model::Sprocket& sprocket = typed.machine.sprocket;
-  sprocket.radius_mm = sprocket.effective_radius_mm() + parameter_of(effect, "offset_mm");
-}
-
-const std::map<std::string, TakeUp>& take_ups() {
-  static const std::map<std::string, TakeUp> by_effect = {
-      {"ring_radius", take_ring_radius},
-      {"chain_pitch_error", take_pitch_error},
-      {"chain_sag", take_sag},
-      {"chain_stretch", take_stretch},
-      {"sprocket_radius", take_sprocket_radius},
-  };
-  return by_effect;
-}
-
-TypedMachine typed_machine(const Machine& machine, std::vector<std::string>& remarks) {
-  TypedMachine typed{machine, {}, {}, false, false};
-  for (const model::AppliedEffect& effect : machine.effects) {
-    const auto take_up = take_ups().find(effect.effect);
-    if (take_up != take_ups().end()) {
-      take_up->second(typed, effect);
-      continue;
-    }
-    const model::effects::Effect* known = model::effects::find_effect(machine, effect.effect);
-    remarks.push_back(fmt::format("GroundControl has no setting for the effect {}{}{}{}{}",
-                                  effect.effect,
-                                  effect.side.empty() ? "" : " ",
-                                  effect.side,
-                                  known != nullptr ? "; what can be done: " : "",
-                                  known != nullptr ? known->remedy : ""));
-  }
-  return typed;
-}
-
-/// GroundControl's own firmware has no stretch; WebControl and the holey firmware have.
-bool knows_stretch(const Machine& machine) {
-  return machine.controller.kind == model::ControllerKind::holey ||
-         machine.controller.settings.chain_elongation_per_n.has_value();
-}
-
-constexpr double kWorthSayingMm = 0.05;
-
-/// For a controller whose settings have no topbeamtilt.
-void remark_on_the_beam(double right_above_left_mm, std::vector<std::string>& remarks) {
-  if (std::abs(right_above_left_mm) <= kWorthSayingMm) return;
-  remarks.push_back(fmt::format(
-      "these settings have no topbeamtilt, and the right motor is {:.2f} mm {} than the "
-      "left: level the beam, or compensate the G-code with a map",
-      std::abs(right_above_left_mm),
-      right_above_left_mm > 0.0 ? "higher" : "lower"));
-}
-
-void remark_on_what_cannot_be_typed(const Machine& machine, std::vector<std::string>& remarks) {
-  const double middle_mm = 0.5 * (machine.motors.left.x_mm + machine.motors.right.x_mm);
-  if (std::abs(middle_mm) > kWorthSayingMm) {
-    remarks.push_back(fmt::format(
-        "GroundControl has no setting for a beam whose middle is not above the bed's; here it is "
-        "{:.2f} mm to the {}",
-        std::abs(middle_mm),
-        middle_mm > 0.0 ? "right" : "left"));
-  }
-  for (const Side side : model::kSides) {
-    const bool left = side == Side::left;
-    const double zero_mm = machine.chain_zero[side];
-    if (std::abs(zero_mm) <= kWorthSayingMm) continue;
-    remarks.push_back(fmt::format("the {} chain reads {:.2f} mm too {}; reset its zero",
-                                  left ? "left" : "right",
-                                  std::abs(zero_mm),
-                                  zero_mm > 0.0 ? "long" : "short"));
-  }
-  if (machine.sprocket.radius_mm) {
-    const double counted_mm =
-        machine.sprocket.pitch_mm * machine.sprocket.teeth / (2.0 * std::numbers::pi);
-    if (std::abs(*machine.sprocket.radius_mm - counted_mm) > 1e-3) {
-      remarks.push_back(
-          fmt::format("GroundControl computes the sprocket's radius from pitch and teeth, {:.3f} "
-                      "mm; here it is "
-                      "{:.3f} mm",
-                      counted_mm,
-                      *machine.sprocket.radius_mm));
-    }
-  }
-}
-
-/// The sources of a change, for remarks.
-constexpr std::string_view kByBed = "the machine's bed (/bed)";
-constexpr std::string_view kByMotors = "the machine's motors (/motors)";
-constexpr std::string_view kByRing = "the machine's ring (/attachment, the effect ring_radius)";
-constexpr std::string_view kBySprocket = "the machine's sprocket (/sprocket)";
-constexpr std::string_view kByPitch = "the pitch of the chain (the effect chain_pitch_error)";
-constexpr std::string_view kBySag = "the weight of the chain (the effect chain_sag)";
-constexpr std::string_view kByStretch =
-    "the chain's stretch (/chain/compliance_per_n, the effect chain_stretch)";
-constexpr std::string_view kBySled = "the sled's mass (/sled/mass_kg)";
-
-void write_attachment_lines(const TypedMachine& typed, Lines& lines) {
-  const Machine& machine = typed.machine;
-  const auto& now = machine.controller.settings;
-  const auto* ring = std::get_if<model::Ring>(&machine.attachment);
-  if (ring == nullptr) {
-    lines.word("kinematicstype", "Quadrilateral");
-    if (now.chain_sag_correction)
-      lines.number(
-          "chainsagcorrection", *now.chain_sag_correction, now.chain_sag_correction, kBySag);
-    return;
-  }
-  lines.word("kinematicstype", "Triangular");
-  lines.number("rotationradius", ring->radius_mm, now.rotation_radius_mm, kByRing);
-  // A parabola in place of the catenary; the firmware uses it with a ring only.
-  if (typed.sag_was_named || !lines.imported()) {
-    lines.number("chainsagcorrection",
-                 model::equilibrium_parameters(machine).sag_correction,
-                 typed.sag_was_named ? now.chain_sag_correction : std::nullopt,
-                 kBySag);
-  } else if (now.chain_sag_correction) {
-    lines.number("chainsagcorrection", *now.chain_sag_correction, now.chain_sag_correction, kBySag);
-  }
-}
-
-void write_weights(const TypedMachine& typed, Lines& lines, std::vector<std::string>& remarks) {
-  const auto& now = typed.machine.controller.settings;
-  if (now.sled_weight_n) {
-    lines.number("sledweight",
-                 typed.machine.sled.mass_kg * kGroundcontrolGravity_m_per_s2,
-                 now.sled_weight_n,
-                 kBySled);
-  }
-  const double compliance = typed.machine.chain.compliance_per_n;
-  const std::string per_n = fmt::format("{:.4g}", compliance);
-  if (knows_stretch(typed.machine)) {
-    const auto& as_it_came = now.chain_elongation_per_n;
-    const bool same = as_it_came && std::abs(compliance - *as_it_came) <= 1e-9 * *as_it_came;
-    lines.word("chainelongationfactor", same ? fmt::format("{}", *as_it_came) : per_n);
-    if (as_it_came && !same) {
-      lines.changes("chainelongationfactor", fmt::format("{}", *as_it_came), per_n, kByStretch);
-    }
-  } else if (typed.stretch_was_named) {
-    remarks.push_back(
-        fmt::format("GroundControl's own firmware has no chain stretch; WebControl and the holey "
-                    "firmware have it (chainelongationfactor, $45): {} per N",
-                    per_n));
-  }
+/// The pitch of a chain that its tolerance states.
+bool is_tolerance(const model::AppliedEffect& effect, const model::ControllerSettings& settings) {
+  const auto size = effect.parameters.find("elongation");
+  if (effect.effect != "chain_pitch_error" || effect.side == "both" || size == effect.parameters.end())
+    return false;
+  const auto& percent = effect.side == "left" ? settings.left_chain_tolerance_percent
+                                              : settings.right_chain_tolerance_percent;
+  return size->second == percent.value_or(0.0) / 100.0;
 }
 
 }  // namespace
 
-GroundcontrolText write_groundcontrol(const Machine& stated) {
-  GroundcontrolText out;
-  const TypedMachine typed = typed_machine(stated, out.remarks);
-  const Machine& machine = typed.machine;
-  const auto& now = machine.controller.settings;
+model::ControllerSettings measures_as_settings(const Machine& machine) {
   const double dx_mm = machine.motors.right.x_mm - machine.motors.left.x_mm;
   const double dy_mm = machine.motors.right.y_mm - machine.motors.left.y_mm;
-  const double middle_y_mm = 0.5 * (machine.motors.left.y_mm + machine.motors.right.y_mm);
-  Lines lines(machine, out);
-  lines.section("Maslow Settings");
-  lines.number("bedwidth", machine.bed.width_mm, now.bed_width_mm, kByBed);
-  lines.number("bedheight", machine.bed.height_mm, now.bed_height_mm, kByBed);
-  lines.number("motorspacingx", std::hypot(dx_mm, dy_mm), now.motor_spacing_mm, kByMotors);
-  lines.number(
-      "motoroffsety", middle_y_mm - 0.5 * machine.bed.height_mm, now.motor_offset_y_mm, kByMotors);
-  if (const auto* brackets = std::get_if<model::Brackets>(&machine.attachment)) {
-    lines.number("sledwidth", brackets->spacing_mm);
-    lines.number("sledheight", brackets->height_mm);
-    lines.number("sledcg", brackets->cg_below_bit_mm);
+  model::ControllerSettings s = machine.controller.settings;
+  s.bed_width_mm = machine.bed.width_mm;
+  s.bed_height_mm = machine.bed.height_mm;
+  s.motor_spacing_mm = std::hypot(dx_mm, dy_mm);
+  s.motor_offset_y_mm =
+      0.5 * (machine.motors.left.y_mm + machine.motors.right.y_mm) - 0.5 * machine.bed.height_mm;
+  if (const auto* ring = std::get_if<model::Ring>(&machine.attachment)) {
+    s.rotation_radius_mm = ring->radius_mm;
+    // A parabola in place of the catenary; the firmware uses it with a ring only.
+    if (!is_imported(machine.controller.settings))
+      s.chain_sag_correction = model::equilibrium_parameters(machine).sag_correction;
   }
-  lines.section("Advanced Settings");
-  write_attachment_lines(typed, lines);
-  if (!lines.imported() || now.top_beam_tilt_deg) {
-    lines.number("topbeamtilt",
-                 std::atan2(dy_mm, dx_mm) * 180.0 / std::numbers::pi,
-                 now.top_beam_tilt_deg,
-                 kByMotors);
-  } else {
-    remark_on_the_beam(dy_mm, out.remarks);
+  if (machine.controller.kind == model::ControllerKind::holey) {
+    s.top_beam_tilt_deg = std::atan2(dy_mm, dx_mm) * 180.0 / std::numbers::pi;
+    s.chain_elongation_per_n = machine.chain.compliance_per_n;
   }
-  lines.number("chainpitch", machine.sprocket.pitch_mm, now.chain_pitch_mm, kBySprocket);
-  lines.number("gearteeth", machine.sprocket.teeth, now.gear_teeth, kBySprocket);
-  const auto tolerance = [&](Side side, std::optional<double> in_force) {
-    return typed.pitch_is_stated[side] ? typed.tolerance_percent[side] : in_force.value_or(0.0);
-  };
-  lines.number("leftchaintolerance",
-               tolerance(Side::left, now.left_chain_tolerance_percent),
-               now.left_chain_tolerance_percent,
-               kByPitch);
-  lines.number("rightchaintolerance",
-               tolerance(Side::right, now.right_chain_tolerance_percent),
-               now.right_chain_tolerance_percent,
-               kByPitch);
-  write_weights(typed, lines, out.remarks);
-  lines.word("chainoversprocket", machine.feed == model::Feed::over_top ? "Top" : "Bottom");
-  remark_on_what_cannot_be_typed(machine, out.remarks);
-  return out;
+  s.chain_pitch_mm = machine.sprocket.pitch_mm;
+  s.gear_teeth = machine.sprocket.teeth;
+  s.left_chain_tolerance_percent = s.left_chain_tolerance_percent.value_or(0.0);
+  s.right_chain_tolerance_percent = s.right_chain_tolerance_percent.value_or(0.0);
+  if (s.sled_weight_n) s.sled_weight_n = machine.sled.mass_kg * kGroundcontrolGravity_m_per_s2;
+  s.chain_over_sprocket_top = machine.feed == model::Feed::over_top;
+  return s;
+}
+
+GroundcontrolText write_groundcontrol(const Machine& machine) {
+  return write_groundcontrol_settings(
+      machine, measures_as_settings(machine), "the measures of the machine");
+}
+
+bool says_more_than_its_settings(const Machine& machine) {
+  const auto& settings = machine.controller.settings;
+  if (!is_imported(settings)) return true;
+  const auto& [left, right] = machine.motors;
+  const double tilt_rad = settings.top_beam_tilt_deg.value_or(0.0) * std::numbers::pi / 180.0;
+  constexpr double kRoundingMm = 1e-6;
+  const bool has_other_beam =
+      std::abs(left.x_mm + right.x_mm) > kRoundingMm ||
+      std::abs(right.y_mm - left.y_mm - *settings.motor_spacing_mm * std::sin(tilt_rad)) > kRoundingMm;
+  return has_other_beam || !write_groundcontrol(machine).remarks.empty() ||
+         machine.chain_zero.left_mm != 0.0 || machine.chain_zero.right_mm != 0.0 ||
+         machine.sprocket.radius_mm ||
+         !std::all_of(machine.effects.begin(), machine.effects.end(), [&](const auto& effect) {
+           return is_tolerance(effect, settings);
+         });
 }
 
 GroundcontrolText write_groundcontrol_settings(const Machine& machine,
@@ -331,9 +160,11 @@ GroundcontrolText write_groundcontrol_settings(const Machine& machine,
   number("bedheight", &S::bed_height_mm);
   number("motorspacingx", &S::motor_spacing_mm);
   number("motoroffsety", &S::motor_offset_y_mm);
+  write_sled(machine, lines);
   lines.section("Advanced Settings");
-  lines.word("kinematicstype", "Triangular");
-  number("rotationradius", &S::rotation_radius_mm);
+  const bool has_ring = std::holds_alternative<model::Ring>(machine.attachment);
+  lines.word("kinematicstype", has_ring ? "Triangular" : "Quadrilateral");
+  if (has_ring) number("rotationradius", &S::rotation_radius_mm);
   number("chainsagcorrection", &S::chain_sag_correction);
   number("topbeamtilt", &S::top_beam_tilt_deg);
   number("chainpitch", &S::chain_pitch_mm);
@@ -341,8 +172,12 @@ GroundcontrolText write_groundcontrol_settings(const Machine& machine,
   number("leftchaintolerance", &S::left_chain_tolerance_percent);
   number("rightchaintolerance", &S::right_chain_tolerance_percent);
   number("sledweight", &S::sled_weight_n);
-  if (settings.chain_elongation_per_n)
-    lines.word("chainelongationfactor", fmt::format("{}", *settings.chain_elongation_per_n));
+  if (settings.chain_elongation_per_n) {
+    const std::string typed = fmt::format("{}", *settings.chain_elongation_per_n);
+    lines.word("chainelongationfactor", typed);
+    if (now.chain_elongation_per_n && *now.chain_elongation_per_n != *settings.chain_elongation_per_n)
+      lines.changes("chainelongationfactor", fmt::format("{}", *now.chain_elongation_per_n), typed, by);
+  }
   lines.word("chainoversprocket",
              settings.chain_over_sprocket_top.value_or(machine.feed == model::Feed::over_top)
                  ? "Top"

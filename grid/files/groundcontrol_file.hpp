@@ -6,8 +6,7 @@
 /// in.
 ///
 /// The chain tolerances are the pitch that the owner measured for each chain: the machine has each
-/// as a chain_pitch_error, which a reading of link_pitch_mm replaces. A later chain_pitch_error is
-/// added to it.
+/// as a chain_pitch_error, which a reading of link_pitch_mm replaces.
 ///
 /// Tolerances of unknown origin, or tuned to compensate something else, may be left out
 /// (Tolerances::unexplained): the links are then nominal, and a diagnosis estimates them.
@@ -58,25 +57,25 @@ enum class Tolerances { are_pitch, unexplained };
                                               const std::string& file,
                                               Tolerances tolerances = Tolerances::are_pitch);
 
+/// The machine's own measures as settings: motors, ring or sled, sprocket, the sag of the chain's weight where
+/// no import states one; tilt and stretch of the holey firmware alone. What its effects do is in none of them:
+/// map/settings_to_type.hpp finds the numbers for the whole machine.
+[[nodiscard]] model::ControllerSettings measures_as_settings(const model::Machine& machine);
+
 struct GroundcontrolText {
   /// `key = value` under GroundControl's sections: changed settings to 0.0001 of their unit, the
   /// others unchanged. An imported machine has the keys of its file.
   std::string text;
-  /// Which settings differ from the machine's controller and by how much, and which properties of
-  /// the machine have no setting in GroundControl.
+  /// Which settings differ from the machine's controller and by how much.
   std::vector<std::string> remarks;
 };
 
-/// A setting of the controller that agrees with the machine is unchanged. chainsagcorrection, which
-/// owners tune to compensate many other errors, is unchanged unless chain_sag is named.
-///
-/// The effects ring_radius, chain_pitch_error and chain_sag enter rotationradius, the chain
-/// tolerances and chainsagcorrection, and chain_stretch enters chainelongationfactor where the
-/// controller has it; any other effect gives a remark with its remedy. The firmware divides the
-/// straight part of a chain by 1 + tolerance / 100 where chain_pitch_error divides the whole of it;
-/// the difference, a few tenths of a mm at most, is constant except for the wrap and is removed
-/// when the chains are next zeroed.
+/// Of those measures. A setting of the controller that agrees with the machine is unchanged.
 [[nodiscard]] GroundcontrolText write_groundcontrol(const model::Machine& machine);
+
+/// Whether anything was measured since the import: false where the machine is what an import of its settings
+/// gives.
+[[nodiscard]] bool says_more_than_its_settings(const model::Machine& machine);
 
 /// The machine's controller with `settings` in place of its own. `by` is the source of the change:
 /// "the 28 points of map.json".

@@ -294,7 +294,8 @@ const Record<model::AppliedEffect>& effect_record() {
       Record<AppliedEffect>("an effect")
           .required("effect", &AppliedEffect::effect, text())
           .sparse("side", &AppliedEffect::side, one_of({"left", "right", "both", "x", "y"}))
-          .required("parameters", &AppliedEffect::parameters, dictionary(number_in("")));
+          .required("parameters", &AppliedEffect::parameters, dictionary(number_in("")))
+          .optional("probability", &AppliedEffect::probability, number(kShare));
   return record;
 }
 

@@ -166,19 +166,30 @@ tl::expected<CompensationMap::Lengths, MapFailure> CompensationMap::lengths(Mark
 
 tl::expected<MapAnswer, MapFailure> CompensationMap::query(MarkPoint mark) const {
   if (!answers_at(mark)) return tl::unexpected(MapReason::outside_map);
-  const auto found = field_->with_covariance(mark);
+  const auto found = field_->with_spread(mark);
   if (!found) return tl::unexpected(found.error());
   MapAnswer answer;
   answer.lengths = found->here.lengths;
   answer.mark_jacobian = found->here.mark_jacobian;
   answer.status = area_.status(mark);
-  answer.covariance = found->covariance;
-  if (answer.status == MapStatus::extrapolated)
-    answer.covariance *= contents_.sigma_factor_beyond * contents_.sigma_factor_beyond;
+  answer.covariance = found->spread_mm * found->spread_mm.transpose();
+  answer.covariance *= std::pow(spread_factor(answer.status), 2);
   answer.sigma = {std::sqrt(answer.covariance(0, 0)), std::sqrt(answer.covariance(1, 1))};
   const Eigen::Matrix2d to_tool = found->here.mark_jacobian.inverse();
   answer.tool_sigma_mm = std::sqrt((to_tool * answer.covariance * to_tool.transpose()).trace());
   return answer;
+}
+
+double CompensationMap::spread_factor(MapStatus status) const {
+  return status == MapStatus::extrapolated ? contents_.sigma_factor_beyond : 1.0;
+}
+
+Eigen::Matrix2Xd CompensationMap::tool_spread(MarkPoint mark) const {
+  if (!answers_at(mark)) return Eigen::Matrix2Xd(2, 0);
+  const auto found = field_->with_spread(mark);
+  if (!found) return Eigen::Matrix2Xd(2, 0);
+  // A length that is truly longer leaves the tool short of the mark.
+  return -spread_factor(area_.status(mark)) * found->here.mark_jacobian.inverse() * found->spread_mm;
 }
 
 tl::expected<MarkPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted) const {

@@ -59,9 +59,9 @@ struct HeldOutError {
 struct MapAccuracy {
   HeldOutError leave_one_out;
   HeldOutError blocked;
-  /// Of the tool over the measured part of the bed.
+  /// Of the tool over the measured part of the bed (controller_error.hpp).
   ErrorSummary expected_tool;
-  model::MarkPoint expected_worst_at;
+  model::MarkPoint expected_worst_at;  ///< where the map knows least of it
 };
 
 enum class NoiseSource {
@@ -231,6 +231,8 @@ class CompensationMap {
   [[nodiscard]] tl::expected<model::MarkPoint, MapFailure> inverse(
       model::ChainLengths lengths) const;
   [[nodiscard]] MapStatus status(model::MarkPoint mark) const;
+  /// As LengthMap has it; no columns where lengths() has no answer.
+  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::MarkPoint mark) const;
   /// The same place in the other frame; a direct map knows only one.
   [[nodiscard]] model::MarkPoint to_mark(model::BedPoint bed) const;
   [[nodiscard]] model::BedPoint to_bed(model::MarkPoint mark) const;
@@ -239,6 +241,7 @@ class CompensationMap {
 
  private:
   [[nodiscard]] bool answers_at(model::MarkPoint mark) const;
+  [[nodiscard]] double spread_factor(MapStatus status) const;
 
   MapContents contents_;
   MeasuredArea area_;

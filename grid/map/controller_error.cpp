@@ -4,77 +4,172 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "grid/map/largest_error.hpp"
 #include "model/controllers/payout.hpp"
 
 namespace chaintrue::grid {
+namespace {
 
-std::vector<model::BedPoint> raster_over(const interp::Rectangle& area) {
-  constexpr int kColumns = 25;
-  constexpr int kRows = 13;
-  const double x = 0.5 * (area.x_min + area.x_max);
-  const double y = 0.5 * (area.y_min + area.y_max);
-  std::vector<model::BedPoint> places;
+using model::BedPoint;
+
+constexpr int kColumns = 25;
+constexpr int kRows = 13;
+
+interp::ConvexHull hull_of(const std::vector<BedPoint>& corners) {
+  std::vector<interp::PlanePoint> points;
+  for (const BedPoint corner : corners) points.push_back({corner.x_mm, corner.y_mm});
+  return interp::ConvexHull(points);
+}
+
+interp::Rectangle box_of(const std::vector<interp::PlanePoint>& corners) {
+  interp::Rectangle box{corners[0].x, corners[0].x, corners[0].y, corners[0].y};
+  for (const interp::PlanePoint& corner : corners) {
+    box.x_min = std::min(box.x_min, corner.x);
+    box.x_max = std::max(box.x_max, corner.x);
+    box.y_min = std::min(box.y_min, corner.y);
+    box.y_max = std::max(box.y_max, corner.y);
+  }
+  return box;
+}
+
+/// d(left, right)/d(x, y), by steps towards `middle`, where the map answers if it does at `at`.
+std::optional<Eigen::Matrix2d> jacobian_at(const LengthMap& map,
+                                           BedPoint at,
+                                           model::ChainLengths here,
+                                           BedPoint middle) {
+  // The error of a one-sided step is half of it over a chain's length, 5e-6; that of rounding 1e-7.
+  constexpr double kStepMm = 0.01;
+  Eigen::Matrix2d jacobian;
+  for (const Eigen::Index axis : {0, 1}) {
+    BedPoint there = at;
+    double& moved = axis == 0 ? there.x_mm : there.y_mm;
+    const double step = (axis == 0 ? middle.x_mm : middle.y_mm) < moved ? -kStepMm : kStepMm;
+    moved += step;
+    const auto lengths = map.lengths(there);
+    if (!lengths) return std::nullopt;
+    jacobian.col(axis) << (lengths->left_mm - here.left_mm) / step,
+        (lengths->right_mm - here.right_mm) / step;
+  }
+  return jacobian;
+}
+
+}  // namespace
+
+std::vector<MeasuredPlace> measured_places(const LengthMap& map,
+                                           const std::vector<BedPoint>& hull) {
+  const interp::ConvexHull area = hull_of(hull);
+  const interp::Rectangle box = box_of(area.corners());
+  const BedPoint middle{0.5 * (box.x_min + box.x_max), 0.5 * (box.y_min + box.y_max)};
+  std::vector<MeasuredPlace> places;
+  const auto add = [&](BedPoint at, bool is_on_edge) {
+    const auto lengths = map.lengths(at);
+    if (!lengths) return;
+    const auto jacobian = jacobian_at(map, at, *lengths, middle);
+    if (!jacobian) return;
+    places.push_back({at, *lengths, jacobian->inverse(), map.tool_spread(at), is_on_edge});
+  };
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
-      places.push_back({x + area.width() * ((column + 0.5) / kColumns - 0.5),
-                        y + area.height() * ((row + 0.5) / kRows - 0.5)});
+      const BedPoint at{middle.x_mm + box.width() * ((column + 0.5) / kColumns - 0.5),
+                        middle.y_mm + box.height() * ((row + 0.5) / kRows - 0.5)};
+      if (area.contains(at.x_mm, at.y_mm)) add(at, false);
     }
+  }
+  const double spacing = std::max(box.width() / kColumns, box.height() / kRows);
+  const auto& corners = area.corners();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const interp::PlanePoint from = corners[i], to = corners[(i + 1) % corners.size()];
+    const double steps = std::ceil(std::hypot(to.x - from.x, to.y - from.y) / spacing);
+    for (double step = 0.0; step < steps; step += 1.0)
+      add({from.x + (to.x - from.x) * step / steps, from.y + (to.y - from.y) * step / steps}, true);
   }
   return places;
 }
 
 std::vector<MeasuredPlace> measured_places(const CompensationMap& map, MapFrame frame) {
-  const double half_width = 0.5 * map.machine()->bed.width_mm;
-  const double half_height = 0.5 * map.machine()->bed.height_mm;
-  std::vector<MeasuredPlace> places;
-  for (const model::BedPoint at :
-       raster_over({-half_width, half_width, -half_height, half_height})) {
-    const model::MarkPoint mark =
-        frame == MapFrame::bed ? map.to_mark(at) : model::MarkPoint{at.x_mm, at.y_mm};
-    if (map.status(mark) != MapStatus::inside) continue;
-    if (const auto answer = map.lengths(mark))
-      places.push_back({at, answer->lengths, answer->mark_jacobian.inverse()});
+  std::vector<BedPoint> hull;
+  for (const model::MarkPoint corner : map.contents().hull) {
+    hull.push_back(frame == MapFrame::bed ? map.to_bed(corner)
+                                          : model::identity_placement(corner));
   }
-  return places;
+  return measured_places(MapInFrame(map, frame), hull);
 }
 
-std::optional<Eigen::VectorXd> controller_errors(const model::Machine& machine,
-                                                 const model::ControllerSettings& settings,
+PaidOut paid_out_by(const model::Machine& machine) {
+  return [controller = std::shared_ptr(model::make_controller_kinematics(machine))](
+             BedPoint command) -> std::optional<model::ChainLengths> {
+    const auto lengths = controller->lengths(command);
+    return lengths ? std::optional(*lengths) : std::nullopt;
+  };
+}
+
+std::optional<Eigen::VectorXd> controller_errors(const PaidOut& paid_out,
                                                  const std::vector<MeasuredPlace>& places) {
-  model::Machine with_settings = machine;
-  with_settings.controller.settings = settings;
-  const auto controller = model::make_controller_kinematics(with_settings);
-  Eigen::VectorXd errors(2 * static_cast<Eigen::Index>(places.size()));
+  Eigen::VectorXd errors(2 * std::ssize(places));
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto paid_out = controller->lengths(places[i].commanded);
-    if (!paid_out) return std::nullopt;
+    const auto lengths = paid_out(places[i].commanded);
+    if (!lengths) return std::nullopt;
     errors.segment<2>(2 * static_cast<Eigen::Index>(i)) =
-        places[i].to_tool * Eigen::Vector2d(paid_out->left_mm - places[i].lengths.left_mm,
-                                            paid_out->right_mm - places[i].lengths.right_mm);
+        places[i].to_tool * Eigen::Vector2d(lengths->left_mm - places[i].lengths.left_mm,
+                                            lengths->right_mm - places[i].lengths.right_mm);
   }
   return errors;
 }
 
-ErrorSummary summary_of_errors(const Eigen::VectorXd& errors) {
-  ErrorSummary result;
-  const Eigen::Index places = errors.size() / 2;
-  for (Eigen::Index i = 0; i < places; ++i)
-    result.maximum_mm = std::max(result.maximum_mm, errors.segment<2>(2 * i).norm());
-  result.rms_mm = std::sqrt(errors.squaredNorm() / static_cast<double>(places));
-  return result;
+ErrorSummary summary_of_errors(const std::vector<MeasuredPlace>& places,
+                               const Eigen::VectorXd& errors_mm) {
+  LargestError largest;
+  double squares_mm2 = 0.0;
+  int within = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Eigen::Vector2d expected_mm = errors_mm.segment<2>(2 * static_cast<Eigen::Index>(i));
+    largest.add(expected_mm, places[i].spread_mm);
+    if (places[i].is_on_edge) continue;
+    squares_mm2 += expected_mm.squaredNorm() + places[i].spread_mm.squaredNorm();
+    ++within;
+  }
+  return {std::sqrt(squares_mm2 / std::max(within, 1)), largest.bound_mm()};
 }
 
+namespace {
+
+/// An ideal controller goes by the machine file. What a diagnosis wrote into it since is not what the
+/// commands went by.
+bool is_what_the_controller_believes(const model::Machine& machine) {
+  return machine.controller.kind != model::ControllerKind::ideal ||
+         std::none_of(machine.effects.begin(), machine.effects.end(), [](const auto& effect) {
+           return effect.probability.has_value();
+         });
+}
+
+}  // namespace
+
 std::optional<ErrorSummary> error_in_use(const CompensationMap& map) {
-  if (map.machine() == nullptr) return std::nullopt;
   // A controller without settings of its own believes the file, not what was calibrated.
   const auto machine = stated_machine(map);
-  if (!machine) return std::nullopt;
+  if (!machine || !is_what_the_controller_believes(*machine)) return std::nullopt;
   const std::vector<MeasuredPlace> places = measured_places(map, MapFrame::marks);
   if (places.empty()) return std::nullopt;
-  const auto errors = controller_errors(*machine, machine->controller.settings, places);
+  const auto errors = controller_errors(paid_out_by(*machine), places);
   if (!errors) return std::nullopt;
-  return summary_of_errors(*errors);
+  return summary_of_errors(places, *errors);
+}
+
+void measure_expected_error(const CompensationMap& map, MapAccuracy& accuracy) {
+  const std::vector<MeasuredPlace> places = measured_places(map, MapFrame::marks);
+  if (places.empty()) return;
+  accuracy.expected_tool =
+      summary_of_errors(places, Eigen::VectorXd::Zero(2 * std::ssize(places)));
+  // By less than that a place's mirror image differs in rounding: the first stays.
+  constexpr double kWorse = 1.0 + 1e-6;
+  double worst_mm = -1.0;
+  for (const MeasuredPlace& place : places) {
+    if (place.spread_mm.norm() <= kWorse * worst_mm) continue;
+    worst_mm = place.spread_mm.norm();
+    accuracy.expected_worst_at = {place.commanded.x_mm, place.commanded.y_mm};
+  }
 }
 
 }  // namespace chaintrue::grid

@@ -8,6 +8,7 @@
 
 #include "grid/map/direct_fit.hpp"
 #include "grid/map/lattice_lines.hpp"
+#include "grid/map/controller_error.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "grid/observation/length_points.hpp"
 

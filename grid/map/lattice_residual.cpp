@@ -110,13 +110,29 @@ model::PerSide<interp::ValueGradient> LatticeSplines::at(model::MarkPoint mark) 
   return {left_->at(mark.x_mm, mark.y_mm), right_->at(mark.x_mm, mark.y_mm)};
 }
 
-Eigen::Matrix2d LatticeSplines::covariance(model::MarkPoint mark,
-                                           const Eigen::Matrix2d& node) const {
+Eigen::Matrix2Xd spread_of_nodes(const Eigen::MatrixXd& weights,
+                                 const Eigen::Matrix2d& node,
+                                 const Eigen::MatrixXd& own_mm2) {
+  Eigen::Matrix2Xd spread(2, 2 * weights.size());
+  for (Eigen::Index i = 0; i < weights.size(); ++i) {
+    const Eigen::Matrix2d covariance =
+        node + own_mm2.reshaped()[i] * Eigen::Matrix2d::Identity();
+    // Of two rows: the lower root in closed form, which a covariance of 0 has too.
+    const double first = std::sqrt(covariance(0, 0));
+    const double across = first > 0.0 ? covariance(0, 1) / first : 0.0;
+    spread.col(2 * i) = weights.reshaped()[i] * Eigen::Vector2d(first, across);
+    spread.col(2 * i + 1)
+        << 0.0,
+        weights.reshaped()[i] * std::sqrt(std::max(0.0, covariance(1, 1) - across * across));
+  }
+  return spread;
+}
+
+Eigen::Matrix2Xd LatticeSplines::spread(model::MarkPoint mark, const Eigen::Matrix2d& node) const {
   const Eigen::MatrixXd weights = weights_.cardinal_weights(mark.x_mm, mark.y_mm);
-  const double squares = weights.squaredNorm();
-  const double own = std::pow(interpolation_sigma_mm_, 2) * std::max(1.0, squares) +
-                     weights.cwiseProduct(doubt_mm_).squaredNorm();
-  return squares * node + own * Eigen::Matrix2d::Identity();
+  const double between = std::pow(interpolation_sigma_mm_, 2) *
+                         std::max(1.0, 1.0 / weights.squaredNorm());
+  return spread_of_nodes(weights, node, (doubt_mm_.array().square() + between).matrix());
 }
 
 std::optional<LatticeFit> fit_lattice(const PointsFit& fit) {

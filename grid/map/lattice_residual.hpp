@@ -46,11 +46,10 @@ class LatticeSplines {
   [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const {
     return {left_.get(), right_.get()};
   }
-  /// Of both corrections, `node` being that of one measured node. The bicubic's weights stand for
-  /// the quintic's. Inside the lattice the interpolation's own error counts in full; beyond it, it
-  /// grows with the weights.
-  [[nodiscard]] Eigen::Matrix2d covariance(model::MarkPoint mark,
-                                           const Eigen::Matrix2d& node) const;
+  /// Of both corrections, two columns a node, `node` being the covariance of one measured node. The
+  /// bicubic's weights stand for the quintic's. Inside the lattice the interpolation's own error
+  /// counts in full; beyond it, it grows with the weights.
+  [[nodiscard]] Eigen::Matrix2Xd spread(model::MarkPoint mark, const Eigen::Matrix2d& node) const;
 
  private:
   std::shared_ptr<const interp::Surface> left_;
@@ -59,6 +58,11 @@ class LatticeSplines {
   Eigen::MatrixXd doubt_mm_;
   double interpolation_sigma_mm_;
 };
+
+/// Two columns a node: the root of `node` and, on either chain, of that node's `own_mm2`, times its weight.
+[[nodiscard]] Eigen::Matrix2Xd spread_of_nodes(const Eigen::MatrixXd& weights,
+                                               const Eigen::Matrix2d& node,
+                                               const Eigen::MatrixXd& own_mm2);
 
 struct LatticeFit {
   LatticeResidual residual;

@@ -60,6 +60,11 @@ class LengthMap {
   [[nodiscard]] virtual tl::expected<model::BedPoint, MapFailure> tool(
       model::ChainLengths lengths) const = 0;
   [[nodiscard]] virtual MapStatus status(model::BedPoint point) const = 0;
+  /// What is uncertain of the tool that is sent to a point which lengths() answers: x and y, mm, one sigma
+  /// of one direction of the posterior a column, the same directions everywhere. No columns where nothing is.
+  [[nodiscard]] virtual Eigen::Matrix2Xd tool_spread(model::BedPoint /*point*/) const {
+    return Eigen::Matrix2Xd(2, 0);
+  }
   /// Where lengths() may answer.
   [[nodiscard]] virtual const interp::Rectangle& domain() const = 0;
 

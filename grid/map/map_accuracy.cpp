@@ -47,31 +47,6 @@ HeldOutError summarise(const std::vector<HeldOutResidual>& residuals) {
   return {chain.summary(), tool.summary(), x.rms(), y.rms()};
 }
 
-void measure_expected_error(const CompensationMap& map, MapAccuracy& accuracy) {
-  constexpr int kColumns = 25;
-  constexpr int kRows = 13;
-  constexpr double kWorse =
-      1.0 + 1e-6;  // by less than that a place's mirror image differs in rounding: the first stays
-  const interp::Rectangle& domain = map.contents().domain;
-  Tally tool;
-  double worst = -1.0;
-  for (int iy = 0; iy < kRows; ++iy) {
-    for (int ix = 0; ix < kColumns; ++ix) {
-      const model::MarkPoint mark{domain.x_min + domain.width() * ix / (kColumns - 1),
-                                  domain.y_min + domain.height() * iy / (kRows - 1)};
-      if (map.status(mark) != MapStatus::inside) continue;
-      const auto answer = map.query(mark);
-      if (!answer) continue;
-      tool.add(answer->tool_sigma_mm);
-      if (answer->tool_sigma_mm > kWorse * worst) {
-        worst = answer->tool_sigma_mm;
-        accuracy.expected_worst_at = mark;
-      }
-    }
-  }
-  accuracy.expected_tool = tool.summary();
-}
-
 MirrorTest test_mirror(const CompensationMap& map) {
   MirrorTest test;
   Tally tally;

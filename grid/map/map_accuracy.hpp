@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a finished map says of itself: held-out errors, the error expected over the bed, and the
-/// mirror claim.
+/// What a finished map says of its points: held-out errors and the mirror claim.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,10 +18,6 @@ struct HeldOutResidual {
 
 /// Zero everywhere for no residuals.
 [[nodiscard]] HeldOutError summarise(const std::vector<HeldOutResidual>& residuals);
-
-/// One sigma of the tool over the measured part of the bed: root mean square and largest, on a 49 x
-/// 25 raster.
-void measure_expected_error(const CompensationMap& map, MapAccuracy& accuracy);
 
 /// R at (x, y) against L at (-x, y), over the good points whose mirror image lies on the measured
 /// part.

@@ -58,11 +58,11 @@ class ModelField final : public MapField {
     return corrected(mark, *reading);
   }
 
-  [[nodiscard]] tl::expected<WithCovariance, MapFailure> continued_with_covariance(
+  [[nodiscard]] tl::expected<WithSpread, MapFailure> continued_with_spread(
       MarkPoint mark) const override {
     const auto reading = model_.at(surface_.sheet.to_bed(mark));
     if (!reading) return tl::unexpected(unreachable(model::mechanism_failure(reading.error())));
-    return WithCovariance{corrected(mark, *reading), covariance(mark, *reading)};
+    return WithSpread{corrected(mark, *reading), spread(mark, *reading)};
   }
 
   [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const override {
@@ -75,9 +75,9 @@ class ModelField final : public MapField {
     return {result.lengths, result.mark_jacobian};
   }
 
-  /// G C G' = |F' G'|^2, G being the two rows of the design: few of its entries are not zero.
-  [[nodiscard]] Eigen::Matrix2d covariance(MarkPoint mark,
-                                           const model::PointReading& reading) const {
+  /// G F, G being the two rows of the design: few of its entries are not zero.
+  [[nodiscard]] Eigen::Matrix2Xd spread(MarkPoint mark,
+                                        const model::PointReading& reading) const {
     const FitColumns& columns = surface_.columns;
     const Eigen::Matrix<double, 2, 3> by_sheet =
         reading.position_jacobian * surface_.sheet.sensitivity(mark);
@@ -99,7 +99,7 @@ class ModelField final : public MapField {
       add(columns.spline(Side::left) + support.index[k], support.value[k], spread.col(0));
       add(columns.spline(Side::right) + support.index[k], support.value[k], spread.col(1));
     }
-    return spread.transpose() * spread;
+    return spread.transpose();
   }
 
   /// F is lower triangular: the column of F' ends at the diagonal.
@@ -141,15 +141,14 @@ class LatticeField final : public MapField {
     return here;
   }
 
-  [[nodiscard]] tl::expected<WithCovariance, MapFailure> continued_with_covariance(
+  [[nodiscard]] tl::expected<WithSpread, MapFailure> continued_with_spread(
       MarkPoint mark) const override {
     const auto here = continued(mark);
     if (!here) return tl::unexpected(here.error());
     const Eigen::Matrix2d node = noise_.length_mm * noise_.length_mm * Eigen::Matrix2d::Identity() +
                                  noise_.position_mm * noise_.position_mm * here->mark_jacobian *
                                      here->mark_jacobian.transpose();
-    return WithCovariance{
-        *here, splines_.covariance(mark, noise_.factor_found * noise_.factor_found * node)};
+    return WithSpread{*here, splines_.spread(mark, noise_.factor_found * noise_.factor_found * node)};
   }
 
   [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const override {
@@ -186,16 +185,18 @@ class DirectField final : public MapField {
 
   /// Each node errs by the readings' noise, the place's error as its slope carries it into the
   /// chains; what lies between the nodes by the estimate of the interpolation's own error.
-  [[nodiscard]] tl::expected<WithCovariance, MapFailure> continued_with_covariance(
+  [[nodiscard]] tl::expected<WithSpread, MapFailure> continued_with_spread(
       MarkPoint mark) const override {
     const MapLengths here = lengths(mark);
-    const double squares = left_.cardinal_weights(mark.x_mm, mark.y_mm).squaredNorm();
+    const Eigen::MatrixXd weights = left_.cardinal_weights(mark.x_mm, mark.y_mm);
     const Eigen::Matrix2d node = noise_.length_mm * noise_.length_mm * Eigen::Matrix2d::Identity() +
                                  noise_.position_mm * noise_.position_mm * here.mark_jacobian *
                                      here.mark_jacobian.transpose();
-    return WithCovariance{here,
-                          squares * node + interpolation_sigma_mm_ * interpolation_sigma_mm_ *
-                                               Eigen::Matrix2d::Identity()};
+    const Eigen::MatrixXd own = Eigen::MatrixXd::Constant(
+        weights.rows(),
+        weights.cols(),
+        interpolation_sigma_mm_ * interpolation_sigma_mm_ / weights.squaredNorm());
+    return WithSpread{here, spread_of_nodes(weights, node, own)};
   }
 
   [[nodiscard]] MapLengths lengths(MarkPoint mark) const {
@@ -273,14 +274,17 @@ tl::expected<MapLengths, MapFailure> MapField::at(MarkPoint mark) const {
   return here;
 }
 
-tl::expected<MapField::WithCovariance, MapFailure> MapField::with_covariance(MarkPoint mark) const {
-  auto answer = continued_with_covariance(mark);
+tl::expected<MapField::WithSpread, MapFailure> MapField::with_spread(MarkPoint mark) const {
+  auto answer = continued_with_spread(mark);
   if (!answer) return answer;
+  if (!beyond_) return answer;
+  answer->spread_mm.conservativeResize(Eigen::NoChange, answer->spread_mm.cols() + 1);
+  answer->spread_mm.rightCols<1>().setZero();
   if (const auto by = change(mark)) {
     answer->here.lengths.left_mm += by->lengths_mm[0];
     answer->here.lengths.right_mm += by->lengths_mm[1];
     answer->here.mark_jacobian += by->jacobian;
-    answer->covariance += by->lengths_mm * by->lengths_mm.transpose();
+    answer->spread_mm.rightCols<1>() = by->lengths_mm;
   }
   return answer;
 }

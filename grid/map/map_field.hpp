@@ -15,9 +15,11 @@ namespace chaintrue::grid {
 /// Immutable, thread safe. Marks anywhere; whether an answer may be used is the map's to say.
 class MapField {
  public:
-  struct WithCovariance {
+  /// Of both lengths, a row each: one sigma of one direction of what is uncertain a column, the same
+  /// directions at every mark within the points.
+  struct WithSpread {
     MapLengths here;
-    Eigen::Matrix2d covariance;
+    Eigen::Matrix2Xd spread_mm;
   };
 
   virtual ~MapField() = default;
@@ -25,8 +27,8 @@ class MapField {
 
   [[nodiscard]] tl::expected<MapLengths, MapFailure> at(model::MarkPoint mark) const;
   /// Where the map's way of going on beyond the points answers otherwise than the surfaces
-  /// themselves would, the difference counts as an error of one sigma.
-  [[nodiscard]] tl::expected<WithCovariance, MapFailure> with_covariance(
+  /// themselves would, the difference is a direction of its own, one sigma.
+  [[nodiscard]] tl::expected<WithSpread, MapFailure> with_spread(
       model::MarkPoint mark) const;
   [[nodiscard]] virtual model::MarkPoint to_mark(model::BedPoint bed) const {
     return model::identity_placement(bed);
@@ -36,10 +38,10 @@ class MapField {
   }
 
  protected:
-  /// Lengths and covariance with the surfaces' own continuation.
+  /// Lengths and spread with the surfaces' own continuation.
   [[nodiscard]] virtual tl::expected<MapLengths, MapFailure> continued(
       model::MarkPoint mark) const = 0;
-  [[nodiscard]] virtual tl::expected<WithCovariance, MapFailure> continued_with_covariance(
+  [[nodiscard]] virtual tl::expected<WithSpread, MapFailure> continued_with_spread(
       model::MarkPoint mark) const = 0;
   [[nodiscard]] virtual model::PerSide<const interp::Surface*> surfaces() const = 0;
 

@@ -37,4 +37,8 @@ tl::expected<model::BedPoint, MapFailure> MapInFrame::tool(model::ChainLengths l
 
 MapStatus MapInFrame::status(model::BedPoint point) const { return map_.status(mark_of(point)); }
 
+Eigen::Matrix2Xd MapInFrame::tool_spread(model::BedPoint point) const {
+  return map_.tool_spread(mark_of(point));
+}
+
 }  // namespace chaintrue::grid

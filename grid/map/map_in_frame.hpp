@@ -24,6 +24,8 @@ class MapInFrame final : public LengthMap {
   [[nodiscard]] tl::expected<model::BedPoint, MapFailure> tool(
       model::ChainLengths lengths) const override;
   [[nodiscard]] MapStatus status(model::BedPoint point) const override;
+  /// Along the axes of the marks.
+  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override;
   [[nodiscard]] const interp::Rectangle& domain() const override { return map_.contents().domain; }
 
  private:

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "grid/linear_algebra.hpp"
-#include "grid/map/map_accuracy.hpp"
+#include "grid/map/controller_error.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {

@@ -62,7 +62,7 @@ tl::expected<LengthsAnswer, MapFailure> MechanismMap::query(model::BedPoint poin
   const auto found = fitted_.mechanism->predict(
       fitted_.sheet->in_frame(point), {}, model::Derivatives::by_position);
   if (!found) return tl::unexpected(unreachable(found.error()));
-  return LengthsAnswer{found->lengths_mm, sigma(point), tool_sigma_mm(point), status(point)};
+  return LengthsAnswer{found->lengths_mm, sigma(point), tool_spread(point).norm(), status(point)};
 }
 
 tl::expected<model::ChainLengths, MapFailure> MechanismMap::lengths(model::BedPoint point) const {
@@ -96,17 +96,27 @@ model::ChainLengths MechanismMap::sigma(model::BedPoint point) const {
   return {std::sqrt(variance.left_mm + own), std::sqrt(variance.right_mm + own)};
 }
 
-double MechanismMap::tool_sigma_mm(model::BedPoint point) const {
-  double variance = 0.0;
+Eigen::Matrix2Xd MechanismMap::tool_spread(model::BedPoint point) const {
+  const auto others = static_cast<Eigen::Index>(spread_.others.size());
+  Eigen::Matrix2Xd spread = Eigen::Matrix2Xd::Zero(2, others + 2);
   if (const auto paid_out = lengths_of(spread_.centre, point)) {
-    for (const PlacedMechanism& other : spread_.others) {
+    for (Eigen::Index i = 0; i < others; ++i) {
+      const PlacedMechanism& other = spread_.others[static_cast<std::size_t>(i)];
       const auto there = other.mechanism->locate_by_first(*paid_out);
       if (!there) continue;
       const model::BedPoint tool = other.sheet->on_sheet(*there);
-      variance += std::pow(tool.x_mm - point.x_mm, 2) + std::pow(tool.y_mm - point.y_mm, 2);
+      spread.col(i) << tool.x_mm - point.x_mm, tool.y_mm - point.y_mm;
     }
   }
-  return std::sqrt(variance + 2.0 * fitted_.sheet->own_variance_mm2(point));
+  spread.rightCols<2>() =
+      std::sqrt(fitted_.sheet->own_variance_mm2(point)) * Eigen::Matrix2d::Identity();
+  return spread;
+}
+
+std::vector<model::BedPoint> MechanismMap::hull() const {
+  std::vector<model::BedPoint> corners;
+  for (const model::MarkPoint corner : area_.hull()) corners.push_back({corner.x_mm, corner.y_mm});
+  return corners;
 }
 
 }  // namespace chaintrue::grid

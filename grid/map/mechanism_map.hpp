@@ -63,8 +63,9 @@ class MechanismMap : public LengthMap {
   [[nodiscard]] const interp::Rectangle& domain() const override { return area_.domain(); }
   /// One sigma of the first two lengths; a point that lengths() answers.
   [[nodiscard]] model::ChainLengths sigma(model::BedPoint point) const;
-  /// Of the tool for such lengths: the root of the summed variances of x and y.
-  [[nodiscard]] double tool_sigma_mm(model::BedPoint point) const;
+  [[nodiscard]] Eigen::Matrix2Xd tool_spread(model::BedPoint point) const override;
+  /// Corners of what was measured.
+  [[nodiscard]] std::vector<model::BedPoint> hull() const;
 
  private:
   PlacedMechanism fitted_;

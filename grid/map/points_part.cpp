@@ -246,13 +246,6 @@ class PointsPart final : public FitPart {
                       "and the lengths were measured.",
                       noise.factor_found));
     }
-    if (noise.source != NoiseSource::stated) {
-      const double good_mm = noise.position_mm > 0.0 ? noise.position_mm : noise.length_mm;
-      draft.notes.push_back(fmt::format(
-          "Your readings look good to about {:.2f} mm{}.",
-          good_mm * noise.factor_found,
-          noise.source == NoiseSource::repeats ? ", by the marks that were measured twice" : ""));
-    }
   }
 
   static void note_rejected(const MapPoint& point,

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <vector>
 
 #include "grid/linear_algebra.hpp"
 #include "grid/map/controller_error.hpp"
+#include "grid/map/mechanism_map.hpp"
+#include "model/chains/chain_mechanism.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid {
@@ -18,33 +21,53 @@ namespace {
 using model::ControllerSettings;
 using model::Machine;
 
-/// A setting that may change: how far it usually is from the truth, and a step to differentiate by.
+/// What settings are held against.
+struct Truth {
+  Machine machine;  ///< as calibrated, with the controller in force
+  /// Such a machine in the frame of the bed.
+  std::function<std::vector<MeasuredPlace>(const Machine&)> places;
+  double sigma_mm = 0.0;   ///< rms of what is uncertain of it
+  std::size_t points = 0;  ///< that say it; 0: it is exact
+};
+
+/// A setting that may change: how far it usually is from the truth, a step to differentiate by, and
+/// the digits that are typed.
 struct FreeSetting {
   std::optional<double> ControllerSettings::*value;
   double sigma;
   double step;
+  double per_unit = 1e4;
 };
 
-/// Those that the controller has; it may lack what was never typed in.
+double usual_size(const char* effect) {
+  return model::effects::find_effect(effect)->parameters.front().prior_sigma;
+}
+
+bool is_holey(const Machine& machine) {
+  return machine.controller.kind == model::ControllerKind::holey;
+}
+
+/// Those that the firmware has; it may lack what was never typed in.
 std::vector<FreeSetting> free_settings(const Machine& machine) {
   using S = ControllerSettings;
   const double motor_mm = machine.uncertainty.motor_position_mm;
   const double spacing_mm = machine.motors.right.x_mm - machine.motors.left.x_mm;
-  const double pitch_percent =
-      100.0 * model::effects::find_effect("chain_pitch_error")->parameters.front().prior_sigma;
+  const double pitch_percent = 100.0 * usual_size("chain_pitch_error");
   // Owners' calibrations ended between 20 and 35 where the chain's weight makes 6 to 8.
   constexpr double kSagSigma = 10.0;
-  const std::vector<FreeSetting> all = {
+  std::vector<FreeSetting> all = {
       {&S::motor_spacing_mm, std::sqrt(2.0) * motor_mm, 0.1},
       {&S::motor_offset_y_mm, motor_mm / std::sqrt(2.0), 0.1},
-      {&S::top_beam_tilt_deg,
-       std::sqrt(2.0) * motor_mm / spacing_mm * 180.0 / std::numbers::pi,
-       1e-3},
       {&S::rotation_radius_mm, machine.uncertainty.ring_radius_mm, 0.1},
       {&S::chain_sag_correction, kSagSigma, 0.1},
       {&S::left_chain_tolerance_percent, pitch_percent, 1e-3},
       {&S::right_chain_tolerance_percent, pitch_percent, 1e-3},
   };
+  if (is_holey(machine)) {
+    const double tilt_deg = std::sqrt(2.0) * motor_mm / spacing_mm * 180.0 / std::numbers::pi;
+    all.push_back({&S::top_beam_tilt_deg, tilt_deg, 1e-3});
+    all.push_back({&S::chain_elongation_per_n, usual_size("chain_stretch"), 1e-7, 1e9});
+  }
   std::vector<FreeSetting> present;
   for (const FreeSetting& setting : all) {
     const bool written = (machine.controller.settings.*setting.value).has_value();
@@ -54,13 +77,22 @@ std::vector<FreeSetting> free_settings(const Machine& machine) {
   return present;
 }
 
+/// The errors with such settings.
+std::optional<Eigen::VectorXd> errors_with(const Machine& machine,
+                                           const ControllerSettings& settings,
+                                           const std::vector<MeasuredPlace>& places) {
+  Machine with_settings = machine;
+  with_settings.controller.settings = settings;
+  return controller_errors(paid_out_by(with_settings), places);
+}
+
 /// One step of Gauss and Newton from `now`; `weight` is of an error's square relative to the priors'.
 std::optional<ControllerSettings> improved(const Machine& machine,
                                            const ControllerSettings& now,
                                            const std::vector<FreeSetting>& free,
                                            const std::vector<MeasuredPlace>& places,
                                            double weight) {
-  const auto errors = controller_errors(machine, now, places);
+  const auto errors = errors_with(machine, now, places);
   if (!errors) return std::nullopt;
   const auto unknowns = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd by_setting(errors->size(), unknowns);
@@ -71,8 +103,8 @@ std::optional<ControllerSettings> improved(const Machine& machine,
     ControllerSettings less = now;
     *(more.*setting.value) += setting.step;
     *(less.*setting.value) -= setting.step;
-    const auto up = controller_errors(machine, more, places);
-    const auto down = controller_errors(machine, less, places);
+    const auto up = errors_with(machine, more, places);
+    const auto down = errors_with(machine, less, places);
     if (!up || !down) return std::nullopt;
     by_setting.col(k) = (*up - *down) * (setting.sigma / (2.0 * setting.step));
     prior_pull[k] =
@@ -95,77 +127,178 @@ std::optional<ControllerSettings> improved(const Machine& machine,
 void round_to_type(const std::vector<FreeSetting>& free,
                    const ControllerSettings& in_force,
                    ControllerSettings& settings) {
-  constexpr double kPerUnit = 1e4;
-  const auto rounded = [](double value) { return std::round(value * kPerUnit) / kPerUnit; };
   for (const FreeSetting& setting : free) {
+    const auto rounded = [&](double value) {
+      return std::round(value * setting.per_unit) / setting.per_unit;
+    };
     double& value = *(settings.*setting.value);
     const double now = *(in_force.*setting.value);
     value = rounded(value) == rounded(now) ? now : rounded(value);
   }
 }
 
-std::size_t good_points(const CompensationMap& map) {
-  const auto& points = map.contents().points;
-  return static_cast<std::size_t>(
-      std::count_if(points.begin(), points.end(), [](const MapPoint& p) { return !p.bad; }));
-}
-
 tl::unexpected<SettingsFailure> failure(SettingsFailure::Reason reason, const char* sentence) {
   return tl::unexpected(SettingsFailure{reason, sentence});
+}
+
+tl::unexpected<SettingsFailure> no_machine() {
+  return failure(SettingsFailure::Reason::no_machine,
+                 "this map was made without a machine, so there are no settings to mend: fit the "
+                 "points again with --machine, and without --surface direct");
+}
+
+double rms_of(const Eigen::VectorXd& errors) {
+  return std::sqrt(2.0 * errors.squaredNorm() / static_cast<double>(errors.size()));
+}
+
+/// The best settings, rounded; nothing where the controller cannot go to a place with any on the way.
+std::optional<ControllerSettings> best_settings(const Truth& truth,
+                                                const std::vector<MeasuredPlace>& places) {
+  const std::vector<FreeSetting> free = free_settings(truth.machine);
+  // Below a twentieth of a millimetre no bed is cut, and places tell no more than the points that
+  // they come from.
+  constexpr double kFinestMm = 0.05;
+  const double sigma_mm = std::max(truth.sigma_mm, kFinestMm);
+  const double told =
+      truth.points == 0 ? 1.0
+                        : static_cast<double>(truth.points) / static_cast<double>(places.size());
+  const double weight = told / (sigma_mm * sigma_mm);
+  ControllerSettings settings = truth.machine.controller.settings;
+  // The formulas bend little over some millimetres: the third step is below what is typed.
+  constexpr int kSteps = 4;
+  for (int step = 0; step < kSteps; ++step) {
+    const auto better = improved(truth.machine, settings, free, places, weight);
+    if (!better) return std::nullopt;
+    settings = *better;
+  }
+  round_to_type(free, truth.machine.controller.settings, settings);
+  return settings;
+}
+
+/// The tool's error that the best settings for such a machine leave.
+std::optional<double> left_with(const Truth& truth, const Machine& machine) {
+  const std::vector<MeasuredPlace> places = truth.places(machine);
+  if (places.empty()) return std::nullopt;
+  const auto settings = best_settings(truth, places);
+  const auto errors = settings ? errors_with(truth.machine, *settings, places) : std::nullopt;
+  return errors ? std::optional(rms_of(*errors)) : std::nullopt;
+}
+
+Machine without_effect(Machine machine, const std::string& effect) {
+  std::erase_if(machine.effects, [&](const auto& applied) { return applied.effect == effect; });
+  return machine;
+}
+
+/// The machine without each thing that its firmware has no setting for.
+std::vector<std::pair<std::string, Machine>> machines_without(const Machine& machine) {
+  std::vector<std::pair<std::string, Machine>> without;
+  if (!is_holey(machine)) {
+    Machine level = machine;
+    level.motors.left.y_mm = level.motors.right.y_mm =
+        0.5 * (machine.motors.left.y_mm + machine.motors.right.y_mm);
+    without.emplace_back("top_beam_tilt", level);
+    Machine stiff = without_effect(machine, "chain_stretch");
+    stiff.chain.compliance_per_n = 0.0;
+    without.emplace_back("chain_stretch", stiff);
+  }
+  for (const model::AppliedEffect& applied : machine.effects) {
+    const std::string& id = applied.effect;
+    const bool is_known = id == "ring_radius" || id == "chain_pitch_error" || id == "chain_sag" ||
+                          id == "chain_stretch";
+    if (!is_known) without.emplace_back(id, without_effect(machine, id));
+  }
+  return without;
+}
+
+std::vector<Lacking> lacking_of(const Truth& truth, double left_mm) {
+  // What is typed in is mended to a hundredth of that by nobody.
+  constexpr double kWorthSayingMm = 0.05;
+  std::vector<Lacking> lacking;
+  for (const auto& [what, machine] : machines_without(truth.machine)) {
+    const auto without_mm = left_with(truth, machine);
+    if (!without_mm || *without_mm >= left_mm) continue;
+    const double costs_mm = std::sqrt(left_mm * left_mm - *without_mm * *without_mm);
+    if (costs_mm >= kWorthSayingMm) lacking.push_back({what, costs_mm});
+  }
+  return lacking;
+}
+
+tl::expected<SettingsToType, SettingsFailure> settings_for(const Truth& truth) {
+  const model::ControllerKind kind = truth.machine.controller.kind;
+  const bool maslow =
+      kind == model::ControllerKind::maslow_classic || kind == model::ControllerKind::holey;
+  const std::vector<MeasuredPlace> places = truth.places(truth.machine);
+  const ControllerSettings& in_force = truth.machine.controller.settings;
+  const auto before = errors_with(truth.machine, in_force, places);
+  if (!maslow || !std::holds_alternative<model::Ring>(truth.machine.attachment) || !before ||
+      places.empty()) {
+    return failure(SettingsFailure::Reason::another_controller,
+                   "the machine has no controller of a Maslow with a ring, whose settings could be "
+                   "fitted: compensate the G-code with a map");
+  }
+  SettingsToType result;
+  result.settings = in_force;
+  result.as_it_is = result.typed = summary_of_errors(places, *before);
+  result.points = truth.points;
+  // An error no larger than the map's own may be the map's; a tenth of it is not worth new numbers.
+  constexpr double kBeyondTheMap = 2.0;
+  constexpr double kWorthTyping = 0.9;
+  double left_mm = rms_of(*before);
+  if (left_mm >= kBeyondTheMap * truth.sigma_mm) {
+    const auto settings = best_settings(truth, places);
+    const auto after = settings ? errors_with(truth.machine, *settings, places) : std::nullopt;
+    if (after && rms_of(*after) <= kWorthTyping * left_mm) {
+      result.settings = *settings;
+      result.typed = summary_of_errors(places, *after);
+      result.worth_typing = true;
+      left_mm = rms_of(*after);
+    }
+  }
+  result.lacking = lacking_of(truth, left_mm);
+  return result;
+}
+
+/// The map of another machine with the same surface.
+CompensationMap map_of(const CompensationMap& map, const Machine& machine) {
+  MapContents contents = map.contents();
+  std::get<ModelSurface>(contents.surface).machine = machine;
+  return CompensationMap(std::move(contents));
 }
 
 }  // namespace
 
 tl::expected<SettingsToType, SettingsFailure> settings_to_type(const CompensationMap& map) {
-  const Machine* machine = map.machine();
-  if (machine == nullptr) {
-    return failure(SettingsFailure::Reason::no_machine,
-                   "this map was made without a machine, so there are no settings to mend: fit the "
-                   "points again with --machine, and without --surface direct");
-  }
-  const model::ControllerKind kind = machine->controller.kind;
-  const bool maslow =
-      kind == model::ControllerKind::maslow_classic || kind == model::ControllerKind::holey;
-  const std::vector<MeasuredPlace> places = measured_places(map, MapFrame::bed);
-  const auto before = controller_errors(*machine, machine->controller.settings, places);
-  if (!maslow || !std::holds_alternative<model::Ring>(machine->attachment) || !before ||
-      places.empty()) {
-    return failure(SettingsFailure::Reason::another_controller,
-                   "the map's machine has no controller of a Maslow with a ring, whose settings "
-                   "could be fitted to the map: compensate the G-code with the map");
-  }
-  const std::vector<FreeSetting> free = free_settings(*machine);
-  SettingsToType result;
-  result.settings = machine->controller.settings;
-  result.as_it_is = result.typed = summary_of_errors(*before);
-  result.points = good_points(map);
-  // Places tell no more than the points that they come from; below a twentieth of a millimetre no
-  // bed is cut.
-  constexpr double kFinestMm = 0.05;
-  const double sigma_mm = std::max(map.contents().accuracy.expected_tool.rms_mm, kFinestMm);
-  const double weight = static_cast<double>(std::max<std::size_t>(result.points, 1)) /
-                        static_cast<double>(places.size()) / (sigma_mm * sigma_mm);
-  // An error no larger than the map's own may be the map's.
-  constexpr double kBeyondTheMap = 2.0;
-  if (result.as_it_is.rms_mm < kBeyondTheMap * map.contents().accuracy.expected_tool.rms_mm)
-    return result;
-  ControllerSettings settings = result.settings;
-  // The formulas bend little over some millimetres: the third step is below what is typed.
-  constexpr int kSteps = 4;
-  for (int step = 0; step < kSteps; ++step) {
-    const auto better = improved(*machine, settings, free, places, weight);
-    if (!better) return result;
-    settings = *better;
-  }
-  round_to_type(free, machine->controller.settings, settings);
-  const auto after = controller_errors(*machine, settings, places);
-  // A tenth of the error is not worth a new set of numbers.
-  constexpr double kWorthTyping = 0.9;
-  if (!after || summary_of_errors(*after).rms_mm > kWorthTyping * result.as_it_is.rms_mm) return result;
-  result.settings = settings;
-  result.typed = summary_of_errors(*after);
-  result.worth_typing = true;
-  return result;
+  if (map.machine() == nullptr) return no_machine();
+  return settings_to_type(map, map.machine()->controller);
+}
+
+tl::expected<SettingsToType, SettingsFailure> settings_to_type(const CompensationMap& map,
+                                                               const model::Controller& now) {
+  if (map.machine() == nullptr) return no_machine();
+  Truth truth;
+  truth.machine = *map.machine();
+  truth.machine.controller = now;
+  truth.places = [&map](const Machine& machine) {
+    return measured_places(map_of(map, machine), MapFrame::bed);
+  };
+  truth.sigma_mm = map.contents().accuracy.expected_tool.rms_mm;
+  const auto& points = map.contents().points;
+  truth.points = static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [](const MapPoint& p) { return !p.bad; }));
+  return settings_for(truth);
+}
+
+tl::expected<SettingsToType, SettingsFailure> settings_to_type(const Machine& machine,
+                                                               const std::vector<model::BedPoint>& hull) {
+  Truth truth;
+  truth.machine = machine;
+  truth.places = [&hull](const Machine& one) {
+    const auto mechanism = model::make_chain_mechanism(one);
+    const auto parameters = std::ssize(mechanism->parameters());
+    const FittedMechanism exact{mechanism, Eigen::MatrixXd::Zero(parameters, parameters)};
+    return measured_places(MechanismMap::of(exact, hull), hull);
+  };
+  return settings_for(truth);
 }
 
 }  // namespace chaintrue::grid

@@ -124,7 +124,7 @@ tl::expected<StraightSettings, StraightFailure> straight_settings(const Compensa
         std::hypot(unknowns[from + kX], unknowns[from + kY]) - origin->lengths[side];
   }
   result.left_over =
-      summary_of_errors(errors_with(places, origin->lengths, unknowns, nullptr));
+      summary_of_errors(places, errors_with(places, origin->lengths, unknowns, nullptr));
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "grid/map/fit.hpp"
+#include "model/chains/chain_mechanism.hpp"
 #include "model/controllers/payout.hpp"
 
 namespace chaintrue::grid {
@@ -114,6 +115,67 @@ TEST(SettingsToType, AreNotMadeForOtherControllers) {
   ASSERT_FALSE(typed);
   EXPECT_EQ(typed.error().reason, SettingsFailure::Reason::another_controller);
   EXPECT_THAT(typed.error().sentence(), testing::HasSubstr("compensate the G-code"));
+}
+
+std::vector<model::BedPoint> corners() {
+  return {{-1100.0, -500.0}, {1100.0, -500.0}, {1100.0, 500.0}, {-1100.0, 500.0}};
+}
+
+std::vector<std::string> names_of(const std::vector<Lacking>& lacking) {
+  std::vector<std::string> names;
+  for (const Lacking& one : lacking) names.push_back(one.what);
+  return names;
+}
+
+// Found in one way: from a machine, and from a map of the same machine.
+TEST(SettingsToType, OfAMachineAreThoseOfItsMap) {
+  Machine machine = imported_machine();
+  machine.motors.left.x_mm -= 3.0;
+  machine.motors.right.x_mm += 4.0;
+  machine.effects.push_back({"chain_pitch_error", "right", {{"elongation", 0.0010}}});
+  MeasuredGrid grid;
+  grid.machine = imported_machine();
+  grid.noise = StatedNoise{0.01, 0.01, 15.0};
+  const auto chains = model::make_chain_mechanism(machine);
+  for (int row = 0; row < 5; ++row) {
+    for (int column = 0; column < 9; ++column) {
+      const model::BedPoint at{-1100.0 + 275.0 * column, -500.0 + 250.0 * row};
+      grid.points.push_back({model::identity_placement(at),
+                             *chains->first_lengths({at.x_mm, at.y_mm}),
+                             std::nullopt,
+                             std::nullopt});
+    }
+  }
+  const auto map = fit(grid);
+  ASSERT_TRUE(map) << map.error().sentence();
+  const auto by_map = settings_to_type(*map);
+  const auto by_machine = settings_to_type(machine, corners());
+  ASSERT_TRUE(by_map && by_machine);
+  EXPECT_TRUE(by_machine->worth_typing);
+  // The map's machine has another prior and errs by hundredths of a millimetre.
+  EXPECT_NEAR(by_machine->as_it_is.rms_mm, by_map->as_it_is.rms_mm, 0.05);
+  EXPECT_NEAR(by_machine->typed.rms_mm, by_map->typed.rms_mm, 0.05);
+  EXPECT_LE(by_machine->typed.rms_mm, by_machine->as_it_is.rms_mm);
+}
+
+// A beam that bends and a beam that is not level have no number in the stock firmware: its tilt stays what it
+// was, and what they cost is said.
+TEST(SettingsToType, SayWhatTheFirmwareLacks) {
+  Machine machine = imported_machine();
+  machine.controller.settings.top_beam_tilt_deg = 0.0;
+  machine.motors.right.y_mm += 8.0;
+  machine.effects.push_back({"beam_flex", "", {{"flexibility_mm_per_n", 0.02}}});
+  const auto stock = settings_to_type(machine, corners());
+  ASSERT_TRUE(stock) << stock.error().sentence();
+  EXPECT_EQ(stock->settings.top_beam_tilt_deg, 0.0);
+  EXPECT_THAT(names_of(stock->lacking), testing::IsSupersetOf({"top_beam_tilt", "beam_flex"}));
+  EXPECT_LE(stock->typed.rms_mm, stock->as_it_is.rms_mm);
+  machine.controller.kind = model::ControllerKind::holey;
+  const auto holey = settings_to_type(machine, corners());
+  ASSERT_TRUE(holey) << holey.error().sentence();
+  EXPECT_GT(*holey->settings.top_beam_tilt_deg, 0.0);
+  EXPECT_LT(holey->typed.rms_mm, stock->typed.rms_mm);
+  EXPECT_THAT(names_of(holey->lacking), testing::Not(testing::Contains("top_beam_tilt")));
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ const CompensationMap& sagging_map() {
 }
 
 /// Where the tool is, by the map itself, when a controller of straight lines that was switched on at 0, 0
-/// is sent to the raster's measured places: root mean square of the distances from there.
+/// is sent to the measured places: root mean square of the distances from there, with what is uncertain
+/// of the map.
 double tool_rms_mm(const CompensationMap& map, const StraightSettings& s) {
   const MapInFrame in_frame(map);
   const auto origin = in_frame.lengths({0.0, 0.0});
@@ -35,6 +36,7 @@ double tool_rms_mm(const CompensationMap& map, const StraightSettings& s) {
   double sum = 0.0;
   int count = 0;
   for (const MeasuredPlace& place : measured_places(map, MapFrame::marks)) {
+    if (place.is_on_edge) continue;
     model::ChainLengths paid;
     for (const model::Side side : model::kSides) {
       const model::BedPoint a = s.anchors[side];
@@ -46,7 +48,7 @@ double tool_rms_mm(const CompensationMap& map, const StraightSettings& s) {
     const auto tool = in_frame.tool(paid);
     EXPECT_TRUE(tool);
     sum += std::pow(tool->x_mm - place.commanded.x_mm, 2) +
-           std::pow(tool->y_mm - place.commanded.y_mm, 2);
+           std::pow(tool->y_mm - place.commanded.y_mm, 2) + place.spread_mm.squaredNorm();
     ++count;
   }
   return std::sqrt(sum / count);

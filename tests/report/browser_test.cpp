@@ -129,6 +129,35 @@ constexpr const char* kFoldedProbe = R"(
       }
       )";
 
+/// Sent to `commands`, the tool lands 10 mm lower.
+std::string map_of_a_tool_that_hangs_low() {
+  return made_by(
+      "chaintrue start " CHAINTRUE_FIXTURES "/good/groundcontrol_ring.ini shop && awk 'BEGIN { print "
+      "\"x_mm,y_mm,commanded_x_mm,commanded_y_mm\"; for (y = -510; y <= 510; y += 340) for (x = -1080; x <= "
+      "1080; x += 360) print x \",\" y - 10 \",\" x \",\" y }' > low.csv && chaintrue fit low.csv --machine "
+      "shop/machine.json --noise-length-mm 0.1 --noise-position-mm 0.3 -o map.json && chaintrue report map.json "
+      "-o page.html",
+      "page.html");
+}
+
+std::string diagnosis_of_a_worn_chain() {
+  return made_by("chaintrue start " CHAINTRUE_FIXTURES "/good/groundcontrol_ring.ini shop && chaintrue diagnose "
+                 CHAINTRUE_FIXTURES "/start/worn_chain.csv --machine shop/machine.json --report page.html",
+                 "page.html");
+}
+
+/// As they are drawn, on a screen whose y counts down: shafts of the first chart that point down and hardly
+/// aside, and what those of the first two charts have in common, shaft by shaft.
+constexpr const char* kShaftsProbe = R"(
+      const charts = [...document.querySelectorAll('[data-spec="bed_arrows"]')].map((figure) =>
+          [...figure.querySelectorAll(".shafts line")].map((line) =>
+              ["x", "y"].map((axis) => Number(line.getAttribute(axis + "2") ?? 0) - Number(line.getAttribute(axis + "1") ?? 0))));
+      const page = document.documentElement;
+      page.dataset.down = charts[0].filter(([x, y]) => y > 5 && Math.abs(x) < 0.1 * y).length;
+      page.dataset.shafts = charts[0].length;
+      page.dataset.common = Math.sign(charts[0].reduce((sum, [x, y], i) => sum + x * charts[1][i][0] + y * charts[1][i][1], 0));
+      )";
+
 int number_after(const std::string& text, const std::string& words) {
   const std::size_t at = text.find(words);
   return at == std::string::npos ? -1 : std::stoi(text.substr(at + words.size()));
@@ -167,7 +196,9 @@ TEST(Browser, PagesAreDrawnWhole) {
        {as_printed(made_by(grid + "chaintrue report map.json --certificate -o page.html", "page.html")),
         paper(),
         paper_probe()},
-       {as_printed(diagnosis_of_the_demo()), paper(), paper_probe()}});
+       {as_printed(diagnosis_of_the_demo()), paper(), paper_probe()},
+       {map_of_a_tool_that_hangs_low(), {}, kShaftsProbe},
+       {diagnosis_of_a_worn_chain(), {}, kShaftsProbe}});
   for (std::size_t i = 0; i < visits.size(); ++i) EXPECT_THAT(problems_of(visits[i]), IsEmpty()) << i;
 
   {
@@ -221,6 +252,13 @@ TEST(Browser, PagesAreDrawnWhole) {
   for (const std::size_t printed : {9U, 10U, 11U}) {
     EXPECT_THAT(visits[printed].dom, HasSubstr("data-tall=\"0: \"")) << printed;
     EXPECT_THAT(visits[printed].dom, HasSubstr("data-cut=\"0\"")) << printed;
+  }
+  {
+    SCOPED_TRACE("arrows");
+    EXPECT_EQ(number_after(visits[12].dom, "data-shafts=\""), 28);
+    EXPECT_EQ(number_after(visits[12].dom, "data-down=\""), 28) << "where it landed minus where it was sent";
+    // What the worn chain alone does, and what was measured before it was known.
+    EXPECT_EQ(number_after(visits[13].dom, "data-common=\""), 1);
   }
 }
 

@@ -216,12 +216,31 @@ void say_the_holes(const grid::HolesWithBelts& holes, Section& section) {
 
 }  // namespace
 
+namespace {
+
+double least_known_mm(const BeltsFit& fit) {
+  double worst_mm = 0.0;
+  for (const auto& c : fit.coordinates) worst_mm = std::max(worst_mm, c.sigma_mm);
+  return worst_mm;
+}
+
+}  // namespace
+
+std::string not_to_paste(const BeltsFit& fit, const std::optional<grid::BeltsError>& error) {
+  const double left_mm = error ? error->expected.rms_mm : least_known_mm(fit);
+  if (!(left_mm > kMostToCutWithMm)) return {};
+  return fmt::format(
+      "Do not paste these anchors: {} {} mm, and {:g} mm are too much. Measure more places, farther "
+      "apart, and look at the readings that were left out.",
+      error ? "with them the tool is still off by" : "they are known to",
+      about_mm(left_mm),
+      kMostToCutWithMm);
+}
+
 std::string headline_of(const BeltsFit& fit, const std::optional<grid::BeltsError>& error) {
-  if (!error) {
-    double worst = 0.0;
-    for (const auto& c : fit.coordinates) worst = std::max(worst, c.sigma_mm);
-    return fmt::format("These anchors are good to about {} mm.", about_mm(worst));
-  }
+  if (const std::string why = not_to_paste(fit, error); !why.empty()) return why;
+  if (!error)
+    return fmt::format("These anchors are good to about {} mm.", about_mm(least_known_mm(fit)));
   return misses_sentence(error->today ? std::optional(error->today->rms_mm) : std::nullopt,
                          error->expected.rms_mm,
                          {"these anchors", "new anchors"}) +
@@ -243,7 +262,7 @@ Section agreement_section(const FittedBelts& fitted, const std::optional<grid::B
   Section section{"How well the belts agree", {}};
   if (error) {
     say(section,
-        least_sure_sentence(
+        worst_sentence(
             error->worst_at.x_mm, error->worst_at.y_mm, error->expected.maximum_mm));
   }
   say_what_acts(fit, section);

@@ -15,6 +15,10 @@ namespace chaintrue::cli {
 /// By how much the machine misses, today and with these anchors.
 [[nodiscard]] std::string headline_of(const grid::BeltsFit& fit,
                                       const std::optional<grid::BeltsError>& error);
+/// Why these anchors are not to be pasted: they leave more than kMostToCutWithMm, or are that uncertain
+/// where nobody can say what they leave. Empty of any other.
+[[nodiscard]] std::string not_to_paste(const grid::BeltsFit& fit,
+                                       const std::optional<grid::BeltsError>& error);
 [[nodiscard]] std::vector<report::Figure> figures_of(const grid::BeltsError& error);
 
 /// Where the anchors are least sure, what acts with them, what one belt's reading is off by and what

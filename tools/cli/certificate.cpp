@@ -64,12 +64,6 @@ report::Section measured_section(const grid::CompensationMap& map) {
   return section;
 }
 
-/// A chain is read as so much longer where its links are shorter.
-std::string links_in_words(double scale) {
-  const double percent = -100.0 * scale / (1.0 + scale);
-  return fmt::format("{:.3f} % {}", std::abs(percent), percent < 0.0 ? "shorter" : "longer");
-}
-
 report::Section named_section(const grid::CompensationMap& map) {
   std::vector<SettingRow> rows = settings_rows(map);
   std::erase_if(rows, [](const SettingRow& row) { return !row.stated_sigma; });
@@ -79,12 +73,6 @@ report::Section named_section(const grid::CompensationMap& map) {
         report::Paragraph{"None: the map joins the readings themselves, without a machine."});
   } else {
     section.blocks.push_back(settings_table(rows));
-  }
-  if (const auto* surface = std::get_if<grid::ModelSurface>(&map.contents().surface)) {
-    section.blocks.push_back(report::Paragraph{
-        fmt::format("The chains' links: {} than new on the left, {} on the right.",
-                    links_in_words(surface->residual.scale.left),
-                    links_in_words(surface->residual.scale.right))});
   }
   return section;
 }
@@ -123,7 +111,7 @@ report::Document certificate(const grid::CompensationMap& map, std::string_view 
       {fmt::format("{:.2f} mm", expected.rms_mm), "expected over the measured part, rms"},
       {fmt::format("0 to {:.2f} mm", k95PerCent * expected.rms_mm), "95 % interval"},
       {fmt::format("{:.2f} mm", expected.maximum_mm),
-       fmt::format("at the weakest place, ({:.0f}, {:.0f})",
+       fmt::format("at worst, 95 times in 100; the map knows least near ({:.0f}, {:.0f})",
                    contents.accuracy.expected_worst_at.x_mm,
                    contents.accuracy.expected_worst_at.y_mm)}};
   page.not_proved = {

@@ -23,6 +23,8 @@
 #include "grid/map/controller_error.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/settings_to_type.hpp"
+#include "model/effects/catalogue.hpp"
+#include "tools/cli/anchors_sections.hpp"
 #include "tools/cli/export_klipper.hpp"
 #include "tools/cli/export_linuxcnc.hpp"
 #include "tools/cli/export_plotter.hpp"
@@ -58,37 +60,17 @@ struct Exported {
   bool is_refused = false;  ///< the reason was said
 };
 
-/// What the machine says otherwise than its controller.
-Exported of_machine(const model::Machine& machine, std::vector<std::string> next) {
-  return {files::write_groundcontrol(machine), "", std::move(next)};
-}
-
 std::vector<std::string> settings_page(const std::string& path) {
   return {"report", path, "-o", std::filesystem::path(path).replace_extension(".html").string()};
 }
 
-/// The controller that holds the numbers of such a text.
-model::Controller controller_of(const files::GroundcontrolText& settings,
-                                model::ControllerKind kind,
-                                const std::string& file) {
-  model::Controller typed = files::parse_groundcontrol(settings.text, file).machine.controller;
-  if (kind == model::ControllerKind::holey) typed.kind = kind;
-  return typed;
-}
-
-/// Of a map whose controller bears no settings: all numbers of its calibrated machine.
-Exported of_not_converged(const grid::CompensationMap& map, const ExportCommand& command) {
-  const model::Machine& machine = *map.machine();
-  const std::string& path = command.input;
-  Exported result = of_machine(machine, settings_page(path));
-  if (command.map_after.empty() ||
-      machine.controller.kind == model::ControllerKind::fluidnc_wallplotter)
-    return result;
-  result.map_after =
-      grid::map_for_settings(map,
-                             controller_of(result.settings, machine.controller.kind, path),
-                             "For a controller that holds the numbers of export groundcontrol.");
-  return result;
+/// What numbers are found for: the controller in force, or one that holds the measures of a machine whose
+/// controller bears none.
+model::Controller controller_of(const model::Machine& machine) {
+  if (machine.controller.settings.motor_spacing_mm) return machine.controller;
+  const bool is_holey = machine.controller.kind == model::ControllerKind::holey;
+  return {is_holey ? model::ControllerKind::holey : model::ControllerKind::maslow_classic,
+          files::measures_as_settings(machine)};
 }
 
 /// What leads on: type in, check with the map after, cut with it.
@@ -99,13 +81,51 @@ std::vector<std::string> next_of(const ExportCommand& command, bool is_worth_typ
   return {"export", "groundcontrol", map, "-o", "settings.ini", "--map-after", after_name(map)};
 }
 
-/// The tool's error today as every verb says it; where the sheet was laid by hand, its part is no
+/// What a firmware has no setting for, with what that costs.
+std::string words_of(const grid::Lacking& lacking, const model::Machine& machine) {
+  if (lacking.what == "top_beam_tilt") {
+    return fmt::format(
+        "The tilt of the beam has no number in GroundControl's own firmware, which costs {:.2f} mm of "
+        "that: level the beam. The holey firmware has topbeamtilt; where yours is that, say \"kind\": "
+        "\"holey\" of the machine's /controller.\n",
+        lacking.costs_mm);
+  }
+  if (lacking.what == "chain_stretch") {
+    return fmt::format(
+        "The stretch of the chains has no number in GroundControl's own firmware, which costs {:.2f} mm "
+        "of that.\n",
+        lacking.costs_mm);
+  }
+  const model::effects::Effect* effect = model::effects::find_effect(machine, lacking.what);
+  return fmt::format("No firmware has a number for {}, which costs {:.2f} mm of that{}.\n",
+                     effect != nullptr ? effect->cause : std::string_view(lacking.what),
+                     lacking.costs_mm,
+                     effect != nullptr ? fmt::format("; {}", effect->remedy) : "");
+}
+
+/// Before and after, from one evaluation; what remains and why.
+std::string words_of(const std::string& today,
+                     const model::Machine& machine,
+                     const grid::SettingsToType& typed,
+                     bool holds_numbers) {
+  std::string words =
+      typed.worth_typing || !holds_numbers
+          ? fmt::format("{} with these numbers {:.2f} and {:.2f} mm.\n",
+                        today,
+                        typed.typed.rms_mm,
+                        typed.typed.maximum_mm)
+          : fmt::format("{} other numbers would gain less than a tenth, so keep yours.\n", today);
+  for (const grid::Lacking& one : typed.lacking) words += words_of(one, machine);
+  return words;
+}
+
+/// Of a map the error today is that of every verb; where the sheet was laid by hand, its part is no
 /// matter of the numbers.
 std::string today_in_words(const grid::CompensationMap& map, const grid::SettingsToType& typed) {
   const grid::ErrorSummary today = grid::error_in_use(map).value_or(typed.as_it_is);
   return fmt::format(
       "With today's settings the tool is {:.2f} mm rms off over the measured part, {:.2f} mm at "
-      "worst{}",
+      "worst{};",
       today.rms_mm,
       today.maximum_mm,
       has_placed_sheet(map.contents())
@@ -115,80 +135,121 @@ std::string today_in_words(const grid::CompensationMap& map, const grid::Setting
           : "");
 }
 
-std::string words_of(const grid::CompensationMap& map,
-                     const grid::SettingsToType& typed,
-                     const ExportCommand& command) {
-  if (!typed.worth_typing) {
-    return fmt::format("{}; other numbers would gain less than a tenth, so keep yours.\n",
-                       today_in_words(map, typed));
-  }
+/// What becomes of a map once its numbers are typed in.
+std::string map_after_in_words(const ExportCommand& command) {
+  if (command.map_after.empty())
+    return "The rest is corrected by gcode compensate with the map. Once the numbers are typed in, this "
+           "map is out of date; --map-after writes the one to use then.\n";
   return fmt::format(
-      "{}; with these numbers {:.2f} and {:.2f} mm. The rest is corrected by gcode compensate "
-      "with the map.\n{}",
-      today_in_words(map, typed),
-      typed.typed.rms_mm,
-      typed.typed.maximum_mm,
-      command.map_after.empty()
-          ? "Once they are typed in, this map is out of date; --map-after writes the one to use "
-            "then.\n"
-          : fmt::format("Type them in, measure five marks and check them with {0}. Cut as the "
-                        "programs are, or truer, compensated with {0}: not with {1} any more.\n",
-                        command.map_after,
-                        command.input));
+      "Type them in, measure five marks and check them with {0}. Cut as the programs are, or truer, "
+      "compensated with {0}: not with {1} any more.\n",
+      command.map_after,
+      command.input);
+}
+
+/// What they change from is said of numbers that are in force.
+files::GroundcontrolText text_of(const model::Machine& machine,
+                                 const grid::SettingsToType& typed,
+                                 const std::string& by,
+                                 bool holds_numbers) {
+  auto text = files::write_groundcontrol_settings(machine, typed.settings, by);
+  if (!holds_numbers) text.remarks.clear();
+  return text;
+}
+
+/// The map of the machine with its numbers typed in.
+grid::CompensationMap map_after_of(const grid::CompensationMap& map,
+                                   const model::Machine& before,
+                                   const model::Controller& now,
+                                   bool holds_numbers) {
+  std::string numbers;
+  if (holds_numbers) {
+    model::Machine after = before;
+    after.controller = now;
+    numbers = fmt::format(" ({})",
+                          files::in_words(files::changed_settings(files::settings_in_force(before),
+                                                                  files::settings_in_force(after))));
+  }
+  return grid::map_for_settings(
+      map, now, fmt::format("For a controller that holds the numbers of export groundcontrol{}.", numbers));
 }
 
 /// What the controller's formulas can make of the map.
 Exported of_map(const grid::CompensationMap& map,
                 const std::string& file,
                 const ExportCommand& command) {
-  const model::Machine* machine = map.machine();
-  if (machine != nullptr && !machine->controller.settings.motor_spacing_mm)
-    return of_not_converged(map, command);
-  const auto typed = grid::settings_to_type(map);
-  if (!typed) throw files::InputError({{file, "", "this map", typed.error().sentence()}});
-  Exported result{
-      files::write_groundcontrol_settings(
-          *machine, typed->settings, fmt::format("the {} points of {}", typed->points, file)),
-      words_of(map, *typed, command),
-      next_of(command, typed->worth_typing),
-      map};
-  if (typed->worth_typing) {
-    const model::Controller now{machine->controller.kind, typed->settings};
-    model::Machine after = *machine;
-    after.controller = now;
-    result.map_after = grid::map_for_settings(
-        map,
-        now,
-        fmt::format("For a controller that holds the numbers of export groundcontrol ({}).",
-                    files::in_words(files::changed_settings(files::settings_in_force(*machine),
-                                                            files::settings_in_force(after)))));
+  const auto fail = [&file](const grid::SettingsFailure& why) {
+    throw files::InputError({{file, "", "this map", why.sentence()}});
+  };
+  if (map.machine() == nullptr) fail(grid::settings_to_type(map).error());
+  model::Machine machine = *map.machine();
+  const bool holds_numbers = machine.controller.settings.motor_spacing_mm.has_value();
+  const bool is_wall_plotter = machine.controller.kind == model::ControllerKind::fluidnc_wallplotter;
+  machine.controller = controller_of(machine);
+  const auto typed = grid::settings_to_type(map, machine.controller);
+  Exported result;
+  if (typed) {
+    result = {text_of(machine, *typed, fmt::format("the {} points of {}", typed->points, file), holds_numbers),
+              words_of(today_in_words(map, *typed), machine, *typed, holds_numbers),
+              next_of(command, (typed->worth_typing || !holds_numbers) && !is_wall_plotter),
+              map};
+    if (!typed->worth_typing && holds_numbers) return result;
+    if (typed->worth_typing) result.words += map_after_in_words(command);
+  } else {
+    // Of a sled on brackets its own measures are what can be typed in.
+    if (holds_numbers) fail(typed.error());
+    result = {files::write_groundcontrol(*map.machine()), "", settings_page(command.input)};
   }
+  model::Controller now = machine.controller;
+  if (typed) now.settings = typed->settings;
+  result.map_after.reset();
+  if (!is_wall_plotter) result.map_after = map_after_of(map, machine, now, holds_numbers);
   return result;
 }
 
-/// Causes that the settings of a diagnosis' machine depend on, and that are not sure enough for that.
-std::vector<std::string> weak_causes(const grid::diagnosis::Diagnosis& found) {
-  using grid::diagnosis::Cause;
-  std::vector<model::AppliedEffect> taken = found.extended_machine.effects;
-  taken.insert(taken.end(), found.data_corrections.begin(), found.data_corrections.end());
-  std::vector<std::string> weak;
-  for (const Cause& cause : found.causes) {
-    const bool is_taken = std::any_of(taken.begin(), taken.end(), [&](const auto& effect) {
-      return effect.effect == cause.cause.effect->id &&
-             effect.side == model::effects::name(cause.cause.side);
-    });
-    if (!is_taken || cause.probability >= grid::diagnosis::kSureOfCause) continue;
-    weak.push_back(fmt::format("{}{} ({})",
-                               cause.cause.effect->cause,
-                               grid::diagnosis::side_words(cause.cause),
-                               grid::diagnosis::percent(cause.probability)));
-  }
-  return weak;
+/// The corners of the bed.
+std::vector<model::BedPoint> corners_of(const model::Bed& bed) {
+  const double x = 0.5 * bed.width_mm, y = 0.5 * bed.height_mm;
+  return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
 }
 
-/// True, with a message, where numbers would depend on a cause that may not act.
-bool refuses_weak_causes(const grid::diagnosis::Diagnosis& found, const std::string& name) {
-  const std::vector<std::string> weak = weak_causes(found);
+/// A machine that says no more than its controller's settings changes none of them.
+Exported of_machine(const model::Machine& stated,
+                    const std::string& file,
+                    const std::vector<model::BedPoint>& area,
+                    std::vector<std::string> next) {
+  const bool holds_numbers = stated.controller.settings.motor_spacing_mm.has_value();
+  if (!files::says_more_than_its_settings(stated))
+    return {files::write_groundcontrol(stated), "", std::move(next)};
+  model::Machine machine = stated;
+  machine.controller = controller_of(stated);
+  const auto typed = grid::settings_to_type(machine, area);
+  // Of a sled on brackets its own measures are what can be typed in.
+  if (!typed) return {files::write_groundcontrol(stated), "", std::move(next)};
+  const std::string today = fmt::format(
+      "Were the machine as {} has it, the tool would be {:.2f} mm rms off with {}, {:.2f} mm at worst;",
+      file,
+      typed->as_it_is.rms_mm,
+      holds_numbers ? "today's settings" : "its own measures for settings",
+      typed->as_it_is.maximum_mm);
+  return {text_of(machine, *typed, file, holds_numbers),
+          words_of(today, machine, *typed, holds_numbers),
+          std::move(next)};
+}
+
+/// True, with a message, where numbers would depend on an effect that a diagnosis put in and that may not
+/// act.
+bool refuses_weak_causes(const std::vector<model::AppliedEffect>& effects, const std::string& name) {
+  std::vector<std::string> weak;
+  for (const model::AppliedEffect& one : effects) {
+    if (one.probability.value_or(1.0) >= grid::diagnosis::kSureOfCause) continue;
+    const model::effects::Effect* effect = model::effects::find_effect(one.effect);
+    weak.push_back(fmt::format("{}{}{} ({})",
+                               effect != nullptr ? effect->cause : std::string_view(one.effect),
+                               one.side.empty() ? "" : ", ",
+                               one.side,
+                               grid::diagnosis::percent(*one.probability)));
+  }
   if (weak.empty()) return false;
   fmt::print(
       stderr,
@@ -198,6 +259,51 @@ bool refuses_weak_causes(const grid::diagnosis::Diagnosis& found, const std::str
       grid::diagnosis::joined(weak, "and"),
       grid::diagnosis::percent(grid::diagnosis::kSureOfCause));
   return true;
+}
+
+/// Causes that are named and that may be the paper's as well as the machine's are in no machine.
+std::string left_out_in_words(const grid::diagnosis::Diagnosis& found) {
+  std::string words;
+  const auto is_of_paper = [](const auto& same) {
+    return same.cause.effect->station == model::effects::Station::paper;
+  };
+  for (const grid::diagnosis::Cause& cause : found.causes) {
+    if (std::none_of(cause.same_as.begin(), cause.same_as.end(), is_of_paper)) continue;
+    const auto is_it = [&](const auto& one) { return one.effect == cause.cause.effect->id; };
+    if (std::any_of(found.extended_machine.effects.begin(), found.extended_machine.effects.end(), is_it) ||
+        std::any_of(found.data_corrections.begin(), found.data_corrections.end(), is_it))
+      continue;
+    words += fmt::format(
+        "These numbers leave out what may be {}{} or the tape that the marks were measured with. A map "
+        "corrects it either way: export its numbers instead.\n",
+        cause.cause.effect->cause,
+        grid::diagnosis::side_words(cause.cause));
+  }
+  return words;
+}
+
+/// Where the marks or the holes are, or the whole bed.
+std::vector<model::BedPoint> area_of(const grid::diagnosis::Diagnosis& found) {
+  std::vector<model::BedPoint> area;
+  for (const auto& point : found.points) area.push_back({point.mark.x_mm, point.mark.y_mm});
+  for (const auto& hole : found.holes) area.push_back({hole.mark.x_mm, hole.mark.y_mm});
+  constexpr std::size_t kFewest = 3;
+  return area.size() < kFewest ? corners_of(found.extended_machine.bed) : area;
+}
+
+Exported of_diagnosis(const InputFile& file,
+                      const grid::diagnosis::Diagnosis& found) {
+  Exported exported =
+      of_machine(found.extended_machine, file.name, area_of(found), settings_page(file.path));
+  exported.words += left_out_in_words(found);
+  return exported;
+}
+
+Exported of_machine_file(const InputFile& file, bool forced, std::vector<std::string> next) {
+  const model::Machine machine = load_machine(file);
+  if (!forced && refuses_weak_causes(machine.effects, file.name))
+    return Exported{{}, "", {}, std::nullopt, true};
+  return of_machine(machine, file.name, corners_of(machine.bed), std::move(next));
 }
 
 /// JSON that does not say what it is: somebody's machine, whose reader says what is missing.
@@ -216,7 +322,7 @@ bool is_untyped_json(const InputFile& file) {
 }
 
 Exported export_of(const InputFile& file, const ExportCommand& command, bool forced) {
-  if (is_untyped_json(file)) return of_machine(load_machine(file), {});
+  if (is_untyped_json(file)) return of_machine_file(file, forced, {});
   require_kind(
       file,
       {FileKind::machine, FileKind::map, FileKind::diagnosis},
@@ -236,11 +342,13 @@ Exported export_of(const InputFile& file, const ExportCommand& command, bool for
             "a diagnosis of four belts",
             "one of a machine on chains; of belts export maslow4 has the lines"}});
     }
-    if (!forced && refuses_weak_causes(found, file.name))
+    std::vector<model::AppliedEffect> taken = found.extended_machine.effects;
+    taken.insert(taken.end(), found.data_corrections.begin(), found.data_corrections.end());
+    if (!forced && refuses_weak_causes(taken, file.name))
       return Exported{{}, "", {}, std::nullopt, true};
-    return of_machine(found.extended_machine, settings_page(file.path));
+    return of_diagnosis(file, found);
   }
-  return of_machine(load_machine(file), {"plan", "--machine", file.path, "-o", "marks.csv"});
+  return of_machine_file(file, forced, {"plan", "--machine", file.path, "-o", "marks.csv"});
 }
 
 Facts facts_of(const InputFile& file) {
@@ -275,10 +383,17 @@ int export_groundcontrol(Verb verb, const ExportCommand& command) {
   return kDone;
 }
 
-/// Of a fit of belts, or of a diagnosis of them.
-files::Maslow4Settings maslow4_settings_of(const InputFile& file) {
+/// Of a fit of belts, or of a diagnosis of them; nothing, with a message, of anchors that are too uncertain.
+std::optional<files::Maslow4Settings> maslow4_settings_of(const InputFile& file, bool forced) {
   require_kind(file, {FileKind::anchors, FileKind::diagnosis});
-  if (file.kind == FileKind::anchors) return files::write_maslow4_settings(load_anchors(file).fit);
+  if (file.kind == FileKind::anchors) {
+    const files::FittedAnchors found = load_anchors(file);
+    const std::string why = not_to_paste(
+        found.fit, grid::error_of_belts(found.fit, found.holes ? &*found.holes : nullptr));
+    if (forced || why.empty()) return files::write_maslow4_settings(found.fit);
+    fmt::print(stderr, "{} --force goes on all the same.\n", why);
+    return std::nullopt;
+  }
   const grid::diagnosis::Diagnosis found = load_diagnosis(file);
   if (found.drawing) refuse_drawing(file);
   if (!found.belts) {
@@ -291,10 +406,11 @@ files::Maslow4Settings maslow4_settings_of(const InputFile& file) {
   return files::write_maslow4_settings(found);
 }
 
-int export_maslow4(const ExportCommand& command) {
-  const files::Maslow4Settings settings = maslow4_settings_of(open_input(command.input));
-  write_output(command.output, settings.text);
-  for (const std::string& remark : settings.remarks) fmt::print(stderr, "{}\n", remark);
+int export_maslow4(Verb verb, const ExportCommand& command) {
+  const auto settings = maslow4_settings_of(open_input(command.input), verb.is_given("--force"));
+  if (!settings) return kCheckFailed;
+  write_output(command.output, settings->text);
+  for (const std::string& remark : settings->remarks) fmt::print(stderr, "{}\n", remark);
   return kDone;
 }
 
@@ -319,7 +435,9 @@ void add_maslow4(Verb verb, Run& run) {
       "Example:\n"
       "  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json\n"
       "  build/chaintrue export maslow4 anchors.json");
-  maslow4.when_chosen([command, &run] { run = [command] { return export_maslow4(*command); }; });
+  maslow4.when_chosen([command, maslow4, &run] {
+    run = [command, maslow4] { return export_maslow4(maslow4, *command); };
+  });
 }
 
 }  // namespace
@@ -350,10 +468,11 @@ void add_export(Verb app, Run& run) {
              {Origin::map},
              "Of a map: write the map that is right once these numbers are typed in");
   groundcontrol.footer(fmt::format(
-      "From a machine, or the one that a diagnosis found: the numbers in which it differs from its "
-      "controller. From a map: the numbers that bring the controller nearest to it, and how near. "
-      "All others stay as they were. No number rests on a cause that is less than 90 % sure: the "
-      "exit code is 1 then, and nothing is written.\n\nOnce the numbers are typed in, stop using "
+      "The numbers that bring the controller nearest to the map, to the machine, or to the one that a "
+      "diagnosis found, and how near; what the firmware has no number for, and what that costs. All "
+      "others stay as they were, and all where the machine says no more than its settings. No number "
+      "rests on a cause that is less than 90 % sure: the exit code is 1 then, and nothing is "
+      "written.\n\nOnce the numbers are typed in, stop using "
       "the old map: it corrects again what the numbers have mended, and parts come out wrong. Use "
       "the map of --map-after: it is for the same machine with these numbers, and corrects what is "
       "left.\n\n{}\n  build/chaintrue fit fixtures/start/marks.csv --machine "

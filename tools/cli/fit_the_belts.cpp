@@ -14,6 +14,7 @@
 #include "grid/files/holes_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/anchors_document.hpp"
+#include "tools/cli/anchors_sections.hpp"
 #include "tools/cli/belts_wish.hpp"
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/places.hpp"
@@ -121,10 +122,10 @@ int fit_the_belts(const BeltsFitCommand& command) {
   write_outputs(outputs);
   const grid::MeasuredBelts belts = all.belts.value_or(grid::MeasuredBelts{});
   const grid::HolesWithBelts* holes = found->holes ? &*found->holes : nullptr;
+  const auto error = grid::error_of_belts(found->fit, holes);
   report::Document document = anchors_document(
       {found->fit, holes, &belts, all.indices}, found->name, command.output);
   if (command.wish_mm) {
-    const auto error = grid::error_of_belts(found->fit, holes);
     auto& remarks = document.remarks.blocks;
     remarks.insert(remarks.begin(),
                    report::Paragraph{belts_wish_sentence(
@@ -134,6 +135,7 @@ int fit_the_belts(const BeltsFitCommand& command) {
              "{}",
              report::render_text(
                  document, command.verbose ? report::Detail::verbose : report::Detail::always));
+  if (!not_to_paste(found->fit, error).empty()) return kCheckFailed;
   say_next({"export", "maslow4", command.output});
   return kDone;
 }

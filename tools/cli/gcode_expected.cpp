@@ -42,20 +42,20 @@ std::string in_words(const PromisedError& error) {
   std::string words;
   if (const auto measured = error.measured_mm()) {
     const ErrorAlong& along = error.map->measured;
-    words += fmt::format("Expect cuts within about {} mm ({} at worst, line {}).\n",
+    words += fmt::format("Expect cuts within about {} mm ({} at worst; the map knows least of line {}).\n",
                          about_mm(*measured),
                          about_mm(along.largest_mm + error.path_mm),
-                         along.largest_line);
+                         along.weakest_line);
   }
   if (const auto outside = error.outside_mm()) {
     const ErrorAlong& along = error.map->outside;
     words += fmt::format(
         "{:.1f} m of cuts lie outside what was measured: expect those within about {} mm ({} at "
-        "worst, line {}).\n",
+        "worst; the map knows least of line {}).\n",
         along.length_mm / 1000.0,
         about_mm(*outside),
         about_mm(along.largest_mm + error.path_mm),
-        along.largest_line);
+        along.weakest_line);
   }
   if (error.is_without_scale && !words.empty()) {
     words +=

@@ -63,13 +63,10 @@ void put_figures(const grid::CompensationMap& map, report::Document& document) {
   };
   if (const auto before = grid::error_in_use(map)) {
     add(before->rms_mm, kToolTodayLabel);
-    add(before->maximum_mm, "today, at the worst place");
+    add(before->maximum_mm, "today, at worst");
   }
   add(accuracy.expected_tool.rms_mm, "error of the tool with this map, rms");
-  add(accuracy.expected_tool.maximum_mm,
-      fmt::format("with this map, at its weakest place, ({:.0f}, {:.0f})",
-                  accuracy.expected_worst_at.x_mm,
-                  accuracy.expected_worst_at.y_mm));
+  add(accuracy.expected_tool.maximum_mm, "with this map, at worst");
 }
 
 Section remarks_section(const grid::CompensationMap& map, std::optional<double> wish_mm) {
@@ -81,9 +78,16 @@ Section remarks_section(const grid::CompensationMap& map, std::optional<double> 
   };
   if (wish_mm) say(wish_sentence(map, *wish_mm));
   if (not_to_cut_with(map).empty()) {
-    say(least_sure_sentence(accuracy.expected_worst_at.x_mm,
+    say(worst_sentence(accuracy.expected_worst_at.x_mm,
                             accuracy.expected_worst_at.y_mm,
                             accuracy.expected_tool.maximum_mm));
+  }
+  if (map.machine() != nullptr && !contents.distances && contents.noise.source != grid::NoiseSource::stated) {
+    say(fmt::format("Your readings look good to about {:.2f} mm{}.",
+                    noise_at_tool_mm(map),
+                    contents.noise.source == grid::NoiseSource::repeats
+                        ? ", by the marks that were measured twice"
+                        : ""));
   }
   for (const std::string& note : contents.notes) say(note);
   return section;

@@ -28,26 +28,6 @@ report::ToolVector tool_vector(const Eigen::Vector2d& residual_mm) {
   return {residual_mm.x(), residual_mm.y()};
 }
 
-/// What the readings' noise amounts to at the tool, averaged over the points: the marks' own in x
-/// and y, and the chains' carried to the tool.
-double noise_at_tool_mm(const grid::CompensationMap& map) {
-  const grid::MapNoise& noise = map.contents().noise;
-  double variance_mm2 = 0.0;
-  std::size_t count = 0;
-  for (const MapPoint& point : map.contents().points) {
-    const auto lengths = map.lengths(point.mark);
-    if (point.bad || !lengths) continue;
-    const Eigen::Matrix2d to_tool = lengths->mark_jacobian.inverse();
-    // What was stated stands as it is; what was not is known only by the factor that was found.
-    const double factor = noise.source == grid::NoiseSource::stated ? 1.0 : noise.factor_found;
-    variance_mm2 += factor * factor *
-                    (to_tool.squaredNorm() * noise.length_mm * noise.length_mm +
-                     2.0 * noise.position_mm * noise.position_mm);
-    ++count;
-  }
-  return count > 0 ? std::sqrt(variance_mm2 / static_cast<double>(count)) : 0.0;
-}
-
 /// The machine's bed; where there is no machine, the part that was measured.
 report::Outline mapped_sheet(const grid::CompensationMap& map) {
   if (const model::Machine* machine = map.machine()) {

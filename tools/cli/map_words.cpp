@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,16 +58,14 @@ std::vector<SettingRow> settings_rows(const grid::CompensationMap& map) {
 }
 
 std::string not_to_cut_with(const grid::CompensationMap& map) {
-  // Machines that nobody calibrated are this far off, once their sheet is laid.
-  constexpr double kMostMm = 3.0;
   const double left_out_mm = map.contents().accuracy.leave_one_out.tool.rms_mm;
-  if (!(left_out_mm > kMostMm)) return {};
+  if (!(left_out_mm > kMostToCutWithMm)) return {};
   return fmt::format(
       "Do not cut with this map: at a mark that it did not use it is off by {} mm, and "
       "{:g} mm are too much. Look at the marks with the largest errors, at the "
       "machine's measures and at the settings that it runs with, and measure again.",
       about_mm(left_out_mm),
-      kMostMm);
+      kMostToCutWithMm);
 }
 
 bool refuses_to_cut_with(const grid::CompensationMap& map) {
@@ -85,7 +84,9 @@ std::string about_mm(double mm) {
 std::string misses_sentence(std::optional<double> today_mm,
                             double expected_mm,
                             const Remedy& remedy) {
-  if (today_mm && *today_mm <= expected_mm) {
+  // Both hold what is uncertain of the map: what it says of the machine is no more than that.
+  constexpr double kNoMoreThanUncertain = 1.4142;
+  if (today_mm && *today_mm <= kNoMoreThanUncertain * expected_mm) {
     return fmt::format(
         "Your machine needs no {}: it misses by no more than these readings can show, about {} mm.",
         remedy.needed,
@@ -101,9 +102,30 @@ std::string misses_sentence(std::optional<double> today_mm,
                      about_mm(expected_mm));
 }
 
-std::string least_sure_sentence(double x_mm, double y_mm, double error_mm) {
+double noise_at_tool_mm(const grid::CompensationMap& map) {
+  const grid::MapNoise& noise = map.contents().noise;
+  double variance_mm2 = 0.0;
+  std::size_t count = 0;
+  for (const grid::MapPoint& point : map.contents().points) {
+    const auto lengths = map.lengths(point.mark);
+    if (point.bad || !lengths) continue;
+    const Eigen::Matrix2d to_tool = lengths->mark_jacobian.inverse();
+    // What was stated stands as it is; what was not is known only by the factor that was found.
+    const double factor = noise.source == grid::NoiseSource::stated ? 1.0 : noise.factor_found;
+    variance_mm2 += factor * factor *
+                    (to_tool.squaredNorm() * noise.length_mm * noise.length_mm +
+                     2.0 * noise.position_mm * noise.position_mm);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(variance_mm2 / static_cast<double>(count)) : 0.0;
+}
+
+std::string worst_sentence(double x_mm, double y_mm, double worst_mm) {
   return fmt::format(
-      "It is least sure near ({:.0f}, {:.0f}): about {} mm there.", x_mm, y_mm, about_mm(error_mm));
+      "At worst it misses by about {} mm, in 95 of 100 sessions. It is least sure near ({:.0f}, {:.0f}).",
+      about_mm(worst_mm),
+      x_mm,
+      y_mm);
 }
 
 std::string fit_sentence(const grid::CompensationMap& map) {

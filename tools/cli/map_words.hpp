@@ -31,8 +31,11 @@ struct Remedy {
 [[nodiscard]] std::string misses_sentence(std::optional<double> today_mm,
                                           double expected_mm,
                                           const Remedy& remedy);
-/// "It is least sure near (1118, 508): about 0.3 mm there."
-[[nodiscard]] std::string least_sure_sentence(double x_mm, double y_mm, double error_mm);
+/// What one reading is good to: at the tool, both axes together, rms over the good points. Every page says
+/// this of the readings.
+[[nodiscard]] double noise_at_tool_mm(const grid::CompensationMap& map);
+/// "At worst it misses by about 0.7 mm, in 95 of 100 sessions. It is least sure near (1118, 508)."
+[[nodiscard]] std::string worst_sentence(double x_mm, double y_mm, double worst_mm);
 
 /// The headline: by how much the tool misses today, and by how much with the map. Both are errors of
 /// the tool over the measured part, not what is left at the points.
@@ -44,8 +47,10 @@ struct Remedy {
 /// Whether the map is as good as was wished, and if not, how many marks would be expected to do it.
 [[nodiscard]] std::string wish_sentence(const grid::CompensationMap& map, double wish_mm);
 
-/// Why nothing is to be cut with this map: left out, its own points come back more than 3 mm rms
-/// off. Empty of any other. gcode compensate and export take such a map with --force alone.
+/// Machines that nobody calibrated are this far off, once their sheet is laid.
+inline constexpr double kMostToCutWithMm = 3.0;
+/// Why nothing is to be cut with this map: left out, its own points come back more than that off, rms.
+/// Empty of any other. gcode compensate and export take such a map with --force alone.
 [[nodiscard]] std::string not_to_cut_with(const grid::CompensationMap& map);
 
 /// Says so, and what takes it all the same; false where it may be cut with.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/map/largest_error.hpp"
 #include "tools/gcode/path.hpp"
 
 namespace chaintrue::gcode {
@@ -16,17 +17,30 @@ constexpr double kPlungeMm = 1.0;
 /// A whole circle in chords that stay within a square.
 constexpr double kChordsPerRadian = 4.0;
 
-void take(ErrorAlong& part, double length_mm, double sigma_mm, std::size_t line) {
-  part.rms_mm += length_mm * sigma_mm * sigma_mm;
-  part.length_mm += length_mm;
-  if (sigma_mm <= part.largest_mm) return;
-  part.largest_mm = sigma_mm;
-  part.largest_line = line;
-}
+/// One part of the cuts while its squares are added.
+class Sum {
+ public:
+  void add(double length_mm, const Eigen::Matrix2Xd& spread_mm, std::size_t line) {
+    const double sigma_mm = spread_mm.norm();
+    largest_.add(Eigen::Vector2d::Zero(), spread_mm);
+    part_.rms_mm += length_mm * sigma_mm * sigma_mm;
+    part_.length_mm += length_mm;
+    if (sigma_mm <= weakest_mm_) return;
+    weakest_mm_ = sigma_mm;
+    part_.weakest_line = line;
+  }
+  [[nodiscard]] ErrorAlong finished() const {
+    ErrorAlong part = part_;
+    if (part.length_mm > 0.0) part.rms_mm = std::sqrt(part.rms_mm / part.length_mm);
+    part.largest_mm = largest_.bound_mm();
+    return part;
+  }
 
-void finish(ErrorAlong& part) {
-  if (part.length_mm > 0.0) part.rms_mm = std::sqrt(part.rms_mm / part.length_mm);
-}
+ private:
+  ErrorAlong part_;
+  grid::LargestError largest_;
+  double weakest_mm_ = -1.0;
+};
 
 }  // namespace
 
@@ -62,21 +76,18 @@ void CutPlaces::add(const Move& move) {
 }
 
 std::optional<ExpectedError> CutPlaces::expected(const grid::LengthMap& map) const {
-  ExpectedError error;
+  Sum measured;
+  Sum outside;
   for (const auto& [at, square] : squares_) {
-    const auto answer =
-        map.query({kSquareMm * (at.first + 0.5), kSquareMm * (at.second + 0.5)});
+    const model::BedPoint middle{kSquareMm * (at.first + 0.5), kSquareMm * (at.second + 0.5)};
+    const auto answer = map.query(middle);
     // A square's middle may lie off the map where the cut does not.
     if (!answer) continue;
     if (!answer->tool_sigma_mm) return std::nullopt;
-    take(answer->status == grid::MapStatus::extrapolated ? error.outside : error.measured,
-         square.length_mm,
-         *answer->tool_sigma_mm,
-         square.line);
+    (answer->status == grid::MapStatus::extrapolated ? outside : measured)
+        .add(square.length_mm, map.tool_spread(middle), square.line);
   }
-  finish(error.measured);
-  finish(error.outside);
-  return error;
+  return ExpectedError{measured.finished(), outside.finished()};
 }
 
 }  // namespace chaintrue::gcode

@@ -24,12 +24,12 @@
 
 namespace chaintrue::gcode {
 
-/// Over one part of the cuts, one sigma of the tool.
+/// Over one part of the cuts.
 struct ErrorAlong {
   double length_mm = 0.0;
   double rms_mm = 0.0;
-  double largest_mm = 0.0;
-  std::size_t largest_line = 0;  ///< of the program
+  double largest_mm = 0.0;     ///< anywhere along them, in 95 of 100 sessions (map/largest_error.hpp)
+  std::size_t weakest_line = 0;  ///< of the program, where the map knows least
 };
 
 struct ExpectedError {

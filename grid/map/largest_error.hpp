@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What the largest of many errors does not exceed in 95 of 100 sessions.
+///
+///   e(p) = m(p) + S(p) z,   z ~ N(0, 1)                                                     (1)
+///
+/// m is what is expected at a place, S what is uncertain of it (LengthMap::tool_spread), z the same at
+/// all places: the bound is the 95 % quantile of max |e(p)| over draws of z. Errors at neighbouring
+/// places hang together, so that neither the largest sigma nor the sum of all chances says it. Same
+/// places, same bound.
+///
+/// \code
+///   LargestError largest;
+///   for (const auto& place : places) largest.add(place.error_mm, place.spread_mm);
+///   say(largest.bound_mm());
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+
+namespace chaintrue::grid {
+
+class LargestError {
+ public:
+  /// \throws std::invalid_argument where `spread_mm` has other columns than those before.
+  void add(const Eigen::Vector2d& expected_mm, const Eigen::Matrix2Xd& spread_mm);
+  /// 0 of no place.
+  [[nodiscard]] double bound_mm() const;
+
+ private:
+  Eigen::MatrixXd draws_;        ///< of z, a column each
+  Eigen::RowVectorXd largest_mm2_;  ///< so far, of each draw
+};
+
+}  // namespace chaintrue::grid
