@@ -147,8 +147,16 @@ tl::unexpected<SettingsFailure> no_machine() {
                  "points again with --machine, and without --surface direct");
 }
 
-double rms_of(const Eigen::VectorXd& errors) {
-  return std::sqrt(2.0 * errors.squaredNorm() / static_cast<double>(errors.size()));
+/// Over the area, without what is uncertain of it.
+double rms_of(const std::vector<MeasuredPlace>& places, const Eigen::VectorXd& errors) {
+  double squares_mm2 = 0.0;
+  int within = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].is_on_edge) continue;
+    squares_mm2 += errors.segment<2>(2 * static_cast<Eigen::Index>(i)).squaredNorm();
+    ++within;
+  }
+  return std::sqrt(squares_mm2 / std::max(within, 1));
 }
 
 /// The best settings, rounded; nothing where the controller cannot go to a place with any on the way.
@@ -181,7 +189,7 @@ std::optional<double> left_with(const Truth& truth, const Machine& machine) {
   if (places.empty()) return std::nullopt;
   const auto settings = best_settings(truth, places);
   const auto errors = settings ? errors_with(truth.machine, *settings, places) : std::nullopt;
-  return errors ? std::optional(rms_of(*errors)) : std::nullopt;
+  return errors ? std::optional(rms_of(places, *errors)) : std::nullopt;
 }
 
 Machine without_effect(Machine machine, const std::string& effect) {
@@ -243,15 +251,15 @@ tl::expected<SettingsToType, SettingsFailure> settings_for(const Truth& truth) {
   // An error no larger than the map's own may be the map's; a tenth of it is not worth new numbers.
   constexpr double kBeyondTheMap = 2.0;
   constexpr double kWorthTyping = 0.9;
-  double left_mm = rms_of(*before);
+  double left_mm = rms_of(places, *before);
   if (left_mm >= kBeyondTheMap * truth.sigma_mm) {
     const auto settings = best_settings(truth, places);
     const auto after = settings ? errors_with(truth.machine, *settings, places) : std::nullopt;
-    if (after && rms_of(*after) <= kWorthTyping * left_mm) {
+    if (after && rms_of(places, *after) <= kWorthTyping * left_mm) {
       result.settings = *settings;
       result.typed = summary_of_errors(places, *after);
       result.worth_typing = true;
-      left_mm = rms_of(*after);
+      left_mm = rms_of(places, *after);
     }
   }
   result.lacking = lacking_of(truth, left_mm);

@@ -97,7 +97,7 @@ std::string words_of(const grid::Lacking& lacking, const model::Machine& machine
         lacking.costs_mm);
   }
   const model::effects::Effect* effect = model::effects::find_effect(machine, lacking.what);
-  return fmt::format("No firmware has a number for {}, which costs {:.2f} mm of that{}.\n",
+  return fmt::format("No firmware has a number for this: {}. It costs {:.2f} mm of that{}.\n",
                      effect != nullptr ? effect->cause : std::string_view(lacking.what),
                      lacking.costs_mm,
                      effect != nullptr ? fmt::format("; {}", effect->remedy) : "");
