@@ -7,8 +7,8 @@
 #include <array>
 
 #include "tests/gcode/formula_target.hpp"
+#include "tests/gcode/program_events.hpp"
 #include "tools/gcode/compensator.hpp"
-#include "tools/gcode/moves.hpp"
 #include "tools/gcode/verifier.hpp"
 
 namespace chaintrue::gcode::fuzz {

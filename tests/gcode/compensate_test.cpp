@@ -19,7 +19,6 @@
 #include "tests/gcode/formula_target.hpp"
 #include "tests/gcode/program_events.hpp"
 #include "tools/gcode/compensator.hpp"
-#include "tools/gcode/moves.hpp"
 #include "tools/gcode/verifier.hpp"
 
 namespace chaintrue::gcode {
@@ -124,7 +123,9 @@ TEST(RealFiles, FitTheBedButForTheOthers) {
   Dialect dialect;
   dialect.tools_have_no_diameter = true;
   for (const std::string& name : programs()) {
-    const auto moves = read_moves((kCorpus / name).string(), dialect);
+    auto source = LineSource::from_file((kCorpus / name).string());
+    ASSERT_TRUE(source) << name;
+    const auto moves = read_moves(*source, dialect);
     const bool fits = moves && !moves->empty() && std::all_of(moves->begin(), moves->end(), [](const Move& move) {
       const auto turns = [](double degrees) { return degrees != 0.0; };
       return std::fabs(move.to.x_mm) <= 1219.2 && std::fabs(move.to.y_mm) <= 609.6 &&

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "tests/gcode/formula_target.hpp"
+#include "tests/gcode/program_events.hpp"
 #include "tools/gcode/compensator.hpp"
-#include "tools/gcode/moves.hpp"
 #include "tools/gcode/verifier.hpp"
 
 namespace chaintrue::gcode {
@@ -29,12 +29,13 @@ struct Outcome {
 
 Outcome compensate_within(const std::string& program,
                           const Corrector& corrector,
-                          CompensateOptions options = {}) {
+                          CompensateOptions options = {},
+                          const Dialect& dialect = {}) {
   Outcome result;
   Compensator compensator(
       corrector, std::move(options), [&](std::string_view bytes) { result.text += bytes; });
   auto source = LineSource::from_text(program);
-  const auto summary = compensator.run(source, {});
+  const auto summary = compensator.run(source, dialect);
   result.findings = compensator.findings();
   const auto named = [](const Problem& problem) {
     return fmt::format("{} {}", name(problem.name), problem.place.line);
@@ -151,10 +152,8 @@ TEST_F(Limits, TargetsThatTheControllerWouldClampAreAllFound) {
 }
 
 TEST_F(Limits, HomeIsAddedAndTheOutputRunsAtZero) {
-  CompensateOptions options;
-  options.home = {100.0, -50.0};
-  const auto outcome =
-      compensate_within("G21\nG0 X1 Y2\nG91 G0 X1\nG90 F60 G1 X0 Y0\nM2\n", corrector_, options);
+  const auto outcome = compensate_within(
+      "G21\nG0 X1 Y2\nG91 G0 X1\nG90 F60 G1 X0 Y0\nM2\n", corrector_, {}, {.home_mm = {100.0, -50.0}});
   EXPECT_THAT(outcome.text, HasSubstr("\nG0 X104 Y-50\nG0 X105 Y-50\nG1 X103 Y-52 F60\n"
                                       "(compensated by chaintrue)\nM2\n"));
 }

@@ -47,7 +47,7 @@ TEST(FailureWords, TheMessageAboutALineNamesTheCause) {
   LineSource source = LineSource::from_text("G21 G90\nG1 X10 Y20 F500\n");
   Findings findings;
   ASSERT_TRUE(path_lengths(
-      source, {}, map, {}, 50.0, [](const PathLengths&) {}, findings));
+      source, {}, map, 50.0, [](const PathLengths&) {}, findings));
   ASSERT_FALSE(findings.problems.empty());
   EXPECT_THAT(findings.problems.front().message(),
               HasSubstr(PoseFailure(PoseReason::slack).sentence()));

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "tests/gcode/program_events.hpp"
-#include "tools/gcode/moves.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -111,6 +110,7 @@ TEST(Language, NotesWhatOtherControllersDoOtherwise) {
               testing::UnorderedElementsAre("feed_before_units",
                                             "dotted_code",
                                             "home_assumed",
+                                            "state_left",
                                             "deletable_line",
                                             "dwell_unit",
                                             "no_program_end"));

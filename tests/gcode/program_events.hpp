@@ -45,4 +45,12 @@ inline Result<ProgramSummary> run_text(const std::string& text,
   return run_program(source, dialect, sink);
 }
 
+/// Every move of a program.
+inline Result<std::vector<Move>> read_moves(LineSource& source, const Dialect& dialect = {}) {
+  ProgramEvents events;
+  const auto summary = run_program(source, dialect, events);
+  if (!summary) return tl::unexpected(summary.error());
+  return std::move(events.moves);
+}
+
 }  // namespace chaintrue::gcode

@@ -69,7 +69,7 @@ TEST(Words, ACircleSmallerThanTheStepHasItsRows) {
   std::vector<PathLengths> rows;
   Findings findings;
   ASSERT_TRUE(path_lengths(
-      source, {}, map, {}, 10.0, [&](const PathLengths& row) { rows.push_back(row); }, findings));
+      source, {}, map, 10.0, [&](const PathLengths& row) { rows.push_back(row); }, findings));
   // The rapid's end, eight for the turn, four for half a turn.
   ASSERT_EQ(rows.size(), 13U);
   EXPECT_NEAR(rows[4].place.x_mm, 1.0, 1e-12);  // after half a turn

@@ -63,6 +63,9 @@ Verb add(Verb parent,
   verb.add_flag("--tools-have-no-diameter",
                 options->tools_have_no_diameter,
                 "G41 and G42 change nothing; otherwise they are refused");
+  verb.add_flag("--home-is-zero",
+                options->home_is_zero,
+                "G28 and G30 go to the machine's zero, which is the program's");
   add_number(verb,
              "--step-budget",
              options->step_budget,
@@ -129,9 +132,6 @@ void add_refusals(Verb verb, GcodeOptions& options) {
              options.largest_correction_mm,
              {"mm", 0.001, 1000.0},
              "Refuse larger ones");
-  verb.add_flag("--home-is-zero",
-                options.home_is_zero,
-                "G28 and G30 go to the machine's zero; otherwise they are refused");
 }
 
 }  // namespace

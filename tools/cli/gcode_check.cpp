@@ -80,7 +80,7 @@ double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
   auto source = text.open({"the length of the path", 1, 2});
   Findings ignored;
   const auto survey =
-      gcode::survey(source, options.dialect(), options.home_mm(), interp::Rectangle{}, ignored);
+      gcode::survey(source, options.dialect(), {}, ignored);
   if (!survey) return 0.0;
   const double rows = survey->path_mm / options.every_mm;
   if (rows <= kMostRows) return rows;
@@ -113,10 +113,11 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
   const int steps = 1 + (firmware != nullptr ? 1 : 0) + (options.map.empty() ? 0 : 1);
   auto source = text.open({"the program", 1, steps});
   Findings findings;
-  const interp::Rectangle sheet =
-      machine == nullptr ? sheet_of(options) : machine->controller().sheet;
+  const gcode::Sheet sheet = machine == nullptr
+                                 ? gcode::Sheet{sheet_of(options), options.machine.empty()}
+                                 : gcode::Sheet{machine->controller().sheet};
   const auto survey =
-      gcode::survey(source, options.dialect(), options.home_mm(), sheet, findings);
+      gcode::survey(source, options.dialect(), sheet, findings);
   if (!survey) {
     report(options.program, findings);
     return report(options.program, survey.error());
@@ -146,6 +147,7 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
   print_survey(*survey, options.json);
   int code = report(options.program, compensator.findings());
   for (const gcode::Problem& problem : findings.problems) {
+    if (problem.name != gcode::ProblemName::outside_sheet) continue;  // the others are among these
     const int own = report(options.program, problem);
     if (code == kDone) code = own;
   }
@@ -220,14 +222,17 @@ int write_lengths(const GcodeTarget& target, const GcodeOptions& options) {
   const auto outcome = gcode::path_lengths(source,
                                            options.dialect(),
                                            target.target(),
-                                           options.home_mm(),
                                            options.every_mm,
                                            write,
                                            findings);
   if (!outcome) return report(options.program, outcome.error());
-  take_place(output, options.output, {});
   const int code = report(options.program, findings);
-  if (code == kDone) say_next_of_program(options);
+  if (code != kDone) {
+    fmt::print(stderr, "nothing is written\n");
+    return code;
+  }
+  take_place(output, options.output, {});
+  say_next_of_program(options);
   return code;
 }
 

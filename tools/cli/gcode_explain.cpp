@@ -30,8 +30,8 @@ struct LineEvents final : gcode::Sink {
   std::string words;
 };
 
-void explain_move(const gcode::Move& move, model::BedPoint home, const GcodeMachine* machine) {
-  const model::BedPoint target{move.to.x_mm + home.x_mm, move.to.y_mm + home.y_mm};
+void explain_move(const gcode::Move& move, const GcodeMachine* machine) {
+  const model::BedPoint target{move.to.x_mm, move.to.y_mm};
   fmt::print("  {} to X{:.4f} Y{:.4f} Z{:.4f} mm on the sheet, {:.4f} mm long\n",
              gcode::name(move.kind),
              target.x_mm,
@@ -40,8 +40,8 @@ void explain_move(const gcode::Move& move, model::BedPoint home, const GcodeMach
              gcode::length_mm(move));
   if (move.arc) {
     fmt::print("    centre X{:.4f} Y{:.4f}, radius {:.4f} mm, {:.4f} degrees\n",
-               move.arc->centre.x_mm + home.x_mm,
-               move.arc->centre.y_mm + home.y_mm,
+               move.arc->centre.x_mm,
+               move.arc->centre.y_mm,
                move.arc->start_radius_mm,
                move.arc->sweep_rad * 57.29577951308232);
   }
@@ -98,7 +98,7 @@ int explain_line(const GcodeMachine* machine, const GcodeOptions& options) {
   const auto more = program.step();
   if (!more) return report(file, more.error());
   fmt::print("line {}:{}\n", line, events.words.empty() ? "" : " passes" + events.words);
-  for (const gcode::Move& move : events.moves) explain_move(move, options.home_mm(), machine);
+  for (const gcode::Move& move : events.moves) explain_move(move, machine);
   print_state("after:");
   if (options.map.empty()) {
     say_next({"gcode", "check", file});

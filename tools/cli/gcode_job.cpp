@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <iterator>
 #include <system_error>
 
 #include "grid/files/file_identity.hpp"
@@ -46,11 +48,9 @@ gcode::CompensateOptions compensate_options(const GcodeOptions& options,
   gcode::CompensateOptions result;
   result.tolerance_mm = options.tolerance_mm;
   result.decimals = options.decimals;
-  result.home = options.home_mm();
   result.largest_correction_mm = options.largest_correction_mm;
   result.steepest_correction = options.steepest_correction;
   result.keep_rapids_whole = options.keep_rapids_whole;
-  result.home_is_zero = options.home_is_zero;
   result.clamp_box = machine.controller().clamp_box;
   result.half_play_mm = machine.controller().half_play_mm;
   for (const grid::files::NamedSetting& setting : machine.controller().settings)
@@ -60,7 +60,18 @@ gcode::CompensateOptions compensate_options(const GcodeOptions& options,
 
 GcodeText::GcodeText(const std::string& path) : path_(path) {
   // A pipe can be read once only.
-  if (path == "-" || !grid::files::identity_of(path)) text_ = grid::files::read_whole_file(path);
+  const auto whole = [](std::istream& pipe) {
+    return std::string(std::istreambuf_iterator<char>(pipe), std::istreambuf_iterator<char>());
+  };
+  std::error_code unknown;
+  if (path == "-") {
+    text_ = whole(std::cin);
+  } else if (std::filesystem::is_fifo(path, unknown)) {
+    std::ifstream pipe(path, std::ios::binary);
+    text_ = whole(pipe);
+  } else if (!grid::files::identity_of(path)) {
+    text_ = grid::files::read_whole_file(path);  // which says what is wrong
+  }
 }
 
 gcode::LineSource GcodeText::open() const {

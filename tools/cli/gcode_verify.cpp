@@ -102,7 +102,6 @@ gcode::VerifyOptions verify_options(const GcodeOptions& options, const GcodeMach
   gcode::VerifyOptions result;
   result.tolerance_mm = options.tolerance_mm;
   result.decimals = options.decimals;
-  result.home = options.home_mm();
   result.half_play_mm = machine.controller().half_play_mm;
   result.rapids_whole = options.keep_rapids_whole;
   // The rounding of F, and of short pieces, takes a hundredth.

@@ -27,6 +27,10 @@ double distance(PlanePoint a, PlanePoint b) {
   return std::hypot(a.first_mm - b.first_mm, a.second_mm - b.second_mm);
 }
 
+/// In the program's unit.
+std::string in_units(double mm, const ArcRequest& request) {
+  return fmt::format("{:.4f} {}", mm / request.mm_per_unit, request.mm_per_unit == 1.0 ? "mm" : "inch");
+}
 
 /// I belongs to X, J to Y, K to Z.
 char centre_word(char axis) { return static_cast<char>(axis - 'x' + 'i'); }
@@ -49,9 +53,9 @@ Result<PlanePoint> by_radius(const ArcRequest& request, const Block& block) {
     return refuse(
         ProblemName::bad_arc,
         block.place('r'),
-        fmt::format("the radius {:.4f} mm is too small: the arc's ends are {:.4f} mm apart",
-                    magnitude,
-                    2.0 * half_chord));
+        fmt::format("the radius {} is too small: the arc's ends are {} apart",
+                    in_units(magnitude, request),
+                    in_units(2.0 * half_chord, request)));
   }
   magnitude = half_chord / magnitude > 1.0 - kTiny ? half_chord : magnitude;
   const double to_centre =
@@ -94,10 +98,10 @@ Result<PlanePoint> by_centre(const ArcRequest& request, const Block& block) {
       (relative > kSpiralRelativeTolerance && difference > spiral_tolerance)) {
     return refuse(ProblemName::bad_arc,
                   block.start(),
-                  fmt::format("the arc's end does not lie on its circle: the radius is {:.4f} mm "
-                              "at the start and {:.4f} mm at the end",
-                              from_start,
-                              from_end));
+                  fmt::format("the arc's end does not lie on its circle: the radius is {} at the "
+                              "start and {} at the end",
+                              in_units(from_start, request),
+                              in_units(from_end, request)));
   }
   return centre;
 }
@@ -105,7 +109,15 @@ Result<PlanePoint> by_centre(const ArcRequest& request, const Block& block) {
 }  // namespace
 
 Result<PlanePoint> arc_centre(const ArcRequest& request, const Block& block) {
-  const bool has_centre = block.has('i') || block.has('j') || block.has('k');
+  // Across the plane zero means nothing; FreeCAD writes it with every arc.
+  const char across = centre_word(request.normal_axis);
+  if (block.find(across).value_or(0.0) != 0.0) {
+    return refuse(ProblemName::bad_arc,
+                  block.place(across),
+                  fmt::format("{} has no meaning for an arc of this plane", upper(across)));
+  }
+  const bool has_centre = block.has(centre_word(request.first_axis)) ||
+                          block.has(centre_word(request.second_axis));
   if (block.has('r') && has_centre) {
     return refuse(ProblemName::bad_arc,
                   block.start(),
@@ -115,12 +127,6 @@ Result<PlanePoint> arc_centre(const ArcRequest& request, const Block& block) {
     return refuse(ProblemName::bad_arc,
                   block.start(),
                   "the arc has neither a centre (I, J, K) nor a radius (R)");
-  }
-  const char across = centre_word(request.normal_axis);
-  if (block.has(across)) {
-    return refuse(ProblemName::bad_arc,
-                  block.place(across),
-                  fmt::format("{} has no meaning for an arc of this plane", upper(across)));
   }
   if (!block.has(request.first_axis) && !block.has(request.second_axis) && block.has('r')) {
     return refuse(ProblemName::bad_arc, block.start(), "an arc by radius needs an end point");

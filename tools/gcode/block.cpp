@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -127,11 +128,37 @@ char upper(char letter) {
   return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
 }
 
+bool holds_moves(std::string_view text) {
+  const auto is_digit = [&](std::size_t at) {
+    return at < text.size() && text[at] >= '0' && text[at] <= '9';
+  };
+  std::size_t motions = 0;
+  std::size_t places = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char letter = upper(text[at]);
+    const std::size_t sign = std::min(text.find_first_not_of("+-. ", at + 1), text.size());
+    if (letter == 'X' && is_digit(sign)) ++places;
+    if (letter != 'G') continue;
+    std::size_t digit = at + 1;
+    while (digit < text.size() && text[digit] == '0' && is_digit(digit + 1)) ++digit;
+    const bool ends = !is_digit(digit + 1) && (digit + 1 >= text.size() || text[digit + 1] != '.');
+    if (is_digit(digit) && text[digit] <= '3' && ends) ++motions;
+  }
+  constexpr std::size_t kMostOfALine = 3;
+  return motions > 0 && places > 0 && motions + places > kMostOfALine;
+}
+
 bool Block::has_axes() const {
   for (const char axis : kAxes) {
     if (has(axis)) return true;
   }
   return false;
+}
+
+bool Block::has_z_alone() const {
+  return has('z') && std::none_of(kAxes.begin(), kAxes.end(), [this](char axis) {
+           return axis != 'z' && has(axis);
+         });
 }
 
 void Block::clear(std::size_t line_number) {

@@ -29,6 +29,10 @@ struct Assignment {
   Place place;
 };
 
+/// For a line that is a whole program, and for a comment that has swallowed one.
+inline constexpr const char* kLineEndsLost =
+    "one line holds several moves: the file's line ends are lost; save it anew with its line ends";
+
 /// Reused from line to line.
 struct Block {
   std::array<const GCode*, kGGroups> g{};
@@ -51,6 +55,8 @@ struct Block {
     return code(group) != nullptr && code(group)->tenths == tenths;
   }
   [[nodiscard]] bool has_axes() const;
+  /// Z and no other axis.
+  [[nodiscard]] bool has_z_alone() const;
   [[nodiscard]] bool has_any_word() const { return present_ != 0; }
 
   void clear(std::size_t line_number);
@@ -66,6 +72,9 @@ struct Block {
   std::array<double, 28> values_{};
   std::array<std::size_t, 28> columns_{};
 };
+
+/// Whether a text holds more moves than one line can, by its words G0 to G3 and X with a number.
+[[nodiscard]] bool holds_moves(std::string_view text);
 
 /// Reads the words after `reader` to the end of the line.
 /// \param tools_have_no_diameter G41 and G42 then have no effect and are not rejected.

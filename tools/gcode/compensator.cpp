@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "grid/precondition.hpp"
 
@@ -86,26 +87,14 @@ Result<CompensateSummary> Compensator::run(LineSource& source, const Dialect& di
   emitter_.header({options_.made_by,
                    corrector_.firmware().name,
                    options_.tolerance_mm,
-                   options_.home.x_mm,
-                   options_.home.y_mm,
+                   dialect.home_mm[0],
+                   dialect.home_mm[1],
                    options_.settings});
   const auto program = run_program(source, dialect, *this);
   if (!program) return tl::unexpected(program.error());
   summary_.blocks = program->blocks;
   summary_.commands = emitter_.commands();
   return summary_;
-}
-
-Move Compensator::placed(const Move& move) const {
-  Move result = move;
-  const auto shift = [&](Point& point) {
-    point.x_mm += options_.home.x_mm;
-    point.y_mm += options_.home.y_mm;
-  };
-  shift(result.from);
-  shift(result.to);
-  if (result.arc) shift(result.arc->centre);
-  return result;
 }
 
 tl::expected<model::BedPoint, CorrectionFailure> Compensator::command(model::BedPoint target) {
@@ -202,7 +191,13 @@ Result<void> Compensator::piece(
 
 /// In pieces between the points where a chain reverses, if there is play.
 Result<void> Compensator::along(const Move& move, double feed) {
-  if (!here_ && move.kind == MoveKind::rapid) {
+  const bool from_home = std::exchange(homed_, false) && !move.arc;
+  if (from_home && move.kind != MoveKind::rapid) {
+    note({move.line,
+          "way_from_home",
+          "the way from home to the first place goes as it is; only its end is compensated"});
+  }
+  if (!here_ && (move.kind == MoveKind::rapid || from_home)) {
     // The tool's position before the first move is unknown, and so are the directions of its
     // chains: only the end of that move is compensated, as if both chains had been paid out.
     const auto end = curve(move, directions_)(1.0);
@@ -242,7 +237,10 @@ Result<void> Compensator::along(const Move& move, double feed) {
 Result<void> Compensator::go_to_assumed_start(const Move& move) {
   note({move.line,
         "start_assumed",
-        "the program cuts before it goes to a place in X and Y; it is taken to start at X0 Y0"});
+        fmt::format("the program cuts before it goes to a place in X and Y; it is taken to start at "
+                    "X{:.6g} Y{:.6g}",
+                    move.from.x_mm,
+                    move.from.y_mm)});
   Move start = move;
   start.kind = MoveKind::rapid;
   start.arc.reset();
@@ -251,28 +249,27 @@ Result<void> Compensator::go_to_assumed_start(const Move& move) {
   return along(start, 0.0);
 }
 
-Result<void> Compensator::move(const Move& original) {
+Result<void> Compensator::move(const Move& move) {
   ++summary_.moves;
-  if (original.kind == MoveKind::probe) {
+  if (move.kind == MoveKind::probe) {
     return refuse(ProblemName::not_emittable,
-                  {original.line, 0},
+                  {move.line, 0},
                   "probing needs a dotted code, which some controllers misread; probe before the "
                   "job, not within it");
   }
-  for (const double turn : original.turn_deg) {
+  for (const double turn : move.turn_deg) {
     if (turn != 0.0) {
       return refuse(ProblemName::unsupported_axis,
-                    {original.line, 0},
+                    {move.line, 0},
                     "a two-chain router has no axis A, B or C");
     }
   }
-  const Move move = placed(original);
   const double length = length_mm(move);
   summary_.path_mm += length;
   const double feed = feed_mm_per_min(move);
   const bool cuts =
       move.kind != MoveKind::rapid && (move.names_xy || move.to.z_mm < move.from.z_mm);
-  if (!here_ && cuts) CHAINTRUE_GCODE_TRY(go_to_assumed_start(move));
+  if (!here_ && cuts && !homed_ && findings_.problem_count == 0) CHAINTRUE_GCODE_TRY(go_to_assumed_start(move));
   if (!move.names_xy || (stays(move) && here_)) {
     if (!move.names_z || findings_.problem_count > 0) return {};
     if (here_) here_->target.z_mm = here_->command.z_mm = move.to.z_mm;
@@ -295,38 +292,27 @@ Result<void> Compensator::word(const PassedWord& word) {
                               word.text,
                               corrector_.firmware().name));
   }
-  if (word.text.starts_with("G53") && !knows_code(corrector_.firmware(), 'G', 530)) {
+  if (word.machine_code != 0 && !knows_code(corrector_.firmware(), 'G', word.machine_code)) {
     return refuse(ProblemName::not_emittable,
                   {word.line, 0},
-                  fmt::format("{}: {} does not know G53 and would take the height for one above the "
+                  fmt::format("{}: {} does not know {} and would take the height for one above the "
                               "work; write a safe height of the work (G0 Z...)",
                               word.text,
-                              corrector_.firmware().name));
+                              corrector_.firmware().name,
+                              g_name(word.machine_code)));
+  }
+  if (word.leaves_xy) {
+    here_.reset();
+    homed_ = true;
   }
   note_unknown(word);
   return findings_.problem_count > 0 ? Result<void>{} : emitter_.word(word);
 }
 
 Result<void> Compensator::comment(const Comment& comment) {
-  if (is_marked(comment.text)) {
-    return refuse(ProblemName::already_compensated,
-                  {comment.line, 0},
-                  "this file has been compensated before, as this mark in it says; compensate the "
-                  "original");
-  }
+  CHAINTRUE_GCODE_TRY(refuse_compensated(comment));
   if (findings_.problem_count == 0) emitter_.comment(comment);
   return {};
-}
-
-void Compensator::note(const Note& note) {
-  if (note.name == "home_assumed" && !options_.home_is_zero) {
-    findings_.add(Problem{
-        ProblemName::unknown_home,
-        {note.line, 0},
-        "G28 and G30 go to a place that only the machine knows, and the program does not set it"});
-    return;
-  }
-  findings_.add(note);
 }
 
 Result<void> Compensator::end(std::size_t /*line*/, std::string_view word) {

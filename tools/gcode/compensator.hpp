@@ -38,17 +38,12 @@ namespace chaintrue::gcode {
 struct CompensateOptions {
   double tolerance_mm = 0.05;
   int decimals = 3;
-  /// Added to every X and Y of the program to give a point of the sheet.
-  model::BedPoint home;
   /// Larger corrections indicate a wrong map, machine or home.
   double largest_correction_mm = 30.0;
   /// Change of the correction per millimetre of path.
   double steepest_correction = 0.05;
   /// Rapids are single commands: their ends are compensated, their paths are not.
   bool keep_rapids_whole = false;
-  /// G28 and G30 go to the machine's zero; otherwise they are rejected unless the program sets its
-  /// home.
-  bool home_is_zero = false;
   std::optional<ClampBox> clamp_box;
   /// Half the width of a named direction_hysteresis for each chain.
   model::ChainLengths half_play_mm;
@@ -61,7 +56,8 @@ struct CompensateOptions {
   std::function<void(const Move&, const PathSample&, const PathSample&)> on_command;
 };
 
-/// Results of the run. Problems and notes keep the first hundred of each kind, and count all.
+/// Results of the run. Problems and notes keep the first hundred of each kind, and count all; of
+/// problems that one line has in a row the first.
 struct Findings {
   static constexpr std::size_t kMostKept = 100;
   std::vector<Problem> problems;
@@ -70,7 +66,11 @@ struct Findings {
   std::uint64_t note_count = 0;
 
   void add(Problem problem);
+  /// A note that is a problem to whoever needs places on the sheet is added as one.
   void add(Note note);
+
+ private:
+  std::size_t last_line_ = 0;
 };
 
 struct CompensateSummary {
@@ -103,7 +103,11 @@ class Compensator final : private Sink {
   Result<void> word(const PassedWord& word) override;
   Result<void> comment(const Comment& comment) override;
   void note_unknown(const PassedWord& word);
-  void note(const Note& note) override;
+  void note(const Note& note) override { findings_.add(note); }
+  [[nodiscard]] bool goes_on_after(const Problem& problem) override {
+    findings_.add(problem);
+    return true;
+  }
   Result<void> end(std::size_t line, std::string_view word) override;
 
   /// Corrector::command, from tables in the regions where a program cuts often.
@@ -116,7 +120,6 @@ class Compensator final : private Sink {
   Result<void> emit(const Move& move, double feed, const PathSample& sample);
   void examine(const Move& move, const PathSample& sample);
   void object(const Move& move, const CorrectionFailure& failure, double x_mm, double y_mm);
-  [[nodiscard]] Move placed(const Move& move) const;
   [[nodiscard]] ChainDirections directions_at(const Move& move,
                                               double t,
                                               ChainDirections otherwise) const;
@@ -133,8 +136,8 @@ class Compensator final : private Sink {
   Findings findings_;
   CompensateSummary summary_;
   std::optional<PathSample> here_;  // empty until the program states X and Y
+  bool homed_ = false;              // and not yet at a place
   ChainDirections directions_;
-  std::size_t objected_line_ = 0;
   std::set<std::string, std::less<>> unknown_words_;  // words that already have a note
 };
 

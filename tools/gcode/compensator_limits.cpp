@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tools/gcode/compensator.hpp"
 
@@ -20,11 +21,14 @@ constexpr double kSlopeBaseMm = 1.0;
 }  // namespace
 
 void Findings::add(Problem problem) {
+  const std::size_t line = problem.place.line;
+  if (line != 0 && std::exchange(last_line_, line) == line) return;
   ++problem_count;
   if (problems.size() < kMostKept) problems.push_back(std::move(problem));
 }
 
 void Findings::add(Note note) {
+  if (note.problem) return add(Problem{*note.problem, {note.line, 0}, std::move(note.sentence)});
   ++note_count;
   if (notes.size() < kMostKept) notes.push_back(std::move(note));
 }
@@ -33,8 +37,6 @@ void Compensator::object(const Move& move,
                          const CorrectionFailure& failure,
                          double x_mm,
                          double y_mm) {
-  if (objected_line_ == move.line) return;
-  objected_line_ = move.line;
   findings_.add(Problem{failure.reason == CorrectionReason::controller
                             ? ProblemName::outside_controller
                             : ProblemName::outside_map,
@@ -51,13 +53,11 @@ void Compensator::examine(const Move& move, const PathSample& sample) {
     summary_.largest_correction_mm = size;
     summary_.largest_correction_line = move.line;
   }
-  const auto once_a_line = [&](ProblemName name, std::string sentence) {
-    if (objected_line_ == move.line) return;
-    objected_line_ = move.line;
+  const auto object_to = [&](ProblemName name, std::string sentence) {
     findings_.add(Problem{name, {move.line, 0}, std::move(sentence)});
   };
   if (size > options_.largest_correction_mm) {
-    once_a_line(
+    object_to(
         ProblemName::correction_too_large,
         fmt::format(
             "X{:.3f} Y{:.3f} would be corrected by {:.2f} mm, more than the {} mm that are allowed",
@@ -70,7 +70,7 @@ void Compensator::examine(const Move& move, const PathSample& sample) {
     const double beyond = std::max(std::fabs(sample.command.x_mm) - box->half_width_mm,
                                    std::fabs(sample.command.y_mm) - box->half_height_mm);
     if (beyond > 0.0) {
-      once_a_line(
+      object_to(
           ProblemName::outside_controller,
           fmt::format(
               "X{:.3f} Y{:.3f} needs the command X{:.3f} Y{:.3f}, {:.2f} mm beyond the bed, where "
@@ -92,7 +92,7 @@ void Compensator::examine(const Move& move, const PathSample& sample) {
                            way;
       summary_.steepest_correction = std::max(summary_.steepest_correction, slope);
       if (slope > options_.steepest_correction) {
-        once_a_line(ProblemName::correction_too_steep,
+        object_to(ProblemName::correction_too_steep,
                     fmt::format("before X{:.3f} Y{:.3f} the correction changes by {:.3f} mm per "
                                 "mm, more than the {} that are allowed",
                                 sample.target.x_mm,

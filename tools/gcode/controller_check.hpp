@@ -22,6 +22,7 @@ class ControllerCheck final : public Sink {
   void code(std::size_t line, char letter, int tenths) override;
   Result<void> move(const Move& move) override;
   Result<void> end(std::size_t line, std::string_view word) override;
+  [[nodiscard]] bool goes_on_after(const Problem&) override { return true; }
 
  private:
   void arc(const Move& move);

@@ -16,6 +16,9 @@
 namespace chaintrue::gcode {
 namespace {
 
+/// Marlin's MAX_CMD_SIZE, with its end.
+constexpr std::size_t kMaxPlotterLine = 95;
+
 /// Three decimals; more only if a slow feed needs them for six digits.
 std::string feed_text(double feed) {
   const int digits_before = static_cast<int>(std::floor(std::log10(feed))) + 1;
@@ -61,6 +64,13 @@ bool is_marked(std::string_view comment) {
     ++found;
   }
   return true;
+}
+
+Result<void> refuse_compensated(const Comment& comment) {
+  if (!is_marked(comment.text)) return {};
+  return refuse(ProblemName::already_compensated,
+                {comment.line, 0},
+                "this file has been compensated before, as this mark in it says; take the original");
 }
 
 Emitter::Emitter(ByteSink out, int decimals, bool semicolons)
@@ -183,10 +193,10 @@ Result<void> Emitter::word(const PassedWord& word) {
         fmt::format("{} cannot be written: some controllers read only what stands before the dot",
                     code));
   }
-  if (text.size() > kMaxOutputLine) {
+  if (text.size() > (semicolons_ ? kMaxPlotterLine : kMaxOutputLine)) {
     return refuse(ProblemName::not_emittable,
                   {word.line, 0},
-                  "a number of this line has more digits than a controller's line holds");
+                  "this line has more characters than a controller's line holds");
   }
   const bool joins = waiting_line_ == word.line && !waiting_word_.empty() &&
                      ((waiting_word_.front() == 'T' && text == "M6") ||
@@ -204,12 +214,23 @@ Result<void> Emitter::word(const PassedWord& word) {
     waiting_line_ = word.line;
     return {};
   }
+  constexpr std::string_view kRelative = "G91 ";
+  const bool relative = text.starts_with(kRelative);
+  if (relative) {
+    put_line("G91");
+    text.remove_prefix(kRelative.size());
+  }
   put_line(text);
+  if (relative) put_line("G90");
   if (text == "M6") put_mark();
-  // A height in the machine's frame: the next one of the work is written whatever it is, and so is the next feed.
-  if (code == "G53") {
+  // In the machine's own frame: what follows is written whatever it is.
+  if (word.machine_code != 0) {
     z_.reset();
     feed_.clear();
+  }
+  if (word.leaves_xy) {
+    x_.reset();
+    y_.reset();
   }
   return {};
 }

@@ -28,6 +28,8 @@ inline constexpr std::size_t kMaxOutputLine = 60;
 inline constexpr std::string_view kMarker = "compensated by chaintrue";
 /// A comment that begins so, whatever a sender has made of its capitals and blanks.
 [[nodiscard]] bool is_marked(std::string_view comment);
+/// A problem (already_compensated) if the comment is marked.
+[[nodiscard]] Result<void> refuse_compensated(const Comment& comment);
 
 /// Content of the header; prevents compensating twice or with the wrong map.
 struct Header {

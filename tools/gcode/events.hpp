@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The actions of a program, in order: moves in mm in the machine frame, words that are passed
-/// through, comments.
+/// The actions of a program, in order: moves in mm on the sheet, words that are passed through,
+/// comments.
 ///
-/// The machine frame is that of G53: work offsets, G92 and rotation are applied.
+/// On the sheet: work offsets, G92 and rotation are applied, and Dialect::home_mm is added.
 #pragma once
 
 #include <array>
@@ -69,10 +69,12 @@ struct Move {
 };
 
 /// A word that does not affect the path and is passed through unchanged (S, T, M, G4, G43, G61
-/// ...).
+/// ...), or a motion in the machine's own frame (G53, G28, G30).
 struct PassedWord {
   std::size_t line = 0;
-  std::string text;  ///< `M3`, `S1000`, `G4 P0.5`
+  std::string text;  ///< `M3`, `S1000`, `G4 P0.5`, `G53 G0 Z-1`; `G91 G28 Z0` holds for that line alone
+  int machine_code = 0;   ///< tenths of the code that moves in the machine's frame; 0: none does
+  bool leaves_xy = false;  ///< it moves X and Y; the next move starts from there
 };
 
 struct Comment {
@@ -86,6 +88,8 @@ struct Note {
   std::size_t line = 0;
   std::string_view name;  ///< stable, such as "no_program_end"
   std::string sentence;
+  /// What it is for a reader that needs the program's places on the sheet.
+  std::optional<ProblemName> problem{};
 };
 
 /// Receives the program's events. It may reject a move; the interpreter then stops with that
@@ -97,6 +101,8 @@ class Sink {
   virtual Result<void> word(const PassedWord&) { return {}; }
   virtual Result<void> comment(const Comment&) { return {}; }
   virtual void note(const Note&) {}
+  /// An arc that does not exist; true: the program goes on from its end.
+  [[nodiscard]] virtual bool goes_on_after(const Problem&) { return false; }
   /// Every code of every executed line ('G' or 'M', in tenths), if wants_codes() is true.
   virtual void code(std::size_t /*line*/, char /*letter*/, int /*tenths*/) {}
   [[nodiscard]] virtual bool wants_codes() const { return false; }

@@ -4,6 +4,7 @@
 #include "tools/gcode/interpreter.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,7 @@ void Interpreter::note_once(NoteOnce which, std::size_t line) {
   struct Text {
     std::string_view name;
     const char* sentence;
+    std::optional<ProblemName> problem{};
   };
   static constexpr Text kTexts[] = {
       {"dotted_code",
@@ -45,12 +47,61 @@ void Interpreter::note_once(NoteOnce which, std::size_t line) {
        "a line begins with a slash; it is executed, as with the block delete switch off"},
       {"units_assumed",
        "the program moves before it says G20 or G21; it is taken to be in millimetres"},
+      {"start_relative",
+       "the program is relative (G91) before it has gone to a place: where it cuts depends on where "
+       "the tool happens to be; add a first line that goes to its start on the sheet, such as G90 G0 "
+       "X0 Y0",
+       ProblemName::unknown_start},
   };
   bool& noted = noted_[static_cast<std::size_t>(which)];
   if (noted) return;
   noted = true;
   const Text& text = kTexts[static_cast<std::size_t>(which)];
-  sink_.note({line, text.name, text.sentence});
+  sink_.note({line, text.name, text.sentence, text.problem});
+}
+
+void Interpreter::note_whole(std::size_t last_line) {
+  if (!moves_) {
+    return sink_.note(
+        {last_line, "moves_nothing", "the program moves nothing", ProblemName::moves_nothing});
+  }
+  if (long_arcs_ > 1 && long_arcs_ == arcs_) {
+    sink_.note({first_long_arc_,
+                "arcs_long",
+                fmt::format("each of the {} arcs, this one first, is longer than half a circle: are G2 "
+                            "and G3 exchanged?",
+                            arcs_)});
+  }
+  std::vector<std::string> left;
+  if (modes_.incremental) left.emplace_back("relative coordinates (G91)");
+  if (modes_.inches) left.emplace_back("inches (G20)");
+  if (modes_.system != 1) left.push_back(system_name());
+  if (frame_.offset != Axes{}) left.emplace_back("an offset (G92 or G52)");
+  if (left.empty()) return;
+  sink_.note({last_line,
+              "state_left",
+              fmt::format("the program ends with {} in force, which holds for whatever is run next",
+                          fmt::join(left, ", "))});
+}
+
+Result<void> Interpreter::pass_line(const Block& block,
+                                    const std::vector<CommentText>& texts,
+                                    std::string word) {
+  if (block.deletable) note_once(NoteOnce::deletable_line, block.line);
+  CHAINTRUE_GCODE_TRY(comments(block, texts));
+  PassedWord passed{block.line, std::move(word)};
+  if (passed.text.starts_with("G28")) {
+    moves_ = true;
+    passed.machine_code = 280;
+    for (const std::size_t axis : {0, 1}) {
+      const bool homes = passed.text.size() == 3 ||
+                         passed.text.find(upper(kAxisLetters[axis])) != std::string::npos;
+      if (!homes) continue;
+      passed.leaves_xy = placed_[axis] = true;
+      machine_[axis] = dialect_.plotter_home_mm.value_or(std::array{0.0, 0.0})[axis];
+    }
+  }
+  return sink_.word(passed);
 }
 
 Result<AfterBlock> Interpreter::execute(const Block& block, const std::vector<CommentText>& texts) {
@@ -164,6 +215,10 @@ std::string Interpreter::written_out(std::string_view text) const {
 
 Result<void> Interpreter::comments(const Block& block, const std::vector<CommentText>& texts) {
   for (const CommentText& text : texts) {
+    if (text.semicolon && holds_moves(text.text)) {
+      sink_.note({block.line, "line_ends_lost", kLineEndsLost, ProblemName::line_ends_lost});
+      moves_ = true;  // which one problem says
+    }
     Comment comment{block.line, text.text, false};
     std::string_view body = text.text;
     body.remove_prefix(std::min(body.find_first_not_of(" \t"), body.size()));

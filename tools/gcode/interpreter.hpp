@@ -23,12 +23,18 @@ namespace chaintrue::gcode {
 
 /// Properties of a file that the user states because the file does not.
 struct Dialect {
+  /// Added to X and Y of the program's places, which makes them places of the sheet.
+  std::array<double, 2> home_mm{};
   /// Lines that begin with a slash are skipped, as with the controller's block delete switch on.
   bool skip_deletable_blocks = false;
   /// The tool table holds zeros, so that G41 and G42 have no effect. Otherwise they are rejected.
   bool tools_have_no_diameter = false;
   /// A line with one of a plotter's own codes (plotter_codes.hpp) is passed on; otherwise it is rejected.
   bool passes_plotter_codes = false;
+  /// G28 and G30 go to the machine's zero, which is the program's.
+  bool home_is_zero = false;
+  /// Where a plotter's controller is after G28, X and Y in the program's frame.
+  std::optional<std::array<double, 2>> plotter_home_mm;
   /// Limit on lines read again in loops and subroutines plus moves of canned cycles; beyond it the
   /// program is rejected as endless.
   std::uint64_t step_budget = 10'000'000;
@@ -58,6 +64,12 @@ class Interpreter {
 
   [[nodiscard]] Parameters& parameters() { return parameters_; }
   [[nodiscard]] const Dialect& dialect() const { return dialect_; }
+  /// A plotter's own code, or M0 with a text, which is passed on as it is.
+  [[nodiscard]] Result<void> pass_line(const Block& block,
+                                       const std::vector<CommentText>& comments,
+                                       std::string word);
+  /// Notes on the program as a whole, at its end.
+  void note_whole(std::size_t last_line);
   /// Counts one step against the budget.
   [[nodiscard]] Result<void> step(Place place);
   /// The nesting of subroutines, for #<_call_level>.
@@ -101,7 +113,7 @@ class Interpreter {
   };
   struct Cycle;
   /// Remarks that are made once a program.
-  enum class NoteOnce { dotted_code, dwell_unit, deletable_line, units_assumed };
+  enum class NoteOnce { dotted_code, dwell_unit, deletable_line, units_assumed, start_relative };
 
   // interpreter.cpp: the order of execution.
   Result<void> comments(const Block& block, const std::vector<CommentText>& texts);
@@ -131,6 +143,7 @@ class Interpreter {
   void cancel_offset(bool forget);
   void restore_offset();
   Result<void> go_home(const Block& block, int first_parameter);
+  void note_home(const Block& block, const char* sentence);
   void store_home(int first_parameter);
   Result<void> needs_known_z(const Block& block) const;
   void refresh_frame();
@@ -142,6 +155,8 @@ class Interpreter {
   Result<Axes> target(const Block& block) const;
   Result<Axes> machine_target(const Block& block) const;
   Result<void> machine_height(const Block& block, int motion);
+  Result<void> pass_height(const Block& block, std::string text, int code);
+  void check_start(const Block& block, int motion);
   Result<void> check_height(const Block& block, const Axes& machine) const;
   Result<void> polar(const Block& block, Axes& program) const;
   Result<void> straight(const Block& block, MoveKind kind, const Axes& machine);
@@ -151,6 +166,7 @@ class Interpreter {
     return block.value(letter) * mm_per_unit();
   }
   [[nodiscard]] double mm_per_unit() const { return modes_.inches ? 25.4 : 1.0; }
+  [[nodiscard]] Point on_sheet(const Axes& machine) const;
   [[nodiscard]] Move basic_move(std::size_t line, MoveKind kind, const Axes& to) const;
 
   // interpreter_cycles.cpp
@@ -165,6 +181,7 @@ class Interpreter {
                           const std::array<double, 3>& to);
 
   // interpreter_state.cpp
+  [[nodiscard]] std::string system_name() const;
   [[nodiscard]] std::optional<double> state_by_number(int index) const;
   [[nodiscard]] std::optional<double> state_by_name(std::string_view name) const;
 
@@ -178,10 +195,15 @@ class Interpreter {
   std::uint64_t steps_ = 0;
   std::size_t call_level_ = 0;
   bool home_known_[2] = {false, false};
-  bool noted_[4] = {false, false, false, false};
+  bool noted_[5] = {};
   bool units_stated_ = false;
+  bool placed_[2] = {false, false};  ///< the program has stated X, Y
+  bool moves_ = false;
   bool z_unknown_ = false;      ///< after probing, and after a height in the machine's own frame
   bool z_is_machine_ = false;  ///< the latter
+  std::size_t arcs_ = 0;  ///< but whole circles
+  std::size_t long_arcs_ = 0;
+  std::size_t first_long_arc_ = 0;
 };
 
 }  // namespace chaintrue::gcode

@@ -69,7 +69,7 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   if (z_unknown_) {
     return refuse(ProblemName::unsupported_code,
                   block.start(),
-                  "after probing or G53 only the machine knows where a cycle starts");
+                  "after probing, G53, G28 or G30 only the machine knows where a cycle starts");
   }
   const bool again = modes_.motion == motion;
   const bool within = is_cycle(modes_.motion) && sticky_.plane == modes_.plane;

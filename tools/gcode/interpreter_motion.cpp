@@ -17,8 +17,6 @@ namespace {
 /// More turns than this are a typing error.
 constexpr double kMostTurns = 1000.0;
 
-Point point(const Axes& axes) { return {axes[0], axes[1], axes[2]}; }
-
 /// The indices of a plane's axes, in the order that makes first x second = normal.
 struct PlaneAxes {
   std::size_t first;
@@ -41,22 +39,18 @@ void name_axes(const Block& block, Move& move) {
   move.names_z = move.to.z_mm != move.from.z_mm || block.has('z') || upright;
 }
 
-/// G53 with Z alone: a height above the machine's switch or stop, which no work offset reaches.
-bool is_machine_height(const Block& block) {
-  if (!block.is(GGroup::once, 530) || !block.has('z')) return false;
-  return std::none_of(kAxisLetters.begin(), kAxisLetters.end(), [&](char letter) {
-    return letter != 'z' && block.has(letter);
-  });
-}
-
 }  // namespace
+
+Point Interpreter::on_sheet(const Axes& machine) const {
+  return {machine[0] + dialect_.home_mm[0], machine[1] + dialect_.home_mm[1], machine[2]};
+}
 
 Move Interpreter::basic_move(std::size_t line, MoveKind kind, const Axes& to) const {
   Move move;
   move.kind = kind;
   move.line = line;
-  move.from = point(machine_);
-  move.to = point(to);
+  move.from = on_sheet(machine_);
+  move.to = on_sheet(to);
   move.feed = {modes_.feed_mode, modes_.feed};
   for (std::size_t i = 0; i < move.turn_deg.size(); ++i)
     move.turn_deg[i] = to[i + 3] - machine_[i + 3];
@@ -64,11 +58,19 @@ Move Interpreter::basic_move(std::size_t line, MoveKind kind, const Axes& to) co
 }
 
 Result<void> Interpreter::move(const Block& block, int motion) {
+  moves_ = true;
+  check_start(block, motion);
   switch (motion) {
     case 0:
     case 10: {
       modes_.motion = motion;
-      if (is_machine_height(block)) return machine_height(block, motion);
+      if (block.is(GGroup::once, 530)) {
+        if (block.has_z_alone()) return machine_height(block, motion);
+        note_home(block,
+                  "G53 with X or Y goes to a place of the machine's own frame, and only the machine "
+                  "knows where on the sheet that is; write the place on the sheet without G53, and "
+                  "G53 with Z on a line of its own");
+      }
       const auto machine = target(block);
       if (!machine) return tl::unexpected(machine.error());
       return straight(block, motion == 0 ? MoveKind::rapid : MoveKind::feed, *machine);
@@ -115,7 +117,24 @@ Result<Axes> Interpreter::machine_target(const Block& block) const {
   return machine;
 }
 
+/// Whether the program has stated the place that it steps from.
+void Interpreter::check_start(const Block& block, int motion) {
+  const bool is_polar = block.has('@') || block.has('^');
+  for (const std::size_t axis : {0, 1}) {
+    if (!block.has(kAxisLetters[axis]) && !is_polar && !is_arc(motion)) continue;
+    if (modes_.incremental && !placed_[axis]) note_once(NoteOnce::start_relative, block.line);
+    placed_[axis] = true;
+  }
+}
+
 /// Passed as it is: only the machine knows where that is in the work's frame.
+Result<void> Interpreter::pass_height(const Block& block, std::string text, int code) {
+  moves_ = true;
+  z_unknown_ = z_is_machine_ = true;
+  return sink_.word({block.line, std::move(text), code});
+}
+
+/// A height above the machine's switch or stop, which no work offset reaches.
 Result<void> Interpreter::machine_height(const Block& block, int motion) {
   std::string text = with_value(motion == 0 ? "G53 G0 Z" : "G53 G1 Z", length(block, 'z'));
   if (motion != 0) {
@@ -126,8 +145,7 @@ Result<void> Interpreter::machine_height(const Block& block, int motion) {
     }
     text += with_value(" F", modes_.feed);
   }
-  z_unknown_ = z_is_machine_ = true;
-  return sink_.word({block.line, text});
+  return pass_height(block, std::move(text), 530);
 }
 
 /// A slope begins at a height that is known.
@@ -136,14 +154,14 @@ Result<void> Interpreter::check_height(const Block& block, const Axes& machine) 
   if (modes_.incremental) {
     return refuse(ProblemName::unsupported_code,
                   block.place('z'),
-                  "after probing or G53 only the machine knows its height, so Z cannot step from it "
-                  "(G91) here");
+                  "after probing, G53, G28 or G30 only the machine knows its height, so Z cannot "
+                  "step from it (G91) here");
   }
   if (z_is_machine_ && (machine[0] != machine_[0] || machine[1] != machine_[1])) {
     return refuse(ProblemName::unsupported_code,
                   block.place('z'),
-                  "after a height in the machine's frame (G53) Z moves by itself first, without X "
-                  "and Y: only the machine knows the height that it starts from");
+                  "after a height in the machine's frame (G53, G28, G30) Z moves by itself first, "
+                  "without X and Y: only the machine knows the height that it starts from");
   }
   return {};
 }
@@ -225,7 +243,7 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
   if (z_unknown_ && modes_.plane != 170) {
     return refuse(ProblemName::unsupported_code,
                   block.start(),
-                  "after probing or G53 only the machine knows where an upright arc (G18, G19) starts");
+                  "after probing, G53, G28 or G30 only the machine knows where an upright arc (G18, G19) starts");
   }
   const auto machine = target(block);
   if (!machine) return tl::unexpected(machine.error());
@@ -243,7 +261,11 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
   request.mm_per_unit = mm_per_unit();
   // LinuxCNC takes absolute centres in the program's frame, offsets included.
   const auto found = arc_centre(request, block);
-  if (!found) return tl::unexpected(found.error());
+  if (!found) {
+    if (!sink_.goes_on_after(found.error())) return tl::unexpected(found.error());
+    machine_ = *machine;
+    return {};
+  }
 
   const auto direction = [&](std::size_t axis) {
     if (axis == 0) return Point{frame_.cosine, frame_.sine, 0.0};
@@ -255,7 +277,7 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
   centre[plane.second] = found->second_mm;
   const PlanePoint middle = *found;
   Arc arc;
-  arc.centre = point(to_machine(centre));
+  arc.centre = on_sheet(to_machine(centre));
   arc.first = direction(plane.first);
   arc.second = direction(plane.second);
   arc.start_radius_mm = std::hypot(request.start.first_mm - middle.first_mm,
@@ -267,6 +289,12 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
   arc.turns = static_cast<int>(clockwise ? -count : count);
   arc.sweep_rad = arc_sweep(request.start, request.end, middle, arc.turns);
   arc.end_height_mm = end[plane.normal] - start[plane.normal];
+  constexpr double kHalfTurnRad = std::numbers::pi * (1.0 + 1e-6);
+  const double sweep = std::fabs(arc.sweep_rad);
+  if (sweep < 2.0 * kHalfTurnRad - 1e-3) {
+    ++arcs_;
+    if (sweep > kHalfTurnRad && long_arcs_++ == 0) first_long_arc_ = block.line;
+  }
   Move move = basic_move(block.line, MoveKind::arc, *machine);
   move.arc = arc;
   CHAINTRUE_GCODE_TRY(check_height(block, *machine));

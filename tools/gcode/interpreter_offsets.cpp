@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "tools/gcode/interpreter.hpp"
+#include "tools/gcode/word_text.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -113,7 +114,8 @@ Result<void> Interpreter::needs_known_z(const Block& block) const {
   if (!z_unknown_ || !block.has('z')) return {};
   return refuse(ProblemName::unsupported_code,
                 block.place('z'),
-                "after probing or G53 only the machine knows its height, so Z cannot be set from it here");
+                "after probing, G53, G28 or G30 only the machine knows its height, so Z cannot be set "
+                "from it here");
 }
 
 Result<void> Interpreter::set_system(const Block& block) {
@@ -189,6 +191,7 @@ Result<void> Interpreter::set_offset(const Block& block) {
     if (!block.has(kAxisLetters[i])) continue;
     const double value = i < kLinear ? length(block, kAxisLetters[i]) : block.value(kAxisLetters[i]);
     frame_.offset[i] = from_here ? program[i] + frame_.offset[i] - value : value;
+    if (from_here && i < 2) placed_[i] = true;
   }
   parameters_.set(parameter::kOffsetOn, 1.0);
   for (std::size_t i = 0; i < frame_.offset.size(); ++i) {
@@ -217,16 +220,30 @@ void Interpreter::store_home(int first) {
   home_known_[first == parameter::kHome ? 0 : 1] = true;
 }
 
+void Interpreter::note_home(const Block& block, const char* sentence) {
+  sink_.note({block.line, "home_assumed", sentence, ProblemName::unknown_home});
+}
+
 /// Through the point of the axis words, then home with those axes; with all if none is given.
 Result<void> Interpreter::go_home(const Block& block, int first) {
-  if (!home_known_[first == parameter::kHome ? 0 : 1]) {
-    sink_.note({block.line,
-                "home_assumed",
-                "the place that G28 or G30 goes to is stored in the machine; it is taken to be the "
-                "machine's zero"});
-  }
   const auto through = target(block);
   if (!through) return tl::unexpected(through.error());
+  moves_ = true;
+  if (!dialect_.home_is_zero && !home_known_[first == parameter::kHome ? 0 : 1]) {
+    const int code = first == parameter::kHome ? 280 : 300;
+    if (block.has_z_alone()) {
+      // In whole nanometres, which the rounding of offsets and inches leaves alone.
+      const double z_mm =
+          std::round(1e6 * (modes_.incremental ? length(block, 'z') : (*through)[2])) / 1e6;
+      const std::string word = (modes_.incremental ? "G91 " : "") + g_name(code) + " Z";
+      return pass_height(block, with_value(word, z_mm), code);
+    }
+    note_home(block,
+              "the place that G28 and G30 go to is stored in the machine, and only the machine knows "
+              "where on the sheet that is; write the place on the sheet, and leave X and Y out of the "
+              "retract (G28 G91 Z0)");
+  }
+  placed_[0] = placed_[1] = true;
   CHAINTRUE_GCODE_TRY(straight(block, MoveKind::rapid, *through));
   Axes home{};
   for (std::size_t i = 0; i < home.size(); ++i)

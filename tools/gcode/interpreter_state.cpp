@@ -70,6 +70,10 @@ std::optional<double> Interpreter::state_by_name(std::string_view name) const {
   return std::nullopt;
 }
 
+std::string Interpreter::system_name() const {
+  return modes_.system <= 6 ? g_name(530 + 10 * modes_.system) : g_name(584 + modes_.system);
+}
+
 std::vector<std::string> Interpreter::describe() const {
   const Axes program = to_program(machine_);
   std::vector<std::string> lines;
@@ -87,7 +91,7 @@ std::vector<std::string> Interpreter::describe() const {
   }
   lines.push_back(fmt::format(
       "work offset {}: origin X{:.6g} Y{:.6g} Z{:.6g} mm, rotated by {:.6g} degrees",
-      modes_.system <= 6 ? g_name(530 + 10 * modes_.system) : g_name(584 + modes_.system),
+      system_name(),
       frame_.origin[0],
       frame_.origin[1],
       frame_.origin[2],

@@ -72,7 +72,9 @@ Result<bool> LineSource::next(SourceLine& line) {
   if (end - begin_ > kMaxLineLength) {
     return refuse(ProblemName::line_too_long,
                   {lines_before_ + 1, 0},
-                  fmt::format("the line is longer than {} characters", kMaxLineLength));
+                  fmt::format("the line is longer than {} characters: its line ends are lost, or "
+                              "this is no program",
+                              kMaxLineLength));
   }
   if (end == buffer_.size() && end == begin_) return false;
   line.text = std::string_view(buffer_).substr(begin_, end - begin_);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace chaintrue::gcode {
 
@@ -50,6 +51,22 @@ Point at(const Move& move, double t) {
   return {arc.centre.x_mm + u * a.x_mm + v * b.x_mm + height * normal.x_mm,
           arc.centre.y_mm + u * a.y_mm + v * b.y_mm + height * normal.y_mm,
           arc.centre.z_mm + u * a.z_mm + v * b.z_mm + height * normal.z_mm};
+}
+
+std::vector<double> bounding_places(const Move& move) {
+  std::vector<double> places{0.0, 1.0};
+  if (!move.arc) return places;
+  const Arc& arc = *move.arc;
+  for (const auto axis : {&Point::x_mm, &Point::y_mm, &Point::z_mm}) {
+    // first cos(a) + second sin(a) is greatest or least at this angle and half turns from it.
+    const double angle = std::atan2(arc.second.*axis, arc.first.*axis);
+    const double half_turns = (arc.start_angle_rad - angle) / std::numbers::pi;
+    const double swept = arc.sweep_rad / std::numbers::pi;
+    const double last = std::max(half_turns, half_turns + swept);
+    for (double k = std::ceil(std::min(half_turns, half_turns + swept)); k <= last; k += 1.0)
+      places.push_back((k - half_turns) / swept);
+  }
+  return places;
 }
 
 double feed_mm_per_min(const Move& move) {

@@ -4,6 +4,8 @@
 /// rounded words.
 #pragma once
 
+#include <vector>
+
 #include "tools/gcode/events.hpp"
 
 namespace chaintrue::gcode {
@@ -11,6 +13,9 @@ namespace chaintrue::gcode {
 /// The point at t = 0 .. 1; exactly `from` and `to` at the ends. Lines: constant speed; arcs:
 /// constant angular speed.
 [[nodiscard]] Point at(const Move& move, double t);
+
+/// Where X, Y or Z turns around, and both ends: t = 0 .. 1 of the places that bound the move.
+[[nodiscard]] std::vector<double> bounding_places(const Move& move);
 
 /// Length of the path, mm. For spirals with the mean radius: their radii differ only by rounding.
 [[nodiscard]] double length_mm(const Move& move);

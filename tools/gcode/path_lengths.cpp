@@ -21,11 +21,10 @@ constexpr double kRowsPerTurn = 8.0;
 class Sampler final : public Sink {
  public:
   Sampler(const grid::LengthMap& map,
-          model::BedPoint home,
           double every_mm,
           const std::function<void(const PathLengths&)>& write,
           Findings& findings)
-      : map_(map), home_(home), every_mm_(every_mm), write_(write), findings_(findings) {}
+      : map_(map), every_mm_(every_mm), write_(write), findings_(findings) {}
 
   Result<void> move(const Move& move) override {
     const double length = length_mm(move);
@@ -34,16 +33,12 @@ class Sampler final : public Sink {
         std::max({1.0, std::ceil(length / every_mm_), std::ceil(kRowsPerTurn * turns - 1e-9)});
     const double feed = move.kind == MoveKind::rapid ? 0.0 : feed_mm_per_min(move);
     for (double i = 1.0; i <= pieces; i += 1.0) {
-      Point place = at(move, i / pieces);
-      place.x_mm += home_.x_mm;
-      place.y_mm += home_.y_mm;
+      const Point place = at(move, i / pieces);
       const auto answer = map_.query({place.x_mm, place.y_mm});
       if (answer) {
         write_({move.line, move.kind, place, *answer, feed});
         continue;
       }
-      if (objected_line_ == move.line) return {};
-      objected_line_ = move.line;
       findings_.add(Problem{ProblemName::outside_map,
                             {move.line, 0},
                             fmt::format("X{:.3f} Y{:.3f} {}",
@@ -54,15 +49,18 @@ class Sampler final : public Sink {
     }
     return {};
   }
+  Result<void> comment(const Comment& comment) override { return refuse_compensated(comment); }
   void note(const Note& note) override { findings_.add(note); }
+  bool goes_on_after(const Problem& problem) override {
+    findings_.add(problem);
+    return true;
+  }
 
  private:
   const grid::LengthMap& map_;
-  model::BedPoint home_;
   double every_mm_;
   const std::function<void(const PathLengths&)>& write_;
   Findings& findings_;
-  std::size_t objected_line_ = 0;
 };
 
 }  // namespace
@@ -70,12 +68,11 @@ class Sampler final : public Sink {
 Result<ProgramSummary> path_lengths(LineSource& source,
                                     const Dialect& dialect,
                                     const grid::LengthMap& map,
-                                    model::BedPoint home,
                                     double every_mm,
                                     const std::function<void(const PathLengths&)>& write,
                                     Findings& findings) {
   if (!(every_mm > 0.0)) throw grid::precondition("places every {} mm make no path", every_mm);
-  Sampler sampler(map, home, every_mm, write, findings);
+  Sampler sampler(map, every_mm, write, findings);
   return run_program(source, dialect, sampler);
 }
 

@@ -24,7 +24,6 @@ struct PathLengths {
     LineSource& source,
     const Dialect& dialect,
     const grid::LengthMap& map,
-    model::BedPoint home,
     double every_mm,
     const std::function<void(const PathLengths&)>& write,
     Findings& findings);

@@ -9,13 +9,26 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "tools/gcode/clean_line.hpp"
 
 namespace chaintrue::gcode {
 
 /// "M280 P0 S30" where the line holds such a code and words with plain numbers from `at` on, and
-/// nothing besides.
-[[nodiscard]] std::optional<std::string> plotter_word(const CleanLine& line, std::size_t at);
+/// nothing besides; "G28 X Y" too.
+/// \param homes_itself every G28 is the controller's own; otherwise one with bare letters is.
+[[nodiscard]] std::optional<std::string> plotter_word(const CleanLine& line,
+                                                      std::size_t at,
+                                                      bool homes_itself);
+
+/// M0 or M1 with a text for the operator; on a plotter also M117 and M118, which show one.
+struct TextLine {
+  std::string code;  ///< "M0"
+  std::string text;
+  std::vector<CommentText> comments;
+};
+[[nodiscard]] std::optional<TextLine> text_line(std::string_view raw, bool of_plotter);
 
 }  // namespace chaintrue::gcode

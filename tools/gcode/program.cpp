@@ -9,6 +9,24 @@
 #include "tools/gcode/plotter_codes.hpp"
 
 namespace chaintrue::gcode {
+namespace {
+
+/// Files of other kinds, by what they begin with.
+struct OtherKind {
+  std::string_view beginning;
+  const char* sentence;
+};
+constexpr OtherKind kOtherKinds[] = {
+    {"<svg", "this is a drawing (SVG), not a program; let a CAM program make G-code of it"},
+    {"<", "this is a web page, not a program; save the raw file (Raw, or Download)"},
+    {"{\\rtf", "this is a formatted text (RTF), not a program; save it as plain text"},
+    {"{", "this is a JSON file, not a program"},
+    {"%PDF", "this is a PDF, not a program"},
+    {"PK\x03\x04", "this is a ZIP archive, not a program; unpack it"},
+    {"solid ", "this is a solid (STL), not a program; let a CAM program make G-code of it"},
+};
+
+}  // namespace
 
 class Program::Runner {
  public:
@@ -51,34 +69,63 @@ class Program::Runner {
   Result<void> line(const SourceLine& raw) {
     const std::size_t first = raw.text.find_first_not_of(" \t");
     if (first == std::string_view::npos) return {};
+    CHAINTRUE_GCODE_TRY(other_kind(raw, first));
     if (raw.text[first] == '%') return percent(raw);
     // A DOS end-of-file mark.
     if (raw.text.substr(first) == "\x1A") return end(raw.number, "");
     begun_ = true;
+    const Dialect& dialect = interpreter_.dialect();
+    if (const auto text = text_line(raw.text, dialect.passes_plotter_codes))
+      return line_with_text(raw.number, *text);
     CHAINTRUE_GCODE_TRY(clean(raw.text, raw.number, line_));
     block_.clear(raw.number);
     std::size_t at = 0;
     if (peek(at) == '/') {
-      if (interpreter_.dialect().skip_deletable_blocks) return {};
+      if (dialect.skip_deletable_blocks) return {};
       block_.deletable = true;
       ++at;
     }
     if (peek(at) == 'n') CHAINTRUE_GCODE_TRY(line_number(at));
     if (peek(at) == 'o') return flow_.control(line_, at);
     ++summary_.blocks;
-    if (interpreter_.dialect().passes_plotter_codes) {
-      if (const auto word = plotter_word(line_, at)) {
-        const auto commented = interpreter_.execute(block_, line_.comments);
-        if (!commented) return tl::unexpected(commented.error());
-        return sink_.word({raw.number, *word});
-      }
+    if (dialect.passes_plotter_codes) {
+      if (const auto word = plotter_word(line_, at, dialect.plotter_home_mm.has_value()))
+        return interpreter_.pass_line(block_, line_.comments, *word);
     }
-    CHAINTRUE_GCODE_TRY(read_words(ValueReader(line_, interpreter_.parameters(), at),
-                                   block_,
-                                   interpreter_.dialect().tools_have_no_diameter));
+    const auto words = read_words(ValueReader(line_, interpreter_.parameters(), at),
+                                  block_,
+                                  dialect.tools_have_no_diameter);
+    if (!words && holds_moves(line_.text)) return line_ends_lost(raw.number);
+    CHAINTRUE_GCODE_TRY(words);
     const auto after = interpreter_.execute(block_, line_.comments);
     if (!after) return tl::unexpected(after.error());
     return follow(*after);
+  }
+
+  Result<void> other_kind(const SourceLine& raw, std::size_t first) const {
+    const std::string_view text = raw.text.substr(first);
+    for (const OtherKind& kind : kOtherKinds) {
+      if (!text.starts_with(kind.beginning) || (begun_ && text.front() != '<')) continue;
+      return refuse(ProblemName::not_a_program, {raw.number, first + 1}, kind.sentence);
+    }
+    return {};
+  }
+
+  static Result<void> line_ends_lost(std::size_t line) {
+    return refuse(ProblemName::line_ends_lost, {line, 0}, kLineEndsLost);
+  }
+
+  /// The text is the operator's: a plotter's controller shows it, in other programs it is a message.
+  Result<void> line_with_text(std::size_t number, const TextLine& text) {
+    ++summary_.blocks;
+    block_.clear(number);
+    std::string word = text.code;
+    if (interpreter_.dialect().passes_plotter_codes) {
+      word += " " + text.text;
+    } else {
+      CHAINTRUE_GCODE_TRY(sink_.comment({number, text.text, true}));
+    }
+    return interpreter_.pass_line(block_, text.comments, std::move(word));
   }
 
   char peek(std::size_t at) const { return at < line_.text.size() ? line_.text[at] : '\0'; }
@@ -97,6 +144,7 @@ class Program::Runner {
   }
 
   Result<void> percent(const SourceLine& raw) {
+    if (holds_moves(raw.text)) return line_ends_lost(raw.number);
     if (!begun_ && !opened_by_percent_) {
       opened_by_percent_ = true;
       return {};
@@ -111,6 +159,7 @@ class Program::Runner {
 
   Result<void> end(std::size_t line, std::string_view word) {
     ended_ = true;
+    interpreter_.note_whole(line);
     return sink_.end(line, word);
   }
 

@@ -22,14 +22,6 @@ Result<void> ProgramStream::move(const Move& move) {
   event.kind = ProgramEvent::Kind::move;
   event.line = move.line;
   event.move = move;
-  for (Point* point : {&event.move.from, &event.move.to}) {
-    point->x_mm += home_.x_mm;
-    point->y_mm += home_.y_mm;
-  }
-  if (event.move.arc) {
-    event.move.arc->centre.x_mm += home_.x_mm;
-    event.move.arc->centre.y_mm += home_.y_mm;
-  }
   return {};
 }
 
@@ -39,6 +31,8 @@ Result<void> ProgramStream::word(const PassedWord& word) {
   event.line = word.line;
   // G61.1 is written as G61: some controllers misread the dot.
   event.text = word.text == "G61.1" ? "G61" : word.text;
+  event.moves_itself = word.machine_code != 0;
+  event.leaves_xy = word.leaves_xy;
   return {};
 }
 

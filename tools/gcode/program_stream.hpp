@@ -7,7 +7,6 @@
 #include <deque>
 #include <string>
 
-#include "model/coordinates.hpp"
 #include "tools/gcode/program.hpp"
 
 namespace chaintrue::gcode {
@@ -15,16 +14,17 @@ namespace chaintrue::gcode {
 struct ProgramEvent {
   enum class Kind { move, word, end };
   Kind kind = Kind::end;
-  Move move;         ///< on the sheet: home is added
+  Move move;
   std::string text;  ///< of a word, or of the word that ends the program
+  bool moves_itself = false;  ///< a word that moves the tool in the machine's frame
+  bool leaves_xy = false;     ///< ... in X and Y
   std::size_t line = 0;
 };
 
 class ProgramStream final : private Sink {
  public:
   /// Keeps a reference.
-  ProgramStream(LineSource& source, const Dialect& dialect, model::BedPoint home)
-      : program_(source, dialect, *this), home_(home) {}
+  ProgramStream(LineSource& source, const Dialect& dialect) : program_(source, dialect, *this) {}
 
   /// The next event, unchanged until pop(); Kind::end from the end on.
   [[nodiscard]] Result<const ProgramEvent*> peek();
@@ -36,7 +36,6 @@ class ProgramStream final : private Sink {
   Result<void> end(std::size_t line, std::string_view word) override;
 
   Program program_;
-  model::BedPoint home_;
   std::deque<ProgramEvent> events_;
 };
 

@@ -6,20 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace chaintrue::gcode {
 namespace {
 
-/// Bulges of arcs are found to within radius (1 - cos(angle / 2)), 0.03 % of the radius at this
-/// step.
-constexpr double kLookRad = std::numbers::pi / 64.0;
-
 class Surveyor final : public Sink {
  public:
-  Surveyor(model::BedPoint home, const interp::Rectangle& sheet, Findings& findings)
-      : home_(home), sheet_(sheet), findings_(findings) {}
+  Surveyor(const Sheet& sheet, Findings& findings) : sheet_(sheet), findings_(findings) {}
 
   Result<void> move(const Move& move) override {
     count(move);
@@ -27,17 +20,21 @@ class Surveyor final : public Sink {
       if (move.names_z) height(move.to.z_mm);
       return {};
     }
-    const int looks =
-        move.arc ? static_cast<int>(std::ceil(std::fabs(move.arc->sweep_rad) / kLookRad)) : 1;
-    for (int i = move.kind == MoveKind::rapid ? looks : 0; i <= looks; ++i) {
-      Point place = at(move, static_cast<double>(i) / looks);
-      place.x_mm += home_.x_mm;
-      place.y_mm += home_.y_mm;
-      take(place, move.line);
+    for (const double t : bounding_places(move)) {
+      if (t == 0.0 && move.kind == MoveKind::rapid) continue;
+      take(at(move, t), move.line);
     }
     return {};
   }
-  void note(const Note& note) override { findings_.add(note); }
+  /// Where home is does not matter as long as nothing is made of it.
+  void note(const Note& note) override {
+    const bool only_home = note.problem == ProblemName::unknown_home;
+    findings_.add(only_home ? Note{note.line, note.name, note.sentence} : note);
+  }
+  bool goes_on_after(const Problem& problem) override {
+    findings_.add(problem);
+    return true;
+  }
 
   Survey result;
 
@@ -67,33 +64,34 @@ class Surveyor final : public Sink {
     box.most.x_mm = std::max(box.most.x_mm, place.x_mm);
     box.most.y_mm = std::max(box.most.y_mm, place.y_mm);
     height(place.z_mm);
-    const double beyond = std::max({sheet_.x_min - place.x_mm,
-                                    place.x_mm - sheet_.x_max,
-                                    sheet_.y_min - place.y_mm,
-                                    place.y_mm - sheet_.y_max});
-    if (beyond <= 1e-9 || objected_line_ == line) return;
-    objected_line_ = line;
-    findings_.add(Problem{
-        ProblemName::outside_sheet,
-        {line, 0},
-        fmt::format(
-            "X{:.3f} Y{:.3f} lies {:.2f} mm outside the sheet", place.x_mm, place.y_mm, beyond)});
+    const interp::Rectangle& area = sheet_.area;
+    const double beyond = std::max({area.x_min - place.x_mm,
+                                    place.x_mm - area.x_max,
+                                    area.y_min - place.y_mm,
+                                    place.y_mm - area.y_max});
+    if (beyond <= 1e-9) return;
+    std::string sentence = fmt::format(
+        "X{:.3f} Y{:.3f} lies {:.2f} mm outside the sheet", place.x_mm, place.y_mm, beyond);
+    if (sheet_.is_assumed) {
+      sentence += fmt::format(
+          ", taken to be {:g} x {:g} mm with X0 Y0 in its middle; --machine states another",
+          area.x_max - area.x_min,
+          area.y_max - area.y_min);
+    }
+    findings_.add(Problem{ProblemName::outside_sheet, {line, 0}, std::move(sentence)});
   }
 
-  model::BedPoint home_;
-  interp::Rectangle sheet_;
+  Sheet sheet_;
   Findings& findings_;
-  std::size_t objected_line_ = 0;
 };
 
 }  // namespace
 
 Result<Survey> survey(LineSource& source,
                       const Dialect& dialect,
-                      model::BedPoint home,
-                      const interp::Rectangle& sheet,
+                      const Sheet& sheet,
                       Findings& findings) {
-  Surveyor surveyor(home, sheet, findings);
+  Surveyor surveyor(sheet, findings);
   const auto program = run_program(source, dialect, surveyor);
   if (!program) return tl::unexpected(program.error());
   surveyor.result.program = *program;

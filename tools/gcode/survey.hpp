@@ -15,6 +15,11 @@ struct Box {
   Point most;
 };
 
+struct Sheet {
+  interp::Rectangle area;
+  bool is_assumed = false;  ///< nobody has stated it
+};
+
 struct Survey {
   std::optional<Box> box;  ///< of the whole path, including the bulges of arcs
   std::uint64_t rapids = 0;
@@ -30,8 +35,7 @@ struct Survey {
 /// \param sheet lines that leave it become problems (outside_sheet).
 [[nodiscard]] Result<Survey> survey(LineSource& source,
                                     const Dialect& dialect,
-                                    model::BedPoint home,
-                                    const interp::Rectangle& sheet,
+                                    const Sheet& sheet,
                                     Findings& findings);
 
 }  // namespace chaintrue::gcode

@@ -44,6 +44,15 @@ std::string words(const PathPiece& piece) {
   return piece.rapid ? std::string("a rapid") : fmt::format("F{:.6g}", piece.speed_mm_per_min);
 }
 
+Dialect with_home_at_zero(Dialect dialect) {
+  // A plotter's home stays where it is, in whatever numbers.
+  if (auto& place = dialect.plotter_home_mm) {
+    for (const std::size_t axis : {0, 1}) (*place)[axis] += dialect.home_mm[axis];
+  }
+  dialect.home_mm = {};
+  return dialect;
+}
+
 class Verification {
  public:
   Verification(LineSource& original,
@@ -51,8 +60,8 @@ class Verification {
                const Corrector& corrector,
                const Dialect& dialect,
                const VerifyOptions& options)
-      : intended_(original, dialect, options.home),
-        run_(run, dialect, options.run_home),
+      : intended_(original, dialect),
+        run_(run, with_home_at_zero(dialect)),
         options_(options),
         machine_(corrector,
                  {options.half_play_mm,
@@ -113,8 +122,8 @@ class Verification {
       if (event == nullptr || event->kind != ProgramEvent::Kind::move) return false;
       const Move& move = event->move;
       if (!started_) {
-        if (begins(move) && (move.kind != MoveKind::rapid || heights_done_)) return false;
-        heights_done_ = begins(move);
+        if (begins_here(move) && (move.kind != MoveKind::rapid || heights_done_)) return false;
+        heights_done_ = begins_here(move);
         piece = {height_of(move.to), move.kind == MoveKind::rapid, feed_mm_per_min(move), move.line};
         const bool changes_height = move.from.z_mm != move.to.z_mm;
         if (!heights_done_) intended_.pop();  // which invalidates move
@@ -135,6 +144,15 @@ class Verification {
     }
   }
 
+  /// From home nothing begins but at a place.
+  [[nodiscard]] bool begins_here(const Move& move) const {
+    return homed_ ? move.names_xy : begins(move);
+  }
+  /// Whether both curves start at the end of this move: its way is not compensated.
+  [[nodiscard]] bool starts_at_end(const Move& move) const {
+    return move.kind == MoveKind::rapid || (homed_ && !move.arc);
+  }
+
   [[nodiscard]] int chords_of(const Arc& arc) const {
     const double radius = std::max(arc.start_radius_mm, arc.end_radius_mm);
     const double bow = std::min(kArcShare * options_.tolerance_mm, radius);
@@ -143,7 +161,7 @@ class Verification {
     return static_cast<int>(std::min(1e8, std::ceil(std::fabs(arc.sweep_rad) / turn)));
   }
 
-  /// Both curves start: at the end of a rapid, or at the start of a cut.
+  /// Both curves start: at the end of a rapid or of the way from home, or at the start of a cut.
   void start(const Move& command) {
     if (command.kind == MoveKind::rapid && command.from.z_mm != command.to.z_mm) {
       advance({height_of(command.to), true, 0.0, command.line});
@@ -162,24 +180,25 @@ class Verification {
       return;
     }
     started_ = true;
-    const bool rapid = command.kind == MoveKind::rapid;
-    const bool intended_rapid = event->move.kind == MoveKind::rapid;
-    const Point intended = intended_rapid ? event->move.to : event->move.from;
-    if (intended_rapid) intended_.pop();
-    const auto where = machine_.place(rapid ? command.to : command.from, command.line);
+    const bool at_end = starts_at_end(command);
+    const bool intended_at_end = starts_at_end(event->move);
+    const Point intended = intended_at_end ? event->move.to : event->move.from;
+    if (intended_at_end) intended_.pop();
+    homed_ = false;
+    const auto where = machine_.place(at_end ? command.to : command.from, command.line);
     if (!where) return fail(false, where.error());
     ++summary_.places;
     if (matcher_.begin(intended, *where, command.line) != PathMatcher::Outcome::follows) {
       stray(place_fault());
     }
     last_tool_ = *where;
-    last_command_ = rapid ? command.to : command.from;
-    if (!rapid) execute(command);
+    last_command_ = at_end ? command.to : command.from;
+    if (!at_end) execute(command);
   }
 
   void execute(const Move& command) {
     if (!started_) {
-      if (begins(command)) return start(command);
+      if (begins_here(command)) return start(command);
       if (command.from.z_mm != command.to.z_mm) {
         advance(
             {height_of(command.to), command.kind == MoveKind::rapid, feed_mm_per_min(command), command.line});
@@ -284,8 +303,19 @@ class Verification {
                                 event->line,
                                 wanted));
     }
-    if (is_end) return;
+    if (is_end) {
+      if (summary_.commands == 0 && !moves_itself_) stray("the file run moves nothing");
+      return;
+    }
+    moves_itself_ = moves_itself_ || found.moves_itself;
     intended_.pop();
+    if (found.leaves_xy) {
+      // Both start anew, from where the machine's own frame has brought them.
+      homed_ = true;
+      started_ = heights_done_ = false;
+      static_cast<void>(matcher_.begin({}, {}, found.line));
+      return;
+    }
     static_cast<void>(matcher_.begin(
         matcher_.path_end(), started_ ? last_tool_ : matcher_.front().tool, found.line));
   }
@@ -326,6 +356,8 @@ class Verification {
   bool stopped_ = false;
   bool started_ = false;
   bool heights_done_ = false;
+  bool homed_ = false;  ///< and not yet at a place
+  bool moves_itself_ = false;  ///< a word has moved the tool in the machine's frame
   Move arc_;  // being divided into chords
   int chord_ = 0;
   int chords_ = 0;
@@ -351,7 +383,7 @@ Result<Deviation> uncompensated(LineSource& original,
                                 const Corrector& corrector,
                                 const Dialect& dialect,
                                 const VerifyOptions& options) {
-  ProgramStream stream(original, dialect, options.home);
+  ProgramStream stream(original, dialect);
   SimulatedMachine machine(corrector,
                            {options.half_play_mm,
                             kFlatnessShare * options.tolerance_mm,

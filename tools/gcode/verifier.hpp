@@ -28,17 +28,13 @@ struct VerifyOptions {
   double tolerance_mm = 0.05;
   /// Of the file that is run: moves shorter than a few units of its last decimal may be missing.
   int decimals = 3;
-  /// Home of the original; the other file is run with home at 0, 0.
-  model::BedPoint home;
-  /// Home of the file that is run; the original's own if it is run itself.
-  model::BedPoint run_home;
   model::ChainLengths half_play_mm;
   /// Rapids are single commands: only their ends count.
   bool rapids_whole = false;
   /// Allowed relative deviation of the tool's speed: that of the steepest correction allowed by
   /// default (0.05 mm per mm), and the rounding of F.
   double speed_share = 0.06;
-  /// Of uncompensated(): called for every move of the original, on the sheet.
+  /// Of uncompensated(): called for every move of the original.
   std::function<void(const Move&)> on_move;
 };
 
@@ -79,6 +75,7 @@ struct VerifyProblem {
   Problem problem;
 };
 
+/// \param dialect the original's; the other file is run with home at 0, 0.
 [[nodiscard]] tl::expected<VerifySummary, VerifyProblem> verify(LineSource& original,
                                                                 LineSource& run,
                                                                 const Corrector& corrector,

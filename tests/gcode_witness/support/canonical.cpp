@@ -240,7 +240,8 @@ Answer read_truth(std::string_view truth) {
   return answer;
 }
 
-Answer ours(const std::string& program, const gcode::Dialect& dialect) {
+Answer ours(const std::string& program, gcode::Dialect dialect) {
+  dialect.home_is_zero = true;  // as LinuxCNC's is
   auto source = gcode::LineSource::from_text(program);
   Listener listener;
   const auto outcome = gcode::run_program(source, dialect, listener);

@@ -43,7 +43,7 @@ struct Answer {
 [[nodiscard]] Answer read_truth(std::string_view truth);
 
 /// Our interpreter's answer to a program.
-[[nodiscard]] Answer ours(const std::string& program, const gcode::Dialect& dialect = {});
+[[nodiscard]] Answer ours(const std::string& program, gcode::Dialect dialect = {});
 
 /// The first difference as a sentence; empty if there is none. Moves of zero length are left out.
 /// Rejections count as equal for any reason; then only the calls before them are compared.
