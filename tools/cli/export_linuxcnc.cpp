@@ -59,7 +59,7 @@ int export_linuxcnc(Verb verb, const ExportLinuxcncCommand& command) {
       grid::MapInFrame(map), {name, std::filesystem::path(file.name).filename().string()});
   if (!module) {
     fmt::print(stderr,
-               "{}: {}. A table needs lengths all over the map; fit it with --outside model\n",
+               "{}: {}. A table needs lengths all over the map; fit it with --outside continued\n",
                file.name,
                module.error().sentence());
     return kNotSupportedOrOutside;

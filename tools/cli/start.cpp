@@ -114,7 +114,8 @@ InputFile open_settings(const std::string& path) {
 
 int run_start(Verb verb, const StartCommand& command) {
   if (command.file.empty()) return start_template(verb, command.folder);
-  if (command.file != "-" && names_a_folder(command.file))
+  // Beside a folder the first word is a file.
+  if (command.file != "-" && !verb.is_given("folder") && names_a_folder(command.file))
     return start_template(verb, command.file);
   const InputFile file = open_settings(command.file);
   if (is_of_a_plotter(file)) {
