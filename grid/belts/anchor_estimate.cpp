@@ -8,6 +8,7 @@
 
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/first_frames.hpp"
+#include "grid/map/noise_from_repeats.hpp"
 #include "model/belts/belt_mechanism.hpp"
 
 namespace chaintrue::grid::belts {
@@ -20,8 +21,16 @@ namespace {
 /// A frame whose readings are off by more has converged on the wrong side of something, or holds gross
 /// slips: other starts are tried as well.
 constexpr double kPlausibleSpreadMm = 10.0;
-/// Readings in whole hundredths leave no less.
+/// A frame that meets its readings exactly has not shown that they are.
 constexpr double kLeastSpreadMm = 1e-3;
+
+double least_spread_mm(const MeasuredBelts& belts) {
+  std::vector<double> lengths;
+  for (const BeltPoint& point : belts.points) {
+    for (const Belt belt : kBelts) lengths.push_back(point.lengths_mm[belt]);
+  }
+  return std::max(kLeastSpreadMm, rounding_sigma_mm(lengths));
+}
 
 enum class Readings { all, those_that_fit };
 
@@ -129,7 +138,8 @@ std::optional<AnchorFit> fit_alone(const MeasuredBelts& belts,
   AnchorFit fit;
   fit.state.anchors = estimate->mechanism->values().head<kAnchorUnknowns>();
   fit.checks = checks_of(counting);
-  fit.residual_sigma_mm = fit.checks > 0 ? std::max(estimate->noise_factor, kLeastSpreadMm) : 1.0;
+  fit.residual_sigma_mm =
+      fit.checks > 0 ? std::max(estimate->noise_factor, least_spread_mm(belts)) : 1.0;
   fit.is_sound = estimate->converged && is_upright_frame(fit.state.anchors);
   fit.counting = std::move(counting);
   return fit;

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <string>
 
+#include "grid/map/noise_from_repeats.hpp"
 #include "grid/observation/length_points.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -84,34 +84,27 @@ std::optional<std::string> contradiction(const Machine& machine,
   return std::nullopt;
 }
 
-/// Scatter of the residuals within each group of repeats, as a multiple of the default noise.
+/// From the scatter of the residuals within each group of repeats.
 std::optional<StatedNoise> noise_of_repeats(const Machine& stated,
+                                            const MeasuredGrid& grid,
                                             const std::vector<LengthPoint>& points) {
   const model::ReadingModel model(stated);
   const StatedNoise usual;
-  double sum = 0.0;
-  double dof = 0.0;
+  RepeatScatter scatter({usual.length_mm, usual.position_mm}, rounding_noise(grid));
   for (const auto& group : repeat_groups(points)) {
-    std::vector<Eigen::Vector2d> whitened;
     for (const std::size_t i : group) {
       const auto reading = model.at(model::identity_placement(points[i].mark));
       if (!reading) continue;
-      const Eigen::Matrix2d& j = reading->position_jacobian;
-      const Eigen::Matrix2d covariance = std::pow(usual.position_mm, 2) * j * j.transpose() +
-                                         std::pow(usual.length_mm, 2) * Eigen::Matrix2d::Identity();
-      const Eigen::Vector2d residual(points[i].lengths.left_mm - reading->lengths.left_mm,
-                                     points[i].lengths.right_mm - reading->lengths.right_mm);
-      whitened.emplace_back(Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL().solve(residual));
+      scatter.add({points[i].lengths.left_mm - reading->lengths.left_mm,
+                   points[i].lengths.right_mm - reading->lengths.right_mm},
+                  reading->position_jacobian);
     }
-    if (whitened.size() < 2) continue;
-    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-    for (const auto& w : whitened) mean += w / static_cast<double>(whitened.size());
-    for (const auto& w : whitened) sum += (w - mean).squaredNorm();
-    dof += 2.0 * static_cast<double>(whitened.size() - 1);
+    scatter.end_group();
   }
-  if (dof < 4.0 || !(sum > 0.0)) return std::nullopt;
-  const double factor = std::sqrt(sum / dof);
-  return StatedNoise{factor * usual.length_mm, factor * usual.position_mm, dof};
+  const auto found = scatter.noise();
+  if (!found) return std::nullopt;
+  return StatedNoise{
+      found->factor * usual.length_mm, found->factor * usual.position_mm, found->dof};
 }
 
 /// Pairs of holes between which nothing was measured, the farthest apart first.
@@ -166,7 +159,7 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
   if (!lengths) return failure(Reason::no_lengths, lengths.error().sentence());
   std::optional<StatedNoise> noise = grid.noise;
   if (!noise) {
-    noise = noise_of_repeats(stated, *lengths);
+    noise = noise_of_repeats(stated, grid, *lengths);
     so_far.noise_from_repeats = noise.has_value();
   }
   if (!noise) {

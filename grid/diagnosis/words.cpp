@@ -387,7 +387,11 @@ void put_into_words(const Analysis& a, Diagnosis& d) {
         "What is left is about the same among neighbours. Distances cannot say what it depends on, "
         "since each joins two places: marks can, with the chains read there.");
   }
-  d.sentence = sentence(d, session.units.size());
+  d.sentence = a.system.regressors.empty()
+                   ? fmt::format("These {} can test no cause: there are too few of them, or they err "
+                                 "too much, for any cause to show.",
+                                 name(d.observations))
+                   : sentence(d, session.units.size());
   d.not_proved = not_proved(session, d);
   say_what_to_do(d);
 }

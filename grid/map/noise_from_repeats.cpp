@@ -2,37 +2,96 @@
 #include "grid/map/noise_from_repeats.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "grid/observation/length_points.hpp"
 
 namespace chaintrue::grid {
+namespace {
+
+/// Of the step; readings come with no more digits than a file's.
+constexpr double kShareOfStep = 1e-4;
+constexpr std::size_t kFewestReadings = 4;
+constexpr double kChosenPlacesMm = 5.0;
+
+bool are_multiples(const std::vector<double>& values, double step) {
+  return std::all_of(values.begin(), values.end(), [step](double value) {
+    const double steps = value / step;
+    return std::abs(steps - std::round(steps)) < kShareOfStep;
+  });
+}
+
+}  // namespace
+
+double rounding_sigma_mm(const std::vector<double>& readings_mm) {
+  constexpr double kInchMm = 25.4;
+  constexpr int kDecades = 6;
+  if (readings_mm.size() < kFewestReadings || are_multiples(readings_mm, kChosenPlacesMm)) return 0.0;
+  std::vector<double> steps{kInchMm / 16.0, kInchMm / 32.0, kInchMm / 64.0};
+  for (int decade = 0; decade < kDecades; ++decade) {
+    for (const double digit : {1.0, 0.5, 0.2}) steps.push_back(digit * std::pow(10.0, -decade));
+  }
+  std::sort(steps.begin(), steps.end(), std::greater<>());
+  const auto step = std::find_if(
+      steps.begin(), steps.end(), [&](double one) { return are_multiples(readings_mm, one); });
+  return step == steps.end() ? 0.0 : *step / std::sqrt(12.0);
+}
+
+observation::PointNoise rounding_noise(const MeasuredGrid& grid) {
+  std::vector<double> lengths, marks;
+  for (const MeasuredPoint& point : grid.points) {
+    if (point.lengths) {
+      lengths.insert(lengths.end(), {point.lengths->left_mm, point.lengths->right_mm});
+    } else {
+      marks.insert(marks.end(), {point.mark.x_mm, point.mark.y_mm});
+    }
+  }
+  return {rounding_sigma_mm(lengths), rounding_sigma_mm(marks)};
+}
+
+void RepeatScatter::add(const Eigen::Vector2d& residual_mm, const Eigen::Matrix2d& by_mark) {
+  const Eigen::LLT<Eigen::Matrix2d> factor(observation::covariance_of(noise_, by_mark));
+  group_.emplace_back(factor.matrixL().solve(residual_mm));
+  const Eigen::Matrix2d rounding = observation::covariance_of(rounding_, by_mark);
+  rounding_squares_ += factor.solve(rounding).trace();
+  rows_ += 2.0;
+}
+
+void RepeatScatter::end_group() {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& w : group_) mean += w / static_cast<double>(group_.size());
+  for (const Eigen::Vector2d& w : group_) squares_ += (w - mean).squaredNorm();
+  if (!group_.empty()) dof_ += 2.0 * static_cast<double>(group_.size() - 1);
+  group_.clear();
+}
+
+std::optional<RepeatNoise> RepeatScatter::noise() const {
+  constexpr double kFewestDof = 4.0;
+  // Of the noise that residuals are whitened by: repeats that agree so well are copies.
+  constexpr double kNothing = 1e-6;
+  if (dof_ < kFewestDof) return std::nullopt;
+  const double factor = std::sqrt(std::max(squares_ / dof_, rounding_squares_ / rows_));
+  return factor > kNothing ? std::optional(RepeatNoise{factor, dof_}) : std::nullopt;
+}
 
 std::optional<RepeatNoise> noise_from_repeats(const PointsFit& fit,
-                                              const observation::PointNoise& noise) {
+                                              const observation::PointNoise& noise,
+                                              const observation::PointNoise& rounding) {
   std::vector<LengthPoint> good;
-  std::vector<Eigen::Vector2d> whitened;
+  std::vector<const FittedPoint*> fitted;
   for (const FittedPoint& point : fit.points) {
     if (point.bad) continue;
-    const Eigen::Matrix2d covariance =
-        noise.length_mm * noise.length_mm * Eigen::Matrix2d::Identity() +
-        noise.position_mm * noise.position_mm * point.mark_jacobian *
-            point.mark_jacobian.transpose();
-    const Eigen::LLT<Eigen::Matrix2d> factor(covariance);
     good.push_back(point.point);
-    whitened.emplace_back(factor.matrixL().solve(point.residual_mm));
+    fitted.push_back(&point);
   }
-  double squares = 0.0;
-  double dof = 0.0;
+  RepeatScatter scatter(noise, rounding);
   for (const auto& group : repeat_groups(good)) {
-    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-    for (std::size_t i : group) mean += whitened[i] / static_cast<double>(group.size());
-    for (std::size_t i : group) squares += (whitened[i] - mean).squaredNorm();
-    dof += 2.0 * static_cast<double>(group.size() - 1);
+    for (const std::size_t i : group) scatter.add(fitted[i]->residual_mm, fitted[i]->mark_jacobian);
+    scatter.end_group();
   }
-  constexpr double kFewestDof = 4.0;
-  if (dof < kFewestDof || squares == 0.0) return std::nullopt;
-  return RepeatNoise{std::sqrt(squares / dof), dof};
+  return scatter.noise();
 }
 
 }  // namespace chaintrue::grid

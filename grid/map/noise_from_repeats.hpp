@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The size of the noise from points that were measured more than once.
+/// The size of the noise from points that were measured more than once, and the floor that rounding
+/// sets to it: second visits that agree exactly say only that the scatter is below the step of the rule.
 #pragma once
 
 #include <optional>
@@ -10,15 +11,46 @@
 
 namespace chaintrue::grid {
 
+/// Standard deviation of a value rounded to the step of these readings, step / sqrt(12). The step is
+/// the largest of which all are multiples: 1, 0.5 or 0.2 mm, 1/16, 1/32 or 1/64 inch, or a power of ten
+/// below of these millimetres. 0 for readings with all their digits, for fewer than four, and where
+/// all are multiples of 5 mm, which are places that somebody chose.
+[[nodiscard]] double rounding_sigma_mm(const std::vector<double>& readings_mm);
+
+/// Of the marks of points that give a command, and of the lengths of those that give lengths.
+[[nodiscard]] observation::PointNoise rounding_noise(const MeasuredGrid& grid);
+
 struct RepeatNoise {
   double factor = 1.0;  ///< the noise, as a multiple of the one the fit went in with
   double dof = 0.0;     ///< how well that is known
 };
 
-/// From the scatter of a fit's residuals within each group of repeats; outliers do not count.
-/// Empty where there are fewer than four degrees of freedom (two repeats): that is too little to go
-/// by.
+/// From the scatter of a fit's residuals within each group of repeats, not below what rounding
+/// leaves; outliers do not count. Empty where there are fewer than four degrees of freedom (two
+/// repeats): that is too little to go by; and where repeats with all their digits agree exactly.
 [[nodiscard]] std::optional<RepeatNoise> noise_from_repeats(const PointsFit& fit,
-                                                            const observation::PointNoise& noise);
+                                                            const observation::PointNoise& noise,
+                                                            const observation::PointNoise& rounding);
+
+/// The scatter of whitened residuals within groups of repeats, gathered point by point.
+class RepeatScatter {
+ public:
+  /// \param noise what the residuals are whitened by
+  RepeatScatter(const observation::PointNoise& noise, const observation::PointNoise& rounding)
+      : noise_(noise), rounding_(rounding) {}
+  /// \param by_mark derivatives of the lengths by the mark
+  void add(const Eigen::Vector2d& residual_mm, const Eigen::Matrix2d& by_mark);
+  void end_group();
+  [[nodiscard]] std::optional<RepeatNoise> noise() const;
+
+ private:
+  observation::PointNoise noise_;
+  observation::PointNoise rounding_;
+  std::vector<Eigen::Vector2d> group_;
+  double squares_ = 0.0;
+  double dof_ = 0.0;
+  double rounding_squares_ = 0.0;
+  double rows_ = 0.0;
+};
 
 }  // namespace chaintrue::grid

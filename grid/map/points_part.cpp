@@ -75,8 +75,8 @@ void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual
 
 class PointsPart final : public FitPart {
  public:
-  PointsPart(MeasuredGrid grid, std::vector<LengthPoint> points)
-      : grid_(std::move(grid)), points_(std::move(points)) {
+  PointsPart(MeasuredGrid grid, std::vector<LengthPoint> points, observation::PointNoise rounding)
+      : grid_(std::move(grid)), points_(std::move(points)), rounding_(rounding) {
     constexpr std::size_t kFewestPoints = 6;
     fewest_good = kFewestPoints;
     machine = *grid_.machine;
@@ -97,7 +97,7 @@ class PointsPart final : public FitPart {
   [[nodiscard]] tl::expected<void, FitFailure> find_noise(Fitting& alone) override {
     if (noise.knowledge != interp::NoiseKnowledge::unknown) return {};
     prefer_smoother(alone);
-    if (const auto repeats = noise_from_repeats(fit_of(alone, 0), noise_)) {
+    if (const auto repeats = noise_from_repeats(fit_of(alone, 0), noise_, rounding_)) {
       noise_.length_mm *= repeats->factor;
       noise_.position_mm *= repeats->factor;
       noise = {interp::NoiseKnowledge::from_repeats, repeats->dof};
@@ -265,6 +265,7 @@ class PointsPart final : public FitPart {
 
   MeasuredGrid grid_;  ///< corrected
   std::vector<LengthPoint> points_;
+  observation::PointNoise rounding_;  ///< of the readings as they were written
   observation::PointNoise noise_;
   NoiseSource source_ = NoiseSource::fit;
   /// Takes the place of the surface where readings without noise lie on a lattice.
@@ -287,7 +288,7 @@ tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredGrid& g
   const MeasuredGrid& own = corrected->grid;
   if (auto possible = check_readings_of(*own.machine, own.readings, "grid's"); !possible)
     return tl::unexpected(possible.error());
-  auto part = std::make_unique<PointsPart>(own, *std::move(points));
+  auto part = std::make_unique<PointsPart>(own, *std::move(points), rounding_noise(grid));
   part->corrections = std::move(corrected->notes);
   return part;
 }
