@@ -14,6 +14,10 @@ namespace {
 constexpr std::string_view kCsvByteOrderMark = "\xEF\xBB\xBF";
 /// Nobody writes more lines of words above a table.
 constexpr std::size_t kMostAboveHeader = 8;
+/// A hundred thousand lines of eight columns, five times the most points of any verb.
+constexpr std::size_t kMostCells = 800'000;
+/// Of a line, in bytes: more than any spreadsheet's row of columns that have a name here.
+constexpr std::size_t kLongestLine = std::size_t{1} << 16U;
 
 std::string_view without_byte_order_mark(std::string_view text) {
   // Some programs write a second byte order mark.
@@ -108,6 +112,7 @@ LineOfWords line_of_header(std::string_view text) {
   bool found_numbers = false;
   for_each_line(text, [&](std::string_view line, std::size_t number) {
     bool ignored = false;
+    line = line.substr(0, kLongestLine);
     const CsvRow row = csv_cells_of(line, separator_of_line(line), ignored);
     const auto numbers = std::count_if(
         row.begin(), row.end(), [](const CsvCell& cell) { return is_like_a_number(cell.text); });
@@ -130,6 +135,7 @@ LineOfWords line_of_header(std::string_view text) {
 
 std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& problems) {
   std::vector<CsvRow> rows;
+  std::size_t cells = 0;
   const std::size_t first = line_of_header(text).number;
   for_each_line(text, [&](std::string_view line, std::size_t number) {
     if (number < first) {
@@ -137,17 +143,36 @@ std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& p
                     fmt::format("a note, no reading: left out ({})", shortened(line)));
       return true;
     }
+    if (line.size() > kLongestLine) {
+      problems.add(line_and_column(number, 1),
+                   "a longer line",
+                   fmt::format("lines of at most {} characters", kLongestLine));
+      problems.throw_if_any();
+    }
     bool quote_left_open = false;
     CsvRow row = csv_cells_of(line, separator, quote_left_open);
     for (CsvCell& cell : row) cell.line = number;
     if (quote_left_open) {
       problems.add(line_and_column(number, 1), line, "a closing quote on the same line");
     }
+    cells += row.size();
+    if (cells > kMostCells) {
+      problems.add(line_and_column(number, 1),
+                   "more cells",
+                   fmt::format("a table of at most {} cells", kMostCells));
+      problems.throw_if_any();
+    }
     rows.push_back(std::move(row));
     return true;
   });
   write_decimal_points(separator, rows);
   return rows;
+}
+
+CsvRow header_of_csv(std::string_view text) {
+  bool ignored = false;
+  const std::string_view line = line_of_header(text).text;
+  return csv_cells_of(line, separator_of_line(line), ignored);
 }
 
 char separator_of(std::string_view text) { return separator_of_line(line_of_header(text).text); }

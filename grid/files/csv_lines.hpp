@@ -24,9 +24,12 @@ using CsvRow = std::vector<CsvCell>;
 /// The lines that are neither blank nor comments, cut at `separator`. Blanks around cells and
 /// quotes are removed, and numbers are written with a point where the file leaves no doubt of what
 /// its commas mean (csv_numbers.hpp). A title above the header is a warning.
+/// \throws InputError for a table of more cells than any of ours has
 [[nodiscard]] std::vector<CsvRow> split_csv(std::string_view text,
                                             char separator,
                                             Problems& problems);
+/// The header alone.
+[[nodiscard]] CsvRow header_of_csv(std::string_view text);
 
 /// Of comma, semicolon and tab the one that the header has most of; a comma where there is none.
 [[nodiscard]] char separator_of(std::string_view text);

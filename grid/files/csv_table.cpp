@@ -182,11 +182,8 @@ void drop_what_is_no_row(std::vector<CsvRow>& rows, Problems& problems) {
 }  // namespace
 
 std::vector<std::string> csv_header(std::string_view text) {
-  Problems ignored("");
   std::vector<std::string> names;
-  const std::vector<CsvRow> rows = split_csv(text, separator_of(text), ignored);
-  if (rows.empty()) return names;
-  for (const CsvCell& cell : rows.front()) names.push_back(column_name(cell.text).name);
+  for (const CsvCell& cell : header_of_csv(text)) names.push_back(column_name(cell.text).name);
   return names;
 }
 

@@ -20,6 +20,8 @@ std::string in_small_letters(std::string_view text) {
 
 /// With more unrecognised lines than this the file is not an ini file.
 constexpr std::size_t kMostStrangeLines = 5;
+/// Ground Control's own files have about a hundred.
+constexpr std::size_t kMostSettings = 5000;
 
 }  // namespace
 
@@ -32,6 +34,7 @@ IniTable::IniTable(std::string_view text, Problems& problems) {
   }
   std::vector<IniEntry>* section = nullptr;
   std::size_t strange = 0;
+  std::size_t settings = 0;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = text.find('\n');
     const std::string_view line = trimmed(text.substr(0, end));
@@ -48,6 +51,10 @@ IniTable::IniTable(std::string_view text, Problems& problems) {
                    ProblemKind::bad_syntax);
       if (++strange == kMostStrangeLines) return;
       continue;
+    }
+    if (++settings > kMostSettings) {
+      problems.add(place, "more settings", fmt::format("at most {} lines of settings", kMostSettings));
+      return;
     }
     IniEntry entry{in_small_letters(trimmed(line.substr(0, sign))),
                    std::string(trimmed(line.substr(sign + 1))),

@@ -16,6 +16,8 @@ namespace chaintrue::grid::files {
 namespace {
 
 constexpr std::size_t kDeepest = 64;
+/// Five times those of the largest map.
+constexpr std::size_t kMostValues = 1'000'000;
 constexpr std::size_t kLineWidth = 100;
 
 bool is_word_character(char c) {
@@ -220,12 +222,20 @@ class Builder : public nlohmann::json_sax<Json> {
     return &members.back().second;
   }
 
+  [[nodiscard]] bool has_room() {
+    if (++values_ <= kMostValues) return true;
+    problems_.add(pointer(), "more values", fmt::format("at most {} values", kMostValues));
+    return false;
+  }
+
   bool add(Json&& value) {
+    if (!has_room()) return false;
     place(std::move(value));
     return true;
   }
 
   bool open(Json&& value) {
+    if (!has_room()) return false;
     if (open_.size() == kDeepest) {
       problems_.add(pointer(), "deeper nesting", fmt::format("at most {} levels", kDeepest));
       return false;
@@ -246,6 +256,7 @@ class Builder : public nlohmann::json_sax<Json> {
   Problems& problems_;
   Json root_;
   std::vector<Level> open_;
+  std::size_t values_ = 0;
 };
 
 std::string quoted_text(const std::string& text) {

@@ -14,6 +14,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <random>
 #include <system_error>
@@ -73,6 +74,22 @@ std::optional<int> descriptor_behind(const fs::path& path) {
                                                                       : std::nullopt;
 }
 
+/// Where symbolic links lead, whether a file is there or not.
+fs::path end_of_links(const fs::path& path) {
+  constexpr int kMostLinks = 40;  // Linux's own limit
+  std::error_code error;
+  fs::path target = path;
+  for (int links = 0; fs::is_symlink(target, error); ++links) {
+    const fs::path next = fs::read_symlink(target, error);
+    if (error || links == kMostLinks) {
+      refuse_file(path.string(), system_words(error ? error.value() : ELOOP), "a link that leads to a file",
+                  ProblemKind::output_place);
+    }
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  return target;
+}
+
 /// The file that a path resolves to; empty if it is a device, a pipe or an open descriptor, which
 /// are written to directly.
 fs::path file_behind(const fs::path& path) {
@@ -83,13 +100,7 @@ fs::path file_behind(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error))
     refuse_file(path.string(), "a directory", "the name of a file", ProblemKind::output_place);
-  fs::path target = path;
-  if (fs::is_symlink(path, error)) {
-    target = fs::weakly_canonical(path, error);
-    if (error)
-      refuse_file(path.string(), system_words(error.value()), "a link that leads to a file",
-                  ProblemKind::output_place);
-  }
+  const fs::path target = end_of_links(path);
   struct stat status = {};
   if (::stat(target.c_str(), &status) != 0) {
     // An invalid name would be detected only at the rename, after other files were renamed.
@@ -139,6 +150,35 @@ bool write_all(int descriptor, std::string_view bytes) {
   }
   return true;
 }
+
+/// What an output replaces: under a second name until all outputs are in place.
+class OldFile {
+ public:
+  explicit OldFile(const fs::path& target)
+      : target_(target), name_(unpredictable_name_next_to(target)), slot_(claim_slot(name_)) {
+    has_name_ = ::link(target_.c_str(), name_.c_str()) == 0;
+    // Where the file system has no second names, what is replaced cannot come back.
+    is_new_ = !has_name_ && errno == ENOENT;
+  }
+  ~OldFile() {
+    if (has_name_) ::unlink(name_.c_str());
+    free_slot(slot_);
+  }
+  OldFile(const OldFile&) = delete;
+  OldFile& operator=(const OldFile&) = delete;
+
+  void come_back() noexcept {
+    if (is_new_) ::unlink(target_.c_str());
+    if (has_name_ && std::rename(name_.c_str(), target_.c_str()) == 0) has_name_ = false;
+  }
+
+ private:
+  fs::path target_;
+  std::string name_;
+  int slot_;
+  bool has_name_ = false;
+  bool is_new_ = false;
+};
 
 constexpr std::size_t kPiece = std::size_t{1} << 18U;
 
@@ -228,8 +268,19 @@ void PendingFile::put_out() const {
 
 void take_places(const std::vector<PendingFile*>& files) {
   for (PendingFile* file : files) file->finish();
-  for (PendingFile* file : files) file->take_name();
-  for (const PendingFile* file : files) file->put_out();
+  std::vector<std::unique_ptr<OldFile>> replaced;
+  try {
+    for (PendingFile* file : files) {
+      if (!file->target_.empty()) replaced.push_back(std::make_unique<OldFile>(file->target_));
+      file->take_name();
+    }
+    for (const PendingFile* file : files) file->put_out();
+  } catch (const ReaderGone&) {
+    throw;
+  } catch (...) {
+    for (const auto& old : replaced) old->come_back();
+    throw;
+  }
 }
 
 void remove_pending_files_on_signals() {

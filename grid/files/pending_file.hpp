@@ -4,9 +4,9 @@
 ///
 /// The pieces go to a temporary file in the target's folder, which is then renamed in one step:
 /// readers see either the old file or the new one. Its name is unpredictable and it is created with
-/// O_EXCL. Symbolic links are followed, permissions and owner of an existing file are kept, a file
-/// without write permission is rejected. Output to devices, pipes and "-" (standard output) is held
-/// in memory and written at the end, without a temporary file.
+/// O_EXCL. Symbolic links are followed, also to where no file is yet; permissions and owner of an
+/// existing file are kept, a file without write permission is rejected. Output to devices, pipes and
+/// "-" (standard output) is held in memory and written at the end, without a temporary file.
 ///
 /// \code
 ///   PendingFile program("part.true.nc"), page("part.html");
@@ -59,9 +59,10 @@ class PendingFile {
   int error_number_ = 0;
 };
 
-/// Renames all of them or none: no file is renamed before all are completely written. Output to
-/// devices and standard output comes last. \throws InputError for the first that cannot be written,
-/// ReaderGone if a pipe's reader is gone.
+/// Renames all of them or none: no file is renamed before all are completely written, and where one
+/// fails, output to devices and standard output included, the others are as they were. \throws
+/// InputError for the first that cannot be written, ReaderGone, with the files in place, if a pipe's
+/// reader is gone.
 void take_places(const std::vector<PendingFile*>& files);
 
 /// The reader of standard output or of a pipe has closed it: not an error.

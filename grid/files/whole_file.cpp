@@ -26,13 +26,25 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
+/// Three times the largest file of ours; G-code is read line by line.
+constexpr std::size_t kMostBytes = std::size_t{16} << 20U;
+
 std::string read_to_the_end(std::FILE* file, const fs::path& path) {
   const std::string name = name_in_messages(path);
   note_as_read(fileno(file));
   std::string text;
   char buffer[1 << 16];
   std::size_t count = 0;
-  while ((count = std::fread(buffer, 1, sizeof buffer, file)) > 0) text.append(buffer, count);
+  while ((count = std::fread(buffer, 1, sizeof buffer, file)) > 0) {
+    if (text.size() + count > kMostBytes) {
+      refuse_file(name,
+                  "a longer file",
+                  fmt::format("at most {} MB: no file of measurements or settings is longer",
+                              kMostBytes >> 20U),
+                  ProblemKind::file_kind);
+    }
+    text.append(buffer, count);
+  }
   if (std::ferror(file) != 0) {
     refuse_file(name,
                 fmt::format("a read error ({})", system_words(errno)),

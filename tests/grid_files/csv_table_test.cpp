@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/files/input_error.hpp"
 #include "grid/files/length_text.hpp"
 
 namespace chaintrue::grid::files {
@@ -144,6 +145,20 @@ TEST(LengthText, OfOtherUnitsAndOfAnInchRule) {
                            "-"}) {
     EXPECT_FALSE(length_with_unit_mm(none)) << none;
   }
+}
+
+/// What no session has is refused while it is read, not after it was kept.
+TEST(CsvTable, OfMoreThanAnySessionHasIsRefused) {
+  std::string rows = "x_mm,y_mm\n";
+  for (int i = 0; i < 400'001; ++i) rows += "1,2\n";
+  Problems problems("t.csv");
+  EXPECT_THROW((void)read_csv(rows, kColumns, problems), InputError);
+  EXPECT_THAT(problems.list().back().message(), HasSubstr("800000 cells"));
+  std::string wide = "x_mm,y_mm\n";
+  for (int i = 0; i < 40'000; ++i) wide += "1,";
+  Problems of_wide("t.csv");
+  EXPECT_THROW((void)read_csv(wide, kColumns, of_wide), InputError);
+  EXPECT_THAT(of_wide.list().back().message(), HasSubstr("line 2"));
 }
 
 }  // namespace

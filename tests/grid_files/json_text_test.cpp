@@ -275,5 +275,13 @@ TEST(JsonReader, AFormatIsATableOfItsFields) {
   EXPECT_THAT(bad, ::testing::Not(HasSubstr("/holes/0/x_mm: missing")));
 }
 
+TEST(JsonText, OfMoreValuesThanAnyFileHasIsRefused) {
+  std::string text = "[0";
+  for (int i = 0; i < 1'000'000; ++i) text += ",0";
+  Problems problems("t.json");
+  EXPECT_THROW((void)parse_json(text + "]", problems), InputError);
+  EXPECT_THAT(problems.list().back().message(), HasSubstr("at most 1000000 values"));
+}
+
 }  // namespace
 }  // namespace chaintrue::grid::files

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "grid/files/input_error.hpp"
+#include "grid/files/pending_file.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -99,6 +100,32 @@ TEST_F(WholeFile, NewOnesHaveTheRightsOfTheProcess) {
   write_whole_file(folder_ / "file", "x");
   ::umask(mask);
   EXPECT_EQ(static_cast<unsigned>(fs::status(folder_ / "file").permissions()), 0640U);
+}
+
+/// The second cannot take its name, which a folder has taken in the meantime.
+TEST_F(WholeFile, OneThatFailsLeavesTheOthersAsTheyWere) {
+  write_whole_file(folder_ / "old", "old");
+  for (const char* first : {"old", "new"}) {
+    const std::size_t before = files_in_folder();
+    {
+      PendingFile one(folder_ / first);
+      PendingFile two(folder_ / "two");
+      one.write("one");
+      two.write("two");
+      fs::create_directory(folder_ / "two");
+      EXPECT_THAT(refusal_of([&] { take_places({&one, &two}); }), HasSubstr("two: found "));
+      fs::remove(folder_ / "two");
+    }
+    EXPECT_EQ(files_in_folder(), before) << first;
+    EXPECT_EQ(read_whole_file(folder_ / "old"), "old") << first;
+  }
+}
+
+TEST_F(WholeFile, ThatIsLongerThanAnyOfOursIsRefused) {
+  const fs::path file = folder_ / "file";
+  std::ofstream(file) << "1";
+  fs::resize_file(file, std::uintmax_t{17} << 20U);
+  EXPECT_THAT(refusal_of([&] { (void)read_whole_file(file); }), HasSubstr("at most 16 MB"));
 }
 
 TEST_F(WholeFile, DevicesAreWrittenTo) {
