@@ -7,8 +7,9 @@
 
 #include "grid/diagnosis/acting_causes.hpp"
 #include "grid/diagnosis/causes_held_out.hpp"
-#include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/held_out_improvement.hpp"
+#include "grid/diagnosis/naming.hpp"
 #include "grid/diagnosis/order_search.hpp"
 #include "grid/diagnosis/regressors.hpp"
 #include "grid/map/larger_error.hpp"
@@ -17,12 +18,6 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 using model::effects::Station;
-
-/// Each block's naming repeated without it, the map's own smooth correction in both.
-bool naming_holds(const Diagnosis& found) {
-  return found.improvement &&
-         found.improvement->extended_and_surface.rms_mm < found.improvement->surface_only.rms_mm;
-}
 
 bool scale_was_read(const Measured& measured) {
   const auto decides = [](const ExtraReading& reading) {
@@ -167,6 +162,7 @@ void count_what_is_left_open(const Measured& measured,
     return a->probability > b->probability;
   });
   if (open.size() > kMostMaps) open.resize(kMostMaps);
+  if (open.empty() && result.built_on.empty()) return;
   const Apart built = apart(result.fit.map, plain);
   const double expected_mm2 = built.expected_mm2;
   double variance_mm2 = std::pow(least_known_size(result.built_on), 2) * built.difference_mm2 +
@@ -205,20 +201,18 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
   DiagnosisOptions weighed;
   weighed.seed = options.seed;
   weighed.accept_class = options.accept_class;
-  weighed.next_measurements = false;
   weighed.progress = options.fit.progress;
-  const auto found = diagnose(measured, weighed);
+  const auto found = name_causes(measured, weighed, NamingFor::causes);
   if (!found) {
     result.not_weighed = found.error().sentence();
     return noted(std::move(result));
   }
   // What depends on the visit is taken out in the order that was found.
-  const Measured ordered = found->visiting_order
-                               ? visited_in(measured, found->visiting_order->order).value_or(measured)
-                               : measured;
+  const Measured ordered =
+      found->order ? visited_in(measured, found->order->order).value_or(measured) : measured;
   const bool decided = options.accept_class || scale_was_read(measured);
   std::vector<Cause> sure;
-  for (const Cause& cause : found->causes) {
+  for (const Cause& cause : causes_found(found->analysis)) {
     if (const auto reason = refusal(cause, decided))
       result.offered.push_back({cause, *reason});
     else
@@ -237,7 +231,7 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
   }
   const std::vector<HeldOutSquare> squares = held_out_squares(result.fit, *with_causes);
   result.held_out = error_of(squares);
-  if (!naming_holds(*found) || !falls_beyond_its_error(squares)) {
+  if (!falls_beyond_its_error(squares) || !naming_improves_the_map(found->analysis)) {
     offer(sure, OfferedCause::Reason::gains_nothing, result);
     return with_open();
   }

@@ -7,16 +7,12 @@
 #include <array>
 #include <cmath>
 
-#include "grid/diagnosis/causes_given_law.hpp"
 #include "grid/diagnosis/declared_answers.hpp"
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/gross_errors.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
-#include "grid/diagnosis/laws.hpp"
+#include "grid/diagnosis/naming.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/diagnosis/order_search.hpp"
-#include "grid/diagnosis/single_reading.hpp"
-#include "grid/diagnosis/stability.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/joint_fit.hpp"
@@ -63,8 +59,6 @@ namespace {
 
 // What a diagnosis tells of itself; the gain tells each block (gain.cpp).
 constexpr int kWorkSteps = 4;
-constexpr WorkStep kComparing{"the causes against each other", 1, kWorkSteps};
-constexpr WorkStep kLeavingOut{"the name without each reading", 2, kWorkSteps};
 constexpr WorkStep kPlanning{"what to measure next", 4, kWorkSteps};
 
 Observations observations_of(const ObservationSet& session) {
@@ -135,74 +129,19 @@ void count_law(Diagnosis& d) {
   d.tool_today->maximum_mm = std::max(d.tool_today->maximum_mm, law_mm);
 }
 
-/// What is named once a claimed law is known; what is not any more is no name.
-std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws, Analysis& a) {
-  const auto rows = rows_of_claimed_law(a, laws);
-  if (!rows) return {};
-  const Analysis given = analyse_without(a, *rows);
-  std::vector<CauseGivenLaw> changed = causes_that_change(a, given);
-  take_names_back(given, a);
-  return changed;
-}
-
-tl::expected<Analysis, DiagnosisFailure> analysed_in(const VisitingOrderFound& order,
-                                                     const Measured& measured,
-                                                     DiagnosisOptions options) {
-  options.order_assumed = true;
-  options.orders_tried = static_cast<int>(line_by_line_orders().size());
-  auto session = diagnosis::observations_of(visited_in(measured, order.order).value());
-  if (!session) return tl::unexpected(session.error());
-  return analyse(*std::move(session), options);
-}
-
-/// An analysis, and the order of visits that it found and goes by.
-struct AnalysedInOrder {
-  Analysis analysis;
-  std::optional<VisitingOrderFound> order;
-};
-
-tl::expected<AnalysedInOrder, DiagnosisFailure> analysed_in_order(const Measured& measured,
-                                                                  ObservationSet session,
-                                                                  const DiagnosisOptions& options) {
-  const bool has_several = measured.files().size() > 1;
-  std::optional<VisitingOrderFound> order;
-  if (has_several && (order = find_order_of_first(measured, options))) {
-    if (auto ordered = analysed_in(*order, measured, options))
-      return AnalysedInOrder{*std::move(ordered), order};
-  }
-  auto analysis = analyse(std::move(session), options);
-  if (!analysis) return tl::unexpected(analysis.error());
-  if (!has_several && (order = find_visiting_order(measured, *analysis))) {
-    if (auto ordered = analysed_in(*order, measured, options))
-      return AnalysedInOrder{*std::move(ordered), order};
-  }
-  return AnalysedInOrder{*std::move(analysis), std::nullopt};
-}
-
 }  // namespace
 
 tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
                                                    const DiagnosisOptions& options) {
-  auto session = observations_of(measured);
-  if (!session) return tl::unexpected(session.error());
-  if (const auto slip = suspected_slip(measured)) return tl::unexpected(*slip);
-  tell(options.progress, kComparing);
-  auto analysed = analysed_in_order(measured, *std::move(session), options);
-  if (!analysed) return tl::unexpected(analysed.error());
-  auto& [a, order] = *analysed;
-  const LawsFound laws = laws_found(a);
+  auto naming = name_causes(measured, options, NamingFor::report);
+  if (!naming) return tl::unexpected(naming.error());
+  const Analysis& a = naming->analysis;
+  const LawsFound& laws = naming->laws;
   Diagnosis d;
-  d.visiting_order = order;
+  d.visiting_order = naming->order;
   d.observations = observations_of(a.session);
-  tell(options.progress, kLeavingOut);
-  if (options.stability) d.stability = examine_stability(a);
-  if (auto refused = refuse_name_of_one_reading(d.stability, a)) {
-    d.notes.push_back(std::move(*refused));
-    d.stability.reset();
-  }
-  const std::size_t named = a.decision.listed.size();
-  std::vector<CauseGivenLaw> given_law = name_given_law(laws, a);
-  if (d.stability && a.decision.listed.size() != named) d.stability = examine_stability(a);
+  d.stability = std::move(naming->stability);
+  if (naming->refusal) d.notes.push_back(*std::move(naming->refusal));
   take_findings(a, d);
   d.settings = settings_found(a);
   d.outliers = outliers_found(a);
@@ -212,7 +151,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   d.left_over = left_over(a);
   d.unexplained = unexplained(a);
   take_laws(laws.laws, d);
-  d.unexplained->causes_given_law = std::move(given_law);
+  d.unexplained->causes_given_law = std::move(naming->causes_given_law);
   d.declared = declared_answers(a, d);
   d.budget = error_budget(a);
   const std::vector<std::string> sessions = names_of_sessions(measured);

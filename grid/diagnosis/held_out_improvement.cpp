@@ -110,6 +110,30 @@ Extension extension_of(const Analysis& a, const Errors& errors) {
   return {&errors.calibrated, &errors.surface_only, false, true};
 }
 
+/// What every fold held out, one after the other.
+struct AllFolds {
+  std::vector<std::size_t> units;
+  std::vector<std::size_t> number;  ///< of the block of each
+  Errors errors;
+  int agree = 0;
+};
+
+AllFolds hold_out_each(const Analysis& a, const HeldOutBlocks& blocks) {
+  AllFolds all;
+  tell(a.options.progress, {"what a name gains", 3, 4});
+  const HeldOutFolds held_out(a);
+  std::vector<Fold> folds(blocks.units.size());
+  for_each_index(folds.size(), [&](std::size_t b) { folds[b] = held_out.without(blocks.units[b]); });
+  for (std::size_t b = 0; b < folds.size(); ++b) {
+    const Fold& fold = folds[b];
+    all.agree += names_agree(fold, a) ? 1 : 0;
+    all.units.insert(all.units.end(), fold.units.begin(), fold.units.end());
+    all.number.insert(all.number.end(), fold.units.size(), b);
+    append(fold.errors, all.errors);
+  }
+  return all;
+}
+
 std::string scheme_of(const ObservationSet& session,
                       const HeldOutBlocks& blocks,
                       bool naming_repeated) {
@@ -166,24 +190,12 @@ HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
 
 std::optional<HeldOutImprovement> measure_improvement(const Analysis& a) {
   const HeldOutBlocks blocks = held_out_blocks(a.session);
-  if (blocks.units.empty()) return std::nullopt;
-  HeldOutImprovement improvement;
-  std::vector<std::size_t> units;
-  std::vector<std::size_t> number;
-  Errors all;
-  tell(a.options.progress, {"what a name gains", 3, 4});
-  const HeldOutFolds held_out(a);
-  std::vector<Fold> folds(blocks.units.size());
-  for_each_index(folds.size(), [&](std::size_t b) { folds[b] = held_out.without(blocks.units[b]); });
-  for (std::size_t b = 0; b < folds.size(); ++b) {
-    const Fold& fold = folds[b];
-    improvement.folds += 1;
-    improvement.folds_agree += names_agree(fold, a) ? 1 : 0;
-    units.insert(units.end(), fold.units.begin(), fold.units.end());
-    number.insert(number.end(), fold.units.size(), b);
-    append(fold.errors, all);
-  }
+  const AllFolds folds = hold_out_each(a, blocks);
+  const auto& [units, number, all, agree] = folds;
   if (units.empty()) return std::nullopt;
+  HeldOutImprovement improvement;
+  improvement.folds = static_cast<int>(blocks.units.size());
+  improvement.folds_agree = agree;
   const std::uint64_t seed = a.options.seed;
   const BeforeCalibration before = before_calibration(a, units);
   improvement.uncalibrated = summarise(before.as_stated, number, seed);
@@ -201,6 +213,11 @@ std::optional<HeldOutImprovement> measure_improvement(const Analysis& a) {
     improvement.drop_share = expected.share;
   }
   return improvement;
+}
+
+bool naming_improves_the_map(const Analysis& a) {
+  const Errors errors = hold_out_each(a, held_out_blocks(a.session)).errors;
+  return rms_length(*extension_of(a, errors).and_surface) < rms_length(errors.surface_only);
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -18,6 +18,10 @@ namespace chaintrue::grid::diagnosis {
 /// Empty where there are too few points to hold any out.
 [[nodiscard]] std::optional<HeldOutImprovement> measure_improvement(const Analysis& analysis);
 
+/// Whether a machine with the causes, the surface in both, predicts what is held out better than one
+/// without: the comparison of measure_improvement() alone.
+[[nodiscard]] bool naming_improves_the_map(const Analysis& analysis);
+
 /// Root mean square and 95th percentile of tool errors, and the interval of the first over blocks
 /// drawn anew. `block` numbers the block of each error.
 [[nodiscard]] HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
