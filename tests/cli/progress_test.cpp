@@ -124,7 +124,6 @@ TEST(LongWork, OfADiagnosisTellsEachStep) {
   options.progress = told.progress();
   ASSERT_TRUE(grid::diagnosis::diagnose(demo_grid(), options));
   EXPECT_THAT(told.numbers(), ElementsAre(1, 2, 3, 4));
-  EXPECT_GT(told.steps[3].share, 0.5);
 }
 
 TEST(LongWork, OfAPlanAndASimulationTellsItsShare) {

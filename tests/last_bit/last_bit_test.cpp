@@ -29,7 +29,7 @@ constexpr std::size_t kWrittenDigits = 7;
 /// Numbers and the texts between them in turn, without line breaks and hashes of digits.
 std::vector<std::string> pieces_of(const std::string& text) {
   static const std::regex blanks("\\s+");
-  static const std::regex hash("\"[0-9a-f]{16}\"");
+  static const std::regex hash("\"[0-9a-f]{64}\"");
   static const std::regex number("-?[0-9]+\\.?[0-9]*([eE][-+]?[0-9]+)?");
   const std::string plain = std::regex_replace(std::regex_replace(text, hash, "\"\""), blanks, "");
   std::vector<std::string> pieces;

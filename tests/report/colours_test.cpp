@@ -25,7 +25,6 @@ const std::set<std::string> kGround = {
 /// Scales of a quantity from little to much, and the lines of a sweep.
 const std::set<std::string> kScales = {
     "#fdfdf5", "#d6e8d0", "#8fc6c4", "#4a94b8", "#2f5d9b", "#253471",  // expected error
-    "#cfe3f0", "#e8a27c", "#b3451a",                                   // likeness of two causes
     "#9bbdd6",                                                         // the stem of a point
     "#440154", "#3b528b", "#1f8a86", "#c07a00", "#c0281c",             // error along a program
     "#56b4e9", "#999933", "#e69f00"};                                  // lines of a sweep

@@ -49,7 +49,7 @@ TEST(DiagnosisPage, HoldsTheNumbersOfTheFile) {
 TEST(DiagnosisPage, FoldsAwayWhatIsAsItShouldBe) {
   const std::string html = page_of(sample_diagnosis());
   EXPECT_THAT(html, HasSubstr("<h2>Does the name hang on a few points?</h2>\n<div"));
-  EXPECT_THAT(html, HasSubstr("<summary><h2>Is what is left only noise?</h2></summary>"));
+  EXPECT_THAT(html, HasSubstr("<summary><h2>What the error follows</h2></summary>"));
   EXPECT_THAT(page_of(quiet_diagnosis()), Not(HasSubstr("Why this cause")));
 }
 

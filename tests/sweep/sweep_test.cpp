@@ -11,7 +11,9 @@
 #include "grid/files/input_error.hpp"
 #include "grid/files/sweep_file.hpp"
 #include "grid/files/sweep_store.hpp"
+#include "grid/parallel.hpp"
 #include "grid/sweep/run_sweep.hpp"
+#include "grid/threads/use_threads.hpp"
 #include "tests/support/files.hpp"
 
 namespace chaintrue::grid::sweep {
@@ -46,9 +48,9 @@ std::uint64_t run_in(const fs::path& folder, const files::ReadSweep& read, const
 
 std::string whole_run(const files::ReadSweep& read, const std::string& name, int threads) {
   const fs::path folder = fresh_folder(name);
-  SweepRun run;
-  run.threads = threads;
-  EXPECT_EQ(run_in(folder, read, run), cells(read.spec));
+  use_threads(threads);
+  EXPECT_EQ(run_in(folder, read, {}), cells(read.spec));
+  set_index_loop(nullptr);
   return results_of(read, folder);
 }
 

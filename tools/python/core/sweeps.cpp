@@ -4,6 +4,7 @@
 #include "grid/files/sweep_file.hpp"
 #include "grid/files/sweep_store.hpp"
 #include "grid/sweep/run_sweep.hpp"
+#include "grid/threads/use_threads.hpp"
 #include "tools/cli/sweep_page.hpp"
 #include "tools/python/core/bind.hpp"
 
@@ -31,7 +32,7 @@ py::list as_records(const sweep::SweepSpec& spec, const std::vector<files::Level
 py::dict run(const std::string& specification, const std::string& directory, int threads) {
   const files::ReadSweep read = files::read_sweep(specification);
   sweep::SweepRun settings;
-  settings.threads = threads;
+  grid::use_threads(threads);
   const std::vector<files::LevelError> errors = [&] {
     const py::gil_scoped_release others_may_work;
     sweep::run_sweep(read.spec, files::cells_kept_in(directory, read, settings.share), settings);
