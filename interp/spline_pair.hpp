@@ -50,7 +50,8 @@ class SplinePair {
     explicit Axis(std::span<const double> nodes);
     double first;
     double per_mean_length;
-    double last;  // index of the last interval
+    double last;       // index of the last interval
+    bool even = true;  // all intervals have the mean length
     std::vector<Interval> intervals;
   };
   struct alignas(64) Cell {
