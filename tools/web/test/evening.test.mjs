@@ -23,7 +23,7 @@ export function assertAlike(found, wanted, place = "") {
   } else if (wanted !== null && typeof wanted === "object") {
     assert.deepEqual(Object.keys(found), Object.keys(wanted), place);
     for (const key of Object.keys(wanted)) assertAlike(found[key], wanted[key], `${place}/${key}`);
-  } else if (!(typeof wanted === "string" && /\b[0-9a-f]{16}\b/.test(wanted))) {  // a hash of digits
+  } else if (!(typeof wanted === "string" && /\b[0-9a-f]{64}\b/.test(wanted))) {  // a hash of digits
     assert.equal(found, wanted, place);
   }
 }
