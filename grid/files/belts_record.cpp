@@ -349,6 +349,10 @@ const Record<BeltMachine>& belt_machine_record() {
                                               {"span", model::BeltLengths::span}}))
         .optional("scale_x", &BeltMachine::scale_x, number_in(""))
         .optional("scale_y", &BeltMachine::scale_y, number_in(""))
+        .optional("setting_names",
+                  &BeltMachine::setting_names,
+                  choice<model::SettingNames>({{"in_kinematics", model::SettingNames::in_kinematics},
+                                               {"top_level", model::SettingNames::top_level}}))
         .check(check_machine);
     return machine;
   }();

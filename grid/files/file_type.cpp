@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <utility>
 
 #include "grid/files/csv_table.hpp"
@@ -79,7 +80,7 @@ constexpr std::array<std::pair<const Format*, FileKind>, 9> kKinds = {
 
 FileKind kind_of_csv(std::string_view text) {
   const std::vector<std::string> header = csv_header(text);
-  const bool is_of_holes = !header.empty() && (header.front() == "hole" || header.front() == "from");
+  const bool is_of_holes = !header.empty() && (header.front() == "hole" || header.front().starts_with("from"));
   return is_of_holes ? FileKind::holes : FileKind::grid;
 }
 
@@ -104,7 +105,11 @@ bool is_json(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first != std::string_view::npos && (text[first] == '{' || text[first] == '[');
+  if (first == std::string_view::npos) return false;
+  // "[EMC]" is a section of an ini file, "[true]" is JSON that nothing here takes.
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const bool is_section = text[first] == '[' && first + 1 < text.size() && is_letter(text[first + 1]);
+  return text[first] == '{' || (text[first] == '[' && !is_section);
 }
 
 std::string file_type_of(const std::string& text, const std::string& file) {
@@ -140,6 +145,17 @@ std::string what_takes(std::string_view file_type) {
        "a declared effect",
        "effects --effects, diagnose --effects or simulate --effects"},
   };
+  constexpr Kind kResults[] = {{"chaintrue_fit", "the result of a fit", "fit"},
+                               {"chaintrue_check", "the result of a check", "check"},
+                               {"chaintrue_answer", "what a simulation hid", "simulate"}};
+  for (const Kind& kind : kResults) {
+    if (file_type == kind.file_type) {
+      return fmt::format("; this is {}, no measurement: give the file that chaintrue {} was given, or the "
+                         "one that it wrote with -o",
+                         kind.noun,
+                         kind.verbs);
+    }
+  }
   for (const Kind& kind : kTakers) {
     if (file_type == kind.file_type) {
       return fmt::format("; this is {}; did you mean chaintrue {}?", kind.noun, kind.verbs);

@@ -5,40 +5,14 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
-#include "grid/files/number_text.hpp"
-#include "grid/files/problems.hpp"
-#include "grid/files/yaml_values.hpp"
+#include "grid/files/machine_checks.hpp"
+#include "grid/files/setting_reader.hpp"
 
 namespace chaintrue::grid::files {
-namespace {
-
-/// Reads the file's numbers; a missing one is reported and reads as 0.
-class YamlReader {
- public:
-  YamlReader(std::map<std::string, YamlValue> values, Problems& problems)
-      : values_(std::move(values)), problems_(problems) {}
-
-  double number(const std::string& path, const Range& range) {
-    const auto found = values_.find(path);
-    if (found == values_.end()) {
-      problems_.add(path, "", range.expected());
-      return 0.0;
-    }
-    return checked_number(found->second.text, found->second.place, path, range, problems_)
-        .value_or(0.0);
-  }
-
- private:
-  std::map<std::string, YamlValue> values_;
-  Problems& problems_;
-};
-
-}  // namespace
 
 bool is_fluidnc(const std::string& text) {
-  const auto values = yaml_values(text);
+  const auto values = yaml_texts(text);
   return std::any_of(values.begin(), values.end(), [](const auto& value) {
     return value.first.starts_with("kinematics/WallPlotter/");
   });
@@ -51,7 +25,10 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
         "", "no WallPlotter", "kinematics: WallPlotter: with its anchors, as FluidNC has it");
     problems.throw_if_any();
   }
-  YamlReader reader(yaml_values(text), problems);
+  SettingReader settings(yaml_texts(text), problems);
+  const auto number = [&](const std::string& path, const Range& range) {
+    return settings.need(path, range).value_or(0.0);
+  };
   // The same as in model::problems_of, which is applied in any case.
   constexpr Range kAnchor{"mm", -20000.0, 20000.0};
   constexpr Range kTravel{"mm", 200.0, 20000.0};
@@ -59,18 +36,15 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
   ReadMachine read;
   model::Machine& machine = read.machine;
   machine.name = std::filesystem::path(file).filename().string();
-  machine.motors.left = {reader.number(anchors + "left_anchor_x", kAnchor),
-                         reader.number(anchors + "left_anchor_y", kAnchor)};
-  machine.motors.right = {reader.number(anchors + "right_anchor_x", kAnchor),
-                          reader.number(anchors + "right_anchor_y", kAnchor)};
-  machine.bed = {reader.number("axes/x/max_travel_mm", kTravel),
-                 reader.number("axes/y/max_travel_mm", kTravel)};
+  machine.motors.left = {number(anchors + "left_anchor_x", kAnchor),
+                         number(anchors + "left_anchor_y", kAnchor)};
+  machine.motors.right = {number(anchors + "right_anchor_x", kAnchor),
+                          number(anchors + "right_anchor_y", kAnchor)};
+  machine.bed = {number("axes/x/max_travel_mm", kTravel),
+                 number("axes/y/max_travel_mm", kTravel)};
   machine.controller = {model::ControllerKind::fluidnc_wallplotter, {}};
   problems.throw_if_any();
-  for (const model::MachineProblem& problem : model::problems_of(machine)) {
-    problems.add(
-        fmt::format("the machine's {}", problem.parameter), problem.value, problem.expected);
-  }
+  check_geometry(machine, problems);
   problems.throw_if_any();
   problems.warn(
       "",
@@ -83,6 +57,7 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
                   machine.sprocket.pitch_mm,
                   machine.chain.mass_kg_per_m,
                   machine.frame.tilt_from_vertical_deg));
+  settings.warn_of_others("says where the sled hangs");
   read.warnings = problems.warnings();
   return read;
 }

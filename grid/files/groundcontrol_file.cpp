@@ -10,9 +10,11 @@
 #include <utility>
 
 #include "grid/files/groundcontrol_settings.hpp"
+#include "grid/files/machine_checks.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/files/other_unit.hpp"
 #include "grid/files/whole_file.hpp"
+#include "model/chain_formulas.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/kinematics.hpp"
 
@@ -26,7 +28,6 @@ using model::Machine;
 using model::Ring;
 
 constexpr double kDegreeRad = std::numbers::pi / 180.0;
-const std::vector<std::string> kSections = {"Maslow Settings", "Advanced Settings"};
 
 enum class Need { always, ring, brackets, never };
 
@@ -38,8 +39,8 @@ struct NumberKey {
   std::optional<double> ControllerSettings::*setting;
 };
 
-// The ranges of model::problems_of and of the catalogue of effects, applied here too so that
-// messages name the ini file's lines.
+// Those of a machine are inside the ranges of model::problems_of and of the catalogue of effects, so
+// that messages name the ini file's lines.
 constexpr NumberKey kNumberKeys[] = {
     {"bedwidth", {"mm", 200, 20000}, Need::always, &ControllerSettings::bed_width_mm},
     {"bedheight", {"mm", 200, 20000}, Need::always, &ControllerSettings::bed_height_mm},
@@ -47,10 +48,10 @@ constexpr NumberKey kNumberKeys[] = {
     {"motoroffsety", {"mm", 1, 10000}, Need::always, &ControllerSettings::motor_offset_y_mm},
     {"chainpitch", {"mm", 1, 50}, Need::always, &ControllerSettings::chain_pitch_mm},
     {"gearteeth", {"teeth", 3, 100}, Need::always, &ControllerSettings::gear_teeth},
-    {"rotationradius", {"mm", 20, 1000}, Need::ring, &ControllerSettings::rotation_radius_mm},
-    {"sledwidth", {"mm", 20, 2000}, Need::brackets, nullptr},
-    {"sledheight", {"mm", 0, 2000}, Need::brackets, nullptr},
-    {"sledcg", {"mm", 0, 2000}, Need::brackets, nullptr},
+    {"rotationradius", {"mm", 20, 500}, Need::ring, &ControllerSettings::rotation_radius_mm},
+    {"sledwidth", {"mm", 50, 1500}, Need::brackets, nullptr},
+    {"sledheight", {"mm", 20, 1000}, Need::brackets, nullptr},
+    {"sledcg", {"mm", 5, 1000}, Need::brackets, nullptr},
     {"topbeamtilt", {"degrees", -20, 20}, Need::never, &ControllerSettings::top_beam_tilt_deg},
     {"chainsagcorrection",
      {"1e-12 / mm^2", -1000, 1000},
@@ -71,62 +72,22 @@ constexpr NumberKey kNumberKeys[] = {
      &ControllerSettings::chain_elongation_per_n},
 };
 
-/// Reads settings one by one and collects problems.
-class IniReader {
- public:
-  IniReader(const IniTable& table, Problems& problems) : table_(table), problems_(problems) {}
-
-  std::optional<double> number(const NumberKey& key, bool is_needed) {
-    const IniEntry* entry = find(key.key, is_needed, key.range.expected());
-    if (entry == nullptr) return std::nullopt;
-    return checked_number(entry->text, entry->place, key.key, key.range, problems_);
-  }
-
-  std::optional<std::string> word(const std::string& key, const std::vector<std::string>& words) {
-    const std::string expected = fmt::format("{} ({})", fmt::join(words, " or "), key);
-    const IniEntry* entry = find(key, true, expected);
-    if (entry == nullptr) return std::nullopt;
-    if (std::find(words.begin(), words.end(), entry->text) != words.end()) return entry->text;
-    problems_.add(entry->place, entry->text.empty() ? "nothing" : entry->text, expected);
-    return std::nullopt;
-  }
-
-  [[nodiscard]] std::string place_of_key(const std::string& key) const {
-    const IniEntry* entry = table_.find(kSections, key);
-    return entry != nullptr ? entry->place : std::string();
-  }
-
- private:
-  const IniEntry* find(const std::string& key, bool is_needed, const std::string& expected) {
-    const IniEntry* entry = table_.find(kSections, key);
-    if (entry == nullptr && is_needed) {
-      problems_.add(key, "", fmt::format("{}, in [{}]", expected, fmt::join(kSections, "] or [")));
-    }
-    return entry;
-  }
-
-  const IniTable& table_;
-  Problems& problems_;
-};
-
 /// The numbers of the file by key.
 using SettingValues = std::map<std::string, std::optional<double>>;
 
 /// The unit of a file in which the router is too small for mm.
-std::optional<OtherUnit> other_unit_of(const IniTable& table) {
-  const auto value_of = [&](const char* key) {
-    const IniEntry* entry = table.find(kSections, key);
-    return entry != nullptr ? number_of(entry->text) : std::nullopt;
-  };
+std::optional<OtherUnit> other_unit_of(SettingReader& settings) {
   // A bed is at least 200 mm high; motors lie half a metre beyond the widest in centimetres.
   constexpr double kShortest = 10.0;
   const std::pair<const char*, double> most[] = {
-      {"bedwidth", kWidestOfOtherUnit}, {"bedheight", 200.0}, {"motorspacingx", 500.0}};
+      {"bedheight", 200.0}, {"motorspacingx", 500.0}, {"bedwidth", kWidestOfOtherUnit}};
+  double value = 0.0;
   for (const auto& [key, longest] : most) {
-    const auto value = value_of(key);
-    if (!value || *value < kShortest || *value > longest) return std::nullopt;
+    const SettingText* setting = settings.look(key);
+    value = setting != nullptr ? number_of(setting->text).value_or(0.0) : 0.0;
+    if (value < kShortest || value > longest) return std::nullopt;
   }
-  return other_unit(*value_of("bedwidth"));
+  return other_unit(value);
 }
 
 void place_motors(const SettingValues& numbers, Machine& machine) {
@@ -148,14 +109,62 @@ void attach_sled(const SettingValues& numbers, bool has_brackets, Machine& machi
   }
 }
 
+/// Of the motors' gears and encoders, 28 x 289.78 (MaslowCNC/Firmware); the 8148 of the first releases
+/// took the gears for 291 to 1.
+constexpr double kCountsOfATurn = 8113.73;
+
+/// By how much more chain runs out than the controller counts, of 1: what it takes for a turn of the
+/// sprocket is more than a turn.
+double more_by_encoder(SettingReader& settings, Problems& problems) {
+  constexpr Range kCounts{"counts a turn", 100.0, 1e6};
+  // Beyond it the motors are others, with counts of their own.
+  constexpr double kSameMotors = 0.02;
+  constexpr double kNotice = 1e-5;
+  const auto counts = settings.find("encodersteps", kCounts);
+  if (!counts) return 0.0;
+  const double more = *counts / kCountsOfATurn - 1.0;
+  if (std::abs(more) < kNotice) return 0.0;
+  const std::string place = settings.look("encodersteps")->place;
+  if (std::abs(more) > kSameMotors) {
+    problems.warn(place,
+                  fmt::format("encodersteps {:g}: not Maslow's own motors, which turn once in {:g} "
+                              "counts; taken as right for yours",
+                              *counts,
+                              kCountsOfATurn));
+    return 0.0;
+  }
+  problems.warn(place,
+                fmt::format("encodersteps {:g}: a turn is {:g} counts, so {:.2f} % {} chain runs out "
+                            "than the controller counts; entered as links that much {} (/effects). "
+                            "An export makes up for it; if you set {:g} at the machine instead, import "
+                            "its settings anew",
+                            *counts,
+                            kCountsOfATurn,
+                            100.0 * std::abs(more),
+                            more > 0.0 ? "more" : "less",
+                            more > 0.0 ? "longer" : "shorter",
+                            kCountsOfATurn));
+  return more;
+}
+
 /// A tolerance other than 0 is the pitch that the owner measured for this chain.
-void state_pitch(const SettingValues& numbers, Machine& machine, Problems& problems) {
+void state_pitch(const SettingValues& numbers,
+                 Tolerances tolerances,
+                 double more_by_encoder,
+                 Machine& machine,
+                 Problems& problems) {
   std::vector<std::string> links;
   for (const auto& [key, side] :
        {std::pair("leftchaintolerance", "left"), std::pair("rightchaintolerance", "right")}) {
-    const double percent = numbers.at(key).value_or(0.0);
+    const double percent =
+        tolerances == Tolerances::are_pitch ? numbers.at(key).value_or(0.0) : 0.0;
+    const double elongation = (1.0 + percent / 100.0) * (1.0 + more_by_encoder) - 1.0;
+    if (percent == 0.0 && more_by_encoder == 0.0) continue;
+    machine.effects.push_back(
+        {"chain_pitch_error",
+         side,
+         {{"elongation", more_by_encoder == 0.0 ? percent / 100.0 : elongation}}});
     if (percent == 0.0) continue;
-    machine.effects.push_back({"chain_pitch_error", side, {{"elongation", percent / 100.0}}});
     links.push_back(fmt::format(
         "{:g} % {} ({})", std::abs(percent), percent > 0.0 ? "longer" : "shorter", side));
   }
@@ -201,18 +210,91 @@ void weigh(const SettingValues& numbers, Machine& machine, Problems& problems) {
                   machine.uncertainty.ring_radius_mm));
 }
 
-SettingValues read_numbers(IniReader& reader, std::optional<bool> has_brackets) {
+/// What releases did before a setting existed, and a sentence for it.
+class OldReleases {
+ public:
+  OldReleases(SettingReader& settings, Problems& problems)
+      : settings_(settings), problems_(problems) {}
+
+  /// The first of `words` where the file says none.
+  std::string word(const char* key, const std::vector<std::string>& words) {
+    if (settings_.look(key) != nullptr)
+      return settings_.find_word(key, words).value_or(words.front());
+    assumed_.push_back(fmt::format("{} {}", key, words.front()));
+    return words.front();
+  }
+  /// Of a setting that is not there; nothing where there was always one.
+  std::optional<double> number(std::string_view key, const SettingValues& others) {
+    const auto assumed = [&](double value) {
+      assumed_.push_back(fmt::format("{} {:g}", key, value));
+      return value;
+    };
+    if (key == "chainpitch") return assumed(6.35);
+    if (key == "gearteeth") return assumed(10.0);
+    if (key != "motorspacingx") return std::nullopt;
+    // Until 2017 it was how far a motor is beyond the bed's side.
+    const auto beyond_mm = settings_.find("motoroffsetx", {"mm", 1.0, 10000.0});
+    const auto width_mm = others.at("bedwidth");
+    if (!beyond_mm || !width_mm) return std::nullopt;
+    return assumed(*width_mm + 2.0 * *beyond_mm);
+  }
+  void say() const {
+    if (assumed_.empty()) return;
+    problems_.warn("",
+                   fmt::format("as in releases of GroundControl that have no such setting, taken are {}",
+                               fmt::join(assumed_, ", ")));
+  }
+
+ private:
+  SettingReader& settings_;
+  Problems& problems_;
+  std::vector<std::string> assumed_;
+};
+
+SettingValues read_numbers(SettingReader& settings, bool has_brackets, OldReleases& old) {
   SettingValues numbers;
   for (const NumberKey& key : kNumberKeys) {
-    const bool is_of_this_sled =
-        key.need == Need::ring ? has_brackets == false : has_brackets == true;
-    const bool is_of_a_sled = key.need == Need::ring || key.need == Need::brackets;
-    const bool is_needed = key.need == Need::always || (is_of_a_sled && is_of_this_sled);
+    const bool is_of_other_sled = key.need == (has_brackets ? Need::ring : Need::brackets);
     // Every file contains the settings of the other kind of sled, which have no meaning.
-    if (is_of_a_sled && !is_of_this_sled) continue;
-    numbers[key.key] = reader.number(key, is_needed);
+    if (is_of_other_sled) continue;
+    std::optional<double>& number = numbers[key.key];
+    number = settings.find(key.key, key.range);
+    if (key.need == Need::never || settings.look(key.key) != nullptr) continue;
+    number = old.number(key.key, numbers);
+    if (!number) (void)settings.need(key.key, key.range);
   }
   return numbers;
+}
+
+/// What owners' calibrations put into the sag is more than the chain's own.
+void check_sag(SettingReader& settings, const Machine& machine, Problems& problems) {
+  constexpr double kFarFrom = 2.0;
+  const double set = machine.controller.settings.chain_sag_correction.value_or(0.0);
+  const model::EquilibriumParameters hangs = model::equilibrium_parameters(machine);
+  const double own =
+      model::closed_form_sag_correction(hangs.chain_weight_n_per_mm, hangs.sled_weight_n);
+  if (set == 0.0 || (set < kFarFrom * own && kFarFrom * set > own)) return;
+  problems.warn(settings.look("chainsagcorrection")->place,
+                fmt::format("chainsagcorrection {:g}: the weights of chain and sled make {:.1f}. A "
+                            "calibration that put other errors into it makes such a number; it is kept "
+                            "as what the controller goes by",
+                            set,
+                            own));
+}
+
+/// start and plan send the sled over the whole bed.
+void check_reach(double chain_mm,
+                 const Machine& machine,
+                 SettingReader& settings,
+                 Problems& problems) {
+  const double longest_mm = longest_chain_mm(machine);
+  if (longest_mm <= chain_mm) return;
+  problems.add(settings.look("chainlength")->place,
+               fmt::format("chainlength {:g}", chain_mm),
+               fmt::format("at least {:.0f} mm, which the lower corners of the bed take; state the "
+                           "chain that is there, or the bed that it reaches",
+                           std::ceil(longest_mm)),
+               ProblemKind::out_of_range);
 }
 
 Machine machine_of(const SettingValues& numbers, bool has_brackets, bool over_top) {
@@ -235,37 +317,42 @@ Machine machine_of(const SettingValues& numbers, bool has_brackets, bool over_to
 
 }  // namespace
 
-ReadMachine machine_of_settings(const IniTable& table, Tolerances tolerances, Problems& problems) {
-  IniReader reader(table, problems);
-  if (const auto unit = other_unit_of(table)) {
-    problems.explain(reader.place_of_key("bedwidth"),
+ReadMachine machine_of_settings(SettingTexts texts, Tolerances tolerances, Problems& problems) {
+  SettingReader settings(std::move(texts), problems, {"Maslow Settings", "Advanced Settings"});
+  if (const auto unit = other_unit_of(settings)) {
+    const SettingText* width = settings.look("bedwidth");
+    problems.explain(width->place,
                      ProblemKind::other_unit,
                      fmt::format("the lengths of this file look like {} (bedwidth = {}): multiply them "
                                  "by {:g}.",
                                  unit->word,
-                                 table.find(kSections, "bedwidth")->text,
+                                 width->text,
                                  unit->mm));
     problems.throw_if_any();
   }
-  const auto kinematics = reader.word("kinematicstype", {"Triangular", "Quadrilateral"});
-  const auto feed = reader.word("chainoversprocket", {"Top", "Bottom"});
-  const auto has_brackets =
-      kinematics ? std::optional(*kinematics == "Quadrilateral") : std::nullopt;
-  const SettingValues numbers = read_numbers(reader, has_brackets);
+  OldReleases old(settings, problems);
+  const bool has_brackets =
+      old.word("kinematicstype", {"Quadrilateral", "Triangular"}) == "Quadrilateral";
+  const bool over_top = old.word("chainoversprocket", {"Top", "Bottom"}) == "Top";
+  const SettingValues numbers = read_numbers(settings, has_brackets, old);
   if (const auto teeth = numbers.at("gearteeth"); teeth && *teeth != std::floor(*teeth)) {
-    problems.add(
-        reader.place_of_key("gearteeth"), fmt::format("{}", *teeth), "a whole number (gearteeth)");
+    problems.add(settings.look("gearteeth")->place,
+                 fmt::format("{}", *teeth),
+                 "a whole number (gearteeth)");
   }
+  const double more_by_encoder_turn = more_by_encoder(settings, problems);
+  const auto chain_mm = settings.find("chainlength", {"mm", 100.0, 40000.0});
   problems.throw_if_any();
   ReadMachine read;
-  read.machine = machine_of(numbers, *has_brackets, *feed == "Top");
-  if (tolerances == Tolerances::are_pitch) state_pitch(numbers, read.machine, problems);
+  read.machine = machine_of(numbers, has_brackets, over_top);
+  state_pitch(numbers, tolerances, more_by_encoder_turn, read.machine, problems);
   read.machine.name = std::filesystem::path(problems.file()).filename().string();
+  old.say();
   weigh(numbers, read.machine, problems);
-  for (const model::MachineProblem& problem : model::problems_of(read.machine)) {
-    problems.add(
-        fmt::format("the machine's {}", problem.parameter), problem.value, problem.expected);
-  }
+  check_sag(settings, read.machine, problems);
+  settings.warn_of_others("says where the sled hangs");
+  check_geometry(read.machine, problems);
+  if (chain_mm && !problems.any()) check_reach(*chain_mm, read.machine, settings, problems);
   problems.throw_if_any();
   read.warnings = problems.warnings();
   return read;
@@ -275,9 +362,10 @@ ReadMachine parse_groundcontrol(const std::string& text,
                                 const std::string& file,
                                 Tolerances tolerances) {
   Problems problems(file);
-  const IniTable table(text, problems);
+  refuse_foreign_settings(text, problems);
+  SettingTexts texts = ini_texts(text, problems);
   problems.throw_if_any();
-  return machine_of_settings(table, tolerances, problems);
+  return machine_of_settings(std::move(texts), tolerances, problems);
 }
 
 ReadMachine read_groundcontrol(const std::filesystem::path& path, Tolerances tolerances) {

@@ -5,12 +5,12 @@
 #pragma once
 
 #include "grid/files/groundcontrol_file.hpp"
-#include "grid/files/ini_table.hpp"
+#include "grid/files/setting_reader.hpp"
 
 namespace chaintrue::grid::files {
 
-/// As in groundcontrol_file.hpp. \throws InputError with every problem of the file.
-[[nodiscard]] ReadMachine machine_of_settings(const IniTable& table,
+/// As in groundcontrol_file.hpp; paths are "maslow settings/bedwidth". \throws InputError with every problem of the file.
+[[nodiscard]] ReadMachine machine_of_settings(SettingTexts texts,
                                               Tolerances tolerances,
                                               Problems& problems);
 

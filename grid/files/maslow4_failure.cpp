@@ -198,6 +198,26 @@ std::optional<StopKind> stop_of(std::string_view line) {
   return has(line, "[MSG:ERR") ? std::optional(StopKind::other_error) : std::nullopt;
 }
 
+bool is_setting_refused(std::string_view line) {
+  constexpr std::array<std::string_view, 5> kSigns = {"Invalid setting",
+                                                      "Configuration parse error",
+                                                      "Using default configuration",
+                                                      "Configuration validation error",
+                                                      "Cannot open configuration file"};
+  return std::any_of(
+      kSigns.begin(), kSigns.end(), [&](std::string_view sign) { return has(line, sign); });
+}
+
+std::string words_of(const SettingsRefused& refused) {
+  return fmt::format(
+      "the controller refused its settings ({}): what was typed in, or found, is not in force. Firmware "
+      "before July 2025 takes lines such as $/Maslow_trX=, later firmware "
+      "$/kinematics/MaslowKinematics/trX=. Look at the maslow.yaml that is on the machine, send the "
+      "lines in its layout (export maslow4 writes them so once import maslow4 was given it as "
+      "--settings), restart the machine and see that it prints no error",
+      shortened(refused.said));
+}
+
 std::string words_of(const RunStopped& stopped, const MeasuredBelts& belts) {
   std::string text = where(stopped);
   if (!stopped.said.empty()) text += fmt::format("; it said {}", shortened(stopped.said));

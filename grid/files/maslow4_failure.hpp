@@ -40,6 +40,14 @@ struct RunStopped {
   model::PerBelt<std::vector<double>> readings_mm{};
 };
 
+/// A setting, or a whole file of settings, that the controller did not take: it goes by others.
+struct SettingsRefused {
+  std::size_t line = 0;
+  std::string said;
+};
+[[nodiscard]] bool is_setting_refused(std::string_view line);
+[[nodiscard]] std::string words_of(const SettingsRefused& refused);
+
 /// Empty for a line that is no sign of a failure.
 [[nodiscard]] std::optional<StopKind> stop_of(std::string_view line);
 

@@ -11,7 +11,7 @@
 #include "grid/files/maslow4_places.hpp"
 #include "grid/files/maslow4_scan.hpp"
 #include "grid/files/number_text.hpp"
-#include "grid/files/yaml_values.hpp"
+#include "grid/files/setting_reader.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -25,22 +25,20 @@ using model::Orientation;
 class Settings {
  public:
   Settings(const Maslow4Options& options, std::vector<std::string>& assumed)
-      : problems_(options.settings_file), assumed_(assumed) {
-    if (options.settings) values_ = yaml_values(*options.settings);
-    if (options.settings && values_.empty()) {
+      : problems_(options.settings_file),
+        reader_(options.settings ? yaml_texts(*options.settings) : SettingTexts{}, problems_),
+        assumed_(assumed) {
+    if (options.settings && yaml_texts(*options.settings).empty()) {
       problems_.add("", "no settings", "the machine's maslow.yaml");
     }
   }
 
-  /// The value of any of these keys; false if none is present.
+  /// The value of the first of these keys that is present; false if none is.
   bool take(const std::vector<std::string>& keys, double& value) {
     constexpr Range kSetting{"", -1e6, 1e6};
     for (const std::string& key : keys) {
-      const auto found = values_.find(key);
-      if (found == values_.end()) continue;
-      const auto number =
-          checked_number(found->second.text, found->second.place, key, kSetting, problems_);
-      if (number) value = *number;
+      if (reader_.look(key) == nullptr) continue;
+      value = reader_.find(key, kSetting).value_or(value);
       return true;
     }
     return false;
@@ -50,22 +48,28 @@ class Settings {
     if (!take(keys, value)) assumed_.push_back(fmt::format("{} of {:g} mm", what, value));
   }
 
-  [[nodiscard]] std::optional<std::string> word(const std::string& key) const {
-    const auto found = values_.find(key);
-    return found == values_.end() ? std::nullopt : std::optional(found->second.text);
-  }
-
+  [[nodiscard]] SettingReader& reader() { return reader_; }
   [[nodiscard]] Problems& problems() { return problems_; }
 
  private:
-  std::map<std::string, YamlValue> values_;
   Problems problems_;
+  SettingReader reader_;
   std::vector<std::string>& assumed_;
 };
 
-/// The keys of a setting: today's name, and that of 2024.
+/// The keys of a setting: today's name, and that of releases before July 2025.
 std::vector<std::string> keys_of(const std::string& key) {
   return {"kinematics/MaslowKinematics/" + key, "Maslow_" + key};
+}
+
+/// How the settings' file names the anchors, so that an export writes lines that its firmware takes.
+void take_names(Settings& settings, BeltMachine& machine) {
+  const auto has = [&](std::size_t names) {
+    return std::any_of(kBelts.begin(), kBelts.end(), [&](Belt belt) {
+      return settings.reader().look(keys_of(std::string(name(belt)) + "X")[names]) != nullptr;
+    });
+  };
+  if (!has(0) && has(1)) machine.setting_names = model::SettingNames::top_level;
 }
 
 void take_anchors(Settings& settings, BeltMachine& machine, std::vector<std::string>& assumed) {
@@ -94,6 +98,7 @@ BeltMachine machine_of(const Maslow4Options& options,
                        Settings& settings,
                        std::vector<std::string>& assumed) {
   BeltMachine machine;
+  take_names(settings, machine);
   take_anchors(settings, machine, assumed);
   settings.take_or_assume(keys_of("armLength"), machine.arm_mm, "an arm");
   settings.take_or_assume(
@@ -105,14 +110,9 @@ BeltMachine machine_of(const Maslow4Options& options,
   machine.surface_mm = spoilboard_mm + work_mm;
   (void)settings.take(keys_of("Scale_X"), machine.scale_x);
   (void)settings.take(keys_of("Scale_Y"), machine.scale_y);
-  const auto vertical = settings.word("Maslow_vertical");
-  if (vertical) {
-    if (*vertical == "true" || *vertical == "false") {
-      machine.orientation = *vertical == "true" ? Orientation::upright : Orientation::flat;
-    } else {
-      settings.problems().add("Maslow_vertical", *vertical, "true or false");
-    }
-  }
+  const auto vertical = settings.reader().find_word("Maslow_vertical", {"true", "false"});
+  if (vertical)
+    machine.orientation = *vertical == "true" ? Orientation::upright : Orientation::flat;
   if (options.orientation) {
     machine.orientation = *options.orientation;
   } else if (!vertical) {
@@ -199,6 +199,10 @@ namespace {
 
 /// Nothing to read: what a log is, or why the run in it failed.
 void report_nothing(const ScannedLog& log, const model::BeltMachine& machine, Problems& problems) {
+  if (log.refused) {
+    problems.explain(fmt::format("line {}", log.refused->line), ProblemKind::unexpected, words_of(*log.refused));
+    return;
+  }
   if (log.stopped) {
     MeasuredBelts none;
     none.machine = machine;
@@ -284,6 +288,7 @@ Maslow4Import parse_maslow4(const std::string& text,
   Settings settings(options, result.assumed);
   result.belts.machine = machine_of(options, settings, result.assumed);
   result.settings_pull = settings_pull(settings);
+  settings.reader().warn_of_others("says where the belts go");
   problems.add_warnings(settings.problems().warnings());
   try {
     settings.problems().throw_if_any();
@@ -296,6 +301,9 @@ Maslow4Import parse_maslow4(const std::string& text,
   }
   // What a run looks like, a machine that cannot be does not say.
   problems.throw_if_any();
+  if (log.refused && !log.runs.empty()) {
+    problems.warn(fmt::format("line {}", log.refused->line), words_of(*log.refused));
+  }
   const std::vector<ScannedRun> runs = runs_of(log, result.belts.machine, problems);
   if (runs.empty()) report_nothing(log, result.belts.machine, problems);
   problems.throw_if_any();
@@ -322,6 +330,11 @@ Maslow4Import parse_maslow4(const std::string& text,
         "",
         "the log ends in the middle of a list: the readings before are taken; paste it once "
         "more from its beginning to its end if it goes on");
+  }
+  if (log.first_passed_over) {
+    problems.warn(fmt::format("line {}", *log.first_passed_over),
+                  "passed over, for nothing of it is a reading, a place, a pull or a fit: this line and "
+                  "others like it");
   }
   check_all(belts, places.lines, result, problems);
   if (is_last && log.stopped) result.stopped = words_of(*log.stopped, belts);

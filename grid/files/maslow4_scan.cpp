@@ -178,6 +178,8 @@ class Scanner {
       constexpr double kMostMilliamperes = 1e5;
       if (*pull_ma > 0.0 && *pull_ma < kMostMilliamperes) pull_ma_ = *pull_ma;
       if (!runs_.empty() && runs_.back().points.empty()) runs_.back().pull_ma = pull_ma_;
+    } else if (is_setting_refused(line)) {
+      if (!refused_) refused_ = SettingsRefused{line_, std::string(unquoted(line))};
     } else if (const auto kind = stop_of(line)) {
       if (*kind == StopKind::readings_disagree) attempt_ = {};
       if (!ended_ || *kind == StopKind::gave_up_reading)
@@ -213,12 +215,17 @@ class Scanner {
         std::pair{"Top Right ", Belt::tr},
         std::pair{"Bottom Left ", Belt::bl},
         std::pair{"Bottom Right ", Belt::br}};
+    bool is_reading = false;
     for (const auto& [label, belt] : kLabels) {
       const auto value = number_after(line, label);
       if (!value || !kBeltLengthMm.holds(*value)) continue;
+      is_reading = true;
       loose_[belt].push_back(*value);
       attempt_[belt].push_back(*value);
     }
+    const std::string_view text = unquoted(line);
+    const bool is_comment = text.starts_with('#') || text.starts_with("//");
+    if (!is_reading && !text.empty() && !is_comment && !first_passed_over_) first_passed_over_ = line_;
   }
 
   /// Single readings that were discarded are printed before the measurement of their waypoint.
@@ -253,6 +260,8 @@ class Scanner {
       }
     }
     log.stopped = std::move(ended_);
+    log.refused = std::move(refused_);
+    log.first_passed_over = first_passed_over_;
     std::erase_if(runs_, [](const ScannedRun& run) {
       return run.points.empty() && run.last_attempt_mm.empty();
     });
@@ -269,6 +278,8 @@ class Scanner {
   Singles loose_;
   Singles attempt_;  ///< of these the last attempt's
   std::optional<RunStopped> ended_;
+  std::optional<SettingsRefused> refused_;
+  std::optional<std::size_t> first_passed_over_;
   std::optional<double> pull_ma_;
 };
 

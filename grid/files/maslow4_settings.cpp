@@ -27,9 +27,15 @@ bool is_in_force(const BeltMachine& machine, const BeltScale& scale) {
          std::abs(machine.scale_y - scale_of(scale)) < detectable;
 }
 
-void add_line(Maslow4Settings& settings, model::Belt belt, char axis, double value) {
+void add_line(Maslow4Settings& settings,
+              const BeltMachine& machine,
+              model::Belt belt,
+              char axis,
+              double value) {
+  const bool is_top_level = machine.setting_names == model::SettingNames::top_level;
   fmt::format_to(std::back_inserter(settings.text),
-                 "$/kinematics/MaslowKinematics/{}{}={:.2f}\n",
+                 "$/{}{}{}={:.2f}\n",
+                 is_top_level ? "Maslow_" : "kinematics/MaslowKinematics/",
                  name(belt),
                  axis,
                  value);
@@ -61,8 +67,8 @@ void add_scale(const BeltMachine& machine,
 Maslow4Settings anchors_of(const BeltMachine& machine) {
   Maslow4Settings settings;
   for (const model::Belt belt : model::kBelts) {
-    add_line(settings, belt, 'X', machine.anchors[belt].x_mm);
-    add_line(settings, belt, 'Y', machine.anchors[belt].y_mm);
+    add_line(settings, machine, belt, 'X', machine.anchors[belt].x_mm);
+    add_line(settings, machine, belt, 'Y', machine.anchors[belt].y_mm);
   }
   return settings;
 }
@@ -71,7 +77,7 @@ Maslow4Settings anchors_of(const BeltMachine& machine) {
 void add_cause(const Cause& cause, const BeltMachine& machine, Maslow4Settings& settings) {
   const auto belt = model::belt_of(name(cause.cause.side));
   if (cause.cause.effect->id == "anchor_height" && belt && !cause.parameters.empty()) {
-    add_line(settings, *belt, 'Z', machine.anchors[*belt].z_mm + cause.parameters.front().value);
+    add_line(settings, machine, *belt, 'Z', machine.anchors[*belt].z_mm + cause.parameters.front().value);
     return;
   }
   settings.remarks.push_back(fmt::format("No number to paste takes this out: {}. {}.",

@@ -165,6 +165,7 @@ const Record<SetPlotter>& set_plotter_record() {
               "homed_offset_mm", &SetPlotter::homed_offset_mm, number({"mm", -1000.0, 1000.0}))
           .optional("pen", &SetPlotter::pen, object(pen_record()))
           .optional("feed_mm_per_min", &SetPlotter::feed_mm_per_min, number({"mm/min", 1.0, 1e5}))
+          .optional("longest_belt_mm", &SetPlotter::longest_belt_mm, number({"mm", 1.0, 40000.0}))
           .optional("segments_per_second", &SetPlotter::segments_per_second, number({"1/s", 0.1, 1e4}))
           .check(check_set_plotter);
   return record;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "grid/files/groundcontrol_settings.hpp"
 #include "grid/files/json_text.hpp"
 
@@ -27,18 +29,17 @@ ReadMachine parse_webcontrol(const std::string& text, const std::string& file) {
   Problems problems(file);
   const Json json = parse_json(text, problems);
   problems.throw_if_any();
-  std::map<std::string, std::vector<IniEntry>> sections;
+  SettingTexts texts;
   for (const auto& [section, settings] : json.items()) {
     if (!settings.is_array()) continue;
     for (std::size_t i = 0; i < settings.size(); ++i) {
       const Json& setting = settings[i];
       if (!setting.is_object() || !setting.contains("key") || !setting.contains("value")) continue;
-      sections[section].push_back({text_of(setting.at("key")),
-                                   text_of(setting.at("value")),
-                                   fmt::format("/{}/{}/value", section, i)});
+      texts[in_small_letters(section + "/" + text_of(setting.at("key")))] = {
+          text_of(setting.at("value")), fmt::format("/{}/{}/value", section, i)};
     }
   }
-  return machine_of_settings(IniTable(std::move(sections)), Tolerances::are_pitch, problems);
+  return machine_of_settings(std::move(texts), Tolerances::are_pitch, problems);
 }
 
 }  // namespace chaintrue::grid::files

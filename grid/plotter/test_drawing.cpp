@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 namespace chaintrue::grid {
@@ -83,6 +84,16 @@ tl::expected<observation::DrawnMeasures, CrossFailure> drawn_measures_of(
     points.push_back({cross.name, {cross.commanded.x_mm, cross.commanded.y_mm}, *lengths});
   }
   return observation::DrawnMeasures(std::move(points), drawing.measures, kRulerDof);
+}
+
+std::optional<std::size_t> cross_beyond_belt(const TestDrawing& drawing) {
+  if (!drawing.longest_belt_mm) return std::nullopt;
+  for (std::size_t i = 0; i < drawing.crosses.size(); ++i) {
+    const auto lengths =
+        model::paid_out(drawing.firmware, drawing.machine, drawing.crosses[i].commanded);
+    if (lengths && std::max(lengths->left_mm, lengths->right_mm) > *drawing.longest_belt_mm) return i;
+  }
+  return std::nullopt;
 }
 
 std::string words_of(const TestDrawing& drawing, std::size_t measure) {

@@ -56,6 +56,8 @@ struct SetPlotter {
   double homed_offset_mm = kMuralHomedOffsetMm;  ///< of a mural
   PenCommands pen;
   double feed_mm_per_min = 1500.0;
+  /// What a controller lets out at most, where it states that.
+  std::optional<double> longest_belt_mm;
   /// Of Marlin: into how many pieces a second it divides a move (M665 S).
   double segments_per_second = 5.0;
 };
@@ -81,6 +83,9 @@ inline constexpr double kRulerSigmaMm = 0.5;
 using CrossFailure = Failure<model::PlotterReason, std::size_t>;
 [[nodiscard]] tl::expected<observation::DrawnMeasures, CrossFailure> drawn_measures_of(
     const TestDrawing& drawing);
+
+/// The first cross for which the controller would let out more belt than it has; empty where there is none.
+[[nodiscard]] std::optional<std::size_t> cross_beyond_belt(const TestDrawing& drawing);
 
 /// "the length A-B", "the bow of A-B at E".
 [[nodiscard]] std::string words_of(const TestDrawing& drawing, std::size_t measure);

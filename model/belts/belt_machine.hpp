@@ -18,6 +18,7 @@
 /// \endcode
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,9 @@ enum class BeltLengths {
   belt_and_arm,  ///< belt plus extension and arm: firmware before October 2024
   span,          ///< horizontal from the anchor to the tool: firmware since
 };
+/// The controller's names of its settings: /kinematics/MaslowKinematics/tlX, or /Maslow_tlX as in firmware
+/// before July 2025.
+enum class SettingNames { in_kinematics, top_level };
 [[nodiscard]] std::string_view name(Orientation orientation);
 [[nodiscard]] std::string_view name(BeltLengths lengths);
 
@@ -67,6 +71,7 @@ struct BeltMachine {
   /// Commands are multiplied by these first.
   double scale_x = 1.0;
   double scale_y = 1.0;
+  std::optional<SettingNames> setting_names = std::nullopt;  ///< empty: in_kinematics
 };
 
 /// From the belt's end to the tool: arm and extension.

@@ -187,9 +187,11 @@ TEST(GroundcontrolSettings, OfARealMachineBecomeMachineAndController) {
   EXPECT_EQ(machine.chain.mass_kg_per_m, 0.14);
   EXPECT_EQ(machine.chain.compliance_per_n, 5.1685e-6);
   EXPECT_EQ(machine.frame.tilt_from_vertical_deg, 15.0);
-  ASSERT_EQ(read.warnings.size(), 6U);
-  for (std::size_t i = 1; i < read.warnings.size(); ++i)
-    EXPECT_THAT(read.warnings[i].sentence, HasSubstr("assumed"));
+  ASSERT_EQ(read.warnings.size(), 8U);
+  for (std::size_t i = 1; i < 6; ++i) EXPECT_THAT(read.warnings[i].sentence, HasSubstr("assumed"));
+  // Chain and sled of the default machine make 6.1; 28.97 took up other errors.
+  EXPECT_THAT(read.warnings[6].sentence, HasSubstr("chainsagcorrection 28.9698: the weights of chain and sled make 6.1"));
+  EXPECT_THAT(read.warnings[7].sentence, HasSubstr("passed over"));
   // The tolerances are the pitch that the owner measured for each chain.
   EXPECT_THAT(read.warnings.front().sentence,
               HasSubstr("0.123725 % longer (left) and 0.16832 % longer (right) than new, each number good to 0.1 %"));

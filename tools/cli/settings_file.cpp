@@ -88,7 +88,6 @@ SettingsFile read_settings_file(const std::string& path) {
 
 SettingsFile parse_settings_file(const std::string& path, const std::string& text) {
   const std::string file = files::name_in_messages(path);
-  // A list is no settings file, and the first section of an .ini looks like one.
   const bool json = files::is_json(text) && text.find('{') < text.find('[');
   if (json && files::is_webcontrol(text, file)) return {file, files::parse_webcontrol(text, file)};
   if (json) return {file, files::parse_machine_with_warnings(text, file), true};

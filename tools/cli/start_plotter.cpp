@@ -34,16 +34,20 @@ FolderFile drawn_page_of(const grid::TestDrawing& drawing) {
 
 /// \throws files::InputError for a cross that the controller does not reach.
 void require_reach(const grid::TestDrawing& drawing, const std::string& file) {
+  const auto refuse = [&](std::size_t place, std::string_view why) {
+    const grid::DrawnCross& cross = drawing.crosses[place];
+    throw files::InputError({{file,
+                              "/set/machine/area",
+                              fmt::format("a cross at ({:.1f}, {:.1f}) mm, {}",
+                                          cross.commanded.x_mm,
+                                          cross.commanded.y_mm,
+                                          why),
+                              "an area that the pen reaches"}});
+  };
   const auto drawn = grid::drawn_measures_of(drawing);
-  if (drawn) return;
-  const grid::DrawnCross& cross = drawing.crosses[drawn.error().place];
-  throw files::InputError({{file,
-                            "/set/machine/area",
-                            fmt::format("a cross at ({:.1f}, {:.1f}) mm, {}",
-                                        cross.commanded.x_mm,
-                                        cross.commanded.y_mm,
-                                        drawn.error().sentence()),
-                            "an area that the pen reaches"}});
+  if (!drawn) refuse(drawn.error().place, drawn.error().sentence());
+  if (const auto cross = grid::cross_beyond_belt(drawing))
+    refuse(*cross, fmt::format("beyond a belt of {:g} mm (/set/longest_belt_mm)", *drawing.longest_belt_mm));
 }
 
 }  // namespace

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/machine_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "model/kinematics.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using model::BedPoint;
+
+/// Links of the chains that are sold for this part at 3.5 kN; motors stall before.
+constexpr double kMostPullN = 2000.0;
+
+std::array<std::pair<std::string_view, BedPoint>, 5> outermost_of(const model::Bed& bed) {
+  const double x = 0.5 * bed.width_mm, y = 0.5 * bed.height_mm;
+  return {{{"middle of the upper edge", {0.0, y}},
+           {"upper left corner", {-x, y}},
+           {"upper right corner", {x, y}},
+           {"lower left corner", {-x, -y}},
+           {"lower right corner", {x, -y}}}};
+}
+
+void check_bed(const model::Machine& machine, Problems& problems) {
+  const double half = 0.5 * machine.bed.width_mm;
+  if (machine.motors.left.x_mm > -half || machine.motors.right.x_mm < half) {
+    problems.add("the machine's motors",
+                 fmt::format("motors at {:.1f} and {:.1f} mm, over a bed from {:.1f} to {:.1f} mm",
+                             machine.motors.left.x_mm,
+                             machine.motors.right.x_mm,
+                             -half,
+                             half),
+                 "motors beyond either side of the bed");
+    return;
+  }
+  const auto kinematics = model::make_kinematics(model::equilibrium_parameters(machine));
+  for (const auto& [name, place] : outermost_of(machine.bed)) {
+    const auto pose = kinematics->inverse(place);
+    if (!pose) {
+      problems.add("the machine's bed",
+                   fmt::format("its {} at ({:.1f}, {:.1f}) mm: {}",
+                               name,
+                               place.x_mm,
+                               place.y_mm,
+                               pose.error().sentence()),
+                   "a bed under the motors that the sled reaches");
+      return;
+    }
+    const double pull_n = std::max(pose->chains.left.tension_at_sprocket_n,
+                                   pose->chains.right.tension_at_sprocket_n);
+    if (pull_n < kMostPullN) continue;
+    problems.add("the machine's motors",
+                 fmt::format("a pull of {:.0f} N at the {} of the bed", pull_n, name),
+                 fmt::format("motors so high above the bed that no chain pulls more than {:.0f} N",
+                             kMostPullN));
+    return;
+  }
+}
+
+}  // namespace
+
+void check_geometry(const model::Machine& machine, Problems& problems) {
+  for (const model::MachineProblem& problem : model::problems_of(machine)) {
+    problems.add(
+        fmt::format("the machine's {}", problem.parameter), problem.value, problem.expected);
+  }
+  if (!problems.any()) check_bed(machine, problems);
+}
+
+double longest_chain_mm(const model::Machine& machine) {
+  const auto kinematics = model::make_kinematics(model::equilibrium_parameters(machine));
+  double longest = 0.0;
+  for (const auto& [name, place] : outermost_of(machine.bed)) {
+    const auto pose = kinematics->inverse(place);
+    if (pose) longest = std::max({longest, pose->lengths.left_mm, pose->lengths.right_mm});
+  }
+  return longest;
+}
+
+void refuse_foreign_settings(std::string_view text, Problems& problems) {
+  struct Program {
+    std::string_view name;
+    std::string_view section;
+  };
+  constexpr Program kPrograms[] = {{"LinuxCNC", "[EMC]"},
+                                   {"LinuxCNC", "[KINS]"},
+                                   {"Klipper", "[mcu]"},
+                                   {"Klipper", "[printer]"},
+                                   {"Klipper", "[stepper_"}};
+  for (const Program& program : kPrograms) {
+    const std::size_t at = text.find(program.section);
+    const bool is_at_line = at == 0 || (at != std::string_view::npos && text[at - 1] == '\n');
+    if (!is_at_line) continue;
+    problems.explain(
+        line_and_column_of(text, at),
+        ProblemKind::file_kind,
+        fmt::format("these are settings of {}, which do not say how a machine hangs and are not read. "
+                    "Give the machine in plain numbers: of a router on two chains chaintrue start "
+                    "without a file writes a machine file to fill in; of a V-plotter a text of the "
+                    "lines machine.width=, machine.motors.mmPerRev=, machine.motors.stepsPerRev=, "
+                    "controller.homepoint.x= and controller.homepoint.y=, in mm from the left motor, "
+                    "right and down",
+                    program.name));
+    problems.throw_if_any();
+  }
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/setting_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "grid/files/blanks.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+constexpr std::string_view kParts = "/.";
+
+/// A text with this many unrecognised lines is no ini file.
+constexpr std::size_t kMostStrangeLines = 5;
+/// Ground Control's own files have about a hundred.
+constexpr std::size_t kMostSettings = 5000;
+
+/// Longer lists of what was passed over are counted at their end.
+constexpr std::size_t kMostNamed = 60;
+
+std::string line_place(std::size_t number) { return fmt::format("line {}", number); }
+
+}  // namespace
+
+std::string in_small_letters(std::string_view text) {
+  std::string small(text);
+  std::transform(small.begin(), small.end(), small.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return small;
+}
+
+SettingReader::SettingReader(SettingTexts texts,
+                             Problems& problems,
+                             std::vector<std::string> folders)
+    : texts_(std::move(texts)), problems_(problems), folders_(std::move(folders)) {}
+
+const SettingText* SettingReader::look(const std::string& key) {
+  asked_.insert(key);
+  const auto at = [&](const std::string& path) -> const SettingText* {
+    const auto found = texts_.find(path);
+    if (found == texts_.end()) return nullptr;
+    read_.insert(path);
+    return &found->second;
+  };
+  if (folders_.empty()) return at(key);
+  for (const std::string& folder : folders_) {
+    if (const SettingText* text = at(in_small_letters(folder) + "/" + key)) return text;
+  }
+  return nullptr;
+}
+
+std::optional<double> SettingReader::find(const std::string& key, const Range& range) {
+  const SettingText* setting = look(key);
+  if (setting == nullptr) return std::nullopt;
+  return checked_number(setting->text, setting->place, key, range, problems_);
+}
+
+std::optional<double> SettingReader::need(const std::string& key, const Range& range) {
+  if (look(key) == nullptr) {
+    problems_.add(key,
+                  "",
+                  folders_.empty()
+                      ? range.expected()
+                      : fmt::format("{}, in [{}]", range.expected(), fmt::join(folders_, "] or [")),
+                  ProblemKind::missing);
+  }
+  return find(key, range);
+}
+
+std::optional<std::string> SettingReader::find_word(const std::string& key,
+                                                    const std::vector<std::string>& words) {
+  const SettingText* setting = look(key);
+  if (setting == nullptr) return std::nullopt;
+  if (std::find(words.begin(), words.end(), setting->text) != words.end()) return setting->text;
+  problems_.add(setting->place,
+                setting->text.empty() ? "nothing" : setting->text,
+                fmt::format("{} ({})", fmt::join(words, " or "), key));
+  return std::nullopt;
+}
+
+void SettingReader::refuse_others() {
+  for (const auto& [path, setting] : texts_) {
+    if (!read_.contains(path))
+      problems_.add(setting.place, path, fmt::format("one of {}", fmt::join(asked_, ", ")));
+  }
+}
+
+void SettingReader::warn_of_others(std::string_view says_what) {
+  const auto holds_what_was_read = [&](const std::string& folder) {
+    const auto first = read_.lower_bound(folder);
+    return first != read_.end() && first->starts_with(folder);
+  };
+  std::vector<std::string> names;
+  for (const auto& [path, setting] : texts_) {
+    if (read_.contains(path)) continue;
+    std::size_t part = path.find_first_of(kParts);
+    while (part != std::string::npos && holds_what_was_read(path.substr(0, part + 1)))
+      part = path.find_first_of(kParts, part + 1);
+    const bool is_leaf = part == std::string::npos;
+    std::string name = is_leaf ? (folders_.empty() ? path : path.substr(path.rfind('/') + 1))
+                               : fmt::format("all of {}", path.substr(0, part));
+    if (names.empty() || names.back() != name) names.push_back(std::move(name));
+  }
+  if (names.empty()) return;
+  const std::size_t more = names.size() - std::min(names.size(), kMostNamed);
+  names.resize(names.size() - more);
+  problems_.warn("",
+                 fmt::format("passed over, for nothing of it {}: {}{}",
+                             says_what,
+                             fmt::join(names, ", "),
+                             more == 0 ? "" : fmt::format(" and {} more", more)));
+}
+
+SettingTexts yaml_texts(const std::string& text) {
+  struct Level {
+    std::size_t indent;
+    std::string path;
+  };
+  std::vector<Level> levels;
+  SettingTexts texts;
+  std::istringstream lines(text);
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    line.resize(std::min(line.find('#'), line.size()));
+    const std::size_t indent = line.find_first_not_of(' ');
+    const std::size_t colon = line.find(':');
+    if (indent == std::string::npos || colon == std::string::npos) continue;
+    while (!levels.empty() && levels.back().indent >= indent) levels.pop_back();
+    const std::string key = line.substr(indent, colon - indent);
+    const std::string path = levels.empty() ? key : levels.back().path + "/" + key;
+    levels.push_back({indent, path});
+    const std::string_view value = trimmed(std::string_view(line).substr(colon + 1));
+    if (!value.empty()) texts[path] = {std::string(value), line_place(number)};
+  }
+  return texts;
+}
+
+SettingTexts line_texts(const std::string& text, char separator, std::string_view before) {
+  SettingTexts texts;
+  std::istringstream lines(text);
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const std::size_t begin = before.empty() ? 0 : line.find(before);
+    if (begin == std::string::npos || line.starts_with("#")) continue;
+    const std::string_view entry = std::string_view(line).substr(begin + before.size());
+    const std::size_t at = entry.find(separator);
+    if (at == std::string_view::npos) continue;
+    std::string_view value = trimmed(entry.substr(at + 1));
+    for (const std::string_view unit : {"mm", "kg", "1/N", "/N"}) {
+      if (!value.ends_with(unit)) continue;
+      value = trimmed(value.substr(0, value.size() - unit.size()));
+      break;
+    }
+    texts[std::string(trimmed(entry.substr(0, at)))] = {std::string(value), line_place(number)};
+  }
+  return texts;
+}
+
+SettingTexts ini_texts(std::string_view text, Problems& problems) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  SettingTexts texts;
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+    problems.add("", "an empty file", "an ini file with [sections]", ProblemKind::empty_file);
+  }
+  std::string section;
+  std::size_t strange = 0;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = trimmed(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (line.empty() || line.front() == ';' || line.front() == '#') continue;
+    const std::string place = line_place(number);
+    if (line.front() == '[' && line.back() == ']') {
+      section = in_small_letters(trimmed(line.substr(1, line.size() - 2))) + "/";
+      continue;
+    }
+    const std::size_t sign = line.find_first_of("=:");
+    if (sign == 0 || sign == std::string_view::npos || section.empty()) {
+      problems.add(place,
+                   line,
+                   "[a section] or key = value in a section, as in an ini file",
+                   ProblemKind::bad_syntax);
+      if (++strange == kMostStrangeLines) break;
+      continue;
+    }
+    if (texts.size() == kMostSettings) {
+      problems.add(place, "more settings", fmt::format("at most {} lines of settings", kMostSettings));
+      break;
+    }
+    const auto [same, is_new] =
+        texts.emplace(section + in_small_letters(trimmed(line.substr(0, sign))),
+                      SettingText{std::string(trimmed(line.substr(sign + 1))), place});
+    if (!is_new) {
+      problems.add(place,
+                   line,
+                   fmt::format("this key once; it stands at {} already", same->second.place),
+                   ProblemKind::repeated_key);
+    }
+  }
+  return texts;
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The settings of another program by their paths, read one by one, and what nobody asked for. Shared by
+/// every importer. Private to grid/files.
+///
+/// \code
+///   SettingReader settings(yaml_texts(text), problems);
+///   const double x = settings.need("kinematics/WallPlotter/left_anchor_x", kAnchor).value_or(0.0);
+///   settings.warn_of_others("says where the pen hangs");
+/// \endcode
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grid/files/number_text.hpp"
+#include "grid/files/problems.hpp"
+
+namespace chaintrue::grid::files {
+
+struct SettingText {
+  std::string text;
+  std::string place;  ///< "line 4"
+};
+/// By path, "folder/key".
+using SettingTexts = std::map<std::string, SettingText>;
+
+class SettingReader {
+ public:
+  /// A key is looked for in `folders`, in order; without any it is the whole path.
+  SettingReader(SettingTexts texts, Problems& problems, std::vector<std::string> folders = {});
+
+  /// Null where it is not there.
+  [[nodiscard]] const SettingText* look(const std::string& key);
+  /// Nothing where it is not there, or is reported.
+  std::optional<double> find(const std::string& key, const Range& range);
+  /// The same; one that is not there is reported.
+  std::optional<double> need(const std::string& key, const Range& range);
+  /// One of `words`; another is reported.
+  std::optional<std::string> find_word(const std::string& key,
+                                       const std::vector<std::string>& words);
+  /// Of a text in which nothing else can stand: the others are reported.
+  void refuse_others();
+  /// Names what was not asked for: "passed over, for nothing of it `says_what`: ...". A folder of which
+  /// nothing was asked for is named alone.
+  void warn_of_others(std::string_view says_what);
+
+ private:
+  SettingTexts texts_;
+  Problems& problems_;
+  std::vector<std::string> folders_;
+  std::set<std::string> asked_;  ///< keys
+  std::set<std::string> read_;   ///< paths
+};
+
+/// The part of YAML that FluidNC's settings use: keys by their indentation, and the value after the
+/// colon. "kinematics/WallPlotter/left_anchor_x".
+[[nodiscard]] SettingTexts yaml_texts(const std::string& text);
+
+/// Settings each on a line of its own, "key=12", "key: 12 mm"; `before` is what stands before a key,
+/// and other lines are left out.
+[[nodiscard]] SettingTexts line_texts(const std::string& text,
+                                      char separator,
+                                      std::string_view before = "");
+
+/// An ini file, "section/key" in lower case. Lines that begin with ; or # are comments. Reports lines
+/// that are neither a section, an entry, a comment nor blank, and keys that occur twice in a section.
+[[nodiscard]] SettingTexts ini_texts(std::string_view text, Problems& problems);
+
+[[nodiscard]] std::string in_small_letters(std::string_view text);
+
+}  // namespace chaintrue::grid::files
