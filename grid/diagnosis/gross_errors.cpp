@@ -47,7 +47,8 @@ std::optional<DiagnosisFailure> suspected_slip(const Measured& measured) {
   }
   for (const MeasuredGrid* grid : measured.grids()) {
     const auto whole = input_checks::check_points(*grid).whole;
-    if (!whole || whole->is_doubtful) continue;
+    // A turned sheet looks like axes that are not square and a law beside it.
+    if (!whole || (whole->is_doubtful && whole->kind != ProblemKind::axes)) continue;
     return DiagnosisFailure{DiagnosisFailure::Reason::contradictory_settings, whole->sentence()};
   }
   return std::nullopt;

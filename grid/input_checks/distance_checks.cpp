@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "grid/input_checks/number_checks.hpp"
-#include "grid/input_checks/robust_trend.hpp"
+#include "grid/input_checks/transformation_search.hpp"
 
 namespace chaintrue::grid::input_checks {
 namespace {
@@ -60,44 +60,58 @@ Eigen::VectorXd distance_sigmas(const MeasuredHoles& set) {
   return sigma;
 }
 
-RobustTrend distances_trend(const MeasuredHoles& set) {
+TrendRows distance_rows(const MeasuredHoles& set) {
   const auto n = static_cast<Eigen::Index>(set.distances.size());
-  Eigen::MatrixXd basis(n, kDistanceBasis);
-  Eigen::MatrixXd off(n, 1);
+  TrendRows rows{Eigen::MatrixXd(n, kDistanceBasis), Eigen::MatrixXd(n, 1)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const HoleDistance& distance = set.distances[static_cast<std::size_t>(i)];
-    basis.row(i) = basis_of(set, distance);
-    off(i, 0) = length_of(set, distance) - commanded_mm(set, distance);
+    rows.basis.row(i) = basis_of(set, distance);
+    rows.off_mm(i, 0) = length_of(set, distance) - commanded_mm(set, distance);
   }
-  return robust_trend(basis, distance_sigmas(set), off);
+  return rows;
 }
 
-Account distances_account(const MeasuredHoles& set) {
-  const RobustTrend trend = distances_trend(set);
-  return {trend.log_likelihood, trend.median_residual_mm(), trend.prior_chi_square};
-}
-
-class Attempts {
+class HoleTransformations {
  public:
-  explicit Attempts(const MeasuredHoles& set) : set_(set) {}
+  explicit HoleTransformations(const MeasuredHoles& set) : set_(set) {}
 
-  void add(ProblemKind kind,
-           std::string sentence,
-           const std::function<void(MeasuredHoles&)>& mend) {
-    MeasuredHoles meant = set_;
-    mend(meant);
-    candidates_.push_back({kind, std::move(sentence), distances_account(meant)});
+  /// Of the holes, which all distances share.
+  Transformation& of_holes(ProblemKind kind,
+                           std::string sentence,
+                           const std::function<void(MeasuredHoles&)>& mend) {
+    Transformation own{kind, std::move(sentence), {}};
+    own.of = Transformation::Of::all;
+    own.mended = [&set = set_, mend](const RowSet&) {
+      MeasuredHoles meant = set;
+      mend(meant);
+      return distance_rows(meant);
+    };
+    return add(std::move(own));
   }
-  [[nodiscard]] std::vector<Candidate>& candidates() { return candidates_; }
+  Transformation& of_distances(ProblemKind kind,
+                               std::string sentence,
+                               const std::function<void(HoleDistance&, std::size_t row)>& mend) {
+    Transformation own{kind, std::move(sentence), {}};
+    own.mended = [&set = set_, mend](const RowSet& rows) {
+      MeasuredHoles meant = set;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (rows[i]) mend(meant.distances[i], i);
+      }
+      return distance_rows(meant);
+    };
+    return add(std::move(own));
+  }
+  [[nodiscard]] const std::vector<Transformation>& list() const { return list_; }
 
  private:
-  const MeasuredHoles& set_;
-  std::vector<Candidate> candidates_;
-};
+  Transformation& add(Transformation own) {
+    list_.push_back(std::move(own));
+    return list_.back();
+  }
 
-void scale_distances(MeasuredHoles& set, double factor) {
-  for (HoleDistance& distance : set.distances) distance.distance_mm *= factor;
-}
+  const MeasuredHoles& set_;
+  std::vector<Transformation> list_;
+};
 
 void scale_holes(MeasuredHoles& set, double factor) {
   for (Hole& hole : set.holes) {
@@ -106,17 +120,17 @@ void scale_holes(MeasuredHoles& set, double factor) {
   }
 }
 
-void add_units(Attempts& attempts, Written written) {
+void add_units(HoleTransformations& list, Written written) {
   const auto unit = [&](const char* word, double factor) {
-    attempts.add(
+    list.of_distances(
         ProblemKind::other_unit,
         fmt::format("the distances look like {}, the holes' x_mm and y_mm like mm: multiply the "
                     "distances by {:g}{}",
                     word,
                     factor,
                     factor == kMmPerInch ? or_say_inches(written) : ""),
-        [=](MeasuredHoles& set) { scale_distances(set, factor); });
-    attempts.add(
+        [=](HoleDistance& distance, std::size_t) { distance.distance_mm *= factor; });
+    list.of_holes(
         ProblemKind::other_unit,
         fmt::format("the holes' x_mm and y_mm look like {}, the distances like mm: multiply the "
                     "holes by {:g}",
@@ -129,9 +143,9 @@ void add_units(Attempts& attempts, Written written) {
   unit("metres", 1000.0);
 }
 
-void add_axes(Attempts& attempts) {
+void add_axes(HoleTransformations& list) {
   const auto holes = [&](const char* words, model::BedPoint (*meant)(model::BedPoint)) {
-    attempts.add(ProblemKind::axes, words, [meant](MeasuredHoles& set) {
+    list.of_holes(ProblemKind::axes, words, [meant](MeasuredHoles& set) {
       for (Hole& hole : set.holes) hole.commanded = meant(hole.commanded);
     });
   };
@@ -161,7 +175,7 @@ void add_axes(Attempts& attempts) {
 }
 
 /// A hole under another name, or written down wrongly, makes every distance from it wrong.
-void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Attempts& attempts) {
+void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, HoleTransformations& list) {
   for (std::size_t h = 0; h < set.holes.size(); ++h) {
     std::size_t of_it = 0;
     for (std::size_t i = 0; i < set.distances.size(); ++i) {
@@ -174,25 +188,25 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Atte
     const auto number = [&](const char* axis, double model::BedPoint::*of) {
       const double written = set.holes[h].commanded.*of;
       for (const NumberError& slip : number_errors(written, true)) {
-        attempts.add(ProblemKind::doubtful_row,
-                     fmt::format("the {1} that hole {0} was cut at is {2}: {3}",
-                                 name,
-                                 axis,
-                                 digits_of(written),
-                                 slip.question),
-                     [=](MeasuredHoles& meant) { meant.holes[h].commanded.*of = slip.value; });
-        attempts.candidates().back().account.log_likelihood -= slip.penalty;
+        list.of_holes(ProblemKind::doubtful_row,
+                      fmt::format("the {1} that hole {0} was cut at is {2}: {3}",
+                                  name,
+                                  axis,
+                                  digits_of(written),
+                                  slip.question),
+                      [=](MeasuredHoles& meant) { meant.holes[h].commanded.*of = slip.value; })
+            .penalty = slip.penalty;
       }
     };
     number("x_mm", &model::BedPoint::x_mm);
     number("y_mm", &model::BedPoint::y_mm);
-    attempts.add(ProblemKind::doubtful_row,
+    list.of_holes(ProblemKind::doubtful_row,
                  fmt::format("are x_mm and y_mm of hole {} swapped?", name),
                  [=](MeasuredHoles& meant) {
                    std::swap(meant.holes[h].commanded.x_mm, meant.holes[h].commanded.y_mm);
                  });
     for (std::size_t other = 0; other < h; ++other) {
-      attempts.add(ProblemKind::other_order,
+      list.of_holes(ProblemKind::other_order,
                    fmt::format("the holes {} and {} look exchanged", set.holes[other].name, name),
                    [=](MeasuredHoles& meant) {
                      std::swap(meant.holes[h].commanded, meant.holes[other].commanded);
@@ -201,46 +215,22 @@ void add_holes(const MeasuredHoles& set, const std::vector<bool>& is_gross, Atte
   }
 }
 
-/// From which distance on each was written in the line after, or before, its own.
-void add_row_errors(const MeasuredHoles& set, std::vector<Candidate>& candidates) {
-  constexpr double kCoarseMm = 10.0;
-  constexpr double kLostMm = 1000.0;
+/// Each distance written in the line after, or before, its own.
+void add_slips(const MeasuredHoles& set, HoleTransformations& list) {
   const auto count = static_cast<std::ptrdiff_t>(set.distances.size());
   for (const std::ptrdiff_t by : {-1, 1}) {
-    const auto density = [&](std::ptrdiff_t reading, std::ptrdiff_t of) {
-      if (of < 0 || of >= count) return log_density_of(kLostMm, kCoarseMm, 1);
-      return log_density_of(length_of(set, set.distances[static_cast<std::size_t>(reading)]) -
-                                commanded_mm(set, set.distances[static_cast<std::size_t>(of)]),
-                            kCoarseMm,
-                            1);
-    };
-    std::ptrdiff_t from = count - 1;
-    double best = -1.0;
-    double sum = 0.0;
-    for (std::ptrdiff_t i = count; i-- > 0;) {
-      sum += density(i, i + by) - density(i, i);
-      if (sum > best) {
-        best = sum;
-        from = i;
-      }
-    }
-    MeasuredHoles meant = set;
-    for (std::ptrdiff_t i = from; i < count; ++i) {
-      const std::ptrdiff_t of = i + by;
-      if (of < 0 || of >= count) continue;  // one row stays off
-      HoleDistance& to = meant.distances[static_cast<std::size_t>(i)];
-      const double read = to.distance_mm;
-      to = set.distances[static_cast<std::size_t>(of)];
-      to.distance_mm = read;
-    }
-    candidates.push_back(
-        {ProblemKind::row_slip,
-         fmt::format(
-             "from here on the distances fit the two holes of the line {}: is one left out or "
-             "written twice?",
-             by < 0 ? "before" : "after"),
-         distances_account(meant),
-         static_cast<std::size_t>(from)});
+    list.of_distances(ProblemKind::row_slip,
+                      fmt::format("the distances fit the two holes of the line {}: is one left out or "
+                                  "written twice?",
+                                  by < 0 ? "before" : "after"),
+                      [&set, by, count](HoleDistance& to, std::size_t row) {
+                        const std::ptrdiff_t of = static_cast<std::ptrdiff_t>(row) + by;
+                        if (of < 0 || of >= count) return;  // one row stays off
+                        const double read_mm = to.distance_mm;
+                        to = set.distances[static_cast<std::size_t>(of)];
+                        to.distance_mm = read_mm;
+                      })
+        .of = Transformation::Of::tail;
   }
 }
 
@@ -329,7 +319,9 @@ struct DistanceRows {
 
 Findings check_distances(const MeasuredHoles& set, Written written) {
   if (set.distances.empty()) return {};
-  const RobustTrend trend = distances_trend(set);
+  const TrendRows written_rows = distance_rows(set);
+  const Eigen::VectorXd sigma_mm = distance_sigmas(set);
+  const RobustTrend trend = robust_trend(written_rows.basis, sigma_mm, written_rows.off_mm);
   const DistanceRows rows{set, trend};
   std::vector<bool> is_gross;
   for (std::size_t i = 0; i < set.distances.size(); ++i) is_gross.push_back(rows.is_gross(i));
@@ -337,14 +329,17 @@ Findings check_distances(const MeasuredHoles& set, Written written) {
   const bool is_odd = trend.prior_chi_square > kOddDistances || median_mm > kSoundMm ||
                       std::find(is_gross.begin(), is_gross.end(), true) != is_gross.end();
   if (!is_odd) return {};
-  Attempts attempts(set);
-  add_units(attempts, written);
-  add_axes(attempts);
-  add_holes(set, is_gross, attempts);
-  std::vector<Candidate>& candidates = attempts.candidates();
-  add_row_errors(set, candidates);
+  HoleTransformations list(set);
+  add_units(list, written);
+  add_axes(list);
+  add_holes(set, is_gross, list);
+  add_slips(set, list);
+  std::vector<Candidate> candidates =
+      searched(sigma_mm, written_rows, list.list(), [](std::size_t row) {
+        return fmt::format("{}", row + 1);
+      });
   const std::size_t tried = candidates.size() + 2 * set.distances.size();
-  const Account plain{trend.log_likelihood, median_mm, trend.prior_chi_square};
+  const Account plain = account_of(trend);
   Findings findings;
   findings.whole =
       whole_finding(std::move(candidates),

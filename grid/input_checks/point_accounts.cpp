@@ -69,20 +69,38 @@ Eigen::RowVectorXd PointAccounts::basis_at(model::BedPoint place) const {
   return basis;
 }
 
-RobustTrend PointAccounts::account(const std::vector<MeasuredPoint>& points,
-                                   const std::vector<Place>& places) const {
+TrendRows PointAccounts::rows(const std::vector<MeasuredPoint>& points,
+                              const std::vector<Place>& places) const {
   const auto n = static_cast<Eigen::Index>(points.size());
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(n, kPointBasis);
-  Eigen::MatrixXd off =
-      Eigen::MatrixXd::Constant(n, 2, std::numeric_limits<double>::quiet_NaN());
+  TrendRows rows{Eigen::MatrixXd::Zero(n, kPointBasis),
+                 Eigen::MatrixXd::Constant(n, 2, std::numeric_limits<double>::quiet_NaN())};
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!places[k]) continue;
-    basis.row(i) = basis_at(*places[k]);
-    off(i, 0) = points[k].mark.x_mm - places[k]->x_mm;
-    off(i, 1) = points[k].mark.y_mm - places[k]->y_mm;
+    rows.basis.row(i) = basis_at(*places[k]);
+    rows.off_mm(i, 0) = points[k].mark.x_mm - places[k]->x_mm;
+    rows.off_mm(i, 1) = points[k].mark.y_mm - places[k]->y_mm;
   }
-  return robust_trend(basis, prior_sigma_mm_, off);
+  return rows;
+}
+
+RobustTrend PointAccounts::account(const std::vector<MeasuredPoint>& points,
+                                   const std::vector<Place>& places) const {
+  const TrendRows own = rows(points, places);
+  return robust_trend(own.basis, prior_sigma_mm_, own.off_mm);
+}
+
+double PointAccounts::turn_rad(const RobustTrend& trend) const {
+  const double up_along_x = trend.coefficients(1, 1) / half_width_mm_;
+  const double right_along_y = trend.coefficients(2, 0) / half_height_mm_;
+  return 0.5 * (up_along_x - right_along_y);
+}
+
+double PointAccounts::strain(const RobustTrend& trend) const {
+  const Eigen::MatrixXd& c = trend.coefficients;
+  const double skew = 0.5 * (c(1, 1) / half_width_mm_ + c(2, 0) / half_height_mm_);
+  return std::max(
+      {std::abs(c(1, 0)) / half_width_mm_, std::abs(c(2, 1)) / half_height_mm_, std::abs(skew)});
 }
 
 Eigen::Vector2d PointAccounts::off(const RobustTrend& trend,

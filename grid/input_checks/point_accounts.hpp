@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "grid/input_checks/robust_trend.hpp"
+#include "grid/input_checks/transformation_search.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "model/controllers/payout.hpp"
 #include "model/kinematics.hpp"
@@ -28,10 +28,17 @@ class PointAccounts {
   [[nodiscard]] bool can_hold(model::MarkPoint mark) const;
   [[nodiscard]] std::vector<Place> places_of(const std::vector<MeasuredPoint>& points) const;
 
-  /// How marks lie about places: a trend of the second degree. A place that is missing is a row that
+  /// How marks lie about places, for a trend of the second degree. A place that is missing is a row that
   /// is missing. \pre as many places as points.
+  [[nodiscard]] TrendRows rows(const std::vector<MeasuredPoint>& points,
+                               const std::vector<Place>& places) const;
+  [[nodiscard]] const Eigen::VectorXd& prior_sigma_mm() const { return prior_sigma_mm_; }
   [[nodiscard]] RobustTrend account(const std::vector<MeasuredPoint>& points,
                                     const std::vector<Place>& places) const;
+  /// By how much the marks of a trend lie turned to the left about the bed's middle.
+  [[nodiscard]] double turn_rad(const RobustTrend& trend) const;
+  /// The largest of its stretches along x and y and its skew, of 1.
+  [[nodiscard]] double strain(const RobustTrend& trend) const;
   /// What a trend leaves of a mark at a place.
   [[nodiscard]] Eigen::Vector2d off(const RobustTrend& trend,
                                     model::MarkPoint mark,

@@ -29,11 +29,6 @@ constexpr std::size_t kFewestStrangePoints = 6;
 constexpr std::size_t kMostLookedAt = 200;
 constexpr double kRepeatMm = 30.0;
 
-Account account_of(const PointAccounts& accounts, const Points& points, const Places& places) {
-  const RobustTrend trend = accounts.account(points, places);
-  return {trend.log_likelihood, trend.median_residual_mm(), trend.prior_chi_square};
-}
-
 /// Of points a file may have ten thousand.
 std::vector<std::size_t> looked_at(std::size_t count) {
   const std::size_t few = std::min(count, kMostLookedAt);
@@ -42,128 +37,8 @@ std::vector<std::size_t> looked_at(std::size_t count) {
   return rows;
 }
 
-void try_whole_errors(const PointAccounts& accounts,
-                      const MeasuredGrid& grid,
-                      const Points& points,
-                      const Places& places,
-                      Written written,
-                      std::vector<Candidate>& candidates) {
-  for (const WholeError& slip : whole_errors(grid, written)) {
-    Points meant = points;
-    for (std::size_t i = 0; i < meant.size(); ++i) {
-      slip.mend(meant[i],
-                places[i].value_or(model::BedPoint{meant[i].mark.x_mm, meant[i].mark.y_mm}));
-    }
-    const Places then = slip.mends_readings ? accounts.places_of(meant) : places;
-    candidates.push_back(
-        {slip.kind, slip.sentence, account_of(accounts, meant, then), std::nullopt, slip.is_doubtful});
-  }
-}
-
-/// From which row on each reading belongs to the mark `by` rows later, if any: where
-/// sum_(i >= k) log p(shifted) - log p(as it stands) is largest.
-std::size_t errors_from(const Points& points, const Places& places, std::ptrdiff_t by) {
-  constexpr double kCoarseMm = 20.0;  // before a trend is known
-  const auto density = [&](std::size_t row, std::ptrdiff_t of) {
-    const bool is_there = of >= 0 && of < static_cast<std::ptrdiff_t>(places.size()) &&
-                          places[static_cast<std::size_t>(of)];
-    constexpr double kLostMm = 1000.0;
-    if (!is_there) return log_density_of(kLostMm, kCoarseMm, 2);
-    const model::BedPoint place = *places[static_cast<std::size_t>(of)];
-    const model::MarkPoint mark = points[row].mark;
-    return log_density_of(std::hypot(mark.x_mm - place.x_mm, mark.y_mm - place.y_mm), kCoarseMm, 2);
-  };
-  std::size_t from = 0;
-  double best = -1.0;
-  double sum = 0.0;
-  for (std::size_t i = points.size(); i-- > 0;) {
-    const auto row = static_cast<std::ptrdiff_t>(i);
-    sum += density(i, row + by) - density(i, row);
-    if (sum > best) {
-      best = sum;
-      from = i;
-    }
-  }
-  // A row that was lost on the way belongs to what has slipped.
-  constexpr double kOffMm = 60.0;
-  const double lost = log_density_of(kOffMm, kCoarseMm, 2);
-  while (from > 0 && density(from - 1, static_cast<std::ptrdiff_t>(from) - 1) < lost) --from;
-  return from;
-}
-
-void try_row_errors(const PointAccounts& accounts,
-                    const Points& points,
-                    const Places& places,
-                    std::string_view readings,
-                    std::vector<Candidate>& candidates) {
-  for (const std::ptrdiff_t by : {-1, 1}) {
-    const std::size_t from = errors_from(points, places, by);
-    // One row alone is no slipped list, and the last one of all may have no other.
-    constexpr std::size_t kFewestRows = 3;
-    if (places.size() < from + kFewestRows) continue;
-    Places slipped = places;
-    for (std::size_t i = from; i < places.size(); ++i) {
-      const auto of = static_cast<std::ptrdiff_t>(i) + by;
-      const bool is_there = of >= 0 && of < static_cast<std::ptrdiff_t>(places.size());
-      slipped[i] = is_there ? places[static_cast<std::size_t>(of)] : std::nullopt;
-    }
-    candidates.push_back(
-        {ProblemKind::row_slip,
-         fmt::format("from here on x_mm and y_mm fit the {} of the line {}: is a line {}?",
-                     readings,
-                     by < 0 ? "before" : "after",
-                     by < 0 ? "written twice, or one left out of the other columns"
-                            : "left out, or one written twice in the other columns"),
-         account_of(accounts, points, slipped),
-         from});
-  }
-  Places reversed = places;
-  std::reverse(reversed.begin(), reversed.end());
-  candidates.push_back({ProblemKind::other_order,
-                        fmt::format("the lines look as if one of the two lists, marks and {}, runs "
-                                    "from its end to its beginning",
-                                    readings),
-                        account_of(accounts, points, reversed),
-                        std::nullopt});
-}
-
-/// Every mark to the place nearest to it, where that takes each place once.
-std::optional<Places> places_nearest(const Points& points, const Places& places) {
-  Places nearest;
-  std::vector<bool> taken(places.size(), false);
-  for (const MeasuredPoint& point : points) {
-    std::optional<std::size_t> best;
-    double least = 0.0;
-    for (std::size_t j = 0; j < places.size(); ++j) {
-      if (!places[j] || taken[j]) continue;
-      const double apart =
-          std::hypot(point.mark.x_mm - places[j]->x_mm, point.mark.y_mm - places[j]->y_mm);
-      if (best && apart >= least) continue;
-      best = j;
-      least = apart;
-    }
-    if (!best) return std::nullopt;
-    taken[*best] = true;
-    nearest.push_back(places[*best]);
-  }
-  return nearest;
-}
-
-void try_other_order(const PointAccounts& accounts,
-                     const Points& points,
-                     const Places& places,
-                     std::string_view readings,
-                     std::vector<Candidate>& candidates) {
-  const auto nearest = places_nearest(points, places);
-  if (!nearest) return;
-  Account account = account_of(accounts, points, *nearest);
-  account.log_likelihood -= std::lgamma(static_cast<double>(points.size()) + 1.0);  // orders
-  candidates.push_back({ProblemKind::other_order,
-                        fmt::format("the {} belong to the marks of other lines: are the two lists "
-                                    "sorted differently?",
-                                    readings),
-                        account,
-                        std::nullopt});
+std::string number_of(const MeasuredGrid& grid, std::size_t row) {
+  return fmt::format("{}", grid.points[row].order.value_or(static_cast<int>(row) + 1));
 }
 
 std::optional<WholeFinding> strangers(const Account& plain, std::size_t count) {
@@ -178,37 +53,40 @@ std::optional<WholeFinding> strangers(const Account& plain, std::size_t count) {
       false};
 }
 
-std::string_view readings_of(const MeasuredGrid& grid) {
-  return grid.points.front().lengths ? "lengths" : "command";
-}
-
 std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
                                         const MeasuredGrid& grid,
                                         const Places& places,
                                         const RobustTrend& trend,
                                         Written written) {
-  const Points& all = grid.points;
-  Points points;
-  Places at;
-  for (const std::size_t row : looked_at(all.size())) {
-    points.push_back(all[row]);
-    at.push_back(places[row]);
+  const std::vector<std::size_t> looked = looked_at(grid.points.size());
+  PlacedPoints few;
+  for (const std::size_t row : looked) {
+    few.points.push_back(grid.points[row]);
+    few.places.push_back(places[row]);
   }
-  const Account plain = account_of(accounts, points, at);
-  std::vector<Candidate> candidates;
-  try_whole_errors(accounts, grid, points, at, written, candidates);
-  try_other_order(accounts, points, at, readings_of(grid), candidates);
+  const Eigen::VectorXd& sigma_mm = accounts.prior_sigma_mm();
+  const TrendRows few_rows = accounts.rows(few.points, few.places);
+  const Account plain = account_of(robust_trend(few_rows.basis, sigma_mm, few_rows.off_mm));
+  std::vector<Candidate> candidates =
+      searched(sigma_mm,
+               few_rows,
+               point_transformations(accounts, grid, few, written),
+               [&](std::size_t row) { return number_of(grid, looked[row]); });
+  for (Candidate& candidate : candidates) {
+    if (candidate.from_row) candidate.from_row = looked[*candidate.from_row];
+  }
   // Neighbours in the file are needed for these, and with all rows their own account of as it is.
-  const Account plain_of_all{
-      trend.log_likelihood, trend.median_residual_mm(), trend.prior_chi_square};
-  std::vector<Candidate> of_all;
-  try_row_errors(accounts, all, places, readings_of(grid), of_all);
-  const double scale = plain.log_likelihood - plain_of_all.log_likelihood;
+  const PlacedPoints all{grid.points, places};
+  std::vector<Candidate> of_all = searched(sigma_mm,
+                                           accounts.rows(all.points, all.places),
+                                           slip_transformations(accounts, all),
+                                           [&](std::size_t row) { return number_of(grid, row); });
+  const double scale = plain.log_likelihood - trend.log_likelihood;
   for (Candidate& candidate : of_all) {
     candidate.account.log_likelihood += scale;
     candidates.push_back(std::move(candidate));
   }
-  const std::size_t tried = candidates.size() + 2 * all.size();
+  const std::size_t tried = candidates.size() + 2 * grid.points.size();
   auto finding = whole_finding(
       std::move(candidates),
       plain,
@@ -218,7 +96,7 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
           ? fmt::format("half of the marks are over {} off where the machine puts them",
                         length_in_words(plain.median_mm))
           : std::string("the machine cannot have these readings"));
-  if (finding && finding->from_row) {
+  if (finding && finding->from_row.value_or(0) > 0) {
     const auto from = static_cast<Eigen::Index>(*finding->from_row);
     std::vector<double> residual_mm;
     for (Eigen::Index i = from; i < trend.residual_mm.size(); ++i)
@@ -227,16 +105,37 @@ std::optional<WholeFinding> of_the_file(const PointAccounts& accounts,
                                  length_in_words(median(std::move(residual_mm))));
   }
   if (finding) return finding;
-  return strangers(plain_of_all, all.size());
+  return strangers(account_of(trend), grid.points.size());
+}
+
+/// Marks that all lie turned by one angle, and neither stretched nor skew by nearly as much.
+std::optional<WholeFinding> turned_sheet(const PointAccounts& accounts,
+                                         const MeasuredGrid& grid,
+                                         const RobustTrend& trend) {
+  // Motors that are known to 3 mm turn the picture by one or two.
+  constexpr double kLeastTurn = 8e-3;
+  constexpr double kPure = 4.0;
+  if (grid.sheet || grid.points.size() < kFewestStrangePoints) return std::nullopt;
+  const double turn = accounts.turn_rad(trend);
+  if (std::abs(turn) < std::max(kLeastTurn, kPure * accounts.strain(trend))) return std::nullopt;
+  constexpr double kMmPerMetre = 1000.0;
+  return WholeFinding{
+      std::nullopt,
+      fmt::format("the sheet looks turned by {:.0f} mm a metre, its right end {}: was it laid askew, or "
+                  "does the beam with the motors lean? Where it was laid by hand, say how well "
+                  "(\"sheet\": {{\"shift_mm\": 10, \"rotation_mrad\": 20}}); else measure from the bed's "
+                  "own axes",
+                  kMmPerMetre * std::abs(turn),
+                  turn > 0.0 ? "up" : "down"),
+      fmt::format("all marks agree in it to {:.1f} mm", trend.median_residual_mm()),
+      true,
+      std::nullopt,
+      ProblemKind::axes};
 }
 
 std::string capitalised(std::string text) {
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
-}
-
-std::string number_of(const MeasuredGrid& grid, std::size_t row) {
-  return fmt::format("{}", grid.points[row].order.value_or(static_cast<int>(row) + 1));
 }
 
 /// How far apart the marks are of this row and of the one nearest to it by its reading.
@@ -375,9 +274,10 @@ Findings check_points(const MeasuredGrid& grid, Written written) {
   const PointRows rows{accounts, grid, places, trend};
   bool is_odd = trend.prior_chi_square > kOddPoints || trend.median_residual_mm() > kSoundMm;
   for (std::size_t row = 0; row < grid.points.size(); ++row) is_odd = is_odd || rows.is_gross(row);
-  if (!is_odd) return {};
   Findings findings;
-  findings.whole = of_the_file(accounts, grid, places, trend, written);
+  if (is_odd) findings.whole = of_the_file(accounts, grid, places, trend, written);
+  if (!findings.whole) findings.whole = turned_sheet(accounts, grid, trend);
+  if (!is_odd) return findings;
   if (!findings.whole || findings.whole->is_doubtful) findings.rows = rows.findings();
   return findings;
 }

@@ -30,100 +30,101 @@ void scale_reading(MeasuredPoint& point, double factor) {
     point.commanded = BedPoint{factor * point.commanded->x_mm, factor * point.commanded->y_mm};
 }
 
+/// The list, and what a change of marks or of readings makes of the rows.
 class List {
  public:
-  void mark(ProblemKind kind,
-            std::string sentence,
-            std::function<MarkPoint(MarkPoint, BedPoint)> meant) {
-    slips_.push_back({kind, std::move(sentence), [meant](MeasuredPoint& point, BedPoint place) {
-                        point.mark = meant(point.mark, place);
-                      }});
+  List(const PointAccounts& accounts, const PlacedPoints& written)
+      : accounts_(accounts), written_(written) {}
+
+  using Mend = std::function<void(MeasuredPoint&, BedPoint place)>;
+
+  Transformation& add(ProblemKind kind, std::string sentence, bool mends_readings, const Mend& mend) {
+    Transformation own{kind, std::move(sentence), {}};
+    own.mended = [&accounts = accounts_, &written = written_, mends_readings, mend](
+                     const RowSet& rows) {
+      PlacedPoints meant = written;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (!rows[i]) continue;
+        MeasuredPoint& point = meant.points[i];
+        mend(point, meant.places[i].value_or(BedPoint{point.mark.x_mm, point.mark.y_mm}));
+        if (mends_readings) meant.places[i] = accounts.place_of(point);
+      }
+      return accounts.rows(meant.points, meant.places);
+    };
+    list_.push_back(std::move(own));
+    return list_.back();
   }
-  void shift(double x_mm, double y_mm, std::string sentence, bool is_doubtful = false) {
-    mark(ProblemKind::constant_offset, std::move(sentence), [=](MarkPoint m, BedPoint) {
+  Transformation& mark(ProblemKind kind,
+                       std::string sentence,
+                       const std::function<MarkPoint(MarkPoint, BedPoint)>& meant) {
+    return add(kind, std::move(sentence), false, [meant](MeasuredPoint& point, BedPoint place) {
+      point.mark = meant(point.mark, place);
+    });
+  }
+  Transformation& shift(double x_mm, double y_mm, std::string sentence) {
+    return mark(ProblemKind::constant_offset, std::move(sentence), [=](MarkPoint m, BedPoint) {
       return MarkPoint{m.x_mm + x_mm, m.y_mm + y_mm};
     });
-    slips_.back().is_doubtful = is_doubtful;
   }
-  void reading(ProblemKind kind,
-               std::string sentence,
-               std::function<void(MeasuredPoint&)> meant) {
-    slips_.push_back({kind,
-                      std::move(sentence),
-                      [meant](MeasuredPoint& point, BedPoint) { meant(point); },
-                      true});
+  Transformation& reading(ProblemKind kind,
+                          std::string sentence,
+                          const std::function<void(MeasuredPoint&)>& meant) {
+    return add(kind, std::move(sentence), true, [meant](MeasuredPoint& point, BedPoint) {
+      meant(point);
+    });
   }
-  [[nodiscard]] std::vector<WholeError> take() { return std::move(slips_); }
+  [[nodiscard]] std::vector<Transformation> take() { return std::move(list_); }
 
  private:
-  std::vector<WholeError> slips_;
+  const PointAccounts& accounts_;
+  const PlacedPoints& written_;
+  std::vector<Transformation> list_;
 };
 
 void add_axes(List& list) {
-  list.mark(ProblemKind::axes,
-            "the sign of x_mm looks turned round: x_mm counts to the right of the bed's middle",
-            [](MarkPoint m, BedPoint) {
-              return MarkPoint{-m.x_mm, m.y_mm};
-            });
-  list.mark(ProblemKind::axes,
-            "y_mm looks counted downwards: it counts up the sheet", [](MarkPoint m, BedPoint) {
-    return MarkPoint{m.x_mm, -m.y_mm};
-  });
-  list.mark(
-      ProblemKind::axes,
-      "the signs of x_mm and y_mm both look turned round: they count to the right and up the sheet",
-      [](MarkPoint m, BedPoint) {
-        return MarkPoint{-m.x_mm, -m.y_mm};
-      });
-  list.mark(ProblemKind::axes,
-            "the two columns look swapped: x_mm counts to the right, y_mm up the sheet",
-            [](MarkPoint m, BedPoint) {
-              return MarkPoint{m.y_mm, m.x_mm};
-            });
-  list.mark(ProblemKind::axes,
-            "the axes look turned by a quarter: x_mm counts to the right, y_mm up the sheet",
-            [](MarkPoint m, BedPoint) {
-              return MarkPoint{m.y_mm, -m.x_mm};
-            });
-  list.mark(ProblemKind::axes,
-            "the axes look turned by a quarter: x_mm counts to the right, y_mm up the sheet",
-            [](MarkPoint m, BedPoint) {
-              return MarkPoint{-m.y_mm, m.x_mm};
-            });
+  struct Axes {
+    const char* sentence;
+    Eigen::Matrix2d meant;
+  };
+  constexpr const char* kQuarter =
+      "the axes look turned by a quarter: x_mm counts to the right, y_mm up the sheet";
+  const Axes axes[] = {
+      {"the sign of x_mm looks turned round: x_mm counts to the right of the bed's middle",
+       Eigen::Matrix2d{{-1, 0}, {0, 1}}},
+      {"y_mm looks counted downwards: it counts up the sheet", Eigen::Matrix2d{{1, 0}, {0, -1}}},
+      {"the signs of x_mm and y_mm both look turned round: they count to the right and up the sheet",
+       Eigen::Matrix2d{{-1, 0}, {0, -1}}},
+      {"the two columns look swapped: x_mm counts to the right, y_mm up the sheet",
+       Eigen::Matrix2d{{0, 1}, {1, 0}}},
+      {kQuarter, Eigen::Matrix2d{{0, 1}, {-1, 0}}},
+      {kQuarter, Eigen::Matrix2d{{0, -1}, {1, 0}}}};
+  for (const Axes& own : axes) {
+    list.mark(ProblemKind::axes, own.sentence, [meant = own.meant](MarkPoint m, BedPoint) {
+      const Eigen::Vector2d at = meant * Eigen::Vector2d(m.x_mm, m.y_mm);
+      return MarkPoint{at.x(), at.y()};
+    });
+  }
 }
 
 /// A minus in every row that needs one, where a column has none.
-void add_signs(List& list, const MeasuredGrid& grid) {
+void add_signs(List& list, const PlacedPoints& written) {
   const auto has_minus = [&](double MarkPoint::*axis) {
-    return std::any_of(grid.points.begin(), grid.points.end(), [axis](const MeasuredPoint& point) {
+    return std::any_of(written.points.begin(), written.points.end(), [axis](const MeasuredPoint& point) {
       return point.mark.*axis < 0.0;
     });
   };
-  const bool x = !has_minus(&MarkPoint::x_mm);
-  const bool y = !has_minus(&MarkPoint::y_mm);
-  const auto left_of = [](double written, double place) { return std::copysign(written, place); };
-  if (x) {
+  const auto add = [&](bool of_x, bool of_y, const char* which, const char* where) {
     list.mark(ProblemKind::minus_signs,
-              "all the minus signs of x_mm look left out: places left of the bed's middle need one",
+              fmt::format("all the minus signs{} look left out: places {} need one", which, where),
               [=](MarkPoint m, BedPoint p) {
-                return MarkPoint{left_of(m.x_mm, p.x_mm), m.y_mm};
+                return MarkPoint{of_x ? std::copysign(m.x_mm, p.x_mm) : m.x_mm,
+                                 of_y ? std::copysign(m.y_mm, p.y_mm) : m.y_mm};
               });
-  }
-  if (y) {
-    list.mark(ProblemKind::minus_signs,
-              "all the minus signs of y_mm look left out: places below the bed's middle need one",
-              [=](MarkPoint m, BedPoint p) {
-                return MarkPoint{m.x_mm, left_of(m.y_mm, p.y_mm)};
-              });
-  }
-  if (x && y) {
-    list.mark(
-        ProblemKind::minus_signs,
-        "all the minus signs look left out: places left of the bed's middle and below it need them",
-        [=](MarkPoint m, BedPoint p) {
-          return MarkPoint{left_of(m.x_mm, p.x_mm), left_of(m.y_mm, p.y_mm)};
-        });
-  }
+  };
+  const bool x = !has_minus(&MarkPoint::x_mm), y = !has_minus(&MarkPoint::y_mm);
+  if (x) add(true, false, " of x_mm", "left of the bed's middle");
+  if (y) add(false, true, " of y_mm", "below the bed's middle");
+  if (x && y) add(true, true, "", "left of the bed's middle and below it");
 }
 
 /// --inches is of marks and lengths together, and leaves commands as they are.
@@ -143,6 +144,20 @@ void add_units(List& list, bool reads_lengths, Written written) {
           return MarkPoint{factor * m.x_mm, factor * m.y_mm};
         });
   };
+  const auto column_in_inches = [&](const char* column, const char* other, bool is_x) {
+    list.mark(ProblemKind::other_unit,
+              fmt::format("{} looks like inches, {} and the {} like mm: multiply {} by {:g}",
+                          column,
+                          other,
+                          readings,
+                          column,
+                          kMmPerInch),
+              [is_x](MarkPoint m, BedPoint) {
+                return MarkPoint{(is_x ? kMmPerInch : 1.0) * m.x_mm, (is_x ? 1.0 : kMmPerInch) * m.y_mm};
+              });
+  };
+  column_in_inches("x_mm", "y_mm", true);
+  column_in_inches("y_mm", "x_mm", false);
   marks_in("inches", kMmPerInch);
   marks_in("centimetres", kMmPerCm);
   marks_in("metres", kMmPerM);
@@ -169,43 +184,94 @@ void add_units(List& list, bool reads_lengths, Written written) {
   readings_in("metres", kMmPerM);
 }
 
-/// Each a little off, all equally: only the machine's prior shows that this is an error.
-void add_shifts(List& list, const model::Bed& bed, bool reads_lengths) {
+/// Each a little off, all equally: only the machine's prior shows that this is an error. Of a part of
+/// the rows the others show it.
+void add_shifts(List& list, bool reads_lengths) {
   for (const auto& slip : {std::pair(kTapeMarkMm, "the tape held at its 100 mm mark"),
-                           std::pair(kMmPerFoot, "a foot miscounted")}) {
+                           std::pair(kMmPerFoot, "a foot miscounted"),
+                           std::pair(kMmPerInch, "the tape held at its first inch")}) {
     const double by_mm = slip.first;
     const char* why = slip.second;
+    const bool is_of_parts_alone = by_mm == kMmPerInch;
     for (const double sign : {1.0, -1.0}) {
       const char* too = sign > 0.0 ? "small" : "large";
-      const auto words = [&](const char* what) {
-        return fmt::format(
-            "all {} look {:g} mm too {}: was {}, or are the machine's measures off by that?",
-            what,
-            by_mm,
-            too,
-            why);
+      const auto shift = [&](double x, double y, const char* what) {
+        Transformation& own = list.shift(
+            sign * by_mm * x,
+            sign * by_mm * y,
+            fmt::format("all {} look {:g} mm too {}: was {}, or are the machine's measures off by that?",
+                        what,
+                        by_mm,
+                        too,
+                        why));
+        own.is_doubtful = reads_lengths;
+        if (is_of_parts_alone) own.of = Transformation::Of::part;
       };
-      list.shift(sign * by_mm, 0.0, words("x_mm"), reads_lengths);
-      list.shift(0.0, sign * by_mm, words("y_mm"), reads_lengths);
-      list.shift(sign * by_mm, sign * by_mm, words("x_mm and y_mm"), reads_lengths);
+      shift(1.0, 0.0, "x_mm");
+      shift(0.0, 1.0, "y_mm");
+      shift(1.0, 1.0, "x_mm and y_mm");
     }
   }
-  const double half_width = 0.5 * bed.width_mm;
-  const double half_height = 0.5 * bed.height_mm;
-  for (const auto& [x, y, corner] : {std::tuple(1.0, 1.0, "lower left"),
-                                     std::tuple(-1.0, 1.0, "lower right"),
-                                     std::tuple(1.0, -1.0, "upper left"),
-                                     std::tuple(-1.0, -1.0, "upper right")}) {
-    const auto words = fmt::format(
-        "x_mm and y_mm look counted from the bed's {} corner: they count from its middle", corner);
-    list.shift(-x * half_width, -y * half_height, words);
-    if (x < 0.0 || y < 0.0) {
-      list.mark(ProblemKind::constant_offset,
-                words, [=, x = x, y = y](MarkPoint m, BedPoint) {
-        return MarkPoint{x * (m.x_mm - half_width), y * (m.y_mm - half_height)};
-      });
-    }
+}
+
+/// From where one coordinate counts, and which way.
+struct Origin {
+  std::string from;   ///< "the left motor"; empty: the bed's middle
+  std::string edge;   ///< of the bed: "left"
+  std::string way;    ///< ", to the left" or ", down" where it counts that way
+  double at_mm = 0.0;
+  double sign = 1.0;
+};
+
+std::string origin_in_words(const Origin& x, const Origin& y) {
+  if (!x.edge.empty() && !y.edge.empty()) {
+    return fmt::format("x_mm and y_mm look counted from the bed's {} {} corner{}{}",
+                       y.edge,
+                       x.edge,
+                       x.way,
+                       y.way);
   }
+  const auto one = [](const char* name, const Origin& own) {
+    return own.from.empty() ? std::string() : fmt::format("{} looks counted from {}{}", name, own.from, own.way);
+  };
+  return one("x_mm", x) + (x.from.empty() || y.from.empty() ? "" : " and ") + one("y_mm", y);
+}
+
+/// Edges and corners of the bed, and motors.
+void add_origins(List& list, const model::Machine& machine) {
+  const auto both_ways = [](std::vector<Origin>& list_of, Origin own, const char* back) {
+    list_of.push_back(own);
+    own.way = back;
+    own.sign = -1.0;
+    list_of.push_back(std::move(own));
+  };
+  const auto add = [&](const Origin& x, const Origin& y) {
+    list.mark(ProblemKind::constant_offset,
+              origin_in_words(x, y) + ": they count from the bed's middle, to the right and up",
+              [x, y](MarkPoint m, BedPoint) {
+                return MarkPoint{x.at_mm + x.sign * m.x_mm, y.at_mm + y.sign * m.y_mm};
+              });
+  };
+  const auto group = [&](const std::vector<Origin>& xs, const std::vector<Origin>& ys) {
+    for (const Origin& x : xs) add(x, {});
+    for (const Origin& y : ys) add({}, y);
+    for (const Origin& x : xs)
+      for (const Origin& y : ys) add(x, y);
+  };
+  const double right = 0.5 * machine.bed.width_mm, top = 0.5 * machine.bed.height_mm;
+  std::vector<Origin> xs, ys;
+  both_ways(xs, {"the bed's left edge", "left", "", -right}, ", to the left");
+  both_ways(xs, {"the bed's right edge", "right", "", right}, ", to the left");
+  both_ways(ys, {"the bed's upper edge", "upper", "", top}, ", down");
+  both_ways(ys, {"the bed's lower edge", "lower", "", -top}, ", down");
+  group(xs, ys);
+  xs.clear();
+  ys.clear();
+  const auto& motors = machine.motors;
+  both_ways(xs, {"the left motor", "", "", motors.left.x_mm}, ", to the left");
+  both_ways(xs, {"the right motor", "", "", motors.right.x_mm}, ", to the left");
+  both_ways(ys, {"the motors", "", "", 0.5 * (motors.left.y_mm + motors.right.y_mm)}, ", down");
+  group(xs, ys);
 }
 
 void add_lengths(List& list) {
@@ -236,20 +302,113 @@ void add_lengths(List& list) {
   }
 }
 
+/// Each reading with the mark of another line.
+Transformation places_of_others(const PointAccounts& accounts,
+                                const PlacedPoints& written,
+                                ProblemKind kind,
+                                std::string sentence,
+                                std::vector<Place> others) {
+  Transformation own{kind, std::move(sentence), {}};
+  own.of = Transformation::Of::all;
+  own.mended = [&accounts, &written, others = std::move(others)](const RowSet& rows) {
+    std::vector<Place> places = written.places;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i]) places[i] = others[i];
+    }
+    return accounts.rows(written.points, places);
+  };
+  return own;
+}
+
+/// Every mark to the place nearest to it, where that takes each place once.
+std::optional<std::vector<Place>> places_nearest(const PlacedPoints& written) {
+  std::vector<Place> nearest;
+  std::vector<bool> taken(written.places.size(), false);
+  for (const MeasuredPoint& point : written.points) {
+    std::optional<std::size_t> best;
+    double least = 0.0;
+    for (std::size_t j = 0; j < written.places.size(); ++j) {
+      const Place& place = written.places[j];
+      if (!place || taken[j]) continue;
+      const double apart =
+          std::hypot(point.mark.x_mm - place->x_mm, point.mark.y_mm - place->y_mm);
+      if (best && apart >= least) continue;
+      best = j;
+      least = apart;
+    }
+    if (!best) return std::nullopt;
+    taken[*best] = true;
+    nearest.push_back(written.places[*best]);
+  }
+  return nearest;
+}
+
 }  // namespace
 
-std::vector<WholeError> whole_errors(const MeasuredGrid& grid, Written written) {
+std::string_view readings_of(const PlacedPoints& written) {
+  return written.points.front().lengths ? "lengths" : "commands";
+}
+
+std::vector<Transformation> point_transformations(const PointAccounts& accounts,
+                                                  const MeasuredGrid& grid,
+                                                  const PlacedPoints& written,
+                                                  Written as) {
   const bool reads_lengths =
-      std::any_of(grid.points.begin(), grid.points.end(), [](const MeasuredPoint& point) {
+      std::any_of(written.points.begin(), written.points.end(), [](const MeasuredPoint& point) {
         return point.lengths.has_value();
       });
-  List list;
-  add_signs(list, grid);
+  List list(accounts, written);
+  add_signs(list, written);
   add_axes(list);
   if (reads_lengths) add_lengths(list);
-  add_units(list, reads_lengths, written);
-  if (grid.machine) add_shifts(list, grid.machine->bed, reads_lengths);
-  return list.take();
+  add_units(list, reads_lengths, as);
+  add_shifts(list, reads_lengths);
+  add_origins(list, *grid.machine);
+  std::vector<Transformation> result = list.take();
+  if (auto nearest = places_nearest(written)) {
+    result.push_back(places_of_others(
+        accounts,
+        written,
+        ProblemKind::other_order,
+        fmt::format("the {} belong to the marks of other lines: are the two lists sorted differently?",
+                    readings_of(written)),
+        std::move(*nearest)));
+    result.back().penalty = std::lgamma(static_cast<double>(written.points.size()) + 1.0);  // orders
+  }
+  return result;
+}
+
+std::vector<Transformation> slip_transformations(const PointAccounts& accounts,
+                                                 const PlacedPoints& written) {
+  const auto n = static_cast<std::ptrdiff_t>(written.places.size());
+  std::vector<Transformation> result;
+  for (const std::ptrdiff_t by : {-1, 1}) {
+    std::vector<Place> slipped;
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+      const bool is_there = i + by >= 0 && i + by < n;
+      slipped.push_back(is_there ? written.places[static_cast<std::size_t>(i + by)] : std::nullopt);
+    }
+    result.push_back(places_of_others(
+        accounts,
+        written,
+        ProblemKind::row_slip,
+        fmt::format("x_mm and y_mm fit the {} of the line {}: is a line {}?",
+                    readings_of(written),
+                    by < 0 ? "before" : "after",
+                    by < 0 ? "written twice, or one left out of the other columns"
+                           : "left out, or one written twice in the other columns"),
+        std::move(slipped)));
+    result.back().of = Transformation::Of::tail;
+  }
+  result.push_back(places_of_others(
+      accounts,
+      written,
+      ProblemKind::other_order,
+      fmt::format("the lines look as if one of the two lists, marks and {}, runs from its end to its "
+                  "beginning",
+                  readings_of(written)),
+      {written.places.rbegin(), written.places.rend()}));
+  return result;
 }
 
 }  // namespace chaintrue::grid::input_checks

@@ -1,32 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Errors in a whole file of points, each with its correction: an axis turned round, columns
-/// exchanged, units, minus signs left out, a tape read from another mark, another origin.
+/// Errors in a file of points: an axis turned round, columns exchanged, a sheet turned, units, minus signs
+/// left out, a tape read from another mark, another origin, lines that slipped.
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <string>
 #include <vector>
 
-#include "grid/input_checks/findings.hpp"
-#include "grid/observation/measured_grid.hpp"
+#include "grid/input_checks/point_accounts.hpp"
+#include "grid/input_checks/transformation_search.hpp"
 
 namespace chaintrue::grid::input_checks {
 
-struct WholeError {
-  ProblemKind kind = ProblemKind::axes;
-  /// What was expected, and what it looks like: a sentence's end.
-  std::string sentence;
-  /// The point as it was meant; `place` is where the machine as stated puts its reading.
-  std::function<void(MeasuredPoint& point, model::BedPoint place)> mend;
-  /// Lengths or commands change, and with them the place.
-  bool mends_readings = false;
-  /// Of lengths, a machine that is stated as much off looks the same.
-  bool is_doubtful = false;
+/// Points with where the machine as stated puts their readings.
+struct PlacedPoints {
+  std::vector<MeasuredPoint> points;
+  std::vector<Place> places;
 };
 
-/// Those that a file like this one may have.
-[[nodiscard]] std::vector<WholeError> whole_errors(const MeasuredGrid& grid, Written written);
+/// Those that points like these may have, of `grid`'s machine. All three must outlive the result.
+[[nodiscard]] std::vector<Transformation> point_transformations(const PointAccounts& accounts,
+                                                                const MeasuredGrid& grid,
+                                                                const PlacedPoints& written,
+                                                                Written as);
+
+/// Those of lines that slipped: neighbours in the file are needed for them.
+[[nodiscard]] std::vector<Transformation> slip_transformations(const PointAccounts& accounts,
+                                                               const PlacedPoints& written);
+
+/// "lengths" or "commands".
+[[nodiscard]] std::string_view readings_of(const PlacedPoints& written);
 
 }  // namespace chaintrue::grid::input_checks

@@ -62,23 +62,6 @@ tl::expected<estimation::Estimate, DrawingFailure> estimated(
       "drawing"});
 }
 
-const model::PlotterMachine& machine_of(const estimation::Estimate& estimate) {
-  return dynamic_cast<const model::PlotterMechanism&>(*estimate.mechanism).machine();
-}
-
-/// A page that was scaled by more than the stated settings can follow: next to nothing is taken as
-/// known of pins and cords.
-std::optional<DrawingFailure> scaled_beyond_what_is_stated(
-    const TestDrawing& drawing, const std::shared_ptr<const observation::DrawnMeasures>& readings) {
-  model::PlotterMachine open = drawing.machine;
-  open.uncertainty.pin_spacing_mm = std::min(0.1 * open.pin_spacing_mm, 1000.0);
-  open.uncertainty.zero_mm = 100.0;
-  open.uncertainty.scale_mm_per_m = 100.0;
-  const auto estimate = estimated(open, readings);
-  if (!estimate || estimate->noise_factor > kMostNoiseFactor) return std::nullopt;
-  return scaled_page_of(drawing.machine, machine_of(*estimate));
-}
-
 std::vector<PlotterSetting> settings_of(const estimation::Estimate& estimate) {
   const auto parameters = estimate.mechanism->parameters();
   std::vector<PlotterSetting> settings;
@@ -163,7 +146,13 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
                        sentence_of(drawing, as_set.error().place, as_set.error().sentence())});
   }
   const Eigen::VectorXd stated = in_file_order(*readings, *as_set);
-  if (auto slip = slip_before_fit(drawing, stated)) return tl::unexpected(std::move(*slip));
+  const DrawnValues drawn = [&](const model::Mechanism& machine) -> std::optional<Eigen::VectorXd> {
+    const auto values = readings->predicted(View(machine.with_values(machine.values())));
+    if (!values) return std::nullopt;
+    return in_file_order(*readings, *values);
+  };
+  if (auto slip = slip_of_drawing(drawing, drawn, *model::make_plotter_mechanism(drawing.machine)))
+    return tl::unexpected(std::move(*slip));
   const auto estimate = estimated(drawing.machine, readings);
   if (!estimate) return tl::unexpected(estimate.error());
 
@@ -175,8 +164,6 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
   const auto bad = std::count(rejected.begin(), rejected.end(), true);
   if (estimate->noise_factor > kMostNoiseFactor ||
       static_cast<double>(bad) > kMostRejectedShare * static_cast<double>(rejected.size())) {
-    if (auto slip = scaled_beyond_what_is_stated(drawing, readings))
-      return tl::unexpected(std::move(*slip));
     return tl::unexpected(DrawingFailure{
         DrawingReason::no_settings_fit,
         fmt::format(
@@ -190,8 +177,6 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
 
   DrawingFit fit;
   fit.mechanism = std::dynamic_pointer_cast<const model::PlotterMechanism>(estimate->mechanism);
-  if (auto slip = scaled_page_of(drawing.machine, machine_of(*estimate)))
-    return tl::unexpected(std::move(*slip));
   fit.settings = settings_of(*estimate);
   const auto count = static_cast<Eigen::Index>(fit.settings.size());
   fit.covariance = estimate->covariance.topLeftCorner(count, count);

@@ -8,8 +8,8 @@
 /// rise it says what tilts the gondola, and nothing of a point.
 ///
 /// Slips that a drawing of one machine cannot show are refused with their name, before and after the
-/// estimate: inches, a drawing that was scaled when printed, a line measured along its bow, two
-/// lengths in each other's row, and measures that fit no settings.
+/// estimate: inches, bows turned round, a drawing that was scaled when printed, a line measured along
+/// its bow, two lengths in each other's row, and measures that fit no settings.
 ///
 /// \code
 ///   const auto fit = fit_drawing(drawing);
@@ -67,6 +67,7 @@ enum class DrawingReason {
   inches,
   scaled_when_printed,
   bow_is_a_length,
+  bows_turned,
   rows_exchanged,
   no_settings_fit,
   not_converged,

@@ -5,70 +5,115 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
+#include "grid/input_checks/transformation_search.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid {
 namespace {
 
+using input_checks::RowSet;
+using input_checks::Transformation;
+using input_checks::TrendRows;
 using observation::DrawnMeasure;
+using Kind = DrawnMeasure::Kind;
 
-// Zeros that are five sigmas off, 50 mm, draw 800 mm wrong by less.
-constexpr double kMostMachineShare = 0.08;
-// How far lengths that share one factor are from it: settings that are off bend the page by so much.
-constexpr double kSameFactor = 0.03;
-// A page that was fitted to its sheet is smaller by more; pins and pulleys are known better.
-constexpr double kFittedToSheet = 0.012;
-// How well both are found.
-constexpr double kSameShare = 0.005;
 // No line bows by a fifth of its length that a cord could still draw.
 constexpr double kMostBowShare = 0.2;
 constexpr double kMmPerInch = 25.4;
+// Settings that are off by seven sigmas each are no slip.
+constexpr double kOddDrawing = 300.0;
+// A page that was fitted to its sheet is smaller by more; pins and pulleys are known better.
+constexpr double kFittedToSheet = 0.012;
+// A factor that is found: some hundred that a drawing tells apart.
+constexpr double kOfAFactor = 4.6;
 
-/// Measured over drawn, of the lengths.
-std::vector<double> shares_of(const TestDrawing& drawing, const Eigen::VectorXd& drawn) {
+/// Measured over drawn by the machine as set, of all lengths.
+double median_share(const TestDrawing& drawing, const Eigen::VectorXd& as_set) {
   std::vector<double> shares;
   for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
-    if (drawing.measures[i].kind != DrawnMeasure::Kind::length) continue;
-    shares.push_back(drawing.measures[i].value_mm / drawn[static_cast<Eigen::Index>(i)]);
+    if (drawing.measures[i].kind == Kind::length)
+      shares.push_back(drawing.measures[i].value_mm / as_set[static_cast<Eigen::Index>(i)]);
   }
-  return shares;
+  return shares.empty() ? 1.0 : median(std::move(shares));
 }
 
-DrawingFailure scaled_page(double factor) {
-  return {
-      DrawingFailure::Reason::scaled_when_printed,
-      fmt::format("all lengths are {:.3f} times what was commanded, more than a plotter's "
-                  "settings do and the same in every direction: the page was scaled, when it was "
-                  "printed or when it was sent to the plotter. Draw it at 100 % and measure that",
-                  factor)};
-}
-
-std::optional<DrawingFailure> wrong_unit(const TestDrawing& drawing, const Eigen::VectorXd& drawn) {
-  const std::vector<double> shares = shares_of(drawing, drawn);
-  if (shares.empty()) return std::nullopt;
-  const double factor = median(shares);
-  if (std::abs(factor * kMmPerInch - 1.0) < kMostMachineShare) {
-    return DrawingFailure{
-        DrawingFailure::Reason::inches,
-        fmt::format("the lengths are {:.4f} of what was commanded, as if they were read in inches; "
-                    "write millimetres (inches times 25.4)",
-                    factor)};
+/// What a person may have done to lengths, bows or all. `rows` is what the trend sees of a drawing.
+std::vector<Transformation> drawing_transformations(
+    const TestDrawing& drawing,
+    const Eigen::VectorXd& as_set,
+    const std::function<TrendRows(const TestDrawing&)>& rows) {
+  std::vector<Transformation> list;
+  const auto scale = [&](ProblemKind kind, std::string sentence, auto takes, double factor) -> Transformation& {
+    Transformation own{kind, std::move(sentence), {}};
+    own.mended = [&drawing, &rows, takes, factor](const RowSet& set) {
+      TestDrawing meant = drawing;
+      for (std::size_t i = 0; i < set.size(); ++i) {
+        if (set[i] && takes(meant.measures[i])) meant.measures[i].value_mm *= factor;
+      }
+      return rows(meant);
+    };
+    list.push_back(std::move(own));
+    return list.back();
+  };
+  const auto all = [](const DrawnMeasure&) { return true; };
+  const auto lengths = [](const DrawnMeasure& m) { return m.kind == Kind::length; };
+  const auto bows = [](const DrawnMeasure& m) { return m.kind == Kind::bow; };
+  for (const auto& [unit, mm] : {std::pair("inches", kMmPerInch), std::pair("centimetres", 10.0)}) {
+    const auto sentence = [&, unit = unit, mm = mm](const char* what) {
+      return fmt::format("{} look like {}: write millimetres ({} times {:g})", what, unit, unit, mm);
+    };
+    scale(ProblemKind::other_unit, sentence("the lengths and the bows"), all, mm);
+    scale(ProblemKind::other_unit, sentence("the lengths"), lengths, mm);
+    scale(ProblemKind::other_unit, sentence("the bows"), bows, mm);
   }
-  std::vector<double> off;
-  for (const double share : shares) off.push_back(std::abs(share / factor - 1.0));
-  if (std::abs(factor - 1.0) <= kMostMachineShare || median(off) > kSameFactor) return std::nullopt;
-  return scaled_page(factor);
+  scale(ProblemKind::minus_signs,
+        "the bows look turned round: a bow counts as the sheet says, and has a minus to the other side",
+        bows,
+        -1.0);
+  const double share = median_share(drawing, as_set);
+  if (std::abs(share - 1.0) > kFittedToSheet) {
+    Transformation& page = scale(
+        ProblemKind::other_sheet,
+        fmt::format("all lengths are {:.3f} times what was commanded, the same in every direction: the "
+                    "page was scaled, when it was printed or when it was sent to the plotter. Draw it at "
+                    "100 % and measure that",
+                    share),
+        all,
+        1.0 / share);
+    page.of = Transformation::Of::all;
+    page.penalty = kOfAFactor;
+  }
+  return list;
 }
 
-}  // namespace
+DrawingReason reason_of(ProblemKind kind) {
+  if (kind == ProblemKind::other_unit) return DrawingReason::inches;
+  if (kind == ProblemKind::minus_signs) return DrawingReason::bows_turned;
+  return DrawingReason::scaled_when_printed;
+}
 
-std::optional<DrawingFailure> slip_before_fit(const TestDrawing& drawing,
-                                              const Eigen::VectorXd& as_set) {
+/// By parameter, what one of its units changes.
+Eigen::MatrixXd derivatives(const DrawnValues& drawn, const model::Mechanism& machine) {
+  constexpr double kStep = 0.1;
+  const Eigen::VectorXd& values = machine.values();
+  const auto at_stated = drawn(*machine.with_values(values));
+  Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(at_stated->size(), values.size());
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    Eigen::VectorXd other = values;
+    other[k] += kStep;
+    if (const auto then = drawn(*machine.with_values(other)))
+      by_parameter.col(k) = (*then - *at_stated) / kStep;
+  }
+  return by_parameter;
+}
+
+std::optional<DrawingFailure> bow_along_its_line(const TestDrawing& drawing) {
   for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
     const DrawnMeasure& own = drawing.measures[i];
-    if (own.kind != DrawnMeasure::Kind::bow) continue;
+    if (own.kind != Kind::bow) continue;
     const model::BedPoint a = drawing.crosses.at(own.from).commanded;
     const model::BedPoint b = drawing.crosses.at(own.to).commanded;
     const double length = std::hypot(b.x_mm - a.x_mm, b.y_mm - a.y_mm);
@@ -82,21 +127,47 @@ std::optional<DrawingFailure> slip_before_fit(const TestDrawing& drawing,
                     own.value_mm,
                     length)};
   }
-  return wrong_unit(drawing, as_set);
+  return std::nullopt;
 }
 
-std::optional<DrawingFailure> scaled_page_of(const model::PlotterMachine& stated,
-                                             const model::PlotterMachine& found) {
-  // Of a page that is smaller as a whole the pins are nearer and both cords shorter by one share.
-  const double pins = found.pin_spacing_mm / stated.pin_spacing_mm;
-  const auto cords = [&](model::Side side) {
-    return (1.0 + 1e-3 * stated.scale_mm_per_m[side]) / (1.0 + 1e-3 * found.scale_mm_per_m[side]);
+}  // namespace
+
+std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing,
+                                              const DrawnValues& drawn,
+                                              const model::Mechanism& machine) {
+  if (auto slip = bow_along_its_line(drawing)) return slip;
+  const auto as_set = drawn(machine);
+  if (!as_set) return std::nullopt;
+  const Eigen::MatrixXd basis = derivatives(drawn, machine);
+  Eigen::VectorXd sigma(basis.cols());
+  for (Eigen::Index k = 0; k < sigma.size(); ++k)
+    sigma[k] = std::max(1e-3, machine.parameters()[static_cast<std::size_t>(k)].prior_sigma.value_or(1e3));
+  const std::function<TrendRows(const TestDrawing&)> rows = [&](const TestDrawing& meant) {
+    TrendRows own{basis, Eigen::MatrixXd(basis.rows(), 1)};
+    for (std::size_t i = 0; i < meant.measures.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      own.off_mm(row, 0) = meant.measures[i].value_mm - (*as_set)[row];
+    }
+    return own;
   };
-  const double left = cords(model::Side::left), right = cords(model::Side::right);
-  if (std::abs(pins - 1.0) < kFittedToSheet || std::abs(left - pins) > kSameShare ||
-      std::abs(right - pins) > kSameShare)
-    return std::nullopt;
-  return scaled_page(pins);
+  const TrendRows written = rows(drawing);
+  const auto plain =
+      input_checks::account_of(input_checks::robust_trend(written.basis, sigma, written.off_mm));
+  std::vector<input_checks::Candidate> candidates =
+      input_checks::searched(sigma,
+                             written,
+                             drawing_transformations(drawing, *as_set, rows),
+                             [&](std::size_t row) { return words_of(drawing, row); });
+  const std::size_t tried = candidates.size();
+  const auto found = input_checks::whole_finding(
+      std::move(candidates),
+      plain,
+      tried,
+      kOddDrawing,
+      fmt::format("half of the measures are over {} off what the settings draw",
+                  input_checks::length_in_words(plain.median_mm)));
+  if (!found) return std::nullopt;
+  return DrawingFailure{reason_of(found->kind), found->sentence()};
 }
 
 std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing,

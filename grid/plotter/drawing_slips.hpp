@@ -5,20 +5,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 
 #include "grid/plotter/drawing_fit.hpp"
 
 namespace chaintrue::grid {
 
-/// Of the file alone, against `as_set`: what the machine as stated would have drawn, in the order of
-/// the drawing's measures.
-[[nodiscard]] std::optional<DrawingFailure> slip_before_fit(const TestDrawing& drawing,
-                                                            const Eigen::VectorXd& as_set);
+/// The measures that a machine draws, in the drawing's order; empty where it cannot draw one.
+using DrawnValues = std::function<std::optional<Eigen::VectorXd>(const model::Mechanism&)>;
 
-/// A page that was scaled by a few percent, which settings take for pins and cords of that share.
-[[nodiscard]] std::optional<DrawingFailure> scaled_page_of(const model::PlotterMachine& stated,
-                                                           const model::PlotterMachine& found);
+/// Of the measures as a whole, against what `machine`, as it is stated, would have drawn: another unit, bows
+/// turned round, a scaled page, of all measures or of some; and a bow that was measured along its line.
+[[nodiscard]] std::optional<DrawingFailure> slip_of_drawing(const TestDrawing& drawing,
+                                                            const DrawnValues& drawn,
+                                                            const model::Mechanism& machine);
 
 /// Two measures that fit once they are exchanged, against `found`, of which each is rejected.
 [[nodiscard]] std::optional<DrawingFailure> exchanged_rows(const TestDrawing& drawing,

@@ -137,6 +137,47 @@ TEST(DrawingFit, SlipsAreNamedAndNothingIsFound) {
             Reason::no_settings_fit);
 }
 
+PlotterMachine usual_machine(PlotterFirmware firmware) {
+  if (firmware == PlotterFirmware::mural) return model::mural(1500.0);
+  PlotterMachine machine;
+  machine.pin_spacing_mm = 1200.0;
+  machine.gondola.mass_kg = 0.3;
+  machine.area = {-360.0, 360.0, -300.0, -1020.0};
+  return machine;
+}
+
+TEST(DrawingFit, SlipsOfAPartAndOfAFewPercentAreNamedOnEveryPlotter) {
+  using Slip = std::function<void(DrawnMeasure&, std::size_t)>;
+  const auto is_bow = [](const DrawnMeasure& m) { return m.kind == DrawnMeasure::Kind::bow; };
+  const std::pair<Slip, Reason> slips[] = {
+      {[](DrawnMeasure& m, std::size_t) { m.value_mm *= 0.97; }, Reason::scaled_when_printed},
+      {[](DrawnMeasure& m, std::size_t) { m.value_mm *= 1.03; }, Reason::scaled_when_printed},
+      {[&](DrawnMeasure& m, std::size_t i) { m.value_mm /= !is_bow(m) && i % 2 == 1 ? 25.4 : 1.0; },
+       Reason::inches},
+      {[&](DrawnMeasure& m, std::size_t i) { m.value_mm /= !is_bow(m) && i >= 7 ? 25.4 : 1.0; },
+       Reason::inches},
+      {[&](DrawnMeasure& m, std::size_t) { m.value_mm *= is_bow(m) ? -1.0 : 1.0; }, Reason::bows_turned}};
+  for (const PlotterFirmware firmware : model::kPlotterFirmwares) {
+    const PlotterMachine stated = usual_machine(firmware);
+    PlotterMachine truth = stated;
+    truth.zero_mm = {18.0, 18.0};
+    truth.pin_spacing_mm += 3.0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      const TestDrawing drawing = measured(stated, firmware, truth, 0.4, seed);
+      const auto sound = fit_drawing(drawing);
+      EXPECT_TRUE(sound) << name(firmware) << ", seed " << seed << ": " << sound.error().sentence();
+      for (const auto& [slip, reason] : slips) {
+        TestDrawing spoilt = drawing;
+        for (std::size_t i = 0; i < spoilt.measures.size(); ++i) slip(spoilt.measures[i], i);
+        const auto fit = fit_drawing(spoilt);
+        ASSERT_FALSE(fit) << name(firmware) << ", seed " << seed << ", slip " << static_cast<int>(reason);
+        EXPECT_EQ(fit.error().reason, reason)
+            << name(firmware) << ", seed " << seed << ": " << fit.error().sentence();
+      }
+    }
+  }
+}
+
 TEST(DrawingFit, OneMeasureThatFitsNothingIsSetAside) {
   const TestDrawing drawing = slipped([](TestDrawing& d) { d.measures[9].value_mm += 12.0; });
   const auto fit = fit_drawing(drawing);

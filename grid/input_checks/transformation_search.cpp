@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/input_checks/transformation_search.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace chaintrue::grid::input_checks {
+namespace {
+
+using Eigen::Index;
+
+/// Before a trend is known.
+constexpr double kCoarseMm = 20.0;
+/// A row that is missing.
+constexpr double kMissingMm = 1000.0;
+/// Fewer rows are rows of their own.
+constexpr std::size_t kFewestRows = 3;
+/// A part of fewer rows than this share is as well told row by row.
+constexpr double kLeastShare = 0.2;
+
+struct Part {
+  RowSet rows;
+  std::optional<std::size_t> from_row;
+  std::string words;
+  double penalty = 0.0;
+};
+
+/// How much likelier each row is mended, about a trend.
+std::vector<double> gains(const TrendRows& plain,
+                          const TrendRows& mended,
+                          const Eigen::MatrixXd& trend,
+                          double scale_mm) {
+  const Index components = plain.off_mm.cols();
+  const auto density = [&](const TrendRows& rows, Index i) {
+    const double off_mm = (rows.off_mm.row(i) - rows.basis.row(i) * trend).norm();
+    return log_density_of(std::isfinite(off_mm) ? off_mm : kMissingMm, scale_mm, components);
+  };
+  std::vector<double> gain;
+  for (Index i = 0; i < plain.off_mm.rows(); ++i) gain.push_back(density(mended, i) - density(plain, i));
+  return gain;
+}
+
+/// Where the sum over the rows from one on is the largest.
+std::size_t tail_of(const std::vector<double>& gain) {
+  std::size_t from = gain.size();
+  double sum = 0.0, most = 0.0;
+  for (std::size_t i = gain.size(); i-- > 0;) {
+    sum += gain[i];
+    if (sum <= most) continue;
+    most = sum;
+    from = i;
+  }
+  return from;
+}
+
+double log_choices(std::size_t of, std::size_t taken) {
+  const auto gamma = [](std::size_t n) { return std::lgamma(static_cast<double>(n) + 1.0); };
+  return gamma(of) - gamma(taken) - gamma(of - taken);
+}
+
+class Search {
+ public:
+  Search(const Eigen::VectorXd& sigma_mm,
+         const TrendRows& plain,
+         const std::function<std::string(std::size_t)>& name_of_row)
+      : sigma_mm_(sigma_mm),
+        plain_(plain),
+        plain_trend_(robust_trend(plain.basis, sigma_mm, plain.off_mm)),
+        name_of_row_(name_of_row) {}
+
+  void take(const Transformation& own, std::vector<Candidate>& candidates) const {
+    const TrendRows all = own.mended(RowSet(count(), true));
+    const RobustTrend whole = trend_of(all);
+    if (own.of == Transformation::Of::all || own.of == Transformation::Of::any)
+      add(own, whole, {{}, std::nullopt, "", 0.0}, candidates);
+    if (own.of == Transformation::Of::all || count() < 2 * kFewestRows) return;
+    std::vector<RowSet> seen;
+    const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(plain_.basis.cols(), plain_.off_mm.cols());
+    for (const Eigen::MatrixXd& about : {none, plain_trend_.coefficients, whole.coefficients}) {
+      for (Part part : parts_of(own, gains(plain_, all, about, kCoarseMm)))
+        refine(own, all, std::move(part), seen, candidates);
+    }
+  }
+
+ private:
+  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(plain_.off_mm.rows()); }
+  [[nodiscard]] RobustTrend trend_of(const TrendRows& rows) const {
+    return robust_trend(rows.basis, sigma_mm_, rows.off_mm);
+  }
+
+  void add(const Transformation& own,
+           const RobustTrend& trend,
+           const Part& part,
+           std::vector<Candidate>& candidates) const {
+    Candidate candidate{own.kind, part.words + own.sentence, account_of(trend)};
+    candidate.account.log_likelihood -= part.penalty + own.penalty;
+    candidate.from_row = part.from_row;
+    candidate.is_doubtful = own.is_doubtful;
+    candidates.push_back(std::move(candidate));
+  }
+
+  /// Tail, head and rows by themselves, where their rows gain together what a finding needs.
+  [[nodiscard]] std::vector<Part> parts_of(const Transformation& own,
+                                           const std::vector<double>& gain) const {
+    std::vector<Part> parts;
+    const auto offer = [&](RowSet rows, std::optional<std::size_t> from, std::string words, double penalty) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < rows.size(); ++i) sum += rows[i] ? gain[i] : 0.0;
+      if (sum > kHundredTimes) parts.push_back({std::move(rows), from, std::move(words), penalty});
+    };
+    const std::size_t n = count();
+    const double cuts = std::log(static_cast<double>(n));
+    const std::size_t from = tail_of(gain);
+    RowSet tail(n, false);
+    std::fill(tail.begin() + static_cast<std::ptrdiff_t>(from), tail.end(), true);
+    if (is_part(n - from)) offer(std::move(tail), from, "from here on ", cuts);
+    if (own.of == Transformation::Of::tail) return parts;
+    const std::size_t before = n - tail_of({gain.rbegin(), gain.rend()});
+    RowSet head(n, false);
+    std::fill(head.begin(), head.begin() + static_cast<std::ptrdiff_t>(before), true);
+    if (is_part(before))
+      offer(std::move(head), 0, fmt::format("from here to row {} ", name_of_row_(before - 1)), cuts);
+    RowSet some(n, false);
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < n; ++i) {
+      some[i] = gain[i] > 0.0;
+      if (some[i]) names.push_back(name_of_row_(i));
+    }
+    const std::size_t taken = names.size();
+    if (!is_part(taken)) return parts;
+    constexpr std::size_t kMostNamed = 12;
+    if (taken > kMostNamed) names.resize(kMostNamed);
+    offer(std::move(some),
+          std::nullopt,
+          fmt::format("in {} of {} rows ({}{}) ",
+                      taken,
+                      n,
+                      fmt::join(names, ", "),
+                      taken > kMostNamed ? ", ..." : ""),
+          cuts + log_choices(n, taken));
+    return parts;
+  }
+
+  [[nodiscard]] bool is_part(std::size_t taken) const {
+    return taken >= kFewestRows && taken < count() &&
+           static_cast<double>(taken) >= kLeastShare * static_cast<double>(count());
+  }
+
+  /// The part's account; and where its own trend would have other rows, theirs.
+  void refine(const Transformation& own,
+              const TrendRows& all,
+              Part part,
+              std::vector<RowSet>& seen,
+              std::vector<Candidate>& candidates) const {
+    constexpr int kMostRounds = 3;
+    for (int round = 0; round < kMostRounds; ++round) {
+      if (std::find(seen.begin(), seen.end(), part.rows) != seen.end()) return;
+      seen.push_back(part.rows);
+      const RobustTrend trend = trend_of(own.mended(part.rows));
+      add(own, trend, part, candidates);
+      std::vector<Part> next =
+          parts_of(own, gains(plain_, all, trend.coefficients, trend.scale_mm));
+      const auto alike = std::find_if(next.begin(), next.end(), [&](const Part& other) {
+        return other.from_row.has_value() == part.from_row.has_value() &&
+               (other.from_row == 0U) == (part.from_row == 0U);
+      });
+      if (alike == next.end()) return;
+      part = std::move(*alike);
+    }
+  }
+
+  const Eigen::VectorXd& sigma_mm_;
+  const TrendRows& plain_;
+  RobustTrend plain_trend_;
+  const std::function<std::string(std::size_t)>& name_of_row_;
+};
+
+}  // namespace
+
+Account account_of(const RobustTrend& trend) {
+  return {trend.log_likelihood, trend.median_residual_mm(), trend.prior_chi_square};
+}
+
+std::vector<Candidate> searched(const Eigen::VectorXd& prior_sigma_mm,
+                                const TrendRows& as_written,
+                                const std::vector<Transformation>& transformations,
+                                const std::function<std::string(std::size_t)>& name_of_row) {
+  std::vector<Candidate> candidates;
+  const Search search(prior_sigma_mm, as_written, name_of_row);
+  for (const Transformation& own : transformations) search.take(own, candidates);
+  return candidates;
+}
+
+}  // namespace chaintrue::grid::input_checks

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The one search for how a file's numbers were meant: transformations (a sign, a unit, an origin, a turn,
+/// a scale, an exchange) of all rows, of those from one on, of those up to one, or of some; marks,
+/// distances and drawings give it their rows.
+///
+///   r_i = B_i beta + e_i                                            (1) of robust_trend.hpp
+///
+/// Of each transformation T and set of rows S the account is (1) of the rows with T applied to S, less the
+/// logarithm of how many such S there are. S is where T makes rows likelier: the sum over the tail, the
+/// head, or the rows themselves, about the trends of no rows and of all rows, then about S's own.
+///
+/// \code
+///   std::vector<Candidate> candidates = searched(sigma, rows_of({}), {inches, turned_round}, name_of_row);
+///   const auto finding = whole_finding(std::move(candidates), plain, tried, kOdd, "half are ...");
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "grid/input_checks/findings.hpp"
+#include "grid/input_checks/robust_trend.hpp"
+
+namespace chaintrue::grid::input_checks {
+
+/// Which rows of a file something befell.
+using RowSet = std::vector<bool>;
+
+struct TrendRows {
+  Eigen::MatrixXd basis;
+  Eigen::MatrixXd off_mm;
+};
+
+struct Transformation {
+  ProblemKind kind = ProblemKind::axes;
+  /// What was expected, and what it looks like: "x_mm and y_mm look like inches: multiply them by 25.4".
+  std::string sentence;
+  /// All rows, those of the set mended.
+  std::function<TrendRows(const RowSet&)> mended;
+  /// Which rows it may have befallen: all; a tail; all or any part; a part alone.
+  enum class Of { all, tail, any, part } of = Of::any;
+  /// A machine that is stated as much off would look the same.
+  bool is_doubtful = false;
+  /// Logarithm of the number of values that one found from the file could have.
+  double penalty = 0.0;
+};
+
+[[nodiscard]] Account account_of(const RobustTrend& trend);
+
+/// An account for each transformation of all rows, and for the likeliest part of them where it is much
+/// likelier than no row. `name_of_row` is the row's own number.
+[[nodiscard]] std::vector<Candidate> searched(
+    const Eigen::VectorXd& prior_sigma_mm,
+    const TrendRows& as_written,
+    const std::vector<Transformation>& transformations,
+    const std::function<std::string(std::size_t)>& name_of_row);
+
+}  // namespace chaintrue::grid::input_checks
