@@ -2,14 +2,21 @@
 #include "grid/belts/two_frames.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "grid/belts/anchor_estimate.hpp"
 
 namespace chaintrue::grid {
 namespace {
 
-/// Frames of real machines contradict themselves by 3 mm at most; two frames in one by hundreds.
-constexpr double kOneFrameMm = 15.0;
+/// Frames of real machines contradict themselves by less.
+constexpr double kOneFrameMm = 3.0;
+/// Nor does one of two agree with itself worse.
+constexpr double kMostOfAFrameMm = 15.0;
+/// An anchor that stands elsewhere; one that gave way moves by millimetres.
+constexpr double kStandsElsewhereMm = 25.0;
+/// Two frames agree each with itself so many times better than both together.
+constexpr double kBetterApart = 4.0;
 /// As many points of a part tell a frame as well as all.
 constexpr std::size_t kMostOfAPart = 24;
 
@@ -27,25 +34,52 @@ MeasuredBelts evenly_of(const MeasuredBelts& belts, std::size_t first, std::size
   return part;
 }
 
-bool makes_a_frame(const MeasuredBelts& belts, std::size_t first, std::size_t end) {
-  const auto fitted = belts::fit_anchors(evenly_of(belts, first, end));
-  return fitted && fitted->is_sound && fitted->residual_sigma_mm < kOneFrameMm;
+std::optional<belts::AnchorFit> fitted_frame(const MeasuredBelts& belts, std::size_t first, std::size_t end) {
+  auto fitted = belts::fit_anchors(evenly_of(belts, first, end));
+  return fitted && fitted->is_sound ? std::optional(*std::move(fitted)) : std::nullopt;
+}
+
+/// What both parts contradict themselves by at most, mm; infinite where one is no frame, or where both have
+/// their anchors at the same places: belts that slip and anchors that give are for a diagnosis to name.
+double apart_mm(const MeasuredBelts& belts, std::size_t at) {
+  const auto before = fitted_frame(belts, 0, at);
+  const auto after = fitted_frame(belts, at, belts.points.size());
+  if (!before || !after) return std::numeric_limits<double>::infinity();
+  // tl x and y, tr x and y, br x
+  const belts::AnchorVector moved = (after->state.anchors - before->state.anchors).cwiseAbs();
+  const int anchors = (moved.segment<2>(0).maxCoeff() > kStandsElsewhereMm) +
+                      (moved.segment<2>(2).maxCoeff() > kStandsElsewhereMm) + (moved[4] > kStandsElsewhereMm);
+  if (anchors < 2) return std::numeric_limits<double>::infinity();
+  return std::max(before->residual_sigma_mm, after->residual_sigma_mm);
 }
 
 }  // namespace
 
 std::optional<std::size_t> second_frame_begins(const MeasuredBelts& belts) {
   const std::size_t count = belts.points.size();
-  if (count < 2 * kFewestBeltPoints || makes_a_frame(belts, 0, count)) return std::nullopt;
-  std::size_t frame = kFewestBeltPoints;
-  std::size_t none = count;
-  if (!makes_a_frame(belts, 0, frame)) return std::nullopt;
-  while (none - frame > 1) {
-    const std::size_t middle = (frame + none) / 2;
-    (makes_a_frame(belts, 0, middle) ? frame : none) = middle;
-  }
-  const bool both = count - frame >= kFewestBeltPoints && makes_a_frame(belts, frame, count);
-  return both ? std::optional(frame) : std::nullopt;
+  if (count < 2 * kFewestBeltPoints) return std::nullopt;
+  const auto together = fitted_frame(belts, 0, count);
+  const double together_mm =
+      together ? together->residual_sigma_mm : std::numeric_limits<double>::infinity();
+  if (together_mm < kOneFrameMm) return std::nullopt;
+  const std::size_t last = count - kFewestBeltPoints;
+  std::size_t best = 0;
+  double least_mm = std::min(kMostOfAFrameMm, together_mm / kBetterApart);
+  const auto try_at = [&](std::size_t at) {
+    const double own_mm = apart_mm(belts, at);
+    if (!(own_mm < least_mm)) return;
+    least_mm = own_mm;
+    best = at;
+  };
+  // Coarsely, then about the best: each place that is on the wrong side spoils its part.
+  constexpr std::size_t kSplits = 32;
+  const std::size_t step = std::max<std::size_t>(1, (last - kFewestBeltPoints) / kSplits);
+  for (std::size_t at = kFewestBeltPoints; at <= last; at += step) try_at(at);
+  const std::size_t coarse = best;
+  if (coarse == 0) return std::nullopt;
+  for (std::size_t at = coarse > step ? coarse - step + 1 : 1; step > 1 && at < coarse + step; ++at)
+    if (at >= kFewestBeltPoints && at <= last) try_at(at);
+  return best;
 }
 
 }  // namespace chaintrue::grid

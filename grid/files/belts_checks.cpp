@@ -11,6 +11,7 @@
 #include "grid/belts/belt_checks.hpp"
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/settings_check.hpp"
+#include "grid/belts/two_frames.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -261,6 +262,14 @@ bool check_belts_together(const MeasuredBelts& belts,
   if (is_enough) {
     check_swap(belts, places, problems);
     if (problems.any()) return false;
+    if (const auto other = second_frame_begins(belts)) {
+      problems.explain(places.point(*other, ""),
+                       ProblemKind::other_sheet,
+                       "from here on the places are of another frame than those before: each part agrees "
+                       "with itself, both together make no frame. A belt that was hooked in anew, an anchor "
+                       "that was moved, or two files in one make that; give each part as a file of its own");
+      return false;
+    }
     if (const auto frame = frame_of_lengths(belts)) {
       check_settings(belts, *frame, places, problems);
       check_nowhere(belts, *frame, places, problems);

@@ -117,6 +117,18 @@ std::vector<CellOfColumn> match_header(const CsvRow& header,
   const bool numbers = std::all_of(header.begin(), header.end(), [](const CsvCell& cell) {
     return is_number(cell.text) || looks_like_decimal_comma(cell.text);
   });
+  const auto is_there = [&](std::string_view name) {
+    return std::find(found.begin(), found.end(), name) != found.end();
+  };
+  if (is_there("x_mm") && is_there("y_mm") && found.size() <= 3) {
+    remarks += "; these are places alone, and what was measured there is missing";
+  } else if (std::any_of(found.begin(), found.end(), [](const std::string& name) {
+               return name.find("distance") != std::string::npos ||
+                      name.find("length") != std::string::npos ||
+                      name.find("measured") != std::string::npos;
+             })) {
+    remarks += fmt::format("; {}", kLengthsBetween);
+  }
   if (numbers) remarks = "; the first line holds numbers, the header is missing";
   if (!numbers && header.size() == names_of(columns, true).size()) {
     remarks += fmt::format("; if these are the columns in this order, the line should read {}",
