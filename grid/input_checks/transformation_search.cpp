@@ -21,7 +21,7 @@ constexpr double kCoarseMm = 20.0;
 constexpr double kMissingMm = 1000.0;
 /// Fewer rows are rows of their own.
 constexpr std::size_t kFewestRows = 3;
-/// A part of fewer rows than this share is as well told row by row.
+/// Rows here and there of a smaller share are as well told one by one.
 constexpr double kLeastShare = 0.2;
 
 struct Part {
@@ -133,7 +133,7 @@ class Search {
       if (some[i]) names.push_back(name_of_row_(i));
     }
     const std::size_t taken = names.size();
-    if (!is_part(taken)) return parts;
+    if (!is_part(taken) || static_cast<double>(taken) < kLeastShare * static_cast<double>(n)) return parts;
     constexpr std::size_t kMostNamed = 12;
     if (taken > kMostNamed) names.resize(kMostNamed);
     offer(std::move(some),
@@ -148,8 +148,7 @@ class Search {
   }
 
   [[nodiscard]] bool is_part(std::size_t taken) const {
-    return taken >= kFewestRows && taken < count() &&
-           static_cast<double>(taken) >= kLeastShare * static_cast<double>(count());
+    return taken >= kFewestRows && taken < count();
   }
 
   /// The part's account; and where its own trend would have other rows, theirs.

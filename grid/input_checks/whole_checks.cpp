@@ -393,7 +393,7 @@ std::vector<Transformation> slip_transformations(const PointAccounts& accounts,
         written,
         ProblemKind::row_slip,
         fmt::format("x_mm and y_mm fit the {} of the line {}: is a line {}?",
-                    readings_of(written),
+                    written.points.front().lengths ? "lengths" : "command",
                     by < 0 ? "before" : "after",
                     by < 0 ? "written twice, or one left out of the other columns"
                            : "left out, or one written twice in the other columns"),
