@@ -221,11 +221,12 @@ void check_tape_zero(const MeasuredHoles& set,
                                         std::abs(*offset),
                                         *offset > 0.0 ? "longer" : "shorter");
   double total_mm = set.tape.tape_zero_offset_mm + *offset;
-  // Tapes are held at a mark; what the machine is off by adds a millimetre or two.
-  constexpr double kAtTheMarkMm = 3.0;
+  // Tapes are held at a mark, as the sheet says; a machine is off by a centimetre at most.
+  constexpr double kAtTheMarkMm = 15.0;
+  constexpr double kAtZeroMm = 3.0;
   const double mark_mm =
       input_checks::kTapeMarkMm * std::round(total_mm / input_checks::kTapeMarkMm);
-  if (std::abs(total_mm - mark_mm) < kAtTheMarkMm) total_mm = mark_mm;
+  if (std::abs(total_mm - mark_mm) < (mark_mm == 0.0 ? kAtZeroMm : kAtTheMarkMm)) total_mm = mark_mm;
   const std::string state =
       fmt::format("give {:.0f} mm (hook_offset_mm of the tape, or --hook-offset-mm)", total_mm);
   if (is_stated) {

@@ -11,6 +11,7 @@ namespace chaintrue::grid::files {
 namespace {
 
 constexpr double kMmPerInch = 25.4;
+constexpr double kInchesPerFoot = 12.0;
 /// The sign that spreadsheets and word processors make of a minus.
 constexpr std::string_view kLongMinus = "\xE2\x88\x92";
 constexpr std::string_view kDoublePrime = "\xE2\x80\xB3";
@@ -66,7 +67,44 @@ std::optional<double> fraction(std::string_view text) {
   return before + *above / *below;
 }
 
+/// Takes feet off the text's front; what follows them is inches.
+std::optional<double> take_feet(std::string_view& text) {
+  for (const std::string_view word : {"'", "\xE2\x80\xB2", "feet", "ft"}) {
+    const std::size_t at = text.find(word);
+    if (at == std::string_view::npos || text.substr(at).starts_with("''")) continue;
+    const auto feet = whole(trimmed(text.substr(0, at)));
+    if (feet) text = trimmed(text.substr(at + word.size()));
+    return feet;
+  }
+  return std::nullopt;
+}
+
+/// What stands behind feet; 0 where nothing does.
+std::optional<double> inches_behind_feet(std::string_view text) {
+  if (text.starts_with('-')) text = trimmed(text.substr(1));
+  if (text.empty()) return 0.0;
+  const auto unit = take_unit(text);
+  if (unit && *unit != kMmPerInch) return std::nullopt;
+  auto inches = fraction(text);
+  if (!inches && text.find_first_not_of("0123456789.") == std::string_view::npos) inches = number_of(text);
+  return inches && *inches < kInchesPerFoot ? inches : std::nullopt;
+}
+
 }  // namespace
+
+std::optional<std::string> fraction_of_date(std::string_view text) {
+  constexpr std::string_view kMonths = "JanFebMarAprMayJunJulAugSepOctNovDec";
+  text = trimmed(text);
+  const std::size_t dash = text.find('-');
+  if (dash == std::string_view::npos) return std::nullopt;
+  const bool month_first = dash == 3;
+  const std::string_view name = month_first ? text.substr(0, dash) : text.substr(dash + 1);
+  const std::string_view below = month_first ? text.substr(dash + 1) : text.substr(0, dash);
+  const std::size_t at = kMonths.find(name);
+  if (name.size() != 3 || at == std::string_view::npos || at % 3 != 0 || below.size() > 2 || !whole(below))
+    return std::nullopt;
+  return std::to_string(at / 3 + 1) + "/" + std::to_string(static_cast<int>(*whole(below)));
+}
 
 std::optional<double> length_with_unit_mm(std::string_view text) {
   text = trimmed(text);
@@ -74,6 +112,11 @@ std::optional<double> length_with_unit_mm(std::string_view text) {
   const bool is_negative = has_long_minus || text.starts_with('-');
   if (is_negative) text.remove_prefix(has_long_minus ? kLongMinus.size() : 1);
   const double sign = is_negative ? -1.0 : 1.0;
+  if (const auto feet = take_feet(text)) {
+    const auto inches = inches_behind_feet(text);
+    if (!inches) return std::nullopt;
+    return sign * (*feet * kInchesPerFoot + *inches) * kMmPerInch;
+  }
   const auto unit = take_unit(text);
   if (const auto inches = fraction(text)) {
     if (unit && *unit != kMmPerInch) return std::nullopt;

@@ -8,9 +8,11 @@
 ///   43 in, 43", 43 inches    1092.2
 ///   43 13/16, -43 13/16"     1112.8375, -1112.8375: a fraction is one of an inch
 ///   5/8                      15.875
+///   3' 8 5/16", 3 ft         1125.5375, 914.4
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace chaintrue::grid::files {
@@ -18,5 +20,9 @@ namespace chaintrue::grid::files {
 /// Millimetres; nothing where the text is no length with a unit, and no fraction. A bare number is
 /// none: its unit is that of its place. \post The value is finite.
 [[nodiscard]] std::optional<double> length_with_unit_mm(std::string_view text);
+
+/// The fraction that a spreadsheet has made a date of: `Jan-32` was 1/32, `16-Mar` 3/16. Nothing where the
+/// text is no such date.
+[[nodiscard]] std::optional<std::string> fraction_of_date(std::string_view text);
 
 }  // namespace chaintrue::grid::files

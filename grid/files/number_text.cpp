@@ -98,8 +98,11 @@ std::optional<double> checked_number(std::string_view text,
   auto value = number_of(text);
   if (!value && range.unit == "mm") value = length_with_unit_mm(text);
   if (value && range.holds(*value)) return value;
-  const std::string_view hint =
-      looks_like_decimal_comma(text) ? ", with a decimal point, not a comma" : "";
+  std::string hint = looks_like_decimal_comma(text) ? ", with a decimal point, not a comma" : "";
+  if (const auto fraction = fraction_of_date(text)) {
+    hint = fmt::format("; a spreadsheet has made a date of {0}: write 0 {0}, in a column whose format is text",
+                       *fraction);
+  }
   problems.add(place, text, fmt::format("{} ({}){}", range.expected(), name, hint), kind_of_bad_number(text));
   return std::nullopt;
 }

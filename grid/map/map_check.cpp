@@ -43,15 +43,26 @@ std::string words_of_chains(const CheckHypothesis& h) {
   return "a motor has moved";
 }
 
-CheckWords words_of_map() {
+/// A Maslow's firmware holds no zeros: it takes them from where the chains are set.
+bool sets_chains(const CompensationMap& map) {
+  if (map.machine() == nullptr) return false;
+  const model::ControllerKind kind = map.machine()->controller.kind;
+  return kind == model::ControllerKind::maslow_classic || kind == model::ControllerKind::holey;
+}
+
+CheckWords words_of_map(bool sets_chains) {
   return {"the map",
           "points",
           "The map is still valid",
           "The map is valid after re-zeroing",
           "The map is to be measured again",
           words_of_chains,
-          [](const Check& check) {
-            return fmt::format("New zeros: left {:.2f} mm, right {:.2f} mm.",
+          [sets_chains](const Check& check) {
+            return fmt::format("{}New zeros: left {:.2f} mm, right {:.2f} mm.",
+                               sets_chains ? "Set the chain lengths anew, with both sprockets' teeth at 12 o'clock "
+                                             "(Actions, Set Chain Length), and check again: no number in the "
+                                             "settings does it. "
+                                           : "",
                                check.new_zero_mm[0],
                                check.new_zero_mm[1]);
           }};
@@ -64,7 +75,7 @@ tl::expected<Check, CheckFailure> check_map(const CompensationMap& map,
                                             const Progress& progress) {
   return check_readings(map, measured, progress).map([&](const CheckReadings& readings) {
     tell(progress, {"what may have changed", 2, 2});
-    return judged(readings, words_of_map());
+    return judged(readings, words_of_map(sets_chains(map)));
   });
 }
 

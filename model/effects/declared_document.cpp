@@ -8,10 +8,10 @@ namespace chaintrue::model::effects {
 std::string_view declared_chapter() {
   return R"chapter(## A cause of your own, in a file
 
-What the catalogue does not have is declared in a [chaintrue_effect](formats/effect.md) file: what it acts on, how large it usually is, where it sets in, a formula, and the words that a diagnosis says. `--effects FILE...` gives such files to `diagnose`, `fit --causes`, `simulate` and `effects`. The cause is then weighed as those above are. What is declared stays with the machine: in the simulated grid, in the extended machine and in a map, so that `query`, `gcode`, `check` and `plan --after` honour it without the file.
+What the catalogue does not have is declared in a [chaintrue_effect](formats/effect.md) file: what it acts on, how large it usually is, where it sets in, a formula, and the words that a diagnosis says. `--effects FILE...` gives such files to `diagnose`, `fit`, `simulate` and `effects`. The cause is then weighed as those above are. What is declared stays with the machine: in the simulated grid, in the extended machine and in a map, so that `query`, `gcode`, `check` and `plan --after` honour it without the file.
 
     chaintrue diagnose grid.json --effects fixtures/effects/second_harmonic.json -o diagnosis.json
-    chaintrue fit grid.json --causes --effects fixtures/effects/second_harmonic.json -o map.json
+    chaintrue fit grid.json --effects fixtures/effects/second_harmonic.json -o map.json
 
 | acts on | formula | what it may use besides its parameters |
 |---|---|---|
@@ -25,7 +25,7 @@ A formula has `+ - * / ^`, brackets, `pi`, `sin cos exp log sqrt abs`, `min(a, b
 
 The first parameter is the size; a second one with `"role": "place"` says where the effect sets in. A diagnosis tries a place at 24 values and adds up their probabilities: a phase over a turn, a place in the unit of the one variable that the formula uses between the values that occur, any other evenly between its bounds; then it refines the best.
 
-*Not possible as a file:* what changes the equilibrium (the six effects of the station machine), a second size, paper that is bent, play that changes from place to place, effects of four belts; `sweep` does not take `--effects`. With `"instead_of"` a file takes the place of an effect of the catalogue; the eleven of paper, chain and reading stand so in `fixtures/effects/catalogue` and give the same verdicts and sizes to a millionth. A reading of links or of a tape speaks of the catalogue's own chain_pitch_error and tape_scale alone.
+*Not possible as a file:* what changes the equilibrium (the six effects of the station machine), a second size, paper that is bent, play that changes from place to place, effects of four belts. With `"instead_of"` a file takes the place of an effect of the catalogue; the eleven of paper, chain and reading stand so in `fixtures/effects/catalogue` and give the same verdicts and sizes to a millionth. A reading of links or of a tape speaks of the catalogue's own chain_pitch_error and tape_scale alone.
 
 Three examples, in `fixtures/effects`:
 

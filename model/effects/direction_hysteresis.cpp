@@ -41,8 +41,8 @@ extern constinit const Effect direction_hysteresis{
     .needs = DataNeed::order,
     .remedy_kind = RemedyKind::compensate_on_its_own,
     .remedy =
-        "grease the ring and take up the play, or compensate it along the path's direction; a map "
-        "over x and y cannot hold it",
+        "grease the ring and take up the play, or compensate it along the path's direction; it is taken out "
+        "of the readings that a map is made of",
     .add_by_direction = add_by_direction,
 };
 

@@ -58,8 +58,8 @@ extern constinit const Effect sprocket_eccentricity{
     .typical = "0.1 to 0.5 mm",
     .remedy_kind = RemedyKind::compensate_on_its_own,
     .remedy =
-        "change the sprocket, or compensate the wave by chain length; a map over x and y cannot "
-        "hold it",
+        "change the sprocket, or cut with a map that has it for a cause: a wave over the chain's length is "
+        "shorter than marks over x and y can show",
     .add = add,
 };
 

@@ -130,6 +130,9 @@ TEST(LengthText, OfOtherUnitsAndOfAnInchRule) {
   EXPECT_DOUBLE_EQ(length_with_unit_mm("-43-13/16\"").value(), -43.8125 * 25.4);
   EXPECT_DOUBLE_EQ(length_with_unit_mm("5/8 in").value(), 0.625 * 25.4);
   EXPECT_DOUBLE_EQ(length_with_unit_mm("1.5 m").value(), 1500.0);
+  EXPECT_DOUBLE_EQ(length_with_unit_mm("3' 8 5/16\"").value(), 44.3125 * 25.4);
+  EXPECT_DOUBLE_EQ(length_with_unit_mm("-3'-8.5''").value(), -44.5 * 25.4);
+  EXPECT_DOUBLE_EQ(length_with_unit_mm("3 ft").value(), 914.4);
   for (const char* none : {"",
                            "12",
                            "mm",
@@ -142,6 +145,10 @@ TEST(LengthText, OfOtherUnitsAndOfAnInchRule) {
                            "1 2/3/4",
                            "12 parsecs",
                            "nan mm",
+                           "3' 12\"",
+                           "3' 8 mm",
+                           "' 8\"",
+                           "3' -8 -5",
                            "-"}) {
     EXPECT_FALSE(length_with_unit_mm(none)) << none;
   }
@@ -159,6 +166,13 @@ TEST(CsvTable, OfMoreThanAnySessionHasIsRefused) {
   Problems of_wide("t.csv");
   EXPECT_THROW((void)read_csv(wide, kColumns, of_wide), InputError);
   EXPECT_THAT(of_wide.list().back().message(), HasSubstr("line 2"));
+}
+
+TEST(LengthText, KnowsTheFractionThatASpreadsheetMadeADateOf) {
+  EXPECT_EQ(fraction_of_date("Jan-32"), "1/32");
+  EXPECT_EQ(fraction_of_date("16-Mar"), "3/16");
+  for (const char* none : {"", "-", "12-", "Jan-", "an-32", "nFe-1", "2026-01-32", "Jan-320", "1-Marz", "5-8"})
+    EXPECT_FALSE(fraction_of_date(none)) << none;
 }
 
 }  // namespace

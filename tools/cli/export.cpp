@@ -411,6 +411,7 @@ int export_maslow4(Verb verb, const ExportCommand& command) {
   if (!settings) return kCheckFailed;
   write_output(command.output, settings->text);
   for (const std::string& remark : settings->remarks) fmt::print(stderr, "{}\n", remark);
+  fmt::print(stderr, "The machine forgets these lines when it is switched off, until $CD=/maslow.yaml has saved them.\n");
   return kDone;
 }
 

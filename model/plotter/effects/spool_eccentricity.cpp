@@ -54,7 +54,7 @@ extern constinit const PlotterEffect spool_eccentricity{
             .not_modelled = "the second harmonic, below a^2 / r",
             .typical = "0.1 to 0.5 mm",
             .remedy_kind = effects::RemedyKind::repair,
-            .remedy = "change the pulley; a map over x and y cannot hold it",
+            .remedy = "change the pulley: no setting holds it",
         },
     .add = add,
     .needs = needs_pulley,
