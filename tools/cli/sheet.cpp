@@ -23,7 +23,9 @@ double reachable_mm(const model::Bed& bed) {
 }
 
 std::string SheetVisit::name() const {
-  return again == 0 ? fmt::format("{}", number) : fmt::format("{} (mark {} again)", number, again);
+  if (again == 0) return fmt::format("{}", number);
+  return is_beside ? fmt::format("{} (beside mark {})", number, again)
+                   : fmt::format("{} (mark {} again)", number, again);
 }
 
 std::vector<SheetVisit> visits_of(const Sheet& sheet) {
@@ -35,7 +37,11 @@ std::vector<SheetVisit> visits_of(const Sheet& sheet) {
   std::vector<std::size_t> first(sheet.marks.size(), 0);
   for (const std::size_t mark : order) {
     const std::size_t number = visits.size() + 1;
-    visits.push_back({number, sheet.marks.at(mark), first[mark]});
+    SheetVisit visit{number, sheet.marks.at(mark), first[mark]};
+    // A drill follows a hole that is there.
+    visit.is_beside = visit.again != 0 && sheet.of == SheetOf::places;
+    if (visit.is_beside) visit.mark.x_mm += visit.mark.x_mm > 0.0 ? -kBesideMm : kBesideMm;
+    visits.push_back(visit);
     if (first[mark] == 0) first[mark] = number;
   }
   return visits;
@@ -132,7 +138,7 @@ std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
       // A comment in brackets holds no further brackets.
       places.push_back({visit.again == 0
                             ? fmt::format("mark {}", visit.number)
-                            : fmt::format("mark {}: mark {} again", visit.number, visit.again),
+                            : fmt::format("mark {}: beside mark {}", visit.number, visit.again),
                         model::identity_placement(visit.mark)});
     }
     return drill_gcode(fmt::format("{} marks", places.size()), places, options);

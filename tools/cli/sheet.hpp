@@ -39,12 +39,17 @@ struct Sheet {
   std::vector<std::size_t> visits = {};
 };
 
+/// So far beside the first hole a second visit drills, towards the middle: the two are holes of their own,
+/// and one place to who compares them (kRepeatDistanceMm).
+inline constexpr double kBesideMm = 15.0;
+
 /// A line of a sheet. Marks are numbered in the order of their first visits.
 struct SheetVisit {
   std::size_t number = 0;  ///< of the visit, from 1
   model::MarkPoint mark;
   std::size_t again = 0;  ///< the number of the mark's first visit; 0: this is the first
-  /// "29 (mark 8 again)"
+  bool is_beside = false;  ///< of a second visit: kBesideMm from there
+  /// "29 (beside mark 8)", or "29 (mark 8 again)" where nothing is drilled
   [[nodiscard]] std::string name() const;
 };
 [[nodiscard]] std::vector<SheetVisit> visits_of(const Sheet& sheet);

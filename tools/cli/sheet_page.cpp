@@ -197,9 +197,10 @@ std::string sheet_page(const Sheet& sheet, const model::Machine& machine, const 
   const std::size_t second = visits.size() - sheet.marks.size();
   if (second > 0) {
     steps.push_back(fmt::format(
-        "{} marks come a second time. Mark and measure where the tool stands then, as if the mark "
-        "were a new one: the two readings show whether the machine changed in between.",
-        second));
+        "{} marks come a second time, later in the session{}. Measure them like any other: the two readings "
+        "show whether the machine changed in between.",
+        second,
+        places ? fmt::format(" and {:g} mm to the side, so that they are holes of their own", kBesideMm) : ""));
   }
   steps.push_back(typed_into(list));
   return page_of(

@@ -60,9 +60,10 @@ std::string start_readme(const model::Machine& machine, const StartWays& ways) {
 1. Choose a way to measure.
 
    Marks, for whoever has an evening and a square: the tool is sent to 28 marks, and x and y of
-   each are measured from the sheet's middle lines. Four of them come a second time: they cost ten
-   minutes and show whether the machine changed meanwhile (a chain that jumped a tooth, a zero that
-   moved). To half a millimetre each, the tool will then be known to about {1:.1f} mm over the bed.
+   each are measured from the sheet's middle lines. Four of them come a second time, a little to
+   the side: they cost ten minutes and show whether the machine changed meanwhile (a chain that
+   jumped a tooth, a zero that moved). To half a millimetre each, the tool will then be known to
+   about {1:.1f} mm over the bed.
    Holes, for whoever has an hour and a tape: nine holes and twenty distances, about {2:.1f} mm,
    the sheet laid as well as it can be.
    Chain lengths, for whoever can read them off the machine: chaintrue plan --machine machine.json
@@ -73,7 +74,7 @@ std::string start_readme(const model::Machine& machine, const StartWays& ways) {
 
 3. Make the map:
 
-       chaintrue fit marks.csv --machine machine.json --causes -o map.json
+       chaintrue fit marks.csv --machine machine.json -o map.json
 
 4. Cut with it: rewrite each program,
 
