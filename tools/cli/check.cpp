@@ -44,8 +44,9 @@ struct CheckCommand {
 
 /// A valid map says what it is good for; after re-zeroing, and where the points do not decide, a few
 /// more tell; a map that no longer holds is made anew.
-void say_next_of_map(const grid::Check& check, const CheckCommand& command) {
-  if (check.settings_have_changed) {
+/// \param is_after the map is for numbers that were typed in
+void say_next_of_map(const grid::Check& check, const CheckCommand& command, bool is_after) {
+  if (check.settings_have_changed && !is_after) {
     return say_next({"export",
                      "groundcontrol",
                      command.map,
@@ -89,8 +90,13 @@ using CheckResult = tl::expected<grid::Check, grid::CheckFailure>;
 
 CheckResult check_of_map(const CheckCommand& command,
                          const std::vector<InputFile>& files,
-                         const InputFile& map) {
+                         const InputFile& map,
+                         bool& is_after) {
   const grid::CompensationMap as_measured = load_map(map);
+  std::optional<model::ControllerSettings> before = settings_before(command.map);
+  is_after = before.has_value();
+  if (!command.settings.empty() && as_measured.machine() != nullptr)
+    before = as_measured.machine()->controller.settings;
   grid::Measured measured;
   for (const InputFile& file : files)
     measured.add(load_measured(
@@ -102,7 +108,7 @@ CheckResult check_of_map(const CheckCommand& command,
           : with_settings_of(command.settings, command.map, as_measured, measured);
   CheckResult check = grid::check_map(in_force, measured, shown_progress());
   if (!check) return check;
-  if (auto changed = with_typed_settings(in_force, measured, *check)) check = *std::move(changed);
+  if (auto changed = with_typed_settings(in_force, measured, *check, before)) check = *std::move(changed);
   return check;
 }
 
@@ -145,8 +151,9 @@ int run_check(Verb verb, const CheckCommand& command) {
     if (file.kind == FileKind::holes && !of_belts) facts |= facts::holes;
   }
   refuse_what_does_nothing(verb, facts);
+  bool is_after = false;
   const CheckResult check =
-      of_belts ? check_of_anchors(files.front(), map) : check_of_map(command, files, map);
+      of_belts ? check_of_anchors(files.front(), map) : check_of_map(command, files, map, is_after);
   if (!check) {
     fmt::print(stderr, "{}: {}\n", files.front().name, check.error().sentence());
     return kBadInput;
@@ -155,7 +162,7 @@ int run_check(Verb verb, const CheckCommand& command) {
   if (of_belts) {
     say_next_of_anchors(*check, command);
   } else {
-    say_next_of_map(*check, command);
+    say_next_of_map(*check, command, is_after);
   }
   return check->is_valid_as_it_is() ? kDone : kCheckFailed;
 }

@@ -14,7 +14,9 @@
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/settings_file.hpp"
 #include "tools/cli/talk.hpp"
+#include "tools/cli/typed_settings.hpp"
 #include "tools/report/path_report.hpp"
 
 namespace chaintrue::cli {
@@ -83,6 +85,43 @@ report::PathPiece drawn(const gcode::Move& move,
           to.target.y_mm,
           correction(from),
           correction(to)};
+}
+
+/// The map that export wrote of this one, for a controller with the numbers typed in; empty where none
+/// lies beside it.
+std::string map_after(const std::string& map) {
+  const std::string after = after_name(map);
+  if (map == "-" || !std::filesystem::is_regular_file(after)) return {};
+  return was_made_from(after, map) ? after : std::string{};
+}
+
+/// What has to hold at the machine for the program to come out right.
+void say_what_it_is_for(const GcodeMachine& machine, const GcodeOptions& options) {
+  if (machine.map() == nullptr) return;
+  if (options.settings.empty() && options.machine.empty()) {
+    if (const std::string after = map_after(options.map); !after.empty()) {
+      fmt::print(stderr,
+                 "Have you typed in the numbers that {0} is for? {1} is for the controller as it was before: "
+                 "with the numbers in it, compensate with {0}.\n",
+                 after,
+                 options.map);
+    }
+  }
+  const gcode::Firmware* firmware = &machine.corrector().firmware();
+  const bool adds_home = firmware == &gcode::firmware(model::ControllerKind::maslow_classic) ||
+                         firmware == &gcode::firmware(model::ControllerKind::holey);
+  if (!adds_home || options.home_is_zero) return;
+  const model::BedPoint home = options.home_mm();
+  if (home.x_mm == 0.0 && home.y_mm == 0.0) {
+    fmt::print(stderr,
+               "It is for home at 0, 0. If you have moved home (Define Home), say where it is with --home "
+               "X,Y.\n");
+  } else {
+    fmt::print(stderr,
+               "Home at {:g}, {:g} is in its numbers: move home back to 0, 0 before you run it.\n",
+               home.x_mm,
+               home.y_mm);
+  }
 }
 
 int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
@@ -182,7 +221,10 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
                proof.largest_mm,
                options.tolerance_mm);
   }
-  if (holds) fmt::print(stderr, "{}", in_words(promised));
+  if (holds) {
+    fmt::print(stderr, "{}", in_words(promised));
+    say_what_it_is_for(machine, options);
+  }
   if (holds && is_usual(options))
     say_next(with_map_words(options, {"gcode", "verify", options.program, options.output}));
   return holds ? kDone : kCheckFailed;

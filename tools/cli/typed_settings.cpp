@@ -3,10 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include "grid/files/controller_settings.hpp"
 #include "grid/files/input_error.hpp"
+#include "grid/files/map_file.hpp"
+#include "grid/files/sha256.hpp"
+#include "grid/files/sources.hpp"
+#include "grid/files/whole_file.hpp"
 #include "grid/map/check_settings.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/settings_to_type.hpp"
@@ -38,26 +45,80 @@ grid::CompensationMap with_settings_of(const std::string& settings,
   return grid::map_for_settings(map, now, "");
 }
 
+bool was_made_from(const std::string& made, const std::string& from) {
+  namespace files = grid::files;
+  const auto made_by = files::made_by_of(files::read_whole_file(made), made);
+  files::Sha256 hash;
+  hash.add(files::read_whole_file(from));
+  return made_by &&
+         std::any_of(made_by->inputs.begin(), made_by->inputs.end(), [&](const auto& input) {
+           return input.sha256 == hash.text();
+         });
+}
+
+std::optional<model::ControllerSettings> settings_before(const std::string& map) {
+  namespace fs = std::filesystem;
+  namespace files = grid::files;
+  if (map == "-") return std::nullopt;
+  const auto made_by = files::made_by_of(files::read_whole_file(map), map);
+  if (!made_by || made_by->verb != "export groundcontrol" || made_by->inputs.empty()) return std::nullopt;
+  const std::string from = (fs::path(map).parent_path() / made_by->inputs.front().name).string();
+  if (!fs::is_regular_file(from) || !was_made_from(map, from)) return std::nullopt;
+  const grid::CompensationMap exported = files::parse_map(files::read_whole_file(from), from);
+  if (exported.machine() == nullptr) return std::nullopt;
+  return exported.machine()->controller.settings;
+}
+
 std::optional<grid::Check> with_typed_settings(const grid::CompensationMap& map,
                                                const grid::Measured& measured,
-                                               const grid::Check& found) {
-  if (found.is_valid_as_it_is()) return std::nullopt;
-  const auto typed = grid::settings_to_type(map);
-  if (!typed || !typed->worth_typing) return std::nullopt;
-  model::Machine after = *map.machine();
-  after.controller.settings = typed->settings;
-  auto changed = grid::changed_settings(map, measured, after.controller, found);
-  if (!changed) return std::nullopt;
+                                               const grid::Check& found,
+                                               std::optional<model::ControllerSettings> before) {
   namespace files = grid::files;
-  changed->check.sentence = fmt::format(
-      "The settings have changed since this map was measured: the new points fit the numbers of "
-      "export groundcontrol ({}) within {:.2f} mm rms in a chain, the map's own within {:.2f} mm. "
-      "Use the map of export groundcontrol --map-after. {}",
-      files::in_words(files::changed_settings(files::settings_in_force(*map.machine()),
-                                              files::settings_in_force(after))),
-      changed->with_these_mm,
-      changed->as_it_is_mm,
-      changed->check.sentence);
+  if (found.is_valid_as_it_is() || map.machine() == nullptr) return std::nullopt;
+  const auto differ_from_map = [&](const model::ControllerSettings& settings) {
+    model::Machine in_force = *map.machine();
+    in_force.controller.settings = settings;
+    return files::changed_settings(files::settings_in_force(*map.machine()), files::settings_in_force(in_force));
+  };
+  if (before && differ_from_map(*before).empty()) before.reset();
+  std::optional<model::ControllerSettings> others = before;
+  if (!before) {
+    const auto typed = grid::settings_to_type(map);
+    if (!typed || !typed->worth_typing) return std::nullopt;
+    others = typed->settings;
+  }
+  auto changed = grid::changed_settings(map, measured, *others, found);
+  if (!changed) return std::nullopt;
+  const std::string differ = files::in_words(differ_from_map(changed->in_force));
+  const auto sentence = [&](std::string_view what, std::string_view with, std::string_view to_do) {
+    return fmt::format("{}: the new points fit {} ({}) within {:.2f} mm rms in a chain, the map's own "
+                       "within {:.2f} mm. {} {}",
+                       what,
+                       with,
+                       differ,
+                       changed->with_these_mm,
+                       changed->as_it_is_mm,
+                       to_do,
+                       changed->check.sentence);
+  };
+  std::string& said = changed->check.sentence;
+  if (!before && changed->all) {
+    said = sentence("The settings have changed since this map was measured",
+                    "the numbers of export groundcontrol",
+                    "Use the map of export groundcontrol --map-after.");
+  } else if (!before) {
+    said = sentence("Only some of the numbers of export groundcontrol have been typed in",
+                    "these",
+                    "Type in the others too, and use the map of export groundcontrol --map-after.");
+  } else if (changed->all) {
+    said = sentence("The numbers that this map is for are not in the controller",
+                    "those of before",
+                    "Type them in, or use the map that they were exported from.");
+  } else {
+    said = sentence("Only some of the numbers that this map is for are in the controller",
+                    "the others as they were",
+                    "Type in these too.");
+  }
   return std::move(changed->check);
 }
 

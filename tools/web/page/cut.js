@@ -29,6 +29,29 @@ function refusalOf(name, folder) {
   return null;
 }
 
+/** Where GroundControl's home is, as somebody typed it; other controllers have none. */
+const homeOf = ({folder, view}) => (isBelts(folder) || isPlotter(folder) ? "0,0"
+  : (view.home ?? []).map((text) => text.trim().replace(",", ".") || "0").join(",") || "0,0");
+const homeWords = (store) => (homeOf(store) === "0,0" ? [] : ["--home", homeOf(store)]);
+
+/** Asked before a program is written: GroundControl adds its home to every place that it is sent. */
+function homeFields(page) {
+  const inputs = ["x", "y"].map((axis) => h("input", {id: `home-${axis}`, type: "text", inputmode: "decimal", size: 6,
+    onchange: () => page.store.show({home: inputs.map(({value}) => value)})}));
+  const element = h("p", {class: "choices"}, inputs.map((input, index) =>
+    h("span", {class: "pair"}, h("label", {for: input.id}, ["Home is at x, mm", "y, mm"][index]), input)),
+  h("span", {class: "hint"}, "0, 0 is the sheet's middle; elsewhere if you have moved it with Define Home"));
+  return {
+    element,
+    update({folder, view}) {
+      element.hidden = isBelts(folder) || isPlotter(folder);
+      inputs.forEach((input, index) => {
+        if (input !== document.activeElement) input.value = view.home?.[index] ?? "0";
+      });
+    },
+  };
+}
+
 export function cutStep(page) {
   const said = h("div", {class: "said", role: "status"});
   const outcome = h("div");
@@ -37,11 +60,12 @@ export function cutStep(page) {
   const settings = h("p", {class: "hint"});
   const away = h("div");
   const title = h("h3", {}, "Cut a part true");
+  const home = homeFields(page);
   const open = h("div", {hidden: true},
     h("section", {}, title,
       h("p", {}, "The program is rewritten so that the machine as it is cuts what was drawn, and run " +
         "on a simulated controller before you get it."),
-      settings,
+      settings, home.element,
       fileDrop("program", "Open a G-code program", PROGRAMS.join(","), "Or drop it here.", ([file]) => take(file)), jobs),
     said, outcome);
   const all = h("div", {hidden: true}, away, open);
@@ -50,6 +74,8 @@ export function cutStep(page) {
   let latest = 0;
   /** Whether numbers were typed in when the program that is shown was compensated. */
   let wereTypedIn = false;
+  /** Where home was then. */
+  let homeWas = "";
   let awayFor = "";
   let shownJobs = "";
   function begin() {
@@ -86,7 +112,7 @@ export function cutStep(page) {
     const mine = begin();
     const stem = name.replace(/\.[^.]*$/, "");
     const names = {name, truth: `${stem}.true.nc`, report: `${stem}.html`};
-    const result = await runVerb(page, ["gcode", "compensate", name, "--map", mapOf(page.store.folder), ...nowWords(page.store.folder),
+    const result = await runVerb(page, ["gcode", "compensate", name, "--map", mapOf(page.store.folder), ...nowWords(page.store.folder), ...homeWords(page.store),
       "-o", names.truth, "--report", names.report, "--force"], {supersede: TASK});
     if (mine !== latest) return;
     if (!result) {
@@ -95,6 +121,7 @@ export function cutStep(page) {
     }
     const isDone = result.code === DONE;
     wereTypedIn = areIn(page.store.folder);
+    homeWas = homeOf(page.store);
     say(sentencesOf(result), !isDone);
     page.store.derive(result.files);
     // Who compensates a program before the choice has chosen.
@@ -126,7 +153,7 @@ export function cutStep(page) {
   }
 
   async function verify(name, truth, verdict) {
-    const result = await runVerb(page, ["gcode", "verify", name, truth, "--map", mapOf(page.store.folder), ...nowWords(page.store.folder)]);
+    const result = await runVerb(page, ["gcode", "verify", name, truth, "--map", mapOf(page.store.folder), ...nowWords(page.store.folder), ...homeWords(page.store)]);
     if (!result) return;
     verdict.className = result.code === DONE ? "said" : "said problem";
     verdict.replaceChildren(sentenceList([...result.stdout.split("\n").filter(Boolean), ...sentencesOf(result)]));
@@ -147,6 +174,11 @@ export function cutStep(page) {
       all.hidden = !ready;
       drawAway(folder, view);
       settings.textContent = settingsSentence(folder);
+      home.update(page.store);
+      if (outcome.firstChild && homeWas !== homeOf(page.store)) {
+        begin();
+        say(["Home was elsewhere when this program was compensated: compensate it again."], true);
+      }
       if (outcome.firstChild && wereTypedIn !== areIn(folder)) {
         begin();
         say(["The controller holds other numbers than this program was compensated for: compensate it again."], true);
