@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/causes_fit.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -18,6 +20,17 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 using model::effects::Station;
+
+/// A comparison of these takes half a minute (docs/reliability.md).
+constexpr std::size_t kMostWeighed = 1200;
+
+/// Points and distances.
+std::size_t readings_of(const Measured& measured) {
+  std::size_t count = 0;
+  for (const MeasuredFile& file : measured.files())
+    count += file.grid() != nullptr ? file.grid()->points.size() : file.holes()->distances.size();
+  return count;
+}
 
 bool scale_was_read(const Measured& measured) {
   const auto decides = [](const ExtraReading& reading) {
@@ -198,6 +211,10 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
   auto plain = joint_fit(measured, options.fit);
   if (!plain) return tl::unexpected(plain.error());
   CausesFit result{*std::move(plain), {}, {}, std::nullopt, 0.0, {}};
+  if (const std::size_t count = readings_of(measured); count > kMostWeighed) {
+    result.not_weighed = fmt::format("{} readings are more than are weighed ({})", count, kMostWeighed);
+    return noted(std::move(result));
+  }
   DiagnosisOptions weighed;
   weighed.seed = options.seed;
   weighed.accept_class = options.accept_class;

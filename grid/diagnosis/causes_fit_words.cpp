@@ -7,20 +7,25 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-std::string why(OfferedCause::Reason reason) {
-  switch (reason) {
+std::string offered_words(const OfferedCause& offered, const std::string& cause) {
+  switch (offered.reason) {
     case OfferedCause::Reason::not_sure:
-      return "it is not sure enough: chaintrue diagnose says what to measure next";
+      return fmt::format("Possible cause: {}. It is not sure enough for the map: chaintrue diagnose says what "
+                         "to measure next.",
+                         cause);
     case OfferedCause::Reason::may_be_paper:
-      return "it may be the tape that set out the marks instead, and marks cannot tell which. "
-             "Measure a hundred links, or the tape, and give the reading; or say --accept-class if "
-             "you know that it is the chain";
+      return fmt::format(
+          "Probable cause: {}. It may be the tape that set out the marks instead, and marks cannot tell "
+          "which. Measure a hundred links, or the tape, and give the reading; or say --accept-class if "
+          "you know that it is the chain.",
+          cause);
     case OfferedCause::Reason::is_paper:
-      return "the marks themselves are off: correct them, or set them out anew";
+      return fmt::format("Probable cause: {}. The marks themselves are off: correct them, or set them out anew.",
+                         cause);
     case OfferedCause::Reason::gains_nothing:
       break;
   }
-  return "the map corrects it as well without a name for it";
+  return fmt::format("Probable cause: {}. The map already corrects it.", cause);
 }
 
 }  // namespace
@@ -57,10 +62,8 @@ std::vector<std::string> in_words(const CausesFit& fit) {
   }
   if (sentences.empty() && fit.offered.empty())
     sentences.emplace_back("No single cause stands out, and the map needs none.");
-  for (const OfferedCause& offered : fit.offered) {
-    sentences.push_back(fmt::format(
-        "Found, not used in the map: {}; {}.", sized(offered.cause), why(offered.reason)));
-  }
+  for (const OfferedCause& offered : fit.offered)
+    sentences.push_back(offered_words(offered, sized(offered.cause)));
   if (fit.left_open_mm > 0.0) {
     sentences.push_back(
         fmt::format("{}: so the tool may be {:.2f} mm rms off, which the expected error counts.",

@@ -97,7 +97,7 @@ constexpr std::array kDescribed = {
         "A declared effect",
         "A cause of error that the catalogue does not have, as its owner declares it: what it "
         "acts on, its size, where it sets in, and a formula. `--effects` gives it to "
-        "`diagnose`, `fit --causes`, `simulate` and `effects`; [effects](../effects.md) says "
+        "`diagnose`, `fit`, `simulate` and `effects`; [effects](../effects.md) says "
         "what a formula may use and shows three."},
     Described{&kPlotterFormat,
               plotter_schema,

@@ -61,11 +61,10 @@ void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
       words.insert(words.end(), {"--machine", command.input.machine});
   }
   for (const std::string& other : command.with) words.insert(words.end(), {"--with", other});
-  // A plain fit looks for no cause.
-  if (words.front() == "plan" || command.input.effects.empty()) return say_next(words);
-  words.emplace_back("--causes");
-  for (const std::string& own : command.input.effects)
-    words.insert(words.end(), {"--effects", own});
+  if (words.front() == "fit") {
+    for (const std::string& own : command.input.effects)
+      words.insert(words.end(), {"--effects", own});
+  }
   say_next(words);
 }
 

@@ -45,9 +45,7 @@ struct FitCommand {
   std::string surface = "residual";
   std::string ends = "not_a_knot";
   OutsideOption outside;
-  /// Build on the causes that are found.
-  bool causes = false;
-  /// On the machine as stated, said in so many words.
+  /// On the machine as stated: no cause is looked for.
   bool plain = false;
   bool accept_class = false;
   /// The error of the tool that the owner wishes for.
@@ -73,11 +71,8 @@ constexpr std::size_t kMostHoles = 150;
 
 constexpr grid::files::Range kWishMm{"mm", 0.001, 50.0};
 
-/// A diagnosis of these takes half a minute (docs/reliability.md).
-constexpr std::size_t kMostWithCauses = 1200;
-
 /// Empty where there are not too many.
-std::string too_many(const grid::Measured& measured, bool causes) {
+std::string too_many(const grid::Measured& measured) {
   std::size_t points = 0;
   std::size_t distances = 0;
   std::size_t holes = 0;
@@ -99,8 +94,6 @@ std::string too_many(const grid::Measured& measured, bool causes) {
   if (points > kMostPoints) return sentence(points, "points", kMostPoints);
   if (distances > kMostDistances) return sentence(distances, "distances", kMostDistances);
   if (holes > kMostHoles) return sentence(holes, "holes", kMostHoles);
-  if (causes && points + distances > kMostWithCauses)
-    return sentence(points + distances, "readings", kMostWithCauses) + ", or leave --causes out";
   return {};
 }
 
@@ -174,12 +167,12 @@ std::vector<report::Section> distances_of(const grid::Measured& measured,
   return sections;
 }
 
-/// The plain fit, or that on the machine with the causes that were found.
+/// On the machine with the causes that are found, or as stated.
 tl::expected<grid::JointFit, grid::FitFailure> fit_of(const FitCommand& command,
                                                       const grid::Measured& measured) {
   const grid::JointFitOptions options{.outside = rule_of(command.outside, {}),
                                       .progress = shown_progress()};
-  if (!command.causes) return grid::joint_fit(measured, options);
+  if (command.plain) return grid::joint_fit(measured, options);
   auto found = grid::diagnosis::fit_with_causes(
       measured, {.fit = options, .accept_class = command.accept_class});
   if (!found) return tl::unexpected(found.error());
@@ -209,8 +202,7 @@ int fit_directly(Verb verb, const FitCommand& command, const grid::MeasuredFile&
 Facts facts_of(const FitCommand& command, const std::vector<InputFile>& files) {
   const bool of_belts = std::any_of(files.begin(), files.end(), is_of_four_belts);
   Facts facts = command.surface == "direct" ? facts::direct : facts::residual;
-  if (command.causes) facts |= facts::causes;
-  if (!command.causes) facts |= facts::no_causes;
+  if (!command.plain) facts |= facts::causes;
   if (command.outside.way == "fade") facts |= facts::fade;
   for (const InputFile& file : files) {
     if (file.kind == FileKind::belts) facts |= facts::belts;
@@ -247,7 +239,7 @@ int run_fit(Verb verb, const FitCommand& command) {
   for (const InputFile& file : opened)
     all.add(load_measured(file, command.input, command.tape, MeasuredUse::fit));
   const std::vector<grid::MeasuredFile>& files = all.files();
-  if (const std::string sentence = too_many(all, command.causes); !sentence.empty()) {
+  if (const std::string sentence = too_many(all); !sentence.empty()) {
     fmt::print(stderr, "{}: {}\n", files.front().name, sentence);
     return kBadInput;
   }
@@ -287,17 +279,13 @@ void add_fit(Verb app, Run& run) {
       .one_of({"not_a_knot", "natural", "parabolic", "clamped"})
       .shows_default();
   add_outside_options(verb, command->outside, "continued by default");
-  verb.add_flag(
-      "--causes",
-      command->causes,
-      "Look for causes as diagnose does, and build the map on those that make it better on "
-      "points left out");
   verb.add_flag("--plain",
                 command->plain,
-                "The map on the machine file as it is, without looking for causes; the default");
+                "The map on the machine file as it is. Without it causes are looked for as diagnose does, "
+                "and the map is built on those that make it better on points left out");
   verb.add_flag("--accept-class",
                 command->accept_class,
-                "With --causes: where points cannot tell links from tape, take the links");
+                "Where points cannot tell links from tape, take the links");
   add_number(
       verb,
       "--wish-mm",

@@ -50,10 +50,8 @@ inline constexpr Facts program = 1U << 21;
 inline constexpr Facts drilled = 1U << 22;
 /// A program by itself, without --map.
 inline constexpr Facts no_map = 1U << 23;
-/// fit: on the causes that are found.
+/// fit: without --plain.
 inline constexpr Facts causes = 1U << 24;
-/// fit: on the machine as stated.
-inline constexpr Facts no_causes = 1U << 25;
 /// A table (CSV) is among the files.
 inline constexpr Facts table = 1U << 28;
 /// fit and diagnose: a V-plotter's test drawing, alone.

@@ -153,7 +153,7 @@ int run_start(Verb verb, const StartCommand& command) {
              "tape).\n",
              folder);
   say_next(
-      {"fit", marks, "--machine", machine_path, "--causes", "-o", (fs::path(folder) / "map.json").string()});
+      {"fit", marks, "--machine", machine_path, "-o", (fs::path(folder) / "map.json").string()});
   return kDone;
 }
 

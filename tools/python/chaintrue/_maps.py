@@ -179,23 +179,23 @@ def sorted_out(measured: Iterable[Measured], who: str) -> tuple[list[Any], list[
 
 @overload
 def fit(
-    measured: Grid, surface: str = ..., causes: bool = ..., accept_class: bool = ...
+    measured: Grid, surface: str = ..., plain: bool = ..., accept_class: bool = ...
 ) -> Map: ...
 @overload
 def fit(
-    measured: Belts, surface: str = ..., causes: bool = ..., accept_class: bool = ...
+    measured: Belts, surface: str = ..., plain: bool = ..., accept_class: bool = ...
 ) -> Anchors: ...
 @overload
 def fit(
     measured: Union[Measured, Iterable[Measured]],
     surface: str = ...,
-    causes: bool = ...,
+    plain: bool = ...,
     accept_class: bool = ...,
 ) -> Any: ...
 def fit(
     measured: Union[Measured, Iterable[Measured]],
     surface: str = "residual",
-    causes: bool = False,
+    plain: bool = False,
     accept_class: bool = False,
 ) -> Any:
     """The Map of a Grid, of Holes, or of several of one machine; of Belts, and of holes that such a
@@ -204,35 +204,35 @@ def fit(
     surface  residual: the machine, calibrated, and a smooth correction of what it leaves
              direct: splines through the lengths themselves, for points on full rows and columns; needs
              no machine
-    causes   look for causes as diagnose does, and build the map on those that make it better on points
-             left out; its notes say which
-    accept_class  with causes: where links and tape cannot be told apart, it is the links
+    plain    on the machine as stated; without it causes are looked for as diagnose does, and the map is
+             built on those that make it better on points left out: its notes say which
+    accept_class  where links and tape cannot be told apart, it is the links
     """
     one = isinstance(measured, (Grid, Holes, Belts))
     things = [measured] if one else list(measured)
     grids, holes, belts = sorted_out(things, "fit")
     sources = sources_of(*things)
-    if accept_class and not causes:
-        raise ValueError("accept_class says which of two causes acts: give causes=True")
-    if causes and surface == "direct":
-        raise ValueError("a direct surface has no machine that could err")
+    if accept_class and plain:
+        raise ValueError("accept_class says which of two causes acts: leave plain out")
     one_of(surface, "surface", ("residual", "direct"))
+    if surface == "direct" and (plain or accept_class):
+        raise ValueError("a direct surface has no machine that could err")
     if belts or any(read.of_belts for read in holes):
-        return _fit_belts(grids, holes, belts, surface, causes, sources)
+        return _fit_belts(grids, holes, belts, surface, plain or accept_class, sources)
     if surface == "direct" and (holes or len(grids) != 1):
         raise ValueError("a direct surface is of the lengths of one Grid")
     direct = surface == "direct"
-    options = {"--surface direct": direct, "--causes": causes, "--accept-class": accept_class}
-    return Map._made(_core.fit(grids, holes, direct, causes, accept_class), "fit", options, sources)
+    options = {"--surface direct": direct, "--plain": plain, "--accept-class": accept_class}
+    return Map._made(_core.fit(grids, holes, direct, plain, accept_class), "fit", options, sources)
 
 
 def _fit_belts(
-    grids: list, holes: list, belts: list, surface: str, causes: bool, sources: list
+    grids: list, holes: list, belts: list, surface: str, of_causes: bool, sources: list
 ) -> Anchors:
     if grids or len(belts) > 1:
         raise ValueError("anchors are fitted to one Belts and any number of Holes")
-    if surface != "residual" or causes:
-        raise ValueError("surface and causes are of two chains: leave them out with Belts")
+    if surface != "residual" or of_causes:
+        raise ValueError("surface, plain and accept_class are of two chains: leave them out with Belts")
     return Anchors._made(_core.fit_belts(belts[0] if belts else None, holes), "fit", {}, sources)
 
 

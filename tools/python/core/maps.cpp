@@ -29,20 +29,18 @@ namespace files = grid::files;
 using files::FittedAnchors;
 
 grid::CompensationMap fit(
-    const Grids& grids, const HolesRead& holes, bool direct, bool causes, bool accept_class) {
+    const Grids& grids, const HolesRead& holes, bool direct, bool plain, bool accept_class) {
   const py::gil_scoped_release others_may_work;
   const grid::Measured measured = gathered(grids, holes);
-  if (causes) {
-    grid::diagnosis::CausesFitOptions options;
-    options.accept_class = accept_class;
-    return value_or_throw(grid::diagnosis::fit_with_causes(measured, options)).fit.map;
-  }
-  if (grids.size() == 1 && holes.empty()) {
+  if (direct) {
     grid::FitOptions options;
-    if (direct) options.surface = grid::SurfaceKind::direct;
+    options.surface = grid::SurfaceKind::direct;
     return value_or_throw(grid::fit(grids.front(), options));
   }
-  return value_or_throw(grid::joint_fit(measured)).map;
+  if (plain) return value_or_throw(grid::joint_fit(measured)).map;
+  grid::diagnosis::CausesFitOptions options;
+  options.accept_class = accept_class;
+  return value_or_throw(grid::diagnosis::fit_with_causes(measured, options)).fit.map;
 }
 
 /// A machine that holes do not name is that of the belts, where its anchors are known.

@@ -105,12 +105,12 @@ def test_holes_are_fitted_too():
 
 def test_a_map_is_built_on_the_causes_that_are_found():
     grid = chaintrue.read_grid(FIXTURES / "grids" / "seven_by_four.json")
-    plain, own = chaintrue.fit(grid), chaintrue.fit(grid, causes=True)
+    plain, own = chaintrue.fit(grid, plain=True), chaintrue.fit(grid)
     assert len(own.notes) > len(plain.notes)
     with pytest.raises(ValueError):
-        chaintrue.fit(grid, accept_class=True)
+        chaintrue.fit(grid, plain=True, accept_class=True)
     with pytest.raises(ValueError):
-        chaintrue.fit(grid, surface="direct", causes=True)
+        chaintrue.fit(grid, surface="direct", plain=True)
 
 
 def test_pages_are_the_commands(tmp_path, map, diagnosis):

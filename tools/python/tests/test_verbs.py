@@ -132,7 +132,7 @@ def test_results_say_what_they_were_made_from(tmp_path, grid, calibration, machi
     calibration.write(tmp_path / "map.json")
     again = chaintrue.read_map(tmp_path / "map.json")
     assert again.made_by == pickle.loads(pickle.dumps(again)).made_by == calibration.made_by
-    assert chaintrue.fit(grid, causes=True).made_by.options == ["--causes"]
+    assert chaintrue.fit(grid, plain=True).made_by.options == ["--plain"]
     # Arrays have no file; their machine has.
     arrays = chaintrue.fit(
         chaintrue.Grid(

@@ -31,12 +31,12 @@ export function causesPart(page) {
   let shown = null;
   let used = {};
 
-  /** The button and its outcome, where one of them has changed. */
-  function drawUse(bytes, view) {
-    if (used.bytes === bytes && used.causes === view.causes && used.fit === page.fit) return;
-    used = {bytes, causes: view.causes, fit: page.fit};
+  /** What the map says of causes, where that has changed. */
+  function drawUse(view) {
+    if (used.plain === view.plain && used.fit === page.fit) return;
+    used = {plain: view.plain, fit: page.fit};
     const hadFocus = use.contains(document.activeElement);
-    use.replaceChildren(...(bytes ? usePart(page, view, bytes) : []));
+    use.replaceChildren(...usePart(page, view));
     if (hadFocus) use.querySelector("button")?.focus({preventScroll: true});
   }
 
@@ -49,7 +49,7 @@ export function causesPart(page) {
       const bytes = folder["diagnosis.json"];
       whole.element.hidden = !bytes;
       ask.classList.toggle("main", !bytes);
-      drawUse(bytes, view);
+      drawUse(view);
       if (shown === bytes) return;
       shown = bytes;
       next.replaceChildren(...(bytes ? [h("p", {class: "buttons"},
@@ -149,28 +149,25 @@ async function meaningsOf(page) {
   return catalogue;
 }
 
-/** The button that builds the map on the causes, and what came of it. */
-function usePart(page, view, diagnosis) {
-  if (!view.causes && (jsonOf(diagnosis)?.causes ?? []).length === 0) return [];
-  const button = h("button", {type: "button", class: view.causes ? "" : "main", onclick: () => useCauses(page, !view.causes)},
-    view.causes ? "Build the map without causes" : "Use these causes");
-  return [h("div", {id: "use-causes"}, h("p", {class: "buttons"}, button,
-    !view.causes && h("span", {class: "hint"}, "builds the map on the machine as it was found, if that makes it better")),
-  view.causes && changes(page, view))];
+/** What the map says of causes, and the button that builds it without them, or again with them. */
+function usePart(page, view) {
+  const about = page.fit?.sentences.filter((sentence) => /^(Found, |Probable cause|Possible cause|What changed)/.test(sentence)) ?? [];
+  if (!view.plain && about.length === 0) return [];
+  const button = h("button", {type: "button", onclick: () => buildPlain(page, !view.plain)},
+    view.plain ? "Build the map with the causes that are found" : "Build the map without causes");
+  return [h("div", {id: "use-causes"}, changes(page, view, about), h("p", {class: "buttons"}, button))];
 }
 
-/** Before and after, with the command's own sentence on the causes. */
-function changes(page, {before}) {
-  if (!page.fit?.isOnCauses) return h("p", {class: "hint"}, "The map is built again ...");
-  const about = page.fit.sentences.filter((sentence) => /^(Found, |What changed|No single cause)/.test(sentence));
-  const isSame = before === page.fit.headline;
-  return h("div", {class: "said", role: "status"}, sentenceList([
-    before && `Before: ${before}`, isSame ? "Now: the same." : page.fit.headline && `Now: ${page.fit.headline}`, ...about].filter(Boolean)));
+/** Before and after, with the command's own sentences on the causes. */
+function changes(page, {plain, before}, about) {
+  if (page.fit?.isPlain !== plain) return h("p", {class: "hint"}, "The map is built again ...");
+  const now = before && (before === page.fit.headline ? "Now: the same." : page.fit.headline && `Now: ${page.fit.headline}`);
+  return h("div", {class: "said", role: "status"}, sentenceList([before && `Before: ${before}`, now, ...about].filter(Boolean)));
 }
 
 /** The measure step fits the readings again. */
-function useCauses(page, causes) {
-  page.store.show({causes, before: causes ? page.fit?.headline ?? null : null, sheet: fittedList(page.store.view)});
+function buildPlain(page, plain) {
+  page.store.show({plain, before: page.fit?.headline ?? null, sheet: fittedList(page.store.view)});
 }
 
 const NOISE = [["--noise-length-mm", "A chain length is good to, mm"], ["--noise-position-mm", "A place that you read is good to, mm"]];

@@ -22,6 +22,8 @@ const OPTIONS = [
   [/, and give it as distances/g, ", and type it into the box \"A taped distance\""],
   [/give it as distances/g, "type it into the box \"A taped distance\""],
   [/ \(gcode compensate\)/g, ""],
+  [/say where it is with --home X,Y/g, "type above where it is"],
+  [/; or say --accept-class if you know that it is the chain/g, ""],
   [/: chaintrue diagnose of the same belts\./g, ": the causes say it."],
   [/ or say --inches\b/g, " or choose inches above the table"],
   [/ \(chaintrue plan [^)]*\)/g, ""],

@@ -101,7 +101,7 @@ export function mayReplace(page) {
 }
 
 /** What was chosen for one machine is not for the next. */
-const NEW_VIEW = {sheet: MARKS, fitted: MARKS, way: null, causes: false, before: null, hook: false, noise: undefined, assumed: [], runs: 0, run: null};
+const NEW_VIEW = {sheet: MARKS, fitted: MARKS, way: null, plain: false, before: null, hook: false, home: null, noise: undefined, assumed: [], runs: 0, run: null};
 
 /** Replaces the whole folder by `files`, in one step. */
 export function replaceFolder(page, files, step) {

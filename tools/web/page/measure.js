@@ -128,7 +128,7 @@ function given({folder, view}) {
 }
 
 /** What the user chose about the fit. */
-const choiceWords = (view) => [...(view.causes ? ["--causes"] : []), ...wishWords(view)];
+const choiceWords = (view) => [...(view.plain ? ["--plain"] : []), ...wishWords(view)];
 
 export async function chooseWay(page, path) {
   if (!page.store.folder[path] && page.store.folder["machine.json"]) {
@@ -154,10 +154,10 @@ async function judge(page, readings, said) {
     return;
   }
   const isCheck = path === NEW_POINTS;
-  const isOnCauses = Boolean(page.store.view.causes);
+  const isPlain = Boolean(page.store.view.plain);
   const words = isCheck ? ["check", "map.json", path, "--machine", "machine.json", ...settingsWords(page.store.folder)]
     : ["fit", path, "--machine", "machine.json", "-o", "map.json", "--force", "--verbose",
-      ...choiceWords(page.store.view), ...(isOnCauses ? ownWords(page.store.folder) : []), ...hookWords(page.store)];
+      ...choiceWords(page.store.view), ...(isPlain ? [] : ownWords(page.store.folder)), ...hookWords(page.store)];
   const result = await runVerb(page, words, {quiet: true, supersede: "judge"});
   if (!result || page.store.folder[path] !== text) return;
   const sentences = sentencesOf(result);
@@ -170,7 +170,7 @@ async function judge(page, readings, said) {
     return;
   }
   const isDone = result.code === DONE;
-  page.fit = {...fitParts(sentences.map(withRows)), code: result.code, isOnCauses};
+  page.fit = {...fitParts(sentences.map(withRows)), code: result.code, isPlain};
   if (isDone) page.store.derive(result.files);
   else page.store.derive({"map.json": null, ...NO_DIAGNOSIS});
   said.className = isDone ? "said" : "said problem";
