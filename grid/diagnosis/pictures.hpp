@@ -19,12 +19,12 @@ struct PointPicture {
   model::MarkPoint mark;
   std::optional<int> order;
   bool bad = false;
-  Eigen::Vector2d before_mm;       ///< of the calibrated machine
-  Eigen::Vector2d after_mm;        ///< with the causes named
-  Eigen::Vector2d noise_sigma_mm;  ///< one sigma of the tool, along x and y
+  Eigen::Vector2d before_mm = Eigen::Vector2d::Zero();       ///< of the calibrated machine
+  Eigen::Vector2d after_mm = Eigen::Vector2d::Zero();        ///< with the causes named
+  Eigen::Vector2d noise_sigma_mm = Eigen::Vector2d::Zero();  ///< one sigma of the tool, along x and y
   /// Chain residuals [mm], measured less predicted.
-  Eigen::Vector2d chain_before_mm;
-  Eigen::Vector2d chain_after_mm;
+  Eigen::Vector2d chain_before_mm = Eigen::Vector2d::Zero();
+  Eigen::Vector2d chain_after_mm = Eigen::Vector2d::Zero();
   /// The strip: chains' residuals that the best cause and its rival explain, settings refitted.
   Eigen::Vector2d best_mm = Eigen::Vector2d::Zero();
   Eigen::Vector2d rival_mm = Eigen::Vector2d::Zero();

@@ -23,7 +23,70 @@ Json or_null(Json schema) {
   return schema;
 }
 
+class PlainMember : public Member {
+ public:
+  PlainMember(std::shared_ptr<const Codec> codec, IsEmpty empty)
+      : codec_(std::move(codec)), empty_(empty) {}
+  void read(const Cursor& at, void* member) const override { codec_->read(at, member); }
+  [[nodiscard]] std::optional<Json> write(const void* member) const override {
+    if (empty_ != nullptr && empty_(member)) return std::nullopt;
+    return codec_->write(member);
+  }
+
+ private:
+  std::shared_ptr<const Codec> codec_;
+  IsEmpty empty_;
+};
+
+class OptionalMember : public Member {
+ public:
+  OptionalMember(std::shared_ptr<const Codec> codec, const OptionalAccess& access)
+      : codec_(std::move(codec)), access_(access) {}
+  void read(const Cursor& at, void* member) const override {
+    if (!codec_->read(at, access_.emplace(member))) access_.reset(member);
+  }
+  [[nodiscard]] std::optional<Json> write(const void* member) const override {
+    const void* value = access_.value(member);
+    if (value == nullptr) return std::nullopt;
+    return codec_->write(value);
+  }
+
+ private:
+  std::shared_ptr<const Codec> codec_;
+  OptionalAccess access_;
+};
+
+class ConstantMember : public Member {
+ public:
+  explicit ConstantMember(std::string word) : word_(std::move(word)), value_(one_of({word_})) {}
+  [[nodiscard]] const Expected& expected() const { return value_.expected; }
+  void read(const Cursor& at, void*) const override { (void)value_.read(at); }
+  [[nodiscard]] std::optional<Json> write(const void*) const override { return word_; }
+
+ private:
+  std::string word_;
+  Value<std::string> value_;
+};
+
 }  // namespace
+
+class ObjectCodec : public Codec {
+ public:
+  ObjectCodec(const RecordTable& record, void (*reset)(void*))
+      : Codec(record.expected()), record_(record), reset_(reset) {}
+  bool read(const Cursor& at, void* value) const override {
+    return record_.read_fields(at, value, false, reset_);
+  }
+  [[nodiscard]] Json write(const void* value) const override { return record_.write_fields(value); }
+
+ private:
+  const RecordTable& record_;
+  void (*reset_)(void*);
+};
+
+std::shared_ptr<const Codec> object_codec(const RecordTable& record, void (*reset)(void*)) {
+  return std::make_shared<ObjectCodec>(record, reset);
+}
 
 bool RecordTable::open(const Cursor& at, bool is_root) const {
   if (!at.json().is_object()) {
@@ -53,40 +116,47 @@ bool RecordTable::open(const Cursor& at, bool is_root) const {
   return true;
 }
 
-void RecordTable::add_member(const std::string& key,
-                             bool is_required,
-                             Locate locate,
-                             std::shared_ptr<const MemberValue> value) {
-  Expected expected = value->expected();
+void RecordTable::add_plain(const std::string& key,
+                            bool is_required,
+                            std::size_t offset,
+                            std::shared_ptr<const Codec> codec,
+                            IsEmpty empty) {
+  Expected expected = codec->expected();
   add({key,
        is_required,
        std::move(expected),
-       [locate, value](const Cursor& at, void* object) { value->read(at, locate(object)); },
-       [locate, value](const void* object) {
-         // `locate` only finds the member; nothing is changed through it.
-         return value->write(locate(const_cast<void*>(object)));
-       }});
+       offset,
+       std::make_shared<PlainMember>(std::move(codec), empty)});
+}
+
+void RecordTable::add_optional(const std::string& key,
+                               std::size_t offset,
+                               std::shared_ptr<const Codec> codec,
+                               const OptionalAccess& access) {
+  Expected expected = codec->expected();
+  add({key,
+       false,
+       std::move(expected),
+       offset,
+       std::make_shared<OptionalMember>(std::move(codec), access)});
 }
 
 void RecordTable::add_defaulted(const std::string& key,
-                                Locate locate,
-                                std::shared_ptr<const MemberValue> value,
+                                std::size_t offset,
+                                std::shared_ptr<const Codec> codec,
                                 Make make) {
-  add_member(key, false, locate, value);
-  fields_.back().expected.schema = [locate, value, make] {
+  add_plain(key, false, offset, codec);
+  fields_.back().expected.schema = [offset, codec, make] {
     const std::shared_ptr<void> object = make();
-    return with_default(value->expected().schema(),
-                        value->write(locate(object.get())).value_or(Json()));
+    return with_default(codec->expected().schema(),
+                        codec->write(static_cast<const std::byte*>(object.get()) + offset));
   };
 }
 
 void RecordTable::add_constant(const std::string& key, const std::string& word) {
-  const Value<std::string> value = one_of({word});
-  add({key,
-       true,
-       value.expected,
-       [read = value.read](const Cursor& at, void*) { (void)read(at); },
-       [word](const void*) { return std::optional<Json>(word); }});
+  auto member = std::make_shared<ConstantMember>(word);
+  Expected expected = member->expected();
+  add({key, true, std::move(expected), 0, std::move(member)});
 }
 
 Expected RecordTable::expected() const {
@@ -158,8 +228,12 @@ std::vector<std::string> RecordTable::keys() const {
   return keys;
 }
 
-bool RecordTable::read_fields(const Cursor& at, void* object, bool is_root) const {
+bool RecordTable::read_fields(const Cursor& at,
+                              void* object,
+                              bool is_root,
+                              void (*reset)(void*)) const {
   if (!open(at, is_root)) return false;
+  if (reset != nullptr) reset(object);
   const std::vector<std::string> probably_meant = report_unknown_keys(at);
   for (const Field& field : fields_) {
     const Cursor child = at.child(field.key);
@@ -169,7 +243,7 @@ bool RecordTable::read_fields(const Cursor& at, void* object, bool is_root) cons
       if (field.is_required && !misspelt) child.missing(field.expected);
       continue;
     }
-    field.read(child, object);
+    field.member->read(child, static_cast<std::byte*>(object) + field.offset);
   }
   for (const Check& check : checks_) check(at, object);
   return true;
@@ -178,7 +252,8 @@ bool RecordTable::read_fields(const Cursor& at, void* object, bool is_root) cons
 Json RecordTable::write_fields(const void* object) const {
   Json json = format_ != nullptr ? headed(*format_) : Json::object();
   for (const Field& field : fields_) {
-    if (auto value = field.write(object)) json[field.key] = std::move(*value);
+    const void* member = static_cast<const std::byte*>(object) + field.offset;
+    if (auto value = field.member->write(member)) json[field.key] = std::move(*value);
   }
   return json;
 }

@@ -52,6 +52,7 @@
 /// "comment" is allowed in every object and not kept.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -64,66 +65,32 @@
 
 namespace chaintrue::grid::files {
 
-/// Reads the values of one field into a member and writes them from it, independent of the object's
-/// type. Code shared by the formats' tables is instantiated once for each type of value, not once
-/// for each field: that dominated the compile time of grid/files.
-class MemberValue {
+/// How a field reaches its member, at an offset from its object. Not a type for each member, since
+/// that dominated the compile time of grid/files.
+class Member {
  public:
-  explicit MemberValue(Expected in_words) : expected_(std::move(in_words)) {}
-  virtual ~MemberValue() = default;
-  MemberValue(const MemberValue&) = delete;
-  MemberValue& operator=(const MemberValue&) = delete;
-
-  [[nodiscard]] const Expected& expected() const { return expected_; }
-  /// A wrong value is reported and leaves a plain member unchanged.
+  virtual ~Member() = default;
+  /// A wrong value is reported.
   virtual void read(const Cursor& at, void* member) const = 0;
   /// Empty if the key is to be left out.
   [[nodiscard]] virtual std::optional<Json> write(const void* member) const = 0;
-
- private:
-  Expected expected_;
 };
 
+/// What a table does with a member whose type it does not know; null functions for a plain one.
+struct OptionalAccess {
+  void* (*emplace)(void* member);
+  void (*reset)(void* member);
+  const void* (*value)(const void* member);  ///< null if it is empty
+};
 template <class V>
-class PlainMember : public MemberValue {
- public:
-  explicit PlainMember(Value<V> value) : MemberValue(value.expected), value_(std::move(value)) {}
-  void read(const Cursor& at, void* member) const override {
-    if (auto found = value_.read(at)) *static_cast<V*>(member) = std::move(*found);
-  }
-  [[nodiscard]] std::optional<Json> write(const void* member) const override {
-    return value_.write(*static_cast<const V*>(member));
-  }
-
- private:
-  Value<V> value_;
-};
-
-template <class V>
-class OptionalMember : public MemberValue {
- public:
-  explicit OptionalMember(Value<V> value) : MemberValue(value.expected), value_(std::move(value)) {}
-  void read(const Cursor& at, void* member) const override {
-    *static_cast<std::optional<V>*>(member) = value_.read(at);
-  }
-  [[nodiscard]] std::optional<Json> write(const void* member) const override {
-    const auto& own = *static_cast<const std::optional<V>*>(member);
-    return own ? std::optional<Json>(value_.write(*own)) : std::nullopt;
-  }
-
- private:
-  Value<V> value_;
-};
-
-template <class V>
-class SparseMember : public PlainMember<V> {
- public:
-  using PlainMember<V>::PlainMember;
-  [[nodiscard]] std::optional<Json> write(const void* member) const override {
-    if (static_cast<const V*>(member)->empty()) return std::nullopt;
-    return PlainMember<V>::write(member);
-  }
-};
+inline constexpr OptionalAccess kOptionalAccess = {
+    [](void* member) -> void* { return &static_cast<std::optional<V>*>(member)->emplace(); },
+    [](void* member) { static_cast<std::optional<V>*>(member)->reset(); },
+    [](const void* member) -> const void* {
+      const auto& own = *static_cast<const std::optional<V>*>(member);
+      return own ? &*own : nullptr;
+    }};
+using IsEmpty = bool (*)(const void* member);
 
 /// The part of a record that does not depend on the object's type: its keys and its fields. Objects
 /// are passed by address; Record has their type.
@@ -139,34 +106,40 @@ class RecordTable {
   [[nodiscard]] Json schema() const;
 
  protected:
-  /// Maps an object to its member.
-  using Locate = std::function<void*(void*)>;
-  /// Makes a new default object.
-  using Make = std::shared_ptr<void> (*)();
   struct Field {
     std::string key;
     bool is_required = false;
     Expected expected;
-    std::function<void(const Cursor&, void*)> read;
-    std::function<std::optional<Json>(const void*)> write;
+    std::size_t offset = 0;  ///< of the member in its object
+    std::shared_ptr<const Member> member;
   };
   using Check = std::function<void(const Cursor&, void*)>;
+  /// Makes a new default object.
+  using Make = std::shared_ptr<void> (*)();
 
   void add(Field field) { fields_.push_back(std::move(field)); }
-  void add_member(const std::string& key,
-                  bool is_required,
-                  Locate locate,
-                  std::shared_ptr<const MemberValue> value);
+  /// A plain member; left out where it is empty if `empty` is not null.
+  void add_plain(const std::string& key,
+                 bool is_required,
+                 std::size_t offset,
+                 std::shared_ptr<const Codec> codec,
+                 IsEmpty empty = nullptr);
+  void add_optional(const std::string& key,
+                    std::size_t offset,
+                    std::shared_ptr<const Codec> codec,
+                    const OptionalAccess& access);
   /// An optional field with a default, which becomes part of the schema.
   void add_defaulted(const std::string& key,
-                     Locate locate,
-                     std::shared_ptr<const MemberValue> value,
+                     std::size_t offset,
+                     std::shared_ptr<const Codec> codec,
                      Make make);
   void add_constant(const std::string& key, const std::string& word);
   void add_check(Check check) { checks_.push_back(std::move(check)); }
   void add_rule(Json rule) { rules_.push_back(std::move(rule)); }
 
-  bool read_fields(const Cursor& at, void* object, bool is_root) const;
+  friend class ObjectCodec;
+  /// `reset`, where it is not null, makes the object a default one once it is known to be an object.
+  bool read_fields(const Cursor& at, void* object, bool is_root, void (*reset)(void*) = nullptr) const;
   [[nodiscard]] Json write_fields(const void* object) const;
 
  private:
@@ -195,26 +168,28 @@ class Record : public RecordTable {
   Record(std::string noun, const Format& format) : RecordTable(std::move(noun), &format) {}
 
   template <class V>
-  Record& required(const std::string& key, V T::*member, Value<V> value) {
-    add_member(key, true, locate(member), std::make_shared<PlainMember<V>>(std::move(value)));
+  Record& required(const std::string& key, V T::*member, const Value<V>& value) {
+    add_plain(key, true, offset(member), value.codec);
     return *this;
   }
 
   template <class V>
-  Record& optional(const std::string& key, V T::*member, Value<V> value) {
-    add_defaulted(key, locate(member), std::make_shared<PlainMember<V>>(std::move(value)), &make);
+  Record& optional(const std::string& key, V T::*member, const Value<V>& value) {
+    add_defaulted(key, offset(member), value.codec, &make);
     return *this;
   }
 
   template <class V>
-  Record& optional(const std::string& key, std::optional<V> T::*member, Value<V> value) {
-    add_member(key, false, locate(member), std::make_shared<OptionalMember<V>>(std::move(value)));
+  Record& optional(const std::string& key, std::optional<V> T::*member, const Value<V>& value) {
+    add_optional(key, offset(member), value.codec, kOptionalAccess<V>);
     return *this;
   }
 
   template <class V>
-  Record& sparse(const std::string& key, V T::*member, Value<V> value) {
-    add_member(key, false, locate(member), std::make_shared<SparseMember<V>>(std::move(value)));
+  Record& sparse(const std::string& key, V T::*member, const Value<V>& value) {
+    add_plain(key, false, offset(member), value.codec, [](const void* own) {
+      return static_cast<const V*>(own)->empty();
+    });
     return *this;
   }
 
@@ -227,12 +202,8 @@ class Record : public RecordTable {
     add({key,
          is_required,
          std::move(expected),
-         [own = std::move(read)](const Cursor& at, void* object) {
-           own(at, *static_cast<T*>(object));
-         },
-         [own = std::move(write)](const void* object) {
-           return own(*static_cast<const T*>(object));
-         }});
+         0,
+         std::make_shared<CustomMember>(std::move(read), std::move(write))});
     return *this;
   }
 
@@ -271,19 +242,40 @@ class Record : public RecordTable {
   [[nodiscard]] Json write(const T& object) const { return write_fields(&object); }
 
  private:
+  class CustomMember : public Member {
+   public:
+    CustomMember(std::function<void(const Cursor&, T&)> read,
+                 std::function<std::optional<Json>(const T&)> write)
+        : read_(std::move(read)), write_(std::move(write)) {}
+    void read(const Cursor& at, void* object) const override { read_(at, *static_cast<T*>(object)); }
+    [[nodiscard]] std::optional<Json> write(const void* object) const override {
+      return write_(*static_cast<const T*>(object));
+    }
+
+   private:
+    std::function<void(const Cursor&, T&)> read_;
+    std::function<std::optional<Json>(const T&)> write_;
+  };
+
   template <class M>
-  static Locate locate(M T::*member) {
-    return [member](void* object) -> void* { return &(static_cast<T*>(object)->*member); };
+  static std::size_t offset(M T::*member) {
+    const T& object = sample();
+    return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(object.*member)) -
+                                    reinterpret_cast<const std::byte*>(&object));
+  }
+  static const T& sample() {
+    static const T object{};
+    return object;
   }
   static std::shared_ptr<void> make() { return std::make_shared<T>(); }
 };
 
+[[nodiscard]] std::shared_ptr<const Codec> object_codec(const RecordTable& record, void (*reset)(void*));
+
 /// The record must outlive the value: records are static.
 template <class T>
 [[nodiscard]] Value<T> object(const Record<T>& record) {
-  return {[&record](const Cursor& at) { return record.read(at); },
-          [&record](const T& value) { return record.write(value); },
-          record.expected()};
+  return Value<T>(object_codec(record, [](void* value) { *static_cast<T*>(value) = T{}; }));
 }
 
 /// `problems` has the file's name and receives the warnings. \throws InputError with every problem

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/json_value.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace chaintrue::grid::files {
 namespace {
@@ -22,6 +25,104 @@ std::string shown(const Json& value) {
       value.is_string() && is_beyond_double(value.get_ref<const std::string&>());
   return as_it_stands ? value.get<std::string>() : compact_json(value);
 }
+
+std::string quoted_choice(const std::vector<std::string>& names) {
+  std::vector<std::string> quoted;
+  for (const std::string& name : names) quoted.push_back(fmt::format("\"{}\"", name));
+  return quoted.size() == 1 ? quoted[0] : "one of " + joined(quoted);
+}
+
+/// The word if it is one of `names`; otherwise reports what it is nearest to.
+std::optional<std::string> word_among(const Cursor& at,
+                                      const std::vector<std::string>& names,
+                                      const std::string& expected) {
+  if (!at.json().is_string()) {
+    at.expect(expected);
+    return std::nullopt;
+  }
+  const auto& word = at.json().get_ref<const std::string&>();
+  if (std::find(names.begin(), names.end(), word) != names.end()) return word;
+  const std::string meant = nearest(word, names);
+  at.expect(meant.empty() ? expected : fmt::format("{}; \"{}\" is the nearest", expected, meant),
+            ProblemKind::unknown_word);
+  return std::nullopt;
+}
+
+Expected expected_word(const std::vector<std::string>& names) {
+  return {quoted_choice(names), [names] { return Json{{"enum", names}}; }};
+}
+
+std::vector<std::string> words_of(const std::vector<NamedBytes>& names) {
+  std::vector<std::string> words;
+  for (const NamedBytes& known : names) words.push_back(known.name);
+  return words;
+}
+
+class ChoiceCodec : public Codec {
+ public:
+  ChoiceCodec(std::vector<NamedBytes> names, std::size_t size)
+      : Codec(expected_word(words_of(names))), names_(std::move(names)), size_(size) {}
+
+  bool read(const Cursor& at, void* value) const override {
+    const auto word = word_among(at, words_of(names_), expected().words);
+    if (!word) return false;
+    const auto known = std::find_if(
+        names_.begin(), names_.end(), [&](const NamedBytes& own) { return own.name == *word; });
+    std::memcpy(value, known->value.data(), size_);
+    return true;
+  }
+  [[nodiscard]] Json write(const void* value) const override {
+    for (const NamedBytes& known : names_) {
+      if (std::memcmp(known.value.data(), value, size_) == 0) return known.name;
+    }
+    throw std::logic_error("a JSON writer was given a value without a name");
+  }
+
+ private:
+  std::vector<NamedBytes> names_;
+  std::size_t size_;
+};
+
+std::string expected_list(const Codec& element, std::size_t fewest) {
+  const std::string& each = element.expected().words;
+  if (fewest == 0) return fmt::format("a list, each element {}", each);
+  return fmt::format("a list of at least {}, each element {}", fewest, each);
+}
+
+class ListCodec : public Codec {
+ public:
+  ListCodec(std::shared_ptr<const Codec> element, const ListAccess& access, std::size_t fewest)
+      : Codec({expected_list(*element, fewest),
+               [element, fewest] { return list_schema(element->expected().schema(), fewest); }}),
+        element_(std::move(element)),
+        access_(access),
+        fewest_(fewest) {}
+
+  bool read(const Cursor& at, void* list) const override {
+    if (!at.json().is_array()) {
+      at.expect(expected().words);
+      return false;
+    }
+    access_.clear(list);
+    const std::size_t count = at.json().size();
+    // An element that was wrong and reported keeps its index, so that later indices are right.
+    for (std::size_t i = 0; i < count; ++i) element_->read(at.element(i), access_.append(list));
+    if (count < fewest_)
+      at.problems().add(at.pointer(), fmt::format("{} of them", count), expected().words);
+    return true;
+  }
+  [[nodiscard]] Json write(const void* list) const override {
+    Json array = Json::array();
+    for (std::size_t i = 0; i < access_.size(list); ++i)
+      array.push_back(element_->write(access_.element(list, i)));
+    return array;
+  }
+
+ private:
+  std::shared_ptr<const Codec> element_;
+  ListAccess access_;
+  std::size_t fewest_;
+};
 
 }  // namespace
 
@@ -119,27 +220,50 @@ Value<std::string> text() {
            }}};
 }
 
-Value<std::string> one_of(std::vector<std::string> names) {
-  std::vector<std::string> quoted;
-  for (const std::string& name : names) quoted.push_back(fmt::format("\"{}\"", name));
-  const std::string expected = quoted.size() == 1 ? quoted[0] : "one of " + joined(quoted);
-  return {[names, expected](const Cursor& at) -> std::optional<std::string> {
-            if (at.json().is_string()) {
-              const auto& word = at.json().get_ref<const std::string&>();
-              if (std::find(names.begin(), names.end(), word) != names.end()) return word;
-              const std::string meant = nearest(word, names);
-              at.expect(meant.empty() ? expected
-                                      : fmt::format("{}; \"{}\" is the nearest", expected, meant),
-                        ProblemKind::unknown_word);
-            } else {
-              at.expect(expected);
-            }
-            return std::nullopt;
-          },
+Value<std::string> one_of(const std::vector<std::string>& names) {
+  const Expected expected = expected_word(names);
+  return {[names, expected](const Cursor& at) { return word_among(at, names, expected.words); },
           [](const std::string& value) { return Json(value); },
-          {expected, [names] {
-             return Json{{"enum", names}};
-           }}};
+          expected};
+}
+
+std::shared_ptr<const Codec> choice_codec(std::vector<NamedBytes> names, std::size_t size) {
+  return std::make_shared<ChoiceCodec>(std::move(names), size);
+}
+
+std::shared_ptr<const Codec> list_codec(std::shared_ptr<const Codec> element,
+                                        const ListAccess& access,
+                                        std::size_t fewest) {
+  return std::make_shared<ListCodec>(std::move(element), access, fewest);
+}
+
+Json dictionary_schema(const Json& element) {
+  return {{"type", "object"},
+          {"properties", {{"comment", {{"description", "Anything; not read."}}}}},
+          {"additionalProperties", element}};
+}
+
+Value<std::map<std::string, double>> dictionary(const Value<double>& element) {
+  using Numbers = std::map<std::string, double>;
+  const std::string expected = fmt::format("an object, each value {}", element.expected.words);
+  return {[element, expected](const Cursor& at) -> std::optional<Numbers> {
+            if (!at.json().is_object()) {
+              at.expect(expected);
+              return std::nullopt;
+            }
+            Numbers values;
+            for (const auto& [key, unused] : at.json().items()) {
+              if (key == "comment") continue;
+              if (const auto value = element.read(at.child(key))) values.emplace(key, *value);
+            }
+            return values;
+          },
+          [element](const Numbers& values) {
+            Json object = Json::object();
+            for (const auto& [key, value] : values) object[key] = element.write(value);
+            return object;
+          },
+          {expected, [element] { return dictionary_schema(element.expected.schema()); }}};
 }
 
 Json with_default(Json schema, const Json& value) {
@@ -163,12 +287,6 @@ Json list_schema(const Json& element, std::size_t fewest) {
   Json schema = {{"type", "array"}, {"items", element}};
   if (fewest > 0) schema["minItems"] = fewest;
   return schema;
-}
-
-Json dictionary_schema(const Json& element) {
-  return {{"type", "object"},
-          {"properties", {{"comment", {{"description", "Anything; not read."}}}}},
-          {"additionalProperties", element}};
 }
 
 }  // namespace chaintrue::grid::files

@@ -5,14 +5,16 @@
 /// Private to grid/files.
 #pragma once
 
-#include <fmt/format.h>
-
+#include <array>
+#include <cstddef>
+#include <cstring>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -78,11 +80,60 @@ struct Expected {
   std::function<Json()> schema = [] { return Json::object(); };
 };
 
-/// How one value is read and written, and what is expected.
+/// How values of one type are read into memory and written from it. The tables of a format hold these,
+/// so that their code is compiled once and not for each type of value.
+class Codec {
+ public:
+  explicit Codec(Expected expected) : expected_(std::move(expected)) {}
+  virtual ~Codec() = default;
+  Codec(const Codec&) = delete;
+  Codec& operator=(const Codec&) = delete;
+
+  [[nodiscard]] const Expected& expected() const { return expected_; }
+  /// False, and reported, if the value is wrong; the memory is then unchanged.
+  virtual bool read(const Cursor& at, void* value) const = 0;
+  [[nodiscard]] virtual Json write(const void* value) const = 0;
+
+ private:
+  Expected expected_;
+};
+
+/// A codec of two functions.
+template <class V>
+class FunctionCodec : public Codec {
+ public:
+  using Read = std::function<std::optional<V>(const Cursor&)>;
+  using Write = std::function<Json(const V&)>;
+  FunctionCodec(Read read, Write write, Expected expected)
+      : Codec(std::move(expected)), read_(std::move(read)), write_(std::move(write)) {}
+  bool read(const Cursor& at, void* value) const override {
+    std::optional<V> result = read_(at);
+    if (result) *static_cast<V*>(value) = std::move(*result);
+    return result.has_value();
+  }
+  [[nodiscard]] Json write(const void* value) const override {
+    return write_(*static_cast<const V*>(value));
+  }
+
+ private:
+  Read read_;
+  Write write_;
+};
+
+/// The codec of values of this type, and what is expected of them; `expected` may be replaced.
 template <class V>
 struct Value {
-  std::function<std::optional<V>(const Cursor&)> read;
-  std::function<Json(const V&)> write;
+  explicit Value(std::shared_ptr<const Codec> own) : codec(std::move(own)), expected(codec->expected()) {}
+  Value(typename FunctionCodec<V>::Read read, typename FunctionCodec<V>::Write write, Expected in_words)
+      : Value(std::make_shared<FunctionCodec<V>>(std::move(read), std::move(write), std::move(in_words))) {}
+
+  [[nodiscard]] std::optional<V> read(const Cursor& at) const {
+    V value{};
+    return codec->read(at, &value) ? std::optional<V>(std::move(value)) : std::nullopt;
+  }
+  [[nodiscard]] Json write(const V& value) const { return codec->write(&value); }
+
+  std::shared_ptr<const Codec> codec;
   Expected expected;
 };
 
@@ -96,90 +147,56 @@ struct Value {
 [[nodiscard]] Value<int> integer(int least, int most);
 [[nodiscard]] Value<bool> boolean();
 [[nodiscard]] Value<std::string> text();
-[[nodiscard]] Value<std::string> one_of(std::vector<std::string> names);
+[[nodiscard]] Value<std::string> one_of(const std::vector<std::string>& names);
 
-/// An enum by its names in files.
+/// Names of values of a type of up to eight bytes that is copied as bytes are.
+struct NamedBytes {
+  std::string name;
+  std::array<std::byte, 8> value{};
+};
+[[nodiscard]] std::shared_ptr<const Codec> choice_codec(std::vector<NamedBytes> names, std::size_t size);
+
+/// A value by its name, such as an enum.
 template <class E>
-[[nodiscard]] Value<E> choice(std::vector<std::pair<std::string, E>> names) {
-  std::vector<std::string> words;
-  for (const auto& [name, value] : names) words.push_back(name);
-  const Value<std::string> word = one_of(words);
-  return {[names, word](const Cursor& at) -> std::optional<E> {
-            const auto found = word.read(at);
-            for (const auto& [name, value] : names) {
-              if (found == name) return value;
-            }
-            return std::nullopt;
-          },
-          [names](const E& wanted) -> Json {
-            for (const auto& [name, value] : names) {
-              if (value == wanted) return name;
-            }
-            throw std::logic_error("a JSON writer was given a value without a name");
-          },
-          word.expected};
+[[nodiscard]] Value<E> choice(const std::vector<std::pair<std::string, E>>& names) {
+  static_assert(std::is_trivially_copyable_v<E> && sizeof(E) <= sizeof(NamedBytes::value));
+  std::vector<NamedBytes> all;
+  for (const auto& [name, value] : names) std::memcpy(all.emplace_back(NamedBytes{name}).value.data(), &value, sizeof(E));
+  return Value<E>(choice_codec(std::move(all), sizeof(E)));
 }
+
+/// What a codec does with a list whose type it does not know.
+struct ListAccess {
+  void (*clear)(void* list);
+  void* (*append)(void* list);
+  std::size_t (*size)(const void* list);
+  const void* (*element)(const void* list, std::size_t index);
+};
+template <class V>
+inline constexpr ListAccess kListAccess = {
+    [](void* list) { static_cast<std::vector<V>*>(list)->clear(); },
+    [](void* list) -> void* { return &static_cast<std::vector<V>*>(list)->emplace_back(); },
+    [](const void* list) { return static_cast<const std::vector<V>*>(list)->size(); },
+    [](const void* list, std::size_t index) -> const void* {
+      return static_cast<const std::vector<V>*>(list)->data() + index;
+    }};
+[[nodiscard]] std::shared_ptr<const Codec> list_codec(std::shared_ptr<const Codec> element,
+                                                      const ListAccess& access,
+                                                      std::size_t fewest);
 
 /// Schema of a list of such elements.
 [[nodiscard]] Json list_schema(const Json& element, std::size_t fewest);
-/// Schema of an object whose keys are not known in advance.
-[[nodiscard]] Json dictionary_schema(const Json& element);
 
 /// `fewest` elements at least.
 template <class V>
-[[nodiscard]] Value<std::vector<V>> list(Value<V> element, std::size_t fewest = 0) {
-  const std::string expected =
-      fewest == 0
-          ? fmt::format("a list, each element {}", element.expected.words)
-          : fmt::format("a list of at least {}, each element {}", fewest, element.expected.words);
-  return {[element, fewest, expected](const Cursor& at) -> std::optional<std::vector<V>> {
-            if (!at.json().is_array()) {
-              at.expect(expected);
-              return std::nullopt;
-            }
-            std::vector<V> values;
-            values.reserve(at.json().size());
-            for (std::size_t i = 0; i < at.json().size(); ++i) {
-              auto value = element.read(at.element(i));
-              // A value that was wrong and reported keeps its index, so that later indices are
-              // right.
-              values.push_back(value ? std::move(*value) : V{});
-            }
-            if (values.size() < fewest) {
-              at.problems().add(at.pointer(), fmt::format("{} of them", values.size()), expected);
-            }
-            return values;
-          },
-          [element](const std::vector<V>& values) {
-            Json array = Json::array();
-            for (const V& value : values) array.push_back(element.write(value));
-            return array;
-          },
-          {expected, [element, fewest] { return list_schema(element.expected.schema(), fewest); }}};
+[[nodiscard]] Value<std::vector<V>> list(const Value<V>& element, std::size_t fewest = 0) {
+  return Value<std::vector<V>>(list_codec(element.codec, kListAccess<V>, fewest));
 }
 
-/// Keys that are not known in advance.
-template <class V>
-[[nodiscard]] Value<std::map<std::string, V>> dictionary(Value<V> element) {
-  const std::string expected = fmt::format("an object, each value {}", element.expected.words);
-  return {[element, expected](const Cursor& at) -> std::optional<std::map<std::string, V>> {
-            if (!at.json().is_object()) {
-              at.expect(expected);
-              return std::nullopt;
-            }
-            std::map<std::string, V> values;
-            for (const auto& [key, unused] : at.json().items()) {
-              if (key == "comment") continue;
-              if (auto value = element.read(at.child(key))) values.emplace(key, std::move(*value));
-            }
-            return values;
-          },
-          [element](const std::map<std::string, V>& values) {
-            Json object = Json::object();
-            for (const auto& [key, value] : values) object[key] = element.write(value);
-            return object;
-          },
-          {expected, [element] { return dictionary_schema(element.expected.schema()); }}};
-}
+/// Schema of an object whose keys are not known in advance.
+[[nodiscard]] Json dictionary_schema(const Json& element);
+
+/// Numbers whose keys are not known in advance.
+[[nodiscard]] Value<std::map<std::string, double>> dictionary(const Value<double>& element);
 
 }  // namespace chaintrue::grid::files

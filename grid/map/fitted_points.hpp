@@ -19,9 +19,9 @@ struct FittedPoint {
   bool bad = false;
   double distance = 0.0;  ///< of the left-out residual, in sigmas
   /// Measured minus predicted, in the chains.
-  Eigen::Vector2d residual_mm;           ///< of the finished map
-  Eigen::Vector2d left_out_residual_mm;  ///< of a map made without this point
-  Eigen::Vector2d blocked_residual_mm;   ///< of a map made without its part of the bed
+  Eigen::Vector2d residual_mm = Eigen::Vector2d::Zero();           ///< of the finished map
+  Eigen::Vector2d left_out_residual_mm = Eigen::Vector2d::Zero();  ///< of a map made without this point
+  Eigen::Vector2d blocked_residual_mm = Eigen::Vector2d::Zero();   ///< of a map made without its part of the bed
   Eigen::Matrix2d mark_jacobian;         ///< d(lengths)/d(mark)
 };
 
