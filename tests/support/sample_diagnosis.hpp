@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// A diagnosis like that of a 7 x 4 grid, from made-up numbers: every list has an entry, every
-/// optional part is present.
+/// optional part is present (fixtures/good/diagnosis_sample.json).
 #pragma once
 
 #include "grid/diagnosis/diagnosis.hpp"
