@@ -3,8 +3,11 @@
 /// Every effect, on every side, is unchanged after writing and reading a machine file.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "grid/files/machine_file.hpp"
 #include "model/effects/catalogue.hpp"
+#include "model/reading_model.hpp"
 #include "tests/contracts/declared_examples.hpp"
 
 namespace chaintrue::model::effects {
@@ -36,18 +39,14 @@ TEST(EffectFileContract, EveryEffectComesBackFromAMachineFile) {
   }
 }
 
-TEST(EffectFileContract, ProblemsAreReportedWithTheirPlaceInTheFile) {
+// Bad effects in files are in tests/cli/cases/machine_files.cases.
+TEST(EffectsOfAMachine, AreABrokenPreconditionWhereTheyCannotBe) {
   Machine machine;
-  machine.effects = {{"drift", "x", {{"rate_mm_per_visit", 0.01}}}};
-  try {
-    static_cast<void>(
-        grid::files::parse_machine(grid::files::write_machine(machine), "machine.json"));
-    FAIL() << "accepted";
-  } catch (const grid::files::InputError& error) {
-    ASSERT_EQ(error.problems().size(), 1U);
-    EXPECT_EQ(error.problems()[0].message(),
-              "machine.json: /effects/0/side: found x, expected \"left\", \"right\" or \"both\"");
-  }
+  machine.effects = {{"side_pull", "", {{"force_n", std::numeric_limits<double>::quiet_NaN()}}}};
+  EXPECT_THROW(ReadingModel{machine}, std::invalid_argument);
+  machine.effects = {{"chain_rust", "", {}}};
+  EXPECT_THROW(ReadingModel{machine}, std::invalid_argument);
+  EXPECT_THROW(MarkFrame{machine}, std::invalid_argument);
 }
 
 }  // namespace
