@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Belts that stretch when they are pulled, and holes, in one fit: the stretch is found with the
 // anchors, which it no longer bends.
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "grid/diagnosis/anchors_with_causes.hpp"
-#include "grid/files/belts_file.hpp"
-#include "grid/files/holes_file.hpp"
 #include "model/belts/belt_kinematics.hpp"
 #include "model/belts/belt_statics.hpp"
 #include "tests/belts/holes_simulation.hpp"
-#include "tests/cli/command_fixture.hpp"
 
 namespace chaintrue::grid::stretch_with_holes {
 namespace {
-
-using testing::HasSubstr;
-using testing_support::Outcome;
 
 constexpr double kStretch = 0.002;
 
@@ -56,22 +50,6 @@ TEST(StretchWithHoles, FitFindsTheStretchAndTheUnstretchedFrame) {
   // Four sigmas: one seed in 16 000.
   EXPECT_NEAR(found.parameters.at("elongation"), kStretch, 4.0 * found.sigma) << "seed 1";
   EXPECT_LT(off_mm(truth, counted->belts), 0.7 * off_mm(truth, alone->belts)) << "seed 1";
-}
-
-class StretchCommands : public testing_support::CommandFixture {};
-
-TEST_F(StretchCommands, FitWithHolesSaysTheStretch) {
-  const SimulatedHoles truth = stretched(3);
-  write("belts.json", files::write_belts(truth.belts));
-  write("holes.json", files::write_holes(truth.holes.set, truth.holes.machine));
-  const Outcome fit = run("fit belts.json --with holes.json -o anchors.json");
-  ASSERT_EQ(fit.code, 0) << fit.err;
-  EXPECT_THAT(fit.err, HasSubstr(" % longer than they count, and these anchors go with that."));
-  const std::string anchors = testing_support::content_of(folder_ / "anchors.json");
-  EXPECT_THAT(anchors, HasSubstr("\"effect\": \"belt_stretch\""));
-  EXPECT_THAT(anchors, HasSubstr("\"holes\""));
-  // Its own readings agree with it.
-  EXPECT_EQ(run("check anchors.json belts.json").code, 0);
 }
 
 }  // namespace

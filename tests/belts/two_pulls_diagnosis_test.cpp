@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sessions in which belts were pulled to two forces: what gives with the pull parts from what does not.
+// Sessions in which belts were pulled to two forces: how they are simulated, and that what gives with the
+// pull parts from what does not.
 #include <gmock/gmock.h>
 
 #include <optional>
@@ -20,6 +21,25 @@ using testing_support::Outcome;
 
 using two_pulls::kHarder;
 using two_pulls::measured;
+
+TEST(TwoPulls, APassHasItsPullAndVisitsAreNumberedOn) {
+  const MeasuredBelts belts =
+      measured({{"belt_stretch", "", {{"elongation", 0.004}}}}, {1.0, kHarder}, 0.0, 1);
+  ASSERT_EQ(belts.points.size(), 84U);
+  EXPECT_EQ(different_pulls(belts), (std::vector<double>{1.0, kHarder}));
+  for (std::size_t k = 0; k < 42; ++k) {
+    const BeltPoint& first = belts.points[k];
+    const BeltPoint& second = belts.points[k + 42];
+    EXPECT_EQ(*second.order, static_cast<int>(k) + 42);
+    // A belt that holds carries more as well: 0.6 of 0.4 % times its own tension, less the weight's part.
+    EXPECT_LT(second.lengths_mm.tl, first.lengths_mm.tl);
+    EXPECT_LT(second.lengths_mm.tr, first.lengths_mm.tr);
+    // Level spans of belts with arm and heights: 0.6 of 0.4 % of the belt, to a twentieth.
+    const double shorter = first.lengths_mm.bl - second.lengths_mm.bl;
+    const double belt_mm = first.lengths_mm.bl - 153.4;
+    EXPECT_NEAR(shorter, 0.6 * 0.004 * belt_mm, 0.05 * 0.6 * 0.004 * belt_mm);
+  }
+}
 
 TEST(TwoPulls, WhatOnePullLeavesOpenTwoName) {
   // Weak enough that other anchors, a belt's scale or the stretch do nearly the same.
