@@ -53,29 +53,6 @@ Pose pose_at(const EquilibriumParameters& parameters, BedPoint p) {
   return pose.value_or(Pose{});
 }
 
-TEST(Catalogue, HasTheSixteenEffectsInTheOrderInWhichTheyAct) {
-  std::vector<std::string_view> ids;
-  for (const effects::Effect* effect : effects::catalogue()) ids.push_back(effect->id);
-  EXPECT_THAT(ids,
-              ElementsAre("tape_scale",
-                          "axes_skew",
-                          "ring_radius",
-                          "sprocket_radius",
-                          "chain_sag",
-                          "chain_stretch",
-                          "beam_flex",
-                          "side_pull",
-                          "chain_plane_offset",
-                          "sprocket_eccentricity",
-                          "angular_kink",
-                          "direction_hysteresis",
-                          "chain_pitch_error",
-                          "drift",
-                          "tooth_skip",
-                          "link_miscount",
-                          "zero_shift"));
-}
-
 TEST(MarkFrame, ScalesAndSkewsWhatIsWritten) {
   const MarkFrame x_long(machine_with({{"tape_scale", "x", {{"scale", 0.001}}}}));
   EXPECT_NEAR(x_long.written({1000.0, 500.0}).x_mm, 1001.0, kRoundingMm);
@@ -97,13 +74,6 @@ TEST(MarkFrame, ScalesBeforeItSkews) {
   const MarkPoint back = mark_frame.place(written);
   EXPECT_NEAR(back.x_mm, 1000.0, kRoundingMm);
   EXPECT_NEAR(back.y_mm, 500.0, kRoundingMm);
-}
-
-TEST(MarkFrame, LeavesTheReadingsAlone) {
-  const auto plain = read(Machine{}, visits_of(kPlaces));
-  const auto taped =
-      read(machine_with({{"tape_scale", "both", {{"scale", 0.01}}}}), visits_of(kPlaces));
-  for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_EQ(plain[i].left_mm, taped[i].left_mm);
 }
 
 TEST(MachineEffects, AddToTheMachinesOwnNumbers) {
@@ -261,46 +231,6 @@ TEST(Readings, RefuseTwoVisitsOfOneNumber) {
   EXPECT_THROW(
       static_cast<void>(readings(model, std::vector<Visit>{{{0.0, 0.0}, 1}, {{10.0, 0.0}, 1}})),
       std::invalid_argument);
-}
-
-TEST(Readings, NameTheVisitThatCannotBeReached) {
-  const auto result =
-      readings(ReadingModel{Machine{}}, std::vector<Visit>{{{0.0, 0.0}, 0}, {{0.0, 2000.0}, 1}});
-  ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().place, 1U);
-  EXPECT_EQ(result.error().reason, PoseReason::above_sprockets);
-}
-
-TEST(Readings, AgreeWithTheRepeatablePartWhereNothingDependsOnTheVisit) {
-  Machine machine =
-      machine_with({{"chain_pitch_error", "left", {{"elongation", 0.001}}},
-                    {"angular_kink", "right", {{"slope_mm_per_rad", 4.0}, {"knee_rad", 0.6}}},
-                    {"chain_plane_offset", "", {{"distance_mm", 30.0}}}});
-  machine.chain_zero = {3.0, 4.0};
-  const ReadingModel model(machine);
-  const auto lengths = read(machine, visits_of(kPlaces));
-  for (std::size_t i = 0; i < kPlaces.size(); ++i) {
-    const auto reading = model.at(kPlaces[i]);
-    ASSERT_TRUE(reading);
-    EXPECT_NEAR(reading->lengths.left_mm, lengths[i].left_mm, kRoundingMm);
-    EXPECT_NEAR(reading->lengths.right_mm, lengths[i].right_mm, kRoundingMm);
-  }
-}
-
-TEST(ReadingModel, FindsThePointOfItsOwnReading) {
-  const ReadingModel model(machine_with(
-      {{"chain_pitch_error", "both", {{"elongation", 0.002}}},
-       {"beam_flex", "", {{"flexibility_mm_per_n", 0.01}}},
-       {"sprocket_eccentricity", "left", {{"amplitude_mm", 0.3}, {"phase_rad", 1.0}}}}));
-  for (const BedPoint p : kPlaces) {
-    const auto reading = model.at(p);
-    ASSERT_TRUE(reading);
-    const auto found = model.find(reading->lengths, {0.0, 0.0});
-    ASSERT_TRUE(found) << p.x_mm << " " << p.y_mm;
-    // find() converges to 1e-9 mm per step.
-    EXPECT_NEAR(found->pose.position.x_mm, p.x_mm, 1e-8);
-    EXPECT_NEAR(found->pose.position.y_mm, p.y_mm, 1e-8);
-  }
 }
 
 }  // namespace

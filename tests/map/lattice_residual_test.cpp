@@ -13,6 +13,7 @@
 #include "grid/map/fit.hpp"
 #include "grid/random.hpp"
 #include "model/reading_model.hpp"
+#include "tests/map/synthetic_grid.hpp"
 
 namespace chaintrue {
 namespace {
@@ -61,26 +62,7 @@ TEST(LatticeResidual, TheMapPassesThroughEveryReading) {
     EXPECT_NEAR(here.left_mm, point.lengths->left_mm, 1e-9);  // rounding of 3000 mm, some 2000 ulp
     EXPECT_NEAR(here.right_mm, point.lengths->right_mm, 1e-9);
   }
-}
-
-TEST(LatticeResidual, TheMapsDerivativeIsThatOfItsLengths) {
-  const CompensationMap map = fitted_lattice(lattice());
-  ASSERT_TRUE(surface_of(map).lattice);
-  constexpr double kStep = 0.01;
-  for (const MarkPoint p : {MarkPoint{12, 34}, {-1100, -500}, {1150, 590}, {333, -77}}) {
-    const auto jacobian = map.lengths(p)->mark_jacobian;
-    const auto at = [&](double dx, double dy) {
-      return map.lengths({p.x_mm + dx, p.y_mm + dy})->lengths;
-    };
-    // Central difference: step^2 / 6 times a third derivative of 1e-6, and rounding of 1e-12 /
-    // step.
-    EXPECT_NEAR(jacobian(0, 0), (at(kStep, 0).left_mm - at(-kStep, 0).left_mm) / (2 * kStep), 1e-8);
-    EXPECT_NEAR(jacobian(0, 1), (at(0, kStep).left_mm - at(0, -kStep).left_mm) / (2 * kStep), 1e-8);
-    EXPECT_NEAR(
-        jacobian(1, 0), (at(kStep, 0).right_mm - at(-kStep, 0).right_mm) / (2 * kStep), 1e-8);
-    EXPECT_NEAR(
-        jacobian(1, 1), (at(0, kStep).right_mm - at(0, -kStep).right_mm) / (2 * kStep), 1e-8);
-  }
+  testing_support::expect_derivatives_are_differences(map);
 }
 
 TEST(LatticeResidual, AnEmptyNodeIsFilledNamedAndDoubted) {

@@ -86,6 +86,10 @@ TEST_P(OutsideTheMap, WithinThePointsAllWaysAreOne) {
   }
 }
 
+TEST_P(OutsideTheMap, DerivativesAreDifferences) {
+  testing_support::expect_derivatives_are_differences(map_of(middle_grid(GetParam()), Outside::continued));
+}
+
 INSTANTIATE_TEST_SUITE_P(NoisyAndLattice, OutsideTheMap, testing::Bool());
 
 TEST(OutsideTheMapByName, FarOutFadeIsTheBareMachineAndRefuseAnswersNothing) {

@@ -104,24 +104,6 @@ TEST(ResidualFit, InverseFindsTheQueriedPoint) {
   }
 }
 
-TEST(ResidualFit, TheMapsDerivativeIsThatOfItsLengths) {
-  const CompensationMap map = fitted(session(usual_spec(2)).grid);
-  constexpr double kStep = 0.01;
-  for (const model::MarkPoint p :
-       {model::MarkPoint{0, 0}, {-1100, -500}, {1150, 590}, {333, -77}}) {
-    const auto jacobian = map.lengths(p)->mark_jacobian;
-    const auto at = [&](double dx, double dy) {
-      return map.lengths({p.x_mm + dx, p.y_mm + dy})->lengths;
-    };
-    const double by_x = (at(kStep, 0).left_mm - at(-kStep, 0).left_mm) / (2 * kStep);
-    const double by_y = (at(0, kStep).right_mm - at(0, -kStep).right_mm) / (2 * kStep);
-    EXPECT_NEAR(jacobian(0, 0),
-                by_x,
-                1e-8);  // central difference: step^2 / 6 times a third derivative of 1e-6
-    EXPECT_NEAR(jacobian(1, 1), by_y, 1e-8);
-  }
-}
-
 TEST(ResidualFit, ReadingsOfTheMachineSharpenTheSettings) {
   auto made = session(usual_spec(9));
   const auto& truth = made.answer.machine.motors;

@@ -3,6 +3,8 @@
 /// Grids with a known truth for the tests of the map.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <Eigen/LU>
 #include <cmath>
 #include <functional>
@@ -45,6 +47,24 @@ double true_tool_rms_mm(const Map& map, const grid::synthetic::SyntheticAnswer& 
     }
   }
   return std::sqrt(squares / count);
+}
+
+/// Of a map's lengths, at places within the points.
+template <class Map>
+void expect_derivatives_are_differences(const Map& map) {
+  constexpr double kStepMm = 0.01;
+  const auto at = [&](double x, double y) {
+    const auto lengths = map.lengths({x, y})->lengths;
+    return Eigen::Vector2d(lengths.left_mm, lengths.right_mm);
+  };
+  for (const auto& [x, y] :
+       {std::pair(12.0, 34.0), std::pair(-700.0, -500.0), std::pair(650.0, 550.0), std::pair(333.0, -77.0)}) {
+    Eigen::Matrix2d difference;
+    difference << at(x + kStepMm, y) - at(x - kStepMm, y), at(x, y + kStepMm) - at(x, y - kStepMm);
+    // Central differences: step^2 / 6 times a third derivative of 1e-6, and rounding of 1e-12 / step.
+    EXPECT_LT((map.lengths({x, y})->mark_jacobian - difference / (2.0 * kStepMm)).cwiseAbs().maxCoeff(), 1e-8)
+        << x << " " << y;
+  }
 }
 
 }  // namespace chaintrue::testing_support

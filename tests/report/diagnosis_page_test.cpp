@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The page of a diagnosis, made by the command from a file; how it is drawn is tested in browser_test.cpp.
+/// The page of a diagnosis, made by the command from a file; that of the sample is read in
+/// tests/cli/cases/diagnosis_files.cases, and how it is drawn in browser_test.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,37 +20,7 @@ using grid::testing::sample_diagnosis;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// The visible part before scrolling, with the mandatory line.
-TEST(DiagnosisPage, BeginsWithTheAnswer) {
-  const Diagnosis found = sample_diagnosis();
-  const std::string html = page_of(found);
-  const std::string first = html.substr(0, html.find("<section>"));
-  EXPECT_THAT(first, HasSubstr(found.sentence));
-  for (const std::string& line : found.what_to_do) EXPECT_THAT(first, HasSubstr(line));
-  EXPECT_THAT(first, HasSubstr(found.not_proved));
-  EXPECT_THAT(first, HasSubstr("0.94 to 0.31 mm, noise 0.29"));
-  EXPECT_THAT(first, HasSubstr("<b>4.8 mm</b>"));
-}
-
-TEST(DiagnosisPage, HoldsTheNumbersOfTheFile) {
-  const std::string html = page_of(sample_diagnosis());
-  for (const char* text : {"3.42 to 4.38",
-                           "7 of 8 times",
-                           "&quot;a day later&quot;, 60 points",
-                           "point 10",
-                           "(63.5 mm)",
-                           "seed 18446744073709551615",
-                           "0.2 mm a chain and 0.3 mm a ",
-                           ", 12 degrees of freedom)"})
-    EXPECT_THAT(html, HasSubstr(text));
-}
-
-// A name that depends on one point shows where without opening anything; sections without problems are
-// folded.
-TEST(DiagnosisPage, FoldsAwayWhatIsAsItShouldBe) {
-  const std::string html = page_of(sample_diagnosis());
-  EXPECT_THAT(html, HasSubstr("<h2>Does the name hang on a few points?</h2>\n<div"));
-  EXPECT_THAT(html, HasSubstr("<summary><h2>What the error follows</h2></summary>"));
+TEST(DiagnosisPage, OfNothingHasNoWhy) {
   EXPECT_THAT(page_of(quiet_diagnosis()), Not(HasSubstr("Why this cause")));
 }
 
@@ -95,15 +66,6 @@ TEST(DiagnosisPage, DrawsWhereEachCauseAlonePutsTheTool) {
     EXPECT_NEAR(reached.right_mm, sent.right_mm, kSecondOrderMm);
   }
   EXPECT_THAT(html, HasSubstr("drawn "));
-}
-
-// A file may hold what no session has; the answer is shown all the same.
-TEST(DiagnosisPage, HasNoPictureOfACauseWhereTwoVisitsHaveOneNumber) {
-  Diagnosis found = sample_diagnosis();
-  found.points[1].order = found.points[0].order;
-  const std::string html = page_of(found);
-  EXPECT_THAT(html, HasSubstr("<h2>Cause</h2>"));
-  EXPECT_THAT(html, Not(HasSubstr("Where this alone puts the tool")));
 }
 
 }  // namespace

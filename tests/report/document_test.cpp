@@ -165,11 +165,6 @@ TEST(Document, TextsStayTexts) {
   EXPECT_THAT(render_text(document), HasSubstr(bad)) << "a terminal has no markup to escape";
 }
 
-TEST(Document, SameInputSameBytes) {
-  EXPECT_EQ(render_text(sample(), Detail::verbose), render_text(sample(), Detail::verbose));
-  EXPECT_EQ(render_html(sample()), render_html(sample()));
-}
-
 TEST(Document, RefusesNumbersThatAreNoneAndRowsThatAreTooLong) {
   const auto document = [](Row row) {
     Document made;

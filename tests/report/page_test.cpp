@@ -46,10 +46,6 @@ std::string message_of(Call call) {
   return "no error";
 }
 
-TEST(Page, SameInputGivesTheSameBytes) {
-  EXPECT_EQ(render_html(sample_document()), render_html(sample_document()));
-}
-
 TEST(Page, AsksForNothingFromTheNetwork) {
   std::string html = render_html(sample_document());
   // The embedded programs are checked in the browser test, which has no network.
