@@ -206,33 +206,5 @@ TEST_F(PlotterGcode, FluidNcTakesTheSameRoad) {
   EXPECT_NEAR(Json::parse(back.out)["y_mm"], 200.0, 1e-5);
 }
 
-TEST_F(PlotterGcode, WhatCannotBeIsRefused) {
-  write("square.gcode", "G21\nG90\nG0 X500 Y200\nG1 X600 Y200 F1000\n");
-  write("plotter.json", stated_plotter("marlin").dump(1));
-  const auto refuse = [&](const std::string& command) {
-    EXPECT_EQ(run(command).code, 3) << command;
-    EXPECT_FALSE(exists("true.gcode"));
-  };
-  refuse("gcode compensate square.gcode --map plotter.json -o true.gcode");
-  fit();
-  for (const char* option : {"--frame bed", "--settings plotter.json", "--controller holey"})
-    refuse(std::string("gcode compensate square.gcode --map found.json -o true.gcode ") + option);
-  refuse("square --map found.json --gcode s.gcode --depth-mm 3");
-  // One that is sent pictures.
-  ASSERT_EQ(run("fit " CHAINTRUE_FIXTURES "/plotter/mural_drawing.json -o mural.json").code, 0);
-  refuse("gcode compensate square.gcode --map mural.json -o true.gcode");
-  EXPECT_EQ(run("square --map mural.json --size-mm 400").code, 0);
-  // A plotter's codes are a plotter's: a router's program with one is refused.
-  EXPECT_EQ(run("fit " CHAINTRUE_FIXTURES "/grids/seven_by_four.json -o map.json").code, 0);
-  write("servo.gcode", "G21\nG90\nM280 P0 S30 (down)\nG0 X500 Y200\nM280 P[0] S30\n");
-  EXPECT_THAT(run("gcode compensate servo.gcode --map map.json -o true.gcode").err,
-              HasSubstr("line 3, column 2: M280"));
-  EXPECT_THAT(run("gcode compensate servo.gcode --map found.json -o true.gcode").err,
-              HasSubstr("line 5, column 2: M280"));
-  // A place beyond the drawing area.
-  write("far.gcode", "G21\nG90\nG0 X600 Y200\nG1 X600 Y-900 F1000\n");
-  EXPECT_EQ(run("gcode compensate far.gcode --map found.json -o true.gcode").code, 4);
-}
-
 }  // namespace
 }  // namespace chaintrue::plotter_gcode_test

@@ -155,25 +155,5 @@ TEST_F(Plotter, TheFixtureIsAPageOfThisMural) {
       << first_drawing(1).dump(1);
 }
 
-TEST_F(Plotter, SlipsOfOneMeasureMakeNoMachine) {
-  const Json drawing = first_drawing(3);
-  Json exchanged = drawing;
-  std::swap(exchanged["measures"][0]["value_mm"], exchanged["measures"][6]["value_mm"]);
-  Json along = drawing;
-  along["measures"][18]["value_mm"] = 900.0;
-  for (const Json& slipped : {exchanged, along}) {
-    EXPECT_EQ(fit(slipped).code, 3);
-    EXPECT_FALSE(exists("found.json"));
-  }
-}
-
-TEST_F(Plotter, AMeasureThatFitsNothingIsLeftOut) {
-  Json drawing = first_drawing(2);
-  drawing["measures"][9]["value_mm"] = drawing["measures"][9]["value_mm"].get<double>() + 12.0;
-  const Outcome fitted = fit(drawing);
-  ASSERT_EQ(fitted.code, 0) << fitted.err;
-  EXPECT_THAT(fitted.err, HasSubstr("E-F"));
-}
-
 }  // namespace
 }  // namespace chaintrue::plotter_command_test
