@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every good file, cut off at every byte and damaged at every byte: it is rejected with a message,
+// Every good file, cut off and damaged at bytes all over it: it is rejected with a message,
 // or read as a valid object. No object that was read contains NaN or infinity: the writer rejects
 // such a value, and every outcome is written.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <limits>
 #include <random>
 
 #include "grid/files/whole_file.hpp"
@@ -16,10 +14,9 @@ namespace {
 
 constexpr std::uint64_t kDamageSeed = 20260102;
 
-/// Bytes at which a file is damaged, evenly spaced; with CHAINTRUE_LONG in the environment every byte. A log and a file of belts cost an
-/// adjustment of the anchors each time it is read, 20 to 40 ms.
+/// Bytes at which a file is damaged, evenly spaced. A log and a file of belts cost an adjustment of the
+/// anchors each time it is read, 20 to 40 ms; tests/lab/torture damages any byte.
 std::size_t most_places_of(const std::string& kind) {
-  if (std::getenv("CHAINTRUE_LONG") != nullptr) return std::numeric_limits<std::size_t>::max();
   return kind == "maslow4" || kind == "belts" ? 15 : 100;
 }
 
