@@ -292,16 +292,4 @@ BeltDraw draw_belts(const BeltRecipe& recipe, std::uint64_t seed) {
   return draw;
 }
 
-std::vector<FourLengths> measured_on(const BeltDraw& draw,
-                                     const std::vector<std::array<double, 2>>& places,
-                                     std::uint64_t seed) {
-  std::vector<FourLengths> read = readings(
-      draw.frame, draw.secret, places, static_cast<int>(draw.lengths_mm.size()));
-  Dice noise(seed, "belt noise of further places");
-  for (FourLengths& four : read) {
-    for (double& length : four) length += draw.noise_mm * noise.normal();
-  }
-  return read;
-}
-
 }  // namespace chaintrue::generator

@@ -53,9 +53,4 @@ struct BeltDraw {
 };
 [[nodiscard]] BeltDraw draw_belts(const BeltRecipe& recipe, std::uint64_t seed);
 
-/// Readings of the same machine at further positions (in the frame, mm), after its last visit.
-[[nodiscard]] std::vector<FourLengths> measured_on(const BeltDraw& draw,
-                                                   const std::vector<std::array<double, 2>>& places,
-                                                   std::uint64_t seed);
-
 }  // namespace chaintrue::generator

@@ -10,7 +10,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "sealed/judge/pattern_table.hpp"
+#include "sealed/judge/trial.hpp"
 
 namespace chaintrue::planted {
 namespace {

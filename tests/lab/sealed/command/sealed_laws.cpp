@@ -5,14 +5,9 @@
 /// docs/diagnosis_rates.md.
 ///
 ///   sealed_laws --sets 300 --only laws --show
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <atomic>
 #include <mutex>
-#include <thread>
 
+#include "sealed/command/sets.hpp"
 #include "sealed/judge/laws_trial.hpp"
 #include "sealed/judge/table.hpp"
 
@@ -22,37 +17,6 @@ using chaintrue::sealed::LawInUse;
 using chaintrue::sealed::LawsKind;
 using chaintrue::sealed::LawsTrial;
 using chaintrue::sealed::Share;
-
-struct Arguments {
-  int sets = 60;
-  std::uint64_t first_seed = 1;
-  std::vector<std::string> only;
-  int threads = 1;
-  bool show = false;
-  bool in_use = false;
-};
-
-std::vector<LawsTrial> trials(const LawsKind& kind, const Arguments& arguments) {
-  std::vector<LawsTrial> all(static_cast<std::size_t>(arguments.sets));
-  std::atomic<int> next{0};
-  std::mutex printing;
-  const auto work = [&] {
-    for (int k = next++; k < arguments.sets; k = next++) {
-      const std::uint64_t seed = arguments.first_seed + static_cast<std::uint64_t>(k);
-      LawsTrial& own = all[static_cast<std::size_t>(k)];
-      own = chaintrue::sealed::run_laws_trial(kind.word, seed, arguments.in_use);
-      if (!arguments.show) continue;
-      const std::lock_guard lock(printing);
-      fmt::print("{}\n", line_of(kind.word, own));
-      std::fflush(stdout);
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int k = 1; k < arguments.threads; ++k) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
-  return all;
-}
 
 void print_row(const std::string& hidden, const char* what, const char* goal, const Share& share) {
   fmt::print("| {} | {} | {} | {} |\n", hidden, what, goal, text(share));
@@ -121,20 +85,28 @@ void print_rows(const LawsKind& kind, const std::vector<LawsTrial>& all) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Arguments arguments;
+  chaintrue::sealed::Sets sets{.count = 60};
+  std::vector<std::string> only;
+  bool show = false, in_use = false;
   CLI::App app("How often a reported law is right");
-  app.add_option("--sets", arguments.sets, "Of each kind");
-  app.add_option("--first-seed", arguments.first_seed, "Of the first set");
-  app.add_option("--only", arguments.only, "These kinds");
-  app.add_option("--threads", arguments.threads, "Sets at a time");
-  app.add_flag("--in-use", arguments.in_use, "Claimed laws in a second session, in another machine's and in a map");
-  app.add_flag("--show", arguments.show, "A line for each set");
-  CLI11_PARSE(app, argc, argv);
-  fmt::print("| hidden | quantity | asked | reached |\n|---|---|---|---|\n");
-  for (const LawsKind& kind : chaintrue::sealed::laws_kinds()) {
-    const bool asked = arguments.only.empty() ||
-                       std::find(arguments.only.begin(), arguments.only.end(), kind.word) !=
-                           arguments.only.end();
-    if (asked) print_rows(kind, trials(kind, arguments));
-  }
+  sets.offer(app);
+  app.add_option("--only", only, "These kinds");
+  app.add_flag("--in-use", in_use, "Claimed laws in a second session, in another machine's and in a map");
+  app.add_flag("--show", show, "A line for each set");
+  return chaintrue::sealed::run_command(app, argc, argv, [&] {
+    fmt::print("| hidden | quantity | asked | reached |\n|---|---|---|---|\n");
+    for (const LawsKind& kind : chaintrue::sealed::laws_kinds()) {
+      if (!only.empty() && std::ranges::find(only, kind.word) == only.end()) continue;
+      std::mutex printing;
+      print_rows(kind, sets.each([&](std::uint64_t seed) {
+        LawsTrial own = chaintrue::sealed::run_laws_trial(kind.word, seed, in_use);
+        if (show) {
+          const std::lock_guard lock(printing);
+          fmt::print("{}\n", line_of(kind.word, own));
+          std::fflush(stdout);
+        }
+        return own;
+      }));
+    }
+  });
 }

@@ -5,14 +5,9 @@
 /// is in docs/diagnosis_rates.md.
 ///
 ///   sealed_plotters --sets 40 --sound 100
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <map>
 
-#include "sealed/judge/binomial.hpp"
+#include "sealed/command/sets.hpp"
 #include "sealed/judge/plotter_sets.hpp"
 
 namespace {
@@ -49,7 +44,7 @@ void print_row(PlotterKind kind, const HiddenCause& cause, int sets, const Argum
   std::fflush(stdout);
 }
 
-int run(const Arguments& arguments) {
+void run(const Arguments& arguments) {
   fmt::print("| plotter | hidden | sets | alone | in a set | wrong | no name | refused |\n"
              "|---|---|---|---|---|---|---|---|\n");
   for (const PlotterKind kind : chaintrue::sealed::kPlotterKinds) {
@@ -58,7 +53,6 @@ int run(const Arguments& arguments) {
       print_row(kind, cause, arguments.sets, arguments);
     print_row(kind, {}, arguments.sound, arguments);
   }
-  return 0;
 }
 
 }  // namespace
@@ -71,11 +65,5 @@ int main(int count, char** words) {
   app.add_option("--least", arguments.least, "Strength");
   app.add_option("--most", arguments.most, "Strength");
   app.add_option("--kind", arguments.kind, "One kind alone, such as \"light pen\"");
-  CLI11_PARSE(app, count, words);
-  try {
-    return run(arguments);
-  } catch (const std::exception& failure) {
-    fmt::print(stderr, "{}\n", failure.what());
-    return 1;
-  }
+  return chaintrue::sealed::run_command(app, count, words, [&] { run(arguments); });
 }

@@ -65,57 +65,23 @@ bool is_separable(const generator::BeltSecret& secret, const grid::MeasuredBelts
   });
 }
 
-/// Adds the hidden machine's readings at the proposed positions to the measurements. \returns their
-/// number.
-int measure_as_proposed(const generator::BeltDraw& draw,
-                        const grid::diagnosis::Diagnosis& found,
-                        std::uint64_t seed,
-                        grid::MeasuredBelts& belts) {
-  const model::FramePoint centre = model::centre_of(found.belts->machine);
-  std::vector<std::array<double, 2>> places;
-  for (const auto& next : found.next_measurements) {
-    if (next.mark) places.push_back({next.mark->x_mm + centre.x_mm, next.mark->y_mm + centre.y_mm});
-  }
-  int order = static_cast<int>(belts.points.size());
-  for (const generator::FourLengths& read : generator::measured_on(draw, places, seed)) {
-    grid::BeltPoint point;
-    point.lengths_mm = {read[0], read[1], read[2], read[3]};
-    point.order = order++;
-    point.pull = grid::BeltPull{draw.pulls.front()};
-    belts.points.push_back(std::move(point));
-  }
-  return static_cast<int>(places.size());
-}
-
-bool holds_alone(const generator::BeltSecret& secret, const grid::diagnosis::Diagnosis& found) {
-  if (found.verdict != grid::diagnosis::Verdict::named) return false;
-  const auto is_hidden = [&](const auto& cause) {
-    return cause.cause.effect->id == secret.effect && name(cause.cause.side) == secret.side;
-  };
-  const auto& same = found.causes.front().same_as;
-  return is_hidden(found.causes.front()) || std::any_of(same.begin(), same.end(), is_hidden);
-}
-
 }  // namespace
 
-BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t seed, bool go_on) {
+BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t seed) {
   const generator::BeltDraw draw = generator::draw_belts(recipe, seed);
   BeltsTrial trial;
   trial.seed = seed;
   trial.points = static_cast<int>(draw.lengths_mm.size());
   trial.secret = draw.secret;
-  grid::MeasuredBelts belts = measured_belts_of(draw);
+  const grid::MeasuredBelts belts = measured_belts_of(draw);
   grid::diagnosis::DiagnosisOptions how;
-  how.next_measurements = go_on;
+  how.next_measurements = false;
   const auto found = grid::diagnosis::diagnose(belts, how);
   if (!found) {
     trial.failed = true;
-    trial.sentence = found.error().sentence();
     return trial;
   }
-  trial.sentence = found->sentence;
   trial.verdict = name(found->verdict);
-  trial.family_wise_p = found->family_wise_p;
   trial.causes = named_causes(*found);
   trial.named = !found->causes.empty();
   const auto is_hidden = [&](const auto& cause) {
@@ -130,16 +96,6 @@ BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t se
   trial.right_belt = trial.named && name(found->causes.front().cause.side) == draw.secret.side;
   trial.separable = !draw.secret.effect.empty() && is_separable(draw.secret, belts);
   trial.bad_found = same_bad(draw.secret, *found);
-  for (const auto& h : found->hypotheses) {
-    if (h.effect == draw.secret.effect && h.side == draw.secret.side)
-      trial.probability = h.probability;
-  }
-  if (!go_on || found->verdict == grid::diagnosis::Verdict::named) return trial;
-  trial.proposed = measure_as_proposed(draw, *found, seed, belts);
-  if (trial.proposed == 0) return trial;
-  how.next_measurements = false;
-  const auto again = grid::diagnosis::diagnose(belts, how);
-  trial.parted = again && holds_alone(draw.secret, *again);
   return trial;
 }
 

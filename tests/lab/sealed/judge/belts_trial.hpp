@@ -25,22 +25,11 @@ struct BeltsTrial {
   /// by their collinearity after projection on the anchors.
   bool separable = false;
   bool bad_found = false;    ///< exactly the bad readings, each by point and belt
-  std::string sentence;
   std::string verdict;          ///< as in files; empty if it failed
   std::vector<NamedCause> causes;
-  double family_wise_p = 1.0;
-  double probability = 0.0;     ///< that the hidden cause acts, by the table of hypotheses
-  /// If no single name was given and the trial continued: the number of proposed and measured
-  /// positions, and whether the hidden cause was then named alone.
-  int proposed = 0;
-  bool parted = false;
 };
 /// What the owner would have of it.
 [[nodiscard]] grid::MeasuredBelts measured_belts_of(const generator::BeltDraw& draw);
-/// `go_on`: if no single name is given, the proposed positions are measured and the diagnosis is
-/// repeated.
-[[nodiscard]] BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe,
-                                         std::uint64_t seed,
-                                         bool go_on = false);
+[[nodiscard]] BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t seed);
 
 }  // namespace chaintrue::sealed

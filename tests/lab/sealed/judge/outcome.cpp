@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "sealed/judge/pattern_table.hpp"
+#include "sealed/judge/trial.hpp"
 
 namespace chaintrue::sealed {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The figures of many trials as Markdown, and one line for each trial.
+/// The figures of many trials as Markdown.
 #pragma once
 
 #include <string>
@@ -30,8 +30,8 @@ struct Honesty {
 };
 [[nodiscard]] Honesty honesty(const std::vector<Trial>& trials);
 
-/// Deterministic except for the times, which have a separate row.
+/// The rows of rates.hpp and what these do not count. Deterministic except for the times, which have a
+/// separate row.
 [[nodiscard]] std::string markdown(const TrialOptions& options, const std::vector<Trial>& trials);
-[[nodiscard]] std::string csv(const std::vector<Trial>& trials);
 
 }  // namespace chaintrue::sealed

@@ -53,10 +53,7 @@ void take_over(const Diagnosis& found, Trial& trial) {
     if (h.effect == "unknown") trial.unknown_probability = h.probability;
   }
   trial.family_wise_p = found.family_wise_p;
-  trial.left_over_delta = found.left_over.signal_to_noise;
-  trial.noise_factor = found.noise_factor;
   for (const auto& bad : found.outliers) trial.bad_points.push_back(bad.index);
-  for (const auto& no : found.not_testable) trial.not_testable.push_back(id_of(no.cause));
 }
 
 Trial run_trial(const TrialOptions& options, std::uint64_t seed) {
@@ -101,6 +98,27 @@ bool means(const NamedCause& named, const std::string& id) {
 bool names_something(const Trial& trial) {
   return trial.verdict == Verdict::named || trial.verdict == Verdict::named_set ||
          trial.verdict == Verdict::several_causes;
+}
+
+bool tells_pattern(const Trial& trial) { return trial.unknown_probability > 0.5; }
+
+bool names_outright(const Trial& trial) {
+  return trial.verdict == Verdict::named || trial.verdict == Verdict::several_causes;
+}
+
+bool names_wrongly(const Trial& trial) {
+  if (trial.verdict == Verdict::named_set) {
+    return std::none_of(trial.hidden.begin(), trial.hidden.end(), [&](const std::string& id) {
+      return std::any_of(trial.causes.begin(), trial.causes.end(), [&](const NamedCause& c) {
+        return means(c, id);
+      });
+    });
+  }
+  return std::any_of(trial.causes.begin(), trial.causes.end(), [&](const NamedCause& c) {
+    return std::none_of(trial.hidden.begin(), trial.hidden.end(), [&](const std::string& id) {
+      return means(c, id);
+    });
+  });
 }
 
 bool leads_right(const Trial& trial) {

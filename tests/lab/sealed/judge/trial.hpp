@@ -56,10 +56,7 @@ struct Trial {
   std::vector<grid::diagnosis::Hypothesis> hypotheses;
   double unknown_probability = 0.0;  ///< of a pattern, alone or together with causes
   double family_wise_p = 1.0;
-  double left_over_delta = 0.0;
-  double noise_factor = 1.0;
   std::vector<std::size_t> bad_points;
-  std::vector<std::string> not_testable;
   double seconds = 0.0;
   std::optional<TrueErrors> errors;
   std::optional<FollowUp> follow_up;
@@ -76,6 +73,13 @@ void take_over(const grid::diagnosis::Diagnosis& found, Trial& trial);
 [[nodiscard]] bool means(const NamedCause& named, const std::string& id);
 /// Any of named, named_set, several_causes.
 [[nodiscard]] bool names_something(const Trial& trial);
+/// A pattern is reported: its probability is above one half.
+[[nodiscard]] bool tells_pattern(const Trial& trial);
+/// Named alone or together with others, not as one of a set of alternatives.
+[[nodiscard]] bool names_outright(const Trial& trial);
+/// Something is named, or a set of alternatives is given, without the hidden cause; or one of
+/// several names is not hidden.
+[[nodiscard]] bool names_wrongly(const Trial& trial);
 /// The hidden cause is the first.
 [[nodiscard]] bool leads_right(const Trial& trial);
 /// The hidden cause is among `causes`.
