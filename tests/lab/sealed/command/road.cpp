@@ -5,7 +5,6 @@
 /// scan it draws marks and holds both maps against all the others. Not part of the test run; its
 /// tables stand in docs/map_rates.md. Same options, same table.
 ///
-///   road --sets 40 --points 28                  // each effect of the catalogue at its usual size
 ///   road --scan scan.json --draws 200           // chaintrue import optical wrote scan.json
 ///   road --zeros --sets 8                       // zeros that move: on the way, and between two sessions
 ///   road --start --sets 100                     // what the second visits of the list of start find
@@ -14,21 +13,14 @@
 ///
 /// The rows of --stated are kept: what the file has is not run again, so that a run may be stopped
 /// and continued, and shards of --cause may share one file one after the other.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
-#include <numeric>
 
 #include "generator/hidden/random.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/observation/length_points.hpp"
-#include "sealed/judge/map_errors.hpp"
+#include "sealed/command/sets.hpp"
 #include "sealed/judge/promised_errors.hpp"
 #include "sealed/judge/stated_errors.hpp"
 #include "sealed/judge/trial.hpp"
@@ -36,15 +28,12 @@
 namespace {
 
 using namespace chaintrue;
-using sealed::MapErrors;
 
 struct Arguments {
+  sealed::Sets sets{.count = 40};
   bool zeros = false;
   bool start = false;
   bool promised = false;
-  int sets = 40;
-  int points = 28;
-  std::uint64_t first_seed = 1;
   std::string cause;
   std::string scan;
   std::string stated;
@@ -52,110 +41,8 @@ struct Arguments {
   int drawn_marks = 60;
 };
 
-/// Sums over machines of squares, mm^2, and of intervals that hold what is true.
-struct Tally {
-  int machines = 0;
-  int built = 0;
-  int failed = 0;
-  double plain_mm2 = 0.0;
-  double own_mm2 = 0.0;
-  double stated_mm2 = 0.0;
-  double plain_stated_mm2 = 0.0;
-  int covered = 0;
-  int intervals = 0;
-  std::vector<double> ratios;  ///< true error with causes over plain
-
-  void add(const MapErrors& plain, const MapErrors& own, bool is_built) {
-    ++machines;
-    built += is_built ? 1 : 0;
-    plain_mm2 += plain.true_rms_mm * plain.true_rms_mm;
-    own_mm2 += own.true_rms_mm * own.true_rms_mm;
-    stated_mm2 += own.stated_rms_mm * own.stated_rms_mm;
-    plain_stated_mm2 += plain.stated_rms_mm * plain.stated_rms_mm;
-    covered += own.covered;
-    intervals += 2 * own.places;
-    ratios.push_back(own.true_rms_mm / plain.true_rms_mm);
-  }
-  void add(const Tally& other) {
-    machines += other.machines;
-    built += other.built;
-    failed += other.failed;
-    plain_mm2 += other.plain_mm2;
-    own_mm2 += other.own_mm2;
-    stated_mm2 += other.stated_mm2;
-    plain_stated_mm2 += other.plain_stated_mm2;
-    covered += other.covered;
-    intervals += other.intervals;
-    ratios.insert(ratios.end(), other.ratios.begin(), other.ratios.end());
-  }
-  [[nodiscard]] std::string line(std::string_view what) const {
-    const double n = std::max(machines, 1);
-    return fmt::format(
-        "| {:24} | {:4} | {:4} | {:6.3f} | {:6.3f} | {:5.2f} | {:6.3f} | {:6.3f} | {:5.2f} | {:5.1f} % | {:5.2f} |\n",
-        what,
-        machines,
-        built,
-        std::sqrt(plain_mm2 / n),
-        std::sqrt(plain_stated_mm2 / n),
-        std::sqrt(plain_mm2 / plain_stated_mm2),
-        std::sqrt(own_mm2 / n),
-        std::sqrt(stated_mm2 / n),
-        std::sqrt(own_mm2 / stated_mm2),
-        100.0 * covered / std::max(intervals, 1),
-        ratios.empty() ? 0.0 : *std::max_element(ratios.begin(), ratios.end()));
-  }
-};
-
-/// One machine: both maps of its readings, against the machine.
-void try_machine(const generator::Recipe& recipe, std::uint64_t seed, Tally& tally) {
-  const generator::SealedSet set = generator::draw_set(recipe, seed);
-  const grid::Measured measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid);
-  const auto plain = grid::joint_fit(measured);
-  grid::diagnosis::CausesFitOptions accepting;
-  accepting.accept_class = true;
-  const auto own = grid::diagnosis::fit_with_causes(measured, accepting);
-  const auto of_plain = plain ? sealed::map_errors(set, plain->map) : std::nullopt;
-  const auto of_own = own ? sealed::map_errors(set, own->fit.map) : std::nullopt;
-  if (of_plain && of_own) {
-    tally.add(*of_plain, *of_own, !own->built_on.empty());
-  } else {
-    ++tally.failed;
-  }
-}
-
-void print_machines(const Arguments& arguments) {
-  fmt::print(
-      "| hidden | sets | built on it | plain: true mm | stated | true / stated | with causes: true mm | "
-      "stated | true / stated | 95 % hold | worst ratio to plain |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|\n");
-  Tally all;
-  generator::Recipe recipe;
-  recipe.points = arguments.points;
-  const auto run = [&](std::string_view name) {
-    Tally tally;
-    for (int k = 0; k < arguments.sets; ++k)
-      try_machine(recipe, arguments.first_seed + static_cast<std::uint64_t>(k), tally);
-    fmt::print("{}", tally.line(name));
-    std::fflush(stdout);
-    if (tally.failed > 0) fmt::print(stderr, "{}: {} of them failed\n", name, tally.failed);
-    all.add(tally);
-  };
-  for (const generator::CauseCard& card : generator::cards()) {
-    if (!arguments.cause.empty() && card.id != arguments.cause) continue;
-    recipe.cause = card.cause;
-    run(card.id);
-  }
-  if (arguments.cause.empty()) {
-    recipe.cause.reset();
-    recipe.kind = generator::Mix::nothing;
-    run("nothing");
-    recipe.kind = generator::Mix::alongside;
-    run("a cause and a pattern");
-  }
-  fmt::print("{}", all.line("all"));
-}
-
-/// Zeros that move by so much: what the map is worth, plain and with causes.
+/// Zeros that move by so much on the way; then a first session, plain, and it with a second whose left zero
+/// is another, as with causes.
 void print_zeros(const Arguments& arguments) {
   using generator::Cause;
   using generator::Where;
@@ -163,44 +50,39 @@ void print_zeros(const Arguments& arguments) {
     const char* what;
     std::vector<generator::Hidden> hidden;
   };
-  const Moved rows[] = {
+  const Moved moved[] = {
       {"left zero by 6 mm from the 15th mark on", {{Cause::zero_shift, Where::left, 6.0, 15.0}}},
       {"left zero by 10 mm from visit 17 on", {{Cause::zero_shift, Where::left, 10.0, 17.0}}},
       {"right zero by -3 mm from visit 20 on", {{Cause::zero_shift, Where::right, -3.0, 20.0}}},
       {"nothing moves", {}}};
-  const auto seeds = static_cast<std::uint64_t>(arguments.sets);
-  fmt::print(
-      "| list of start | sets | built on it | plain: true mm | stated | true / stated | with causes: true mm | "
-      "stated | true / stated | 95 % hold | worst ratio to plain |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const Moved& row : rows) {
-    Tally tally;
+  std::vector<sealed::StatedRow> rows;
+  const auto add = [&](const auto& run) {
+    for (sealed::StatedRow& row : arguments.sets.each(run)) rows.push_back(std::move(row));
+  };
+  for (const Moved& own : moved) {
     generator::Recipe recipe = sealed::recipe_of_start();
-    recipe.kind = row.hidden.empty() ? generator::Mix::nothing : generator::Mix::single;
-    recipe.exactly = row.hidden;
-    for (std::uint64_t k = 0; k < seeds; ++k) try_machine(recipe, arguments.first_seed + k, tally);
-    fmt::print("{}", tally.line(row.what));
-    std::fflush(stdout);
+    recipe.kind = own.hidden.empty() ? generator::Mix::nothing : generator::Mix::single;
+    recipe.exactly = own.hidden;
+    add([&](std::uint64_t seed) { return sealed::row_of_set(own.what, generator::draw_set(recipe, seed)); });
   }
   for (const double zero_mm : {5.0, 20.0, 0.0}) {
-    Tally tally;
     generator::Recipe recipe = sealed::recipe_of_start();
     recipe.kind = generator::Mix::nothing;
-    for (std::uint64_t k = 0; k < seeds; ++k) {
-      const std::uint64_t seed = arguments.first_seed + k;
+    add([&](std::uint64_t seed) {
       const generator::SealedSet set = generator::draw_set(recipe, seed);
       const grid::MeasuredGrid first = grid::files::parse_grid(set.grid_text, "first.json").grid;
       const std::string text = sealed::another_session(set, zero_mm, seed);
       const grid::MeasuredGrid second = grid::files::parse_grid(text, "second.json").grid;
+      sealed::StatedRow row;
+      row.kind = fmt::format("first alone, with a second: {:g} mm", zero_mm);
       const auto alone = grid::joint_fit(first);
       const auto both = grid::joint_fit({{"first", first}, {"second", second}});
-      const auto of_first = alone ? sealed::map_errors(set, alone->map) : std::nullopt;
-      const auto of_both = both ? sealed::map_errors(set, both->map) : std::nullopt;
-      if (of_first && of_both) tally.add(*of_first, *of_both, true);
-    }
-    fmt::print("{}", tally.line(fmt::format("first alone, with a second: {:g} mm", zero_mm)));
-    std::fflush(stdout);
+      if (alone) row.plain = sealed::map_errors(set, alone->map).value_or(sealed::MapErrors{});
+      if (both) row.own = sealed::map_errors(set, both->map).value_or(sealed::MapErrors{});
+      return row;
+    });
   }
+  fmt::print("{}", sealed::stated_table(rows));
 }
 
 /// How often what happens during a session is found in the readings of the list of start.
@@ -215,27 +97,21 @@ void print_start(const Arguments& arguments) {
       options.recipe = sealed::recipe_of_start();
       options.recipe.cause = cause;
       options.recipe.delta = strength;
-      int alone = 0, in_set = 0, silent = 0;
-      for (int k = 0; k < arguments.sets; ++k) {
-        const sealed::Trial trial =
-            run_trial(options, arguments.first_seed + static_cast<std::uint64_t>(k));
-        alone += trial.causes.size() == 1 && leads_right(trial) ? 1 : 0;
-        in_set += sealed::in_set(trial) ? 1 : 0;
-        silent += names_something(trial) ? 0 : 1;
-      }
+      const auto trials = arguments.sets.each([&](std::uint64_t seed) { return run_trial(options, seed); });
+      const auto count = [&](const auto& is_so) { return std::ranges::count_if(trials, is_so); };
       fmt::print("| {} | {:g} | {} | {} | {} | {} |\n",
                  generator::card(cause).id,
                  strength,
-                 arguments.sets,
-                 alone,
-                 in_set,
-                 silent);
+                 arguments.sets.count,
+                 count([](const sealed::Trial& t) { return t.causes.size() == 1 && leads_right(t); }),
+                 count(sealed::in_set),
+                 count([](const sealed::Trial& t) { return !names_something(t); }));
       std::fflush(stdout);
     }
   }
   generator::Recipe nothing = sealed::recipe_of_start();
   nothing.kind = generator::Mix::nothing;
-  const generator::SealedSet set = generator::draw_set(nothing, arguments.first_seed);
+  const generator::SealedSet set = generator::draw_set(nothing, arguments.sets.first_seed);
   const auto yardstick =
       generator::Yardstick::make(set.machine.truth(), set.machine.visits(), set.noise, {});
   fmt::print("\n| usual size | side | strength |\n|---|---|---|\n");
@@ -265,7 +141,7 @@ void print_stated(const Arguments& arguments) {
   std::ofstream file(arguments.stated, std::ios::app);
   for (const std::string& kind : sealed::stated_kinds()) {
     if (!arguments.cause.empty() && kind != arguments.cause) continue;
-    for (int k = 0; k < arguments.sets; ++k) {
+    for (int k = 0; k < arguments.sets.count; ++k) {
       const bool is_known = std::any_of(rows.begin(), rows.end(), [&](const auto& row) {
         return row.kind == kind && row.machine == k;
       });
@@ -280,12 +156,11 @@ void print_stated(const Arguments& arguments) {
 void print_promised(const Arguments& arguments) {
   std::vector<sealed::PromisedRow> rows;
   for (const sealed::PromisedSession& session : sealed::promised_sessions()) {
-    for (int k = 0; k < arguments.sets; ++k) {
-      const std::uint64_t seed = arguments.first_seed + static_cast<std::uint64_t>(k);
-      if (auto row = sealed::promised_row(session, seed))
+    for (auto& row : arguments.sets.each([&](std::uint64_t seed) { return sealed::promised_row(session, seed); })) {
+      if (row)
         rows.push_back(*std::move(row));
       else
-        fmt::print(stderr, "{}, {}, {}: nothing is promised\n", session.machine, session.way, seed);
+        fmt::print(stderr, "{}, {}: nothing is promised\n", session.machine, session.way);
     }
   }
   fmt::print("{}", sealed::promised_table(rows));
@@ -316,7 +191,7 @@ void print_scan(const Arguments& arguments) {
   std::vector<double> ratios;
   int built = 0;
   for (int draw = 0; draw < arguments.draws; ++draw) {
-    generator::Dice dice(arguments.first_seed + static_cast<std::uint64_t>(draw), "marks of a scan");
+    generator::Dice dice(arguments.sets.first_seed + static_cast<std::uint64_t>(draw), "marks of a scan");
     std::vector<bool> drawn(whole.points.size(), false);
     grid::MeasuredGrid few = whole;
     few.points.clear();
@@ -348,30 +223,21 @@ void print_scan(const Arguments& arguments) {
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("Holds maps against the machines that they were measured on.");
-  app.add_option("--sets", arguments.sets, "machines of each kind")->check(CLI::Range(1, 100000));
-  app.add_option("--points", arguments.points, "28, 60, 117")->check(CLI::IsMember({28, 60, 117}));
-  app.add_option("--first-seed", arguments.first_seed, "of a run of seeds");
+  arguments.sets.offer(app);
   app.add_option("--cause", arguments.cause, "this effect alone");
-  app.add_flag("--zeros", arguments.zeros, "zeros that move, in place of each effect");
+  app.add_flag("--zeros", arguments.zeros, "zeros that move");
   app.add_flag("--start", arguments.start, "what the list of start finds, in place of maps");
-  app.add_flag("--promised", arguments.promised, "errors that owners are promised, in place of maps");
+  app.add_flag("--promised", arguments.promised, "errors that owners are promised");
   app.add_option("--scan", arguments.scan, "a chaintrue_grid of a real scan, in place of machines");
   app.add_option("--draws", arguments.draws, "of its marks")->check(CLI::Range(1, 100000));
   app.add_option("--drawn-marks", arguments.drawn_marks, "in each draw")->check(CLI::Range(12, 400));
   app.add_option("--stated", arguments.stated, "a file of rows, which is continued");
-  CLI11_PARSE(app, argc, argv);
-  if (arguments.zeros) {
-    print_zeros(arguments);
-  } else if (arguments.start) {
-    print_start(arguments);
-  } else if (arguments.promised) {
-    print_promised(arguments);
-  } else if (!arguments.stated.empty()) {
-    print_stated(arguments);
-  } else if (arguments.scan.empty()) {
-    print_machines(arguments);
-  } else {
-    print_scan(arguments);
-  }
-  return 0;
+  app.require_option();
+  return sealed::run_command(app, argc, argv, [&] {
+    if (arguments.zeros) print_zeros(arguments);
+    if (arguments.start) print_start(arguments);
+    if (arguments.promised) print_promised(arguments);
+    if (!arguments.stated.empty()) print_stated(arguments);
+    if (!arguments.scan.empty()) print_scan(arguments);
+  });
 }

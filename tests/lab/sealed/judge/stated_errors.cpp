@@ -71,6 +71,12 @@ void fit_both(const grid::Measured& measured, const Judge& judge, StatedRow& row
   row.is_built = !own->built_on.empty();
 }
 
+void fit_both(const generator::SealedSet& set, StatedRow& row) {
+  fit_both(grid::Measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid),
+           [&](const grid::CompensationMap& map) { return map_errors(set, map); },
+           row);
+}
+
 void cut_and_tape(const CauseCard* card, double zero_mm, std::uint64_t seed, StatedRow& row) {
   row.way = "holes";
   CutHoles cut = cut_holes(usual_effect(card, 0, seed), seed);
@@ -87,10 +93,7 @@ void read_chains(const CauseCard* card, int points, std::uint64_t seed, StatedRo
   recipe.points = points;
   recipe.exactly = usual_effect(card, points + kRepeats, seed);
   if (recipe.exactly.empty()) recipe.kind = generator::Mix::nothing;
-  const generator::SealedSet set = generator::draw_set(recipe, seed);
-  fit_both(grid::Measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid),
-           [&](const grid::CompensationMap& map) { return map_errors(set, map); },
-           row);
+  fit_both(generator::draw_set(recipe, seed), row);
 }
 
 /// Sums over machines of squares, mm^2, and of intervals that hold what is true.
@@ -157,6 +160,13 @@ StatedRow stated_row(const std::string& kind, int k) {
   return row;
 }
 
+StatedRow row_of_set(std::string kind, const generator::SealedSet& set) {
+  StatedRow row;
+  row.kind = std::move(kind);
+  fit_both(set, row);
+  return row;
+}
+
 std::string line_of(const StatedRow& row) {
   std::string text = fmt::format("{} {} {} {}", row.kind, row.way, row.machine, row.is_built ? 1 : 0);
   for (const MapErrors* errors : {&row.plain, &row.own}) {
@@ -198,7 +208,11 @@ std::string stated_table(const std::vector<StatedRow>& rows) {
     if (tally.machines > 0) text += tally.line(what);
     if (failed > 0) text += fmt::format("| {}: no map | {} |\n", what, failed);
   };
-  for (const std::string& kind : stated_kinds())
+  std::vector<std::string> kinds = stated_kinds();
+  for (const StatedRow& row : rows) {
+    if (std::ranges::find(kinds, row.kind) == kinds.end()) kinds.push_back(row.kind);
+  }
+  for (const std::string& kind : kinds)
     pooled(kind, [&](const StatedRow& row) { return row.kind == kind; });
   const auto of_effects = [](const StatedRow& row) { return !row.kind.starts_with(kTapeZero); };
   for (const char* way : {"28", "60", "117", "holes"})

@@ -36,11 +36,14 @@ struct StatedRow {
 /// Machine k of a kind. \throws std::runtime_error if the hidden machine cannot be measured.
 [[nodiscard]] StatedRow stated_row(const std::string& kind, int k);
 
+/// The row of a set of chains at points.
+[[nodiscard]] StatedRow row_of_set(std::string kind, const generator::SealedSet& set);
+
 /// A line of a file of rows, and back; nothing where the line is none.
 [[nodiscard]] std::string line_of(const StatedRow& row);
 [[nodiscard]] std::optional<StatedRow> row_of(std::string_view line);
 
-/// Per kind, per way and pooled: rms of what is true over rms of what is stated, and how many of the
+/// Per kind (those of stated_kinds() first), per way and pooled: rms of what is true over rms of what is stated, and how many of the
 /// 95 % intervals hold.
 [[nodiscard]] std::string stated_table(const std::vector<StatedRow>& rows);
 

@@ -16,7 +16,6 @@ namespace chaintrue::sealed {
 
 struct TrialOptions {
   generator::Recipe recipe;
-  grid::diagnosis::Steps steps;
   bool stability = true;   ///< names without each reading, and no name that depends on one
   bool improvement = false;       ///< held-out errors, reported and true
   bool follow_up = false;  ///< measures what the diagnosis proposes, if it leaves a set of causes
