@@ -35,26 +35,12 @@ const Record<AnchorCoordinate>& fitted_coordinate_record() {
   return record;
 }
 
-Record<BadBeltReading>& add_point(Record<BadBeltReading>& record) {
-  return record.custom(
-      "point",
-      true,
-      {"a point's number", integer(0, kMostPlaces).expected.schema},
-      [](const Cursor& at, BadBeltReading& bad) {
-        if (const auto index = at.integer(0, kMostPlaces))
-          bad.point = static_cast<std::size_t>(*index);
-      },
-      [](const BadBeltReading& bad) { return std::optional<Json>(bad.point); });
-}
-
 const Record<BadBeltReading>& bad_record() {
-  static const auto record = [] {
-    Record<BadBeltReading> bad("a bad reading");
-    add_point(bad)
-        .required("belt", &BadBeltReading::belt, belt_word())
-        .required("off_mm", &BadBeltReading::residual_mm, number(kMillimetres));
-    return bad;
-  }();
+  static const auto record =
+      Record<BadBeltReading>("a bad reading")
+          .required("point", &BadBeltReading::point, index_number(0, kMostPlaces))
+          .required("belt", &BadBeltReading::belt, belt_word())
+          .required("off_mm", &BadBeltReading::residual_mm, number(kMillimetres));
   return record;
 }
 
@@ -84,18 +70,9 @@ std::optional<std::vector<double>> numbers(const Cursor& at,
 const Record<FittedPlace>& fitted_place_record() {
   static const auto record = [] {
     Record<FittedPlace> place("a fitted place");
-    const auto coordinate = [&](const char* key, double model::FramePoint::*member) {
-      place.custom(
-          key,
-          true,
-          {kMillimetres.expected(), [] { return number_schema(kMillimetres); }},
-          [member](const Cursor& at, FittedPlace& p) {
-            if (const auto value = at.number(kMillimetres)) p.at.*member = *value;
-          },
-          [member](const FittedPlace& p) { return std::optional<Json>(p.at.*member); });
-    };
-    coordinate("x_mm", &model::FramePoint::x_mm);
-    coordinate("y_mm", &model::FramePoint::y_mm);
+    using model::FramePoint;
+    place.required("x_mm", path(&FittedPlace::at, &FramePoint::x_mm), number(kMillimetres))
+        .required("y_mm", path(&FittedPlace::at, &FramePoint::y_mm), number(kMillimetres));
     place.custom(
         "covariance_mm2",
         true,

@@ -23,19 +23,6 @@ using diagnosis::Outlier;
 using diagnosis::StatedTape;
 using diagnosis::Verdict;
 
-Value<std::uint64_t> seed_value() {
-  const std::string expected = "a whole number of at least 0";
-  return {[expected](const Cursor& at) -> std::optional<std::uint64_t> {
-            if (at.json().is_number_unsigned()) return at.json().get<std::uint64_t>();
-            at.expect(expected);
-            return std::nullopt;
-          },
-          [](const std::uint64_t& value) { return Json(value); },
-          {expected, [] {
-             return Json{{"type", "integer"}, {"minimum", 0}};
-           }}};
-}
-
 const Record<StatedNoise>& stated_noise_record() {
   static const auto record =
       Record<StatedNoise>("the noise as it was said")
@@ -270,7 +257,7 @@ Record<Diagnosis> make_diagnosis_record() {
       .required("noise_factor", &Diagnosis::noise_factor, number(kNotNegative))
       .required("family_wise_p", &Diagnosis::family_wise_p, number(kShare))
       .required("points", &Diagnosis::points, list(object(point_picture_record())))
-      .required("seed", &Diagnosis::seed, seed_value())
+      .required("seed", &Diagnosis::seed, seed_number())
       .required("grid_name", &Diagnosis::grid_name, text())
       .optional("stated_noise", &Diagnosis::stated_noise, object(stated_noise_record()))
       .optional("stability", &Diagnosis::stability, object(stability_record()))

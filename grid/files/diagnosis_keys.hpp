@@ -17,22 +17,4 @@ namespace chaintrue::grid::files {
 
 [[nodiscard]] Value<diagnosis::Verdict> verdict_word();
 
-/// A text that is null in the file when empty.
-template <class T>
-void nullable_text(Record<T>& record,
-                   const std::string& key,
-                   std::string T::*member,
-                   const Value<std::string>& value) {
-  record.custom(
-      key,
-      false,
-      value.expected,
-      [member, value](const Cursor& at, T& object) {
-        if (auto word = value.read(at)) object.*member = std::move(*word);
-      },
-      [member](const T& object) {
-        return std::optional<Json>((object.*member).empty() ? Json(nullptr) : Json(object.*member));
-      });
-}
-
 }  // namespace chaintrue::grid::files

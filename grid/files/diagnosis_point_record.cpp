@@ -26,82 +26,28 @@ template <class T>
 void pair_key(Record<T>& record,
               const std::string& key,
               const Range& range,
-              const std::function<Eigen::Vector2d(const T&)>& get,
-              const std::function<void(T&, const Eigen::Vector2d&)>& set) {
-  const Value<std::vector<double>> value = list(number(range), 2);
-  const std::string expected =
-      fmt::format("a pair of numbers{}{}", range.unit.empty() ? "" : " in ", range.unit);
+              MemberPath<T, double> first,
+              MemberPath<T, double> second) {
+  const Value<Eigen::Vector2d> value = pair_of_numbers(range);
   record.custom(
       key,
       true,
-      {expected,
-       [value] {
-         Json schema = value.expected.schema();
-         schema["maxItems"] = 2;
-         return schema;
-       }},
-      [value, set, expected](const Cursor& at, T& object) {
-        const auto read = value.read(at);
-        if (read && read->size() == 2) {
-          set(object, Eigen::Vector2d((*read)[0], (*read)[1]));
-        } else if (read && read->size() > 2) {
-          at.expect(expected);
-        }
+      value.expected,
+      [=](const Cursor& at, T& object) {
+        const auto pair = value.read(at);
+        if (!pair) return;
+        first.of(object) = (*pair)[0];
+        second.of(object) = (*pair)[1];
       },
-      [get](const T& object) {
-        const Eigen::Vector2d pair = get(object);
-        return std::optional<Json>(Json::array({pair[0] + 0.0, pair[1] + 0.0}));
-      });
-}
-
-void vector_key(Record<PointPicture>& record,
-                const std::string& key,
-                Eigen::Vector2d PointPicture::*member) {
-  pair_key<PointPicture>(
-      record,
-      key,
-      kMillimetres,
-      [member](const PointPicture& point) { return point.*member; },
-      [member](PointPicture& point, const Eigen::Vector2d& pair) { point.*member = pair; });
-}
-
-/// One number for each chain, as [left, right].
-void chains_key(Record<PointPicture>& record,
-                const std::string& key,
-                const Range& range,
-                double PointPicture::*left,
-                double PointPicture::*right) {
-  pair_key<PointPicture>(
-      record,
-      key,
-      range,
-      [left, right](const PointPicture& point) {
-        return Eigen::Vector2d(point.*left, point.*right);
-      },
-      [left, right](PointPicture& point, const Eigen::Vector2d& pair) {
-        point.*left = pair[0];
-        point.*right = pair[1];
+      [=](const T& object) {
+        return std::optional<Json>(value.write({first.of(object), second.of(object)}));
       });
 }
 
 template <class T>
-void place_keys(Record<T>& record,
-                const std::function<model::MarkPoint&(T&)>& place,
-                const std::function<const model::MarkPoint&(const T&)>& const_place) {
-  const auto coordinate = [&](const char* key, double model::MarkPoint::*member) {
-    record.custom(
-        key,
-        true,
-        {"a number in mm", [] { return number_schema(kMillimetres); }},
-        [place, member](const Cursor& at, T& object) {
-          if (const auto value = at.number(kMillimetres)) place(object).*member = *value;
-        },
-        [const_place, member](const T& object) {
-          return std::optional<Json>(const_place(object).*member);
-        });
-  };
-  coordinate("x_mm", &model::MarkPoint::x_mm);
-  coordinate("y_mm", &model::MarkPoint::y_mm);
+void place_keys(Record<T>& record) {
+  record.required("x_mm", path(&T::mark, &model::MarkPoint::x_mm), number(kMillimetres))
+      .required("y_mm", path(&T::mark, &model::MarkPoint::y_mm), number(kMillimetres));
 }
 
 }  // namespace
@@ -126,7 +72,7 @@ const Record<NextMeasurement>& next_measurement_record() {
           return std::optional<Json>(object.reading ? Json(std::string(name(*object.reading)))
                                                     : Json(object.words));
         });
-    nullable_text(next, "side", &NextMeasurement::side, side_word());
+    next.nullable("side", &NextMeasurement::side, side_word());
     const auto coordinate = [&next](const char* key, double model::MarkPoint::*member) {
       next.custom(
           key,
@@ -169,20 +115,12 @@ const Record<HolePicture>& hole_picture_record() {
   static const auto record = [] {
     Record<HolePicture> hole("a hole");
     hole.required("name", &HolePicture::name, text());
-    place_keys<HolePicture>(
-        hole,
-        [](HolePicture& object) -> model::MarkPoint& { return object.mark; },
-        [](const HolePicture& object) -> const model::MarkPoint& { return object.mark; });
-    pair_key<HolePicture>(
-        hole,
-        "commanded_mm",
-        kMillimetres,
-        [](const HolePicture& object) {
-          return Eigen::Vector2d(object.commanded.x_mm, object.commanded.y_mm);
-        },
-        [](HolePicture& object, const Eigen::Vector2d& pair) {
-          object.commanded = {pair[0], pair[1]};
-        });
+    place_keys(hole);
+    pair_key(hole,
+             "commanded_mm",
+             kMillimetres,
+             path(&HolePicture::commanded, &model::MarkPoint::x_mm),
+             path(&HolePicture::commanded, &model::MarkPoint::y_mm));
     return hole;
   }();
   return record;
@@ -208,37 +146,33 @@ const Record<PointPicture>& point_picture_record() {
   static const auto record = [] {
     Record<PointPicture> point("a point");
     point.required("index", &PointPicture::index, index_number());
-    place_keys<PointPicture>(
-        point,
-        [](PointPicture& object) -> model::MarkPoint& { return object.mark; },
-        [](const PointPicture& object) -> const model::MarkPoint& { return object.mark; });
+    place_keys(point);
     constexpr int kMostOrder = 1000000000;
+    const Value<Eigen::Vector2d> pair = pair_of_numbers(kMillimetres);
     point.optional("order", &PointPicture::order, integer(-kMostOrder, kMostOrder))
-        .required("bad", &PointPicture::bad, boolean());
-    vector_key(point, "before_mm", &PointPicture::before_mm);
-    vector_key(point, "after_mm", &PointPicture::after_mm);
-    vector_key(point, "noise_sigma_mm", &PointPicture::noise_sigma_mm);
-    vector_key(point, "chain_before_mm", &PointPicture::chain_before_mm);
-    vector_key(point, "chain_after_mm", &PointPicture::chain_after_mm);
-    vector_key(point, "best_mm", &PointPicture::best_mm);
-    vector_key(point, "rival_mm", &PointPicture::rival_mm);
-    pair_key<PointPicture>(
-        point,
-        "lengths_mm",
-        kMillimetres,
-        [](const PointPicture& object) {
-          return Eigen::Vector2d(object.lengths.left_mm, object.lengths.right_mm);
-        },
-        [](PointPicture& object, const Eigen::Vector2d& pair) {
-          object.lengths = {pair[0], pair[1]};
-        });
-    chains_key(
-        point, "angles_rad", kRad, &PointPicture::angle_left_rad, &PointPicture::angle_right_rad);
-    chains_key(point,
-               "tensions_n",
-               kNewton,
-               &PointPicture::tension_left_n,
-               &PointPicture::tension_right_n);
+        .required("bad", &PointPicture::bad, boolean())
+        .required("before_mm", &PointPicture::before_mm, pair)
+        .required("after_mm", &PointPicture::after_mm, pair)
+        .required("noise_sigma_mm", &PointPicture::noise_sigma_mm, pair)
+        .required("chain_before_mm", &PointPicture::chain_before_mm, pair)
+        .required("chain_after_mm", &PointPicture::chain_after_mm, pair)
+        .required("best_mm", &PointPicture::best_mm, pair)
+        .required("rival_mm", &PointPicture::rival_mm, pair);
+    pair_key(point,
+             "lengths_mm",
+             kMillimetres,
+             path(&PointPicture::lengths, &model::ChainLengths::left_mm),
+             path(&PointPicture::lengths, &model::ChainLengths::right_mm));
+    pair_key(point,
+             "angles_rad",
+             kRad,
+             path(&PointPicture::angle_left_rad),
+             path(&PointPicture::angle_right_rad));
+    pair_key(point,
+             "tensions_n",
+             kNewton,
+             path(&PointPicture::tension_left_n),
+             path(&PointPicture::tension_right_n));
     point.required("direction_left", &PointPicture::direction_left, integer(-1, 1))
         .required("direction_right", &PointPicture::direction_right, integer(-1, 1));
     return point;

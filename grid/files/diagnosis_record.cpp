@@ -239,7 +239,7 @@ const Record<Hypothesis>& hypothesis_record() {
     Record<Hypothesis> hypothesis("a hypothesis");
     // Two effects at once are written as "first + second", and their sides likewise.
     hypothesis.required("effect", &Hypothesis::effect, text());
-    nullable_text(hypothesis, "side", &Hypothesis::side, text());
+    hypothesis.nullable("side", &Hypothesis::side, text());
     hypothesis.required("probability", &Hypothesis::probability, number(kShare));
     return hypothesis;
   }();
@@ -250,7 +250,7 @@ const Record<LeftOver>& left_over_record() {
   static const auto record = [] {
     Record<LeftOver> left("what is left over");
     left.required("delta", &LeftOver::signal_to_noise, number(kNotNegative));
-    nullable_text(left, "follows", &LeftOver::follows, text());
+    left.nullable("follows", &LeftOver::follows, text());
     left.required("share", &LeftOver::share, number(kShare))
         .required("p_value", &LeftOver::p_value, number(kShare));
     return left;

@@ -178,7 +178,7 @@ const Record<Unexplained>& unexplained_record() {
         .required("delta", &Unexplained::signal_to_noise, number(kNotNegative))
         .required("rms_mm", &Unexplained::rms_mm, number(kNotNegative))
         .required("share", &Unexplained::share, number(kShare));
-    nullable_text(left, "follows", &Unexplained::follows, text());
+    left.nullable("follows", &Unexplained::follows, text());
     left.required("length_mm", &Unexplained::length_mm, number(kNotNegative))
         .required("enters",
                   &Unexplained::enters,

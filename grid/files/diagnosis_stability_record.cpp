@@ -84,17 +84,7 @@ const Record<Removal>& removal_record() {
                                             {"hole", Removal::What::hole}}));
     for (const Numbered& numbered : kNumbered) index_key(numbered, removal);
     line_key(removal);
-    static const Value<int> count = integer(1, kMostNumbered);
-    removal
-        .custom(
-            "points",
-            true,
-            count.expected,
-            [](const Cursor& at, Removal& object) {
-              if (const auto value = count.read(at))
-                object.points = static_cast<std::size_t>(*value);
-            },
-            [](const Removal& object) { return std::optional<Json>(object.points); })
+    removal.required("points", &Removal::points, index_number(1))
         .required("verdict", &Removal::verdict, verdict_word())
         .required("causes", &Removal::causes, list(object(cause_id_record())))
         .required("stands", &Removal::stands, boolean())
@@ -130,15 +120,7 @@ const Record<Stability>& stability_record() {
 namespace {
 
 void part_keys(Record<PartFinding>& part) {
-  part.custom(
-          "units",
-          true,
-          "how many readings",
-          [](const Cursor& at, PartFinding& object) {
-            if (const auto value = integer(0, kMostNumbered).read(at))
-              object.units = static_cast<std::size_t>(*value);
-          },
-          [](const PartFinding& object) { return std::optional<Json>(object.units); })
+  part.required("units", &PartFinding::units, index_number())
       .required("leading", &PartFinding::likeliest, object(hypothesis_record()))
       .required("named", &PartFinding::named, list(object(hypothesis_record())));
 }

@@ -25,17 +25,18 @@ Json or_null(Json schema) {
 
 class PlainMember : public Member {
  public:
-  PlainMember(std::shared_ptr<const Codec> codec, IsEmpty empty)
+  PlainMember(std::shared_ptr<const Codec> codec, IfEmpty empty)
       : codec_(std::move(codec)), empty_(empty) {}
   void read(const Cursor& at, void* member) const override { codec_->read(at, member); }
   [[nodiscard]] std::optional<Json> write(const void* member) const override {
-    if (empty_ != nullptr && empty_(member)) return std::nullopt;
-    return codec_->write(member);
+    const bool empty = empty_.is_empty != nullptr && empty_.is_empty(member);
+    if (!empty) return codec_->write(member);
+    return empty_.as == IfEmpty::null ? std::optional<Json>(nullptr) : std::nullopt;
   }
 
  private:
   std::shared_ptr<const Codec> codec_;
-  IsEmpty empty_;
+  IfEmpty empty_;
 };
 
 class OptionalMember : public Member {
@@ -120,7 +121,7 @@ void RecordTable::add_plain(const std::string& key,
                             bool is_required,
                             std::size_t offset,
                             std::shared_ptr<const Codec> codec,
-                            IsEmpty empty) {
+                            IfEmpty empty) {
   Expected expected = codec->expected();
   add({key,
        is_required,

@@ -45,6 +45,8 @@
 ///              std::optional member is empty, and written only when it holds a value
 ///   sparse     may be absent or null; written only when it is not empty (texts, lists,
 ///              dictionaries)
+///   nullable   may be absent or null; written as null when it is empty
+/// path(&Plan::bed, &Bed::width_mm) is a member of a member.
 ///
 /// Values: number, integer, boolean, text, choice (an enum by its names), one_of (a text from a
 /// list), object, list, dictionary. `Record::custom` takes a pair of functions for whatever does
@@ -90,7 +92,33 @@ inline constexpr OptionalAccess kOptionalAccess = {
       const auto& own = *static_cast<const std::optional<V>*>(member);
       return own ? &*own : nullptr;
     }};
-using IsEmpty = bool (*)(const void* member);
+
+/// What is written of a plain member that is empty; a null function where it cannot be.
+struct IfEmpty {
+  enum As { absent, null };
+  bool (*is_empty)(const void* member) = nullptr;
+  As as = absent;
+};
+
+/// A member of T, or of one of its members.
+template <class T, class V>
+struct MemberPath {
+  [[nodiscard]] V& of(T& object) const {
+    return *reinterpret_cast<V*>(reinterpret_cast<std::byte*>(&object) + offset);
+  }
+  [[nodiscard]] const V& of(const T& object) const { return of(const_cast<T&>(object)); }
+  std::size_t offset = 0;
+};
+template <class T, class V>
+[[nodiscard]] MemberPath<T, V> path(V T::*member) {
+  static const T object{};
+  return {static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(object.*member)) -
+                                   reinterpret_cast<const std::byte*>(&object))};
+}
+template <class T, class M, class V>
+[[nodiscard]] MemberPath<T, V> path(M T::*outer, V M::*inner) {
+  return {path(outer).offset + path(inner).offset};
+}
 
 /// The part of a record that does not depend on the object's type: its keys and its fields. Objects
 /// are passed by address; Record has their type.
@@ -118,12 +146,11 @@ class RecordTable {
   using Make = std::shared_ptr<void> (*)();
 
   void add(Field field) { fields_.push_back(std::move(field)); }
-  /// A plain member; left out where it is empty if `empty` is not null.
   void add_plain(const std::string& key,
                  bool is_required,
                  std::size_t offset,
                  std::shared_ptr<const Codec> codec,
-                 IsEmpty empty = nullptr);
+                 IfEmpty empty = {});
   void add_optional(const std::string& key,
                     std::size_t offset,
                     std::shared_ptr<const Codec> codec,
@@ -169,27 +196,39 @@ class Record : public RecordTable {
 
   template <class V>
   Record& required(const std::string& key, V T::*member, const Value<V>& value) {
-    add_plain(key, true, offset(member), value.codec);
+    return required(key, path(member), value);
+  }
+  template <class V>
+  Record& required(const std::string& key, MemberPath<T, V> member, const Value<V>& value) {
+    add_plain(key, true, member.offset, value.codec);
     return *this;
   }
 
   template <class V>
   Record& optional(const std::string& key, V T::*member, const Value<V>& value) {
-    add_defaulted(key, offset(member), value.codec, &make);
+    return optional(key, path(member), value);
+  }
+  template <class V>
+  Record& optional(const std::string& key, MemberPath<T, V> member, const Value<V>& value) {
+    add_defaulted(key, member.offset, value.codec, &make);
     return *this;
   }
 
   template <class V>
   Record& optional(const std::string& key, std::optional<V> T::*member, const Value<V>& value) {
-    add_optional(key, offset(member), value.codec, kOptionalAccess<V>);
+    add_optional(key, path(member).offset, value.codec, kOptionalAccess<V>);
     return *this;
   }
 
   template <class V>
   Record& sparse(const std::string& key, V T::*member, const Value<V>& value) {
-    add_plain(key, false, offset(member), value.codec, [](const void* own) {
-      return static_cast<const V*>(own)->empty();
-    });
+    add_plain(key, false, path(member).offset, value.codec, {&is_empty<V>, IfEmpty::absent});
+    return *this;
+  }
+
+  template <class V>
+  Record& nullable(const std::string& key, V T::*member, const Value<V>& value) {
+    add_plain(key, false, path(member).offset, value.codec, {&is_empty<V>, IfEmpty::null});
     return *this;
   }
 
@@ -257,15 +296,9 @@ class Record : public RecordTable {
     std::function<std::optional<Json>(const T&)> write_;
   };
 
-  template <class M>
-  static std::size_t offset(M T::*member) {
-    const T& object = sample();
-    return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(object.*member)) -
-                                    reinterpret_cast<const std::byte*>(&object));
-  }
-  static const T& sample() {
-    static const T object{};
-    return object;
+  template <class V>
+  static bool is_empty(const void* member) {
+    return static_cast<const V*>(member)->empty();
   }
   static std::shared_ptr<void> make() { return std::make_shared<T>(); }
 };

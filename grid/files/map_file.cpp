@@ -98,77 +98,28 @@ const Record<SettingResult>& setting_record() {
   return record;
 }
 
-Json pair_schema() {
-  Json schema = list_schema(number_schema(kErrorMm), 2);
-  schema["maxItems"] = 2;
-  return schema;
-}
-
-/// A vector in the plane as a pair of numbers.
-template <class T>
-Record<T>& pair(Record<T>& record, const std::string& key, Eigen::Vector2d T::*member) {
-  const Value<Numbers> value = list(number(kErrorMm), 2);
-  return record.custom(
-      key,
-      true,
-      {"a pair of numbers in mm", pair_schema},
-      [member, value](const Cursor& at, T& object) {
-        const auto read = value.read(at);
-        if (read && read->size() == 2) {
-          object.*member = {(*read)[0], (*read)[1]};
-        } else if (read) {
-          at.expect("a pair of numbers in mm");
-        }
-      },
-      [member](const T& object) {
-        return std::optional<Json>(
-            Json::array({(object.*member)[0] + 0.0, (object.*member)[1] + 0.0}));
-      });
-}
-
 const Record<MapPoint>& map_point_record() {
-  static const auto record = [] {
-    Record<MapPoint> point("a measured point");
-    const auto coordinate = [&point](const char* key, auto get) {
-      point.custom(
-          key,
-          true,
-          {"a number in mm", [] { return number_schema(kPlaceMm); }},
-          [get](const Cursor& at, MapPoint& p) {
-            if (const auto value = at.number(kPlaceMm)) get(p) = *value;
-          },
-          [get](const MapPoint& p) {
-            MapPoint copy = p;
-            return std::optional<Json>(get(copy));
-          });
-    };
-    coordinate("x_mm", [](MapPoint& p) -> double& { return p.mark.x_mm; });
-    coordinate("y_mm", [](MapPoint& p) -> double& { return p.mark.y_mm; });
-    coordinate("left_mm", [](MapPoint& p) -> double& { return p.lengths.left_mm; });
-    coordinate("right_mm", [](MapPoint& p) -> double& { return p.lengths.right_mm; });
-    point.required("bad", &MapPoint::bad, boolean())
-        .required("distance_sigmas", &MapPoint::distance_sigmas, number(kNotNegative));
-    pair(point, "as_stated_mm", &MapPoint::as_stated_mm);
-    pair(point, "sheet_placed_mm", &MapPoint::sheet_placed_mm);
-    pair(point, "mapped_mm", &MapPoint::mapped_mm);
-    pair(point, "left_out_mm", &MapPoint::left_out_mm);
-    return point;
-  }();
+  using model::ChainLengths;
+  using model::MarkPoint;
+  static const auto record =
+      Record<MapPoint>("a measured point")
+          .required("x_mm", path(&MapPoint::mark, &MarkPoint::x_mm), number(kPlaceMm))
+          .required("y_mm", path(&MapPoint::mark, &MarkPoint::y_mm), number(kPlaceMm))
+          .required("left_mm", path(&MapPoint::lengths, &ChainLengths::left_mm), number(kPlaceMm))
+          .required("right_mm", path(&MapPoint::lengths, &ChainLengths::right_mm), number(kPlaceMm))
+          .required("bad", &MapPoint::bad, boolean())
+          .required("distance_sigmas", &MapPoint::distance_sigmas, number(kNotNegative))
+          .required("as_stated_mm", &MapPoint::as_stated_mm, pair_of_numbers(kErrorMm))
+          .required("sheet_placed_mm", &MapPoint::sheet_placed_mm, pair_of_numbers(kErrorMm))
+          .required("mapped_mm", &MapPoint::mapped_mm, pair_of_numbers(kErrorMm))
+          .required("left_out_mm", &MapPoint::left_out_mm, pair_of_numbers(kErrorMm));
   return record;
 }
 
 const Record<MirrorTest>& mirror_record() {
   static const auto record =
       Record<MirrorTest>("the mirror claim")
-          .custom(
-              "points",
-              true,
-              {"a count", integer(0, 1000000).expected.schema},
-              [](const Cursor& at, MirrorTest& test) {
-                if (const auto count = at.integer(0, 1000000))
-                  test.points = static_cast<std::size_t>(*count);
-              },
-              [](const MirrorTest& test) { return std::optional<Json>(test.points); })
+          .required("points", &MirrorTest::points, index_number())
           .required("difference", &MirrorTest::difference, object(error_summary_record()))
           .required("mean_mm", &MirrorTest::mean_mm, number(kErrorMm))
           .required("worst_at", &MirrorTest::worst_at, object(mark_record()))

@@ -1,19 +1,54 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/record_values.hpp"
 
+#include <fmt/format.h>
+
 #include <string>
 #include <utility>
 
 namespace chaintrue::grid::files {
 
-Value<std::size_t> index_number() {
-  const Value<int> whole = integer(0, kMostNumbered);
+Value<std::size_t> index_number(int least, int most) {
+  const Value<int> whole = integer(least, most);
   return {[whole](const Cursor& at) -> std::optional<std::size_t> {
             const auto value = whole.read(at);
             return value ? std::optional(static_cast<std::size_t>(*value)) : std::nullopt;
           },
           [](const std::size_t& value) { return Json(value); },
           whole.expected};
+}
+
+Value<std::uint64_t> seed_number() {
+  const std::string expected = "a whole number of at least 0";
+  return {[expected](const Cursor& at) -> std::optional<std::uint64_t> {
+            if (at.json().is_number_unsigned()) return at.json().get<std::uint64_t>();
+            at.expect(expected);
+            return std::nullopt;
+          },
+          [](const std::uint64_t& value) { return Json(value); },
+          {expected, [] {
+             return Json{{"type", "integer"}, {"minimum", 0}};
+           }}};
+}
+
+Value<Eigen::Vector2d> pair_of_numbers(const Range& range) {
+  const Value<std::vector<double>> numbers = list(number(range), 2);
+  const std::string expected =
+      fmt::format("a pair of numbers{}{}", range.unit.empty() ? "" : " in ", range.unit);
+  return {[numbers, expected](const Cursor& at) -> std::optional<Eigen::Vector2d> {
+            const auto read = numbers.read(at);
+            if (!read || read->size() < 2) return std::nullopt;
+            if (read->size() == 2) return Eigen::Vector2d((*read)[0], (*read)[1]);
+            at.expect(expected);
+            return std::nullopt;
+          },
+          // A negative zero would be read back as a zero: the same number, other bytes.
+          [](const Eigen::Vector2d& pair) { return Json::array({pair[0] + 0.0, pair[1] + 0.0}); },
+          {expected, [numbers] {
+             Json schema = numbers.expected.schema();
+             schema["maxItems"] = 2;
+             return schema;
+           }}};
 }
 
 Value<model::Setting> setting_word() {

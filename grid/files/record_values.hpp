@@ -4,6 +4,7 @@
 /// to grid/files.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -22,8 +23,14 @@ inline constexpr Range kPlaceMm{"mm", -1e5, 1e5};
 /// Largest number of points, distances and positions.
 inline constexpr int kMostNumbered = 1000000;
 
-/// The number of a point, a distance or a position, from 0.
-[[nodiscard]] Value<std::size_t> index_number();
+/// The number of a point, a distance or a position, from 0; or a count.
+[[nodiscard]] Value<std::size_t> index_number(int least = 0, int most = kMostNumbered);
+
+/// A seed of random numbers.
+[[nodiscard]] Value<std::uint64_t> seed_number();
+
+/// A vector in the plane, or a number for each chain, as a pair of numbers.
+[[nodiscard]] Value<Eigen::Vector2d> pair_of_numbers(const Range& range);
 
 /// A dimension of a machine: its range is checked by model::problems_of, for files and programs in
 /// one place.

@@ -38,12 +38,6 @@ struct StatedMachine {
   double unmodelled_mm = 0.0;
 };
 
-/// The content of the file.
-struct StatedSweep {
-  SweepSpec spec;
-  std::vector<StatedMachine> machines;
-};
-
 Value<GridLevel> grid_size(int least) {
   const std::string expected = fmt::format("columns x rows, each {} to 1000, as in \"7x4\"", least);
   return {[expected, least](const Cursor& at) -> std::optional<GridLevel> {
@@ -105,97 +99,68 @@ const Record<UseLevel>& use_record() {
   return record;
 }
 
-/// The defaults of a sweep.
-void fill_defaults(SweepSpec& spec) {
-  if (spec.grids.empty()) spec.grids = {GridLevel{}};
-  if (spec.spacings.empty()) spec.spacings = {DesignKind::regular};
-  if (spec.noises.empty()) spec.noises = {NoiseLevel{}};
-  if (spec.jitters_mm.empty()) spec.jitters_mm = {0.0};
-  if (spec.surfaces.empty()) spec.surfaces = {SurfaceLevel::residual};
-  if (spec.effects.empty()) spec.effects = {{"none", {}}};
-  if (spec.uses.empty()) spec.uses = {{"the same machine", {}, false}};
+SweepSpec default_sweep() {
+  SweepSpec spec;
+  spec.grids = {GridLevel{}};
+  spec.spacings = {DesignKind::regular};
+  spec.noises = {NoiseLevel{}};
+  spec.jitters_mm = {0.0};
+  spec.surfaces = {SurfaceLevel::residual};
+  spec.effects = {{"none", {}}};
+  spec.uses = {{"the same machine", {}, false}};
+  return spec;
 }
 
-/// A field of the specification inside the file's content.
+/// The content of the file.
+struct StatedSweep {
+  SweepSpec spec = default_sweep();
+  std::vector<StatedMachine> machines;
+};
+
+/// A member of the specification.
 template <class V>
-void add_to(Record<StatedSweep>& record,
-            const std::string& key,
-            bool is_required,
-            V SweepSpec::*member,
-            Value<V> value) {
-  record.custom(
-      key,
-      is_required,
-      {value.expected.words,
-       [member, value, is_required] {
-         SweepSpec spec;
-         fill_defaults(spec);
-         const Json schema = value.expected.schema();
-         return is_required ? schema : with_default(schema, value.write(spec.*member));
-       }},
-      [member, value](const Cursor& at, StatedSweep& stated) {
-        if (auto read = value.read(at)) stated.spec.*member = std::move(*read);
-      },
-      [member, value](const StatedSweep& stated) {
-        return std::optional<Json>(value.write(stated.spec.*member));
-      });
+MemberPath<StatedSweep, V> of_spec(V SweepSpec::*member) {
+  return path(&StatedSweep::spec, member);
 }
 
 Record<StatedSweep> make_record() {
-  auto record = Record<StatedSweep>("a chaintrue_sweep file", kSweepFormat);
-  add_to(record, "name", true, &SweepSpec::name, text());
-  add_to(record, "question", false, &SweepSpec::question, text());
-  record.custom(
-      "seed",
-      false,
-      {"a whole number from 0", integer(0, 2'000'000'000).expected.schema},
-      [](const Cursor& at, StatedSweep& stated) {
-        if (const auto seed = at.integer(0, 2'000'000'000))
-          stated.spec.seed = static_cast<std::uint64_t>(*seed);
-      },
-      [](const StatedSweep& stated) { return std::optional<Json>(stated.spec.seed); });
-  add_to(record, "repetitions", true, &SweepSpec::repetitions, integer(1, 1'000'000));
-  add_to(record, "repeats", false, &SweepSpec::repeats, integer(0, 10'000));
-  add_to(record, "draw_settings", false, &SweepSpec::draw_settings, boolean());
-  add_to(record, "whole_bed", false, &SweepSpec::whole_bed, boolean());
+  const auto spacing = choice<DesignKind>(
+      {{"regular", DesignKind::regular}, {"chebyshev", DesignKind::chebyshev}});
+  const auto surface = choice<SurfaceLevel>({{"residual", SurfaceLevel::residual},
+                                             {"direct", SurfaceLevel::direct},
+                                             {"direct_parabolic", SurfaceLevel::direct_parabolic},
+                                             {"direct_natural", SurfaceLevel::direct_natural}});
   const auto raster = grid_size(1);
-  record.custom(
-      "evaluation",
-      false,
-      raster.expected,
-      [raster](const Cursor& at, StatedSweep& stated) {
-        if (const auto size = raster.read(at)) {
-          stated.spec.evaluation_columns = size->columns;
-          stated.spec.evaluation_rows = size->rows;
-        }
-      },
-      [raster](const StatedSweep& stated) {
-        return std::optional<Json>(
-            raster.write({stated.spec.evaluation_columns, stated.spec.evaluation_rows}));
-      });
-  add_to(record, "grids", false, &SweepSpec::grids, list(grid_size(2), 1));
-  add_to(record,
-         "spacings",
-         false,
-         &SweepSpec::spacings,
-         list(choice<DesignKind>(
-                  {{"regular", DesignKind::regular}, {"chebyshev", DesignKind::chebyshev}}),
-              1));
-  add_to(record, "noises", false, &SweepSpec::noises, list(object(noise_level_record()), 1));
-  add_to(record, "jitters_mm", false, &SweepSpec::jitters_mm, list(number({"mm", 0.0, 1000.0}), 1));
-  add_to(record,
-         "surfaces",
-         false,
-         &SweepSpec::surfaces,
-         list(choice<SurfaceLevel>({{"residual", SurfaceLevel::residual},
-                                    {"direct", SurfaceLevel::direct},
-                                    {"direct_parabolic", SurfaceLevel::direct_parabolic},
-                                    {"direct_natural", SurfaceLevel::direct_natural}}),
-              1));
-  record.required("machines", &StatedSweep::machines, list(object(stated_machine_record()), 1));
-  add_to(record, "effects", false, &SweepSpec::effects, list(object(effects_record()), 1));
-  add_to(record, "used_on", false, &SweepSpec::uses, list(object(use_record()), 1));
-  return record;
+  return Record<StatedSweep>("a chaintrue_sweep file", kSweepFormat)
+      .required("name", of_spec(&SweepSpec::name), text())
+      .optional("question", of_spec(&SweepSpec::question), text())
+      .optional("seed", of_spec(&SweepSpec::seed), seed_number())
+      .required("repetitions", of_spec(&SweepSpec::repetitions), integer(1, 1'000'000))
+      .optional("repeats", of_spec(&SweepSpec::repeats), integer(0, 10'000))
+      .optional("draw_settings", of_spec(&SweepSpec::draw_settings), boolean())
+      .optional("whole_bed", of_spec(&SweepSpec::whole_bed), boolean())
+      .custom(
+          "evaluation",
+          false,
+          raster.expected,
+          [raster](const Cursor& at, StatedSweep& stated) {
+            if (const auto size = raster.read(at)) {
+              stated.spec.evaluation_columns = size->columns;
+              stated.spec.evaluation_rows = size->rows;
+            }
+          },
+          [raster](const StatedSweep& stated) {
+            return std::optional<Json>(
+                raster.write({stated.spec.evaluation_columns, stated.spec.evaluation_rows}));
+          })
+      .optional("grids", of_spec(&SweepSpec::grids), list(grid_size(2), 1))
+      .optional("spacings", of_spec(&SweepSpec::spacings), list(spacing, 1))
+      .optional("noises", of_spec(&SweepSpec::noises), list(object(noise_level_record()), 1))
+      .optional("jitters_mm", of_spec(&SweepSpec::jitters_mm), list(number({"mm", 0.0, 1000.0}), 1))
+      .optional("surfaces", of_spec(&SweepSpec::surfaces), list(surface, 1))
+      .required("machines", &StatedSweep::machines, list(object(stated_machine_record()), 1))
+      .optional("effects", of_spec(&SweepSpec::effects), list(object(effects_record()), 1))
+      .optional("used_on", of_spec(&SweepSpec::uses), list(object(use_record()), 1));
 }
 
 const Record<StatedSweep>& sweep_record() {
@@ -282,7 +247,6 @@ Json median_and_worst(const std::vector<sweep::CellResult>& done,
 ReadSweep read_sweep(const fs::path& path, const std::vector<std::string>& effects) {
   Problems problems(name_in_messages(path));
   StatedSweep stated = read_document(sweep_record(), read_whole_file(path), problems);
-  fill_defaults(stated.spec);
   std::set<std::string> given;
   read_machines(path, effects, stated, given, problems);
   problems.throw_if_any();
