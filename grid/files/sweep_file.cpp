@@ -11,6 +11,7 @@
 #include "grid/files/machine_file.hpp"
 #include "grid/files/machine_record.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
 #include "grid/files/sha256.hpp"
 #include "grid/files/whole_file.hpp"
