@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sessions in which belts were pulled to two forces: how they are simulated, and that what gives with the
 // pull parts from what does not.
-#include <gmock/gmock.h>
-
-#include <optional>
+#include <gtest/gtest.h>
 
 #include "grid/diagnosis/diagnose.hpp"
-#include "grid/files/belts_file.hpp"
 #include "tests/belts/two_pull_sessions.hpp"
-#include "tests/cli/command_fixture.hpp"
 
 namespace chaintrue::grid::two_pulls_diagnosed {
 namespace {
 
 using diagnosis::Diagnosis;
 using diagnosis::Verdict;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing_support::Outcome;
 
 using two_pulls::kHarder;
 using two_pulls::measured;
@@ -53,35 +46,6 @@ TEST(TwoPulls, WhatOnePullLeavesOpenTwoName) {
   EXPECT_NEAR(two.causes.front().parameters.front().value,
               2.0,
               3.0 * two.causes.front().parameters.front().sigma);
-}
-
-/// One belt that counts 0.1 % too much, which looks like belts and anchors that give: of one pull the first session of
-/// these seeds in which a second pass is worth its while.
-std::optional<MeasuredBelts> left_open() {
-  const std::vector<model::AppliedEffect> hidden = {{"belt_scale", "bl", {{"scale", 0.001}}}};
-  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
-    MeasuredBelts belts = measured(hidden, {}, 0.5, seed);
-    if (diagnosis::diagnose(belts).value().belts->second_pass) return belts;
-  }
-  return std::nullopt;
-}
-
-class TwoPullPlans : public testing_support::CommandFixture {};
-
-TEST_F(TwoPullPlans, ASecondPassIsProposedWhereItPartsWhatOnePullLeavesOpen) {
-  const auto belts = left_open();
-  ASSERT_TRUE(belts);
-  const Diagnosis one = diagnosis::diagnose(*belts).value();
-  EXPECT_EQ(one.belts->second_pass->times, kHarder);
-  EXPECT_LE(one.belts->second_pass->raises_probability_to, 1.0);
-  write("one.json", files::write_belts(*belts));
-  const Outcome found = run("diagnose one.json -o diagnosis.json");
-  ASSERT_EQ(found.code, 0) << found.err;
-  const Outcome plan = run("plan one.json --after diagnosis.json");
-  ASSERT_EQ(plan.code, 0) << plan.err;
-  EXPECT_THAT(plan.err,
-              AllOf(HasSubstr("A second pass: let the machine find its anchors once more"),
-                    HasSubstr("--pulls 1,1.6")));
 }
 
 TEST(TwoPulls, OnceTheSecondPassWasMadeThereIsNoneToPropose) {

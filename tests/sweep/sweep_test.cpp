@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +7,6 @@
 #include <fstream>
 #include <string>
 
-#include "grid/files/input_error.hpp"
 #include "grid/files/sweep_file.hpp"
 #include "grid/files/sweep_store.hpp"
 #include "grid/parallel.hpp"
@@ -20,7 +18,6 @@ namespace chaintrue::grid::sweep {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::HasSubstr;
 using testing_support::read_text;
 
 const std::string kSpecs = std::string(CHAINTRUE_FIXTURES) + "/sweeps/";
@@ -71,109 +68,9 @@ TEST(SweepSpec, AllFixturesAreSound) {
   }
 }
 
-TEST(SweepSpec, ReportsEveryProblemWithItsPlace) {
-  const fs::path folder = fresh_folder("bad");
-  fs::create_directories(folder);
-  std::ofstream(folder / "bad.json")
-      << R"({"file_type": "chaintrue_sweep", "format_version": "1.0", "name": "x", "repetitions": 0, "grids": ["7"],
-             "surfaces": ["cubist"], "machines": [{"name": "m", "machine_file": "none.json"}], "colour": 1})";
-  try {
-    static_cast<void>(files::read_sweep(folder / "bad.json"));
-    FAIL() << "accepted";
-  } catch (const files::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/repetitions"));
-    EXPECT_THAT(error.what(), HasSubstr("/grids/0"));
-    EXPECT_THAT(error.what(), HasSubstr("/surfaces/0"));
-    EXPECT_THAT(error.what(), HasSubstr("/colour"));
-  }
-}
-
-TEST(SweepSpec, TellsOnceWhatAMachineFileDoesNotSay) {
-  const fs::path folder = fresh_folder("assumed");
-  fs::create_directories(folder);
-  const std::string machine = read_text(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json");
-  const std::size_t at = machine.find("\"uncertainty\"");
-  ASSERT_NE(at, std::string::npos);
-  const std::size_t end = machine.find('}', at) + 1;
-  std::ofstream(folder / "m.json")
-      << machine.substr(0, at) << "\"comment\": {}" << machine.substr(end);
-  std::ofstream(folder / "s.json")
-      << R"({"file_type": "chaintrue_sweep", "format_version": "1.0", "name": "x", "repetitions": 1,
-             "machines": [{"name": "a", "machine_file": "m.json"},
-                          {"name": "b", "machine_file": "m.json", "stated_file": "m.json"}]})";
-  const files::ReadSweep read = files::read_sweep(folder / "s.json");
-  ASSERT_EQ(read.warnings.size(), 1U);
-  EXPECT_THAT(read.warnings.front().message(), HasSubstr("not given; assumed are motor positions"));
-}
-
-TEST(SweepSpec, TakesEffectsOfOnesOwn) {
-  const fs::path folder = fresh_folder("own_effects");
-  fs::create_directories(folder);
-  std::ofstream(folder / "s.json")
-      << R"({"file_type": "chaintrue_sweep", "format_version": "1.0", "name": "x", "repetitions": 1,
-             "machines": [{"name": "m", "machine_file": ")" +
-             std::string(CHAINTRUE_FIXTURES) + R"(/machines/classic.json"}],
-             "effects": [{"name": "e", "effects": [{"effect": "second_harmonic", "side": "left",
-                                                    "parameters": {"amplitude_mm": 0.3, "phase_rad": 1}}]}]})";
-  try {
-    static_cast<void>(files::read_sweep(folder / "s.json"));
-    FAIL() << "accepted";
-  } catch (const files::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/effects/0"));
-  }
-  const std::string own = std::string(CHAINTRUE_FIXTURES) + "/effects/second_harmonic.json";
-  const files::ReadSweep read = files::read_sweep(folder / "s.json", {own});
-  EXPECT_EQ(read.spec.machines.front().truth.declared.size(), 1U);
-  // The same cells under another effect of this name are others.
-  std::string text = read_text(own);
-  text.replace(text.find("4 * pi"), 6, "6 * pi");
-  std::ofstream(folder / "other.json") << text;
-  EXPECT_NE(files::read_sweep(folder / "s.json", {(folder / "other.json").string()}).hash, read.hash);
-  // What is wrong with them is said once, whatever machines there are.
-  std::ofstream(folder / "bad.json") << R"({"file_type": "chaintrue_effect"})";
-  try {
-    static_cast<void>(files::read_sweep(folder / "s.json", {(folder / "bad.json").string()}));
-    FAIL() << "accepted";
-  } catch (const files::InputError& error) {
-    const std::string said = error.what();
-    EXPECT_THAT(said, HasSubstr("bad.json"));
-    EXPECT_EQ(said.find("bad.json: /id"), said.rfind("bad.json: /id")) << said;
-  }
-}
-
-TEST(SweepSpec, ChecksEffectsAgainstTheCatalogue) {
-  const fs::path folder = fresh_folder("bad_effects");
-  fs::create_directories(folder);
-  std::ofstream(folder / "bad.json")
-      << R"({"file_type": "chaintrue_sweep", "format_version": "1.0", "name": "x", "repetitions": 1,
-             "machines": [{"name": "m", "machine_file": ")" +
-             std::string(CHAINTRUE_FIXTURES) + R"(/machines/classic.json"}],
-             "effects": [{"name": "e", "effects": [{"effect": "drift", "side": "x",
-                                                    "parameters": {"rate_mm_per_visit": 0.1}}]}]})";
-  try {
-    static_cast<void>(files::read_sweep(folder / "bad.json"));
-    FAIL() << "accepted";
-  } catch (const files::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/effects/0/effects/0/side"));
-  }
-}
-
 TEST(Sweep, IsTheSameBytesForAnyNumberOfThreads) {
   const files::ReadSweep read = files::read_sweep(kSpecs + "quick.json");
   EXPECT_EQ(whole_run(read, "one", 1), whole_run(read, "two", 2));
-}
-
-TEST(Sweep, ShardsMergeToTheBytesOfOneRun) {
-  const files::ReadSweep read = files::read_sweep(kSpecs + "quick.json");
-  const std::string whole = whole_run(read, "whole", 2);
-  const fs::path folder = fresh_folder("shards");
-  for (std::uint64_t shard : {2U, 0U, 1U}) {
-    SweepRun run;
-      run.share = {shard, 3, 0, 1};
-    EXPECT_LT(finished_in(folder, read), 8);
-    run_in(folder, read, run);
-  }
-  EXPECT_EQ(results_of(read, folder), whole);
 }
 
 // A run that ends at any byte of its part can be resumed with the same results.
@@ -214,14 +111,6 @@ TEST(Sweep, ComputesADamagedCellAgain) {
   SweepRun run;
   EXPECT_EQ(run_in(folder, read, run), 1U);
   EXPECT_EQ(results_of(read, folder), whole);
-}
-
-TEST(Sweep, RefusesThePartsOfAnotherSpecification) {
-  files::ReadSweep read = files::read_sweep(kSpecs + "quick.json");
-  whole_run(read, "other", 2);
-  read.hash.back() = read.hash.back() == '0' ? '1' : '0';
-  EXPECT_THROW((void)files::finished_cells(fs::path(::testing::TempDir()) / "chaintrue_sweep_other", read),
-               files::InputError);
 }
 
 // Without noise and with the true machine stated, the error of a map is that of the fit's surface.
