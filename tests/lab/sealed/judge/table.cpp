@@ -155,7 +155,7 @@ std::string verdict_row(const std::vector<Trial>& trials) {
 }
 
 /// By the row of the table of rates that counts them.
-std::string kind_of(const generator::Recipe& recipe) {
+std::string rate_kind_of(const generator::Recipe& recipe) {
   switch (recipe.kind) {
     case Mix::no_order:
     case Mix::rounded:
@@ -211,7 +211,7 @@ std::string markdown(const TrialOptions& options, const std::vector<Trial>& tria
   std::vector<Outcome> outcomes;
   for (const Trial& t : trials) {
     seconds.push_back(t.seconds);
-    outcomes.push_back(outcome_of(kind_of(options.recipe), t));
+    outcomes.push_back(outcome_of(rate_kind_of(options.recipe), t));
   }
   rows.add("one analysis, median and longest [s]",
            fmt::format("{:.2f}, {:.2f}", quantile(seconds, 0.5), quantile(seconds, 1.0)));
