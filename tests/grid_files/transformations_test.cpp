@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "grid/input_checks/point_checks.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::grid::input_checks {
 namespace {
@@ -20,7 +20,7 @@ constexpr std::size_t kRows = 30;
 
 /// Marks 5 x 6 in rows from below, where a machine that errs by some millimetres was sent, good to 0.4 mm.
 MeasuredGrid sound_grid(std::uint64_t seed) {
-  synthetic::Random random(seed, 7);
+  Random random(seed, 7);
   MeasuredGrid grid;
   grid.machine = model::Machine{};
   grid.machine->controller.kind = model::ControllerKind::ideal;

@@ -24,7 +24,7 @@ double reachable_mm(const model::Bed& bed) {
 
 std::string SheetVisit::name() const {
   if (again == 0) return fmt::format("{}", number);
-  return is_beside ? fmt::format("{} (beside mark {})", number, again)
+  return is_beside ? fmt::format("{} (next to mark {})", number, again)
                    : fmt::format("{} (mark {} again)", number, again);
 }
 
@@ -138,7 +138,7 @@ std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
       // A comment in brackets holds no further brackets.
       places.push_back({visit.again == 0
                             ? fmt::format("mark {}", visit.number)
-                            : fmt::format("mark {}: beside mark {}", visit.number, visit.again),
+                            : fmt::format("mark {}: next to mark {}", visit.number, visit.again),
                         model::identity_placement(visit.mark)});
     }
     return drill_gcode(fmt::format("{} marks", places.size()), places, options);

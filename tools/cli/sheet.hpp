@@ -49,7 +49,7 @@ struct SheetVisit {
   model::MarkPoint mark;
   std::size_t again = 0;  ///< the number of the mark's first visit; 0: this is the first
   bool is_beside = false;  ///< of a second visit: kBesideMm from there
-  /// "29 (beside mark 8)", or "29 (mark 8 again)" where nothing is drilled
+  /// "29 (next to mark 8)", or "29 (mark 8 again)" where nothing is drilled
   [[nodiscard]] std::string name() const;
 };
 [[nodiscard]] std::vector<SheetVisit> visits_of(const Sheet& sheet);
