@@ -6,7 +6,7 @@
 #include "grid/map/compensation_map.hpp"
 #include "model/chains/chain_mechanism.hpp"
 #include "tools/gcode/corrector.hpp"
-#include "tools/gcode/path_lengths.hpp"
+#include "tools/gcode/reports.hpp"
 
 namespace chaintrue::gcode {
 namespace {

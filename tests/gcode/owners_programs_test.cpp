@@ -16,7 +16,7 @@
 
 #include "tests/gcode/program_events.hpp"
 #include "tools/gcode/path.hpp"
-#include "tools/gcode/survey.hpp"
+#include "tools/gcode/reports.hpp"
 
 namespace chaintrue::gcode {
 namespace {

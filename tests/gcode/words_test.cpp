@@ -11,7 +11,7 @@
 #include "tests/gcode/formula_target.hpp"
 #include "tests/gcode/program_events.hpp"
 #include "tools/gcode/compensator.hpp"
-#include "tools/gcode/path_lengths.hpp"
+#include "tools/gcode/reports.hpp"
 
 namespace chaintrue::gcode {
 namespace {

@@ -16,8 +16,7 @@
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/gcode/controller_check.hpp"
-#include "tools/gcode/path_lengths.hpp"
-#include "tools/gcode/survey.hpp"
+#include "tools/gcode/reports.hpp"
 
 namespace chaintrue::cli {
 namespace {

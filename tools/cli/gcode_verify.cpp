@@ -15,7 +15,7 @@
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/gcode/firmware.hpp"
-#include "tools/gcode/provenance_comments.hpp"
+#include "tools/gcode/emitter.hpp"
 
 namespace chaintrue::cli {
 namespace {

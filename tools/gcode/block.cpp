@@ -6,11 +6,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
 namespace chaintrue::gcode {
 namespace {
+
+constexpr GCode kGCodes[] = {
+#define CHAINTRUE_GCODE_G(name, tenths, group, axes, refusal) {tenths, GGroup::group, axes, refusal},
+#include "tools/gcode/g_codes.def"
+#undef CHAINTRUE_GCODE_G
+};
+
+constexpr MCode kMCodes[] = {
+#define CHAINTRUE_GCODE_M(number, group, refusal) {number, MGroup::group, refusal},
+#include "tools/gcode/m_codes.def"
+#undef CHAINTRUE_GCODE_M
+};
+
+template <class Code, std::size_t size, std::size_t rows>
+constexpr std::array<std::int16_t, size> index_of(const Code (&codes)[rows], int Code::*number) {
+  std::array<std::int16_t, size> index{};
+  for (auto& entry : index) entry = -1;
+  for (std::size_t i = 0; i < rows; ++i) {
+    index[static_cast<std::size_t>(codes[i].*number)] = static_cast<std::int16_t>(i);
+  }
+  return index;
+}
+
+constexpr auto kGIndex = index_of<GCode, 1000>(kGCodes, &GCode::tenths);
+constexpr auto kMIndex = index_of<MCode, 200>(kMCodes, &MCode::number);
 
 constexpr std::string_view kAxes = "xyzabc@^";
 /// N is allowed only at the beginning of a line, O is not a word of a block; E, U, V and W are
@@ -20,7 +46,7 @@ constexpr std::string_view kPlainLetters = "abcdefhijklpqrstxyz@^uvw";
 Result<void> read_g(ValueReader& reader, Block& block, bool tools_have_no_diameter) {
   const Place place = reader.place();
   const auto value = reader.real();
-  if (!value) return tl::unexpected(value.error());
+  CHAINTRUE_GCODE_TRY(value);
   // 10 times 91.1 is 911 only up to rounding; more decimals do not form a code.
   const double tenths = 10.0 * *value;
   const double rounded = std::round(tenths);
@@ -33,7 +59,7 @@ Result<void> read_g(ValueReader& reader, Block& block, bool tools_have_no_diamet
                   place,
                   fmt::format("{} is not known", g_name(static_cast<int>(rounded))));
   }
-  const bool harmless = tools_have_no_diameter && (code->tenths == 410 || code->tenths == 420);
+  const bool harmless = tools_have_no_diameter && (code->tenths == g::cutter_left || code->tenths == g::cutter_right);
   if (code->refusal != nullptr && !harmless) {
     return refuse(ProblemName::unsupported_code,
                   place,
@@ -54,7 +80,7 @@ Result<void> read_g(ValueReader& reader, Block& block, bool tools_have_no_diamet
 Result<void> read_m(ValueReader& reader, Block& block) {
   const Place place = reader.place();
   const auto number = reader.integer();
-  if (!number) return tl::unexpected(number.error());
+  CHAINTRUE_GCODE_TRY(number);
   const MCode* code = *number < 0 || *number > 9999 ? nullptr : find_m(static_cast<int>(*number));
   if (code == nullptr)
     return refuse(ProblemName::unknown_code, place, fmt::format("M{} is not known", *number));
@@ -78,11 +104,11 @@ Result<void> read_assignment(ValueReader& reader, Block& block) {
   assignment.place = reader.place();
   if (reader.peek() == '<') {
     auto name = reader.angle_name();
-    if (!name) return tl::unexpected(name.error());
+    CHAINTRUE_GCODE_TRY(name);
     assignment.name = std::move(*name);
   } else {
     const auto index = reader.integer();
-    if (!index) return tl::unexpected(index.error());
+    CHAINTRUE_GCODE_TRY(index);
     if (*index < 1 || *index >= parameter::kCount) {
       return refuse(
           ProblemName::bad_parameter, assignment.place, fmt::format("#{} does not exist", *index));
@@ -95,7 +121,7 @@ Result<void> read_assignment(ValueReader& reader, Block& block) {
                   "'=' was expected: a parameter that is no word's value is set");
   }
   const auto value = reader.real();
-  if (!value) return tl::unexpected(value.error());
+  CHAINTRUE_GCODE_TRY(value);
   assignment.value = *value;
   block.assignments.push_back(std::move(assignment));
   return {};
@@ -112,7 +138,7 @@ Result<void> read_word(char letter, Place place, ValueReader& reader, Block& blo
                   fmt::format("a second {} word on the line", upper(letter)));
   }
   const auto value = reader.real();
-  if (!value) return tl::unexpected(value.error());
+  CHAINTRUE_GCODE_TRY(value);
   if (std::fabs(*value) > 1e9) {
     return refuse(ProblemName::number_out_of_range,
                   place,
@@ -123,6 +149,23 @@ Result<void> read_word(char letter, Place place, ValueReader& reader, Block& blo
 }
 
 }  // namespace
+
+const GCode* find_g(int tenths) {
+  if (tenths < 0 || tenths >= static_cast<int>(kGIndex.size())) return nullptr;
+  const auto row = kGIndex[static_cast<std::size_t>(tenths)];
+  return row < 0 ? nullptr : &kGCodes[row];
+}
+
+const MCode* find_m(int number) {
+  if (number < 0 || number >= static_cast<int>(kMIndex.size())) return nullptr;
+  const auto row = kMIndex[static_cast<std::size_t>(number)];
+  return row < 0 ? nullptr : &kMCodes[row];
+}
+
+std::string g_name(int tenths) {
+  return tenths % 10 == 0 ? fmt::format("G{}", tenths / 10)
+                          : fmt::format("G{}.{}", tenths / 10, tenths % 10);
+}
 
 char upper(char letter) {
   return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;

@@ -2,18 +2,104 @@
 /// \file
 /// One line of a program as words, evaluated and checked as far as possible without the modal
 /// state.
+///
+/// The tables of G and M codes: modal group, axis words, and the reason for a refusal.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "tools/gcode/codes.hpp"
 #include "tools/gcode/value_reader.hpp"
 
 namespace chaintrue::gcode {
+
+/// Codes of one group exclude each other within a block.
+enum class GGroup : std::uint8_t {
+  once,
+  motion,
+  plane,
+  distance,
+  arc_distance,
+  feed_mode,
+  units,
+  cutter,
+  tool_length,
+  retract,
+  system,
+  path_control,
+  spindle_mode,
+  diameter,
+  scaling,
+};
+inline constexpr std::size_t kGGroups = 15;
+
+enum class MGroup : std::uint8_t { stop, spindle, tool, coolant, override, output, state, flow };
+inline constexpr std::size_t kMGroups = 8;
+
+/// The codes by name: g::rapid is G0, g::machine_frame is G53.
+namespace g {
+struct Name {
+  int tenths;
+  GGroup group;
+  constexpr operator int() const { return tenths; }
+};
+#define CHAINTRUE_GCODE_G(name, tenths, group, axes, refusal) \
+  inline constexpr Name name{tenths, GGroup::group};
+#include "tools/gcode/g_codes.def"
+#undef CHAINTRUE_GCODE_G
+}  // namespace g
+
+struct GCode {
+  int tenths;  ///< 1 is 10, 91.1 is 911
+  GGroup group;
+  bool takes_axes;
+  const char* refusal;  ///< why it is not supported; null if it is
+};
+
+struct MCode {
+  int number;
+  MGroup group;
+  const char* refusal;
+};
+
+/// G73 and G81 to G89; a motion is given in tenths.
+[[nodiscard]] constexpr bool is_cycle(int motion) {
+  return motion == g::peck_break || (motion >= g::drill && motion <= g::bore_dwell);
+}
+[[nodiscard]] constexpr bool is_arc(int motion) {
+  return motion == g::arc_clockwise || motion == g::arc_counterclockwise;
+}
+[[nodiscard]] constexpr bool is_probe(int motion) {
+  return motion >= g::probe && motion <= g::probe_away_quietly;
+}
+
+/// The indices of a plane's axes, in the order that makes first x second = normal.
+struct PlaneAxes {
+  std::size_t first = 0;
+  std::size_t second = 1;
+  std::size_t normal = 2;
+};
+
+[[nodiscard]] constexpr PlaneAxes plane_axes(int plane) {
+  if (plane == g::plane_zx) return {2, 0, 1};
+  if (plane == g::plane_yz) return {1, 2, 0};
+  return {0, 1, 2};
+}
+
+/// Null if the code is unknown.
+[[nodiscard]] const GCode* find_g(int tenths);
+[[nodiscard]] const MCode* find_m(int number);
+
+/// Of coordinate system 1 (G54) to 9 (G59.3).
+[[nodiscard]] constexpr int system_code(int system) {
+  return system <= 6 ? g::system_1 + 10 * (system - 1) : g::system_7 + system - 7;
+}
+/// `G1`, `G91.1`
+[[nodiscard]] std::string g_name(int tenths);
 
 /// The letters of the six axes.
 inline constexpr std::string_view kAxisLetters = "xyzabc";
@@ -51,13 +137,12 @@ struct Block {
   [[nodiscard]] Place start() const { return {line, 0}; }
   [[nodiscard]] const GCode* code(GGroup group) const { return g[static_cast<std::size_t>(group)]; }
   [[nodiscard]] const MCode* code(MGroup group) const { return m[static_cast<std::size_t>(group)]; }
-  [[nodiscard]] bool is(GGroup group, int tenths) const {
-    return code(group) != nullptr && code(group)->tenths == tenths;
+  [[nodiscard]] bool is(g::Name name) const {
+    return code(name.group) != nullptr && code(name.group)->tenths == name.tenths;
   }
   [[nodiscard]] bool has_axes() const;
   /// Z and no other axis.
   [[nodiscard]] bool has_z_alone() const;
-  [[nodiscard]] bool has_any_word() const { return present_ != 0; }
 
   void clear(std::size_t line_number);
   void put(char letter, double value, Place place);

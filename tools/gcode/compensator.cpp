@@ -91,7 +91,7 @@ Result<CompensateSummary> Compensator::run(LineSource& source, const Dialect& di
                    dialect.home_mm[1],
                    options_.settings});
   const auto program = run_program(source, dialect, *this);
-  if (!program) return tl::unexpected(program.error());
+  CHAINTRUE_GCODE_TRY(program);
   summary_.blocks = program->blocks;
   summary_.commands = emitter_.commands();
   return summary_;
@@ -125,12 +125,11 @@ Result<void> Compensator::emit(const Move& move, double feed, const PathSample& 
   // Output after a problem is discarded.
   if (findings_.problem_count > 0) return {};
   const bool named_z = move.names_z;
-  const auto written = emitter_.command(move.kind == MoveKind::rapid,
+  CHAINTRUE_GCODE_TRY(emitter_.command(move.kind == MoveKind::rapid,
                                         move.line,
                                         model::BedPoint{sample.command.x_mm, sample.command.y_mm},
                                         named_z ? std::optional(sample.target.z_mm) : std::nullopt,
-                                        feed);
-  if (!written) return tl::unexpected(written.error());
+                                        feed));
   return {};
 }
 
@@ -276,7 +275,7 @@ Result<void> Compensator::move(const Move& move) {
     if (length == 0.0 && move.feed.mode == FeedMode::inverse_time) return {};
     const auto written =
         emitter_.command(move.kind == MoveKind::rapid, move.line, std::nullopt, move.to.z_mm, feed);
-    if (!written) return tl::unexpected(written.error());
+    CHAINTRUE_GCODE_TRY(written);
     if (here_ && options_.on_command) options_.on_command(move, *here_, *here_);
     return {};
   }

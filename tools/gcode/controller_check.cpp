@@ -35,7 +35,7 @@ void ControllerCheck::arc(const Move& move) {
     straight_arcs_.add(move.line, arc.start_radius_mm * (1.0 - std::cos(0.5 * sweep)));
   }
   const bool upright = arc.first.z_mm != 0.0 || arc.second.z_mm != 0.0;
-  if (upright && !knows_code(firmware_, 'G', 180)) upright_arcs_.add(move.line);
+  if (upright && !knows_code(firmware_, 'G', g::plane_zx)) upright_arcs_.add(move.line);
   if (std::abs(arc.turns) > 1 && firmware_.arcs != ArcRule::exact) arc_turns_.add(move.line);
 }
 

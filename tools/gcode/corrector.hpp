@@ -7,16 +7,32 @@
 ///
 /// play is half the width of a named direction_hysteresis, with the sign of each chain's direction
 /// of motion; zero if none was named.
+///
+/// Why there is no command for where the tool shall be, or no tool for a command.
 #pragma once
 
+#include <string_view>
 #include <tl/expected.hpp>
 
+#include "grid/map/length_map.hpp"
 #include "interp/checked_field.hpp"
 #include "model/controllers/payout.hpp"
-#include "tools/gcode/correction_failure.hpp"
 #include "tools/gcode/firmware.hpp"
 
 namespace chaintrue::gcode {
+
+enum class CorrectionReason {
+  outside_map,
+  unreachable,  ///< the machine cannot hold the tool there
+  not_converged,
+  controller,  ///< out of reach of the controller's own kinematics
+};
+/// A clause: "lies outside the map", ...
+[[nodiscard]] std::string_view sentence_of(CorrectionReason reason);
+/// Of `unreachable` and `controller` with the cause, where it is known.
+using CorrectionFailure = Failure<CorrectionReason>;
+[[nodiscard]] CorrectionFailure correction_failure(const grid::MapFailure& failure);
+[[nodiscard]] CorrectionFailure out_of_controllers_reach(const model::PoseFailure& why);
 
 /// By which a curvature that was sampled may be too small.
 inline constexpr double kCurvatureSafety = 2.0;

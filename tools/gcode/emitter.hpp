@@ -3,6 +3,13 @@
 /// Writes G-code that all controllers of such machines read in the same way: G21 G90, G0 and G1
 /// only, X and Y always together, no dotted codes, no exponents, no moves of zero length, at most
 /// 60 characters a line.
+///
+/// Where a compensated program comes from, as comments of its head:
+///
+///     (chaintrue 0.1.0, gcode compensate)
+///     (option --tolerance-mm 0.1)
+///     (from map.json)
+///     (sha256 begins 0f343b0931126a20f133d67c2b018a3b)
 #pragma once
 
 #include <cstdint>
@@ -15,8 +22,21 @@
 #include "grid/provenance.hpp"
 #include "model/coordinates.hpp"
 #include "tools/gcode/events.hpp"
+#include "tools/gcode/line_source.hpp"
 
 namespace chaintrue::gcode {
+
+/// The whole hash does not fit into a line.
+inline constexpr std::size_t kHashDigits = 32;
+
+/// At most `longest` characters a line. Characters that a controller might act on in a comment are
+/// replaced by _.
+[[nodiscard]] std::vector<std::string> comments_of(const grid::Provenance& made_by,
+                                                   std::size_t longest);
+
+/// The beginnings of the hashes that the comments at the beginning of a program hold; none where it
+/// has no such comments or cannot be read.
+[[nodiscard]] std::vector<std::string> hashes_in_head(LineSource program);
 
 /// Takes the next bytes of the output.
 using ByteSink = std::function<void(std::string_view)>;
@@ -60,8 +80,6 @@ class Emitter {
   void comment(const Comment& comment);
   void end(std::string_view word);
   [[nodiscard]] std::uint64_t commands() const { return commands_; }
-  /// The largest distance that rounding can move a commanded point.
-  [[nodiscard]] double rounding_mm() const;
 
  private:
   void put_line(std::string_view text);

@@ -50,11 +50,11 @@ Result<Flow::ControlLine> Flow::parse(const CleanLine& line, std::size_t at) con
   ValueReader reader(line, interpreter_.parameters(), at + 1);
   if (reader.peek() == '<') {
     auto name = reader.angle_name();
-    if (!name) return tl::unexpected(name.error());
+    CHAINTRUE_GCODE_TRY(name);
     control.label = fmt::format("<{}>", *name);
   } else {
     const auto number = reader.integer();
-    if (!number) return tl::unexpected(number.error());
+    CHAINTRUE_GCODE_TRY(number);
     if (*number < 0)
       return refuse(ProblemName::bad_flow, line.place(at), "an O number is not negative");
     control.label = fmt::format("{}", *number);
@@ -97,7 +97,7 @@ Result<Flow::ControlLine> Flow::parse(const CleanLine& line, std::size_t at) con
 
 Result<void> Flow::control(const CleanLine& line, std::size_t at) {
   const auto control = parse(line, at);
-  if (!control) return tl::unexpected(control.error());
+  CHAINTRUE_GCODE_TRY(control);
   return execute(line, *control);
 }
 
@@ -145,7 +145,7 @@ Result<double> Flow::value(const CleanLine& line, std::size_t at) const {
 Result<std::optional<double>> Flow::optional_value(const CleanLine& line, std::size_t at) const {
   if (at >= line.text.size()) return std::optional<double>{};
   const auto result = value(line, at);
-  if (!result) return tl::unexpected(result.error());
+  CHAINTRUE_GCODE_TRY(result);
   return std::optional(*result);
 }
 
@@ -156,7 +156,7 @@ Result<Flow::Found> Flow::skip_to(const std::string& label,
   SourceLine raw;
   for (;;) {
     const auto more = read(raw);
-    if (!more) return tl::unexpected(more.error());
+    CHAINTRUE_GCODE_TRY(more);
     if (!*more) {
       return refuse(ProblemName::bad_flow,
                     from,
@@ -187,8 +187,7 @@ Result<void> Flow::begin_sub(const CleanLine& line, const ControlLine& control) 
             "the subroutine o{} is defined already, on line {}", control.label, known->second));
   }
   bodies_.insert_or_assign(control.label, source_.position());
-  const auto end = skip_to(control.label, {Keyword::endsub}, line.place(0));
-  if (!end) return tl::unexpected(end.error());
+  CHAINTRUE_GCODE_TRY(skip_to(control.label, {Keyword::endsub}, line.place(0)));
   return {};
 }
 
@@ -243,7 +242,7 @@ Result<void> Flow::call(const CleanLine& line, const ControlLine& control) {
   ValueReader reader(line, interpreter_.parameters(), control.rest);
   while (!reader.done()) {
     const auto argument = reader.bracketed();
-    if (!argument) return tl::unexpected(argument.error());
+    CHAINTRUE_GCODE_TRY(argument);
     arguments.push_back(*argument);
   }
   if (arguments.size() > 30)
@@ -252,7 +251,7 @@ Result<void> Flow::call(const CleanLine& line, const ControlLine& control) {
   open.label = control.label;
   open.return_to = source_.position();
   const auto body = find_body(control.label, line.place(0));
-  if (!body) return tl::unexpected(body.error());
+  CHAINTRUE_GCODE_TRY(body);
   open.body = *body;
   CHAINTRUE_GCODE_TRY(push_call(std::move(open), line.place(0)));
   interpreter_.parameters().enter(arguments);
@@ -266,7 +265,7 @@ Result<void> Flow::return_from(const CleanLine& line, const ControlLine& control
                   fmt::format("the subroutine o{} has not been called", control.label));
   }
   const auto result = optional_value(line, control.rest);
-  if (!result) return tl::unexpected(result.error());
+  CHAINTRUE_GCODE_TRY(result);
   interpreter_.parameters().leave();
   static_cast<void>(interpreter_.parameters().set("_value", result->value_or(0.0)));
   static_cast<void>(
@@ -283,7 +282,7 @@ Result<void> Flow::call_program(long number, long repeats, Place place) {
   open.remaining = repeats;
   open.program = true;
   const auto body = find_body(open.label, place);
-  if (!body) return tl::unexpected(body.error());
+  CHAINTRUE_GCODE_TRY(body);
   open.body = *body;
   return push_call(std::move(open), place);
 }

@@ -28,7 +28,7 @@ Result<void> Flow::begin_loop(const CleanLine& line, const ControlLine& control)
     return {};
   }
   const auto count = value(line, control.rest);
-  if (!count) return tl::unexpected(count.error());
+  CHAINTRUE_GCODE_TRY(count);
   if (control.keyword == Keyword::repeat) {
     block.start = source_.position();
     // An expression may differ from a whole number by rounding.
@@ -39,8 +39,7 @@ Result<void> Flow::begin_loop(const CleanLine& line, const ControlLine& control)
     }
     block.remaining = static_cast<long>(std::clamp(std::round(*count), -1.0, 1e15));
     if (block.remaining <= 0) {
-      const auto end = skip_to(control.label, {Keyword::endrepeat}, line.place(0));
-      if (!end) return tl::unexpected(end.error());
+      CHAINTRUE_GCODE_TRY(skip_to(control.label, {Keyword::endrepeat}, line.place(0)));
       return {};
     }
     blocks_.push_back(std::move(block));
@@ -56,8 +55,7 @@ Result<void> Flow::begin_loop(const CleanLine& line, const ControlLine& control)
     return {};
   }
   if (*count == 0.0) {
-    const auto end = skip_to(control.label, {Keyword::endwhile}, line.place(0));
-    if (!end) return tl::unexpected(end.error());
+    CHAINTRUE_GCODE_TRY(skip_to(control.label, {Keyword::endwhile}, line.place(0)));
     return {};
   }
   blocks_.push_back(std::move(block));
@@ -96,8 +94,7 @@ Result<void> Flow::condition(const CleanLine& line, const ControlLine& control) 
   if (!begins) {  // the executed branch is over
     blocks_.resize(static_cast<std::size_t>(open - blocks_.data()));
     if (control.keyword == Keyword::endif) return {};
-    const auto end = skip_to(control.label, {Keyword::endif}, line.place(0));
-    if (!end) return tl::unexpected(end.error());
+    CHAINTRUE_GCODE_TRY(skip_to(control.label, {Keyword::endif}, line.place(0)));
     return {};
   }
   if (blocks_.size() >= kDeepestBlock)
@@ -107,12 +104,12 @@ Result<void> Flow::condition(const CleanLine& line, const ControlLine& control) 
   while (holds && *holds == 0.0) {
     const auto branch =
         skip_to(control.label, {Keyword::elseif, Keyword::else_, Keyword::endif}, line.place(0));
-    if (!branch) return tl::unexpected(branch.error());
+    CHAINTRUE_GCODE_TRY(branch);
     if (branch->control.keyword == Keyword::endif) return {};
     if (branch->control.keyword == Keyword::else_) break;
     holds = value(found_line_, branch->control.rest);
   }
-  if (!holds) return tl::unexpected(holds.error());
+  CHAINTRUE_GCODE_TRY(holds);
   blocks_.push_back({control.label, Keyword::if_, {}, 0, line.number});
   return {};
 }
@@ -130,7 +127,7 @@ Result<void> Flow::jump_out(const CleanLine& line, const ControlLine& control) {
                       : loop.kind == Keyword::do_  ? Keyword::while_
                                                    : Keyword::endwhile;
   const auto found = skip_to(control.label, {end}, line.place(0));
-  if (!found) return tl::unexpected(found.error());
+  CHAINTRUE_GCODE_TRY(found);
   if (control.keyword == Keyword::break_) {
     blocks_.resize(index);
     return {};

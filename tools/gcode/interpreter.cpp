@@ -10,11 +10,6 @@
 #include <cmath>
 
 namespace chaintrue::gcode {
-namespace {
-
-bool has_motion_digits(int motion) { return motion >= 382 && motion <= 385; }
-
-}  // namespace
 
 Interpreter::Interpreter(const Dialect& dialect, Sink& sink) : dialect_(dialect), sink_(sink) {
   parameters_.follow([this](int index) { return state_by_number(index); },
@@ -92,7 +87,7 @@ Result<void> Interpreter::pass_line(const Block& block,
   PassedWord passed{block.line, std::move(word)};
   if (passed.text.starts_with("G28")) {
     moves_ = true;
-    passed.machine_code = 280;
+    passed.machine_code = g::home;
     for (const std::size_t axis : {0, 1}) {
       const bool homes = passed.text.size() == 3 ||
                          passed.text.find(upper(kAxisLetters[axis])) != std::string::npos;
@@ -115,7 +110,7 @@ Result<AfterBlock> Interpreter::execute(const Block& block, const std::vector<Co
     }
   }
   const auto motion = motion_to_be(block);
-  if (!motion) return tl::unexpected(motion.error());
+  CHAINTRUE_GCODE_TRY(motion);
   CHAINTRUE_GCODE_TRY(check_assignments(block));
   CHAINTRUE_GCODE_TRY(check_words(block, *motion));
   assign(block);
@@ -138,7 +133,7 @@ Result<int> Interpreter::motion_to_be(const Block& block) const {
   const GCode* motion = block.code(GGroup::motion);
   const GCode* once_code = block.code(GGroup::once);
   const bool once_takes_axes = once_code != nullptr && once_code->takes_axes;
-  const bool length_takes_axes = block.is(GGroup::tool_length, 431);
+  const bool length_takes_axes = block.is(g::tool_length_stated);
   const bool centre = block.has('i') || block.has('j') || block.has('k');
   if (once_takes_axes && length_takes_axes) {
     return refuse(
@@ -153,7 +148,7 @@ Result<int> Interpreter::motion_to_be(const Block& block) const {
   }
   if (once_takes_axes || length_takes_axes) return -1;
   if (!block.has_axes() && !(centre && is_arc(modes_.motion))) return -1;
-  if (motion != nullptr || modes_.motion == 800) {
+  if (motion != nullptr || modes_.motion == g::no_motion) {
     return refuse(ProblemName::no_motion_mode,
                   block.start(),
                   "axis words stand here, but no motion (G0, G1, G2, G3 ...) is in force that "
@@ -240,7 +235,7 @@ Result<void> Interpreter::comments(const Block& block, const std::vector<Comment
 
 Result<void> Interpreter::set_feed(const Block& block, int motion) {
   if (const GCode* mode = block.code(GGroup::feed_mode)) {
-    const FeedMode next = mode->tenths == 930 ? FeedMode::inverse_time : FeedMode::per_minute;
+    const FeedMode next = mode->tenths == g::inverse_time ? FeedMode::inverse_time : FeedMode::per_minute;
     // A feed rate of the other mode has no meaning; LinuxCNC clears it with every G94 that follows
     // G93.
     if (next != modes_.feed_mode) modes_.feed = 0.0;
@@ -248,7 +243,7 @@ Result<void> Interpreter::set_feed(const Block& block, int motion) {
   }
   const bool inverse = modes_.feed_mode == FeedMode::inverse_time;
   if (block.has('f')) {
-    if (block.code(GGroup::units) != nullptr && block.is(GGroup::units, 200) != modes_.inches &&
+    if (block.code(GGroup::units) != nullptr && block.is(g::inches) != modes_.inches &&
         !inverse) {
       sink_.note({block.line,
                   "feed_before_units",
@@ -258,7 +253,7 @@ Result<void> Interpreter::set_feed(const Block& block, int motion) {
     modes_.feed = inverse ? block.value('f') : length(block, 'f');
   }
   const bool feeds =
-      motion == 10 || is_arc(motion) || is_cycle(motion) || has_motion_digits(motion);
+      motion == g::line || is_arc(motion) || is_cycle(motion) || is_probe(motion);
   if (!feeds) return {};
   if (inverse && is_cycle(motion)) {
     return refuse(ProblemName::bad_cycle,
@@ -281,21 +276,22 @@ Result<void> Interpreter::set_feed(const Block& block, int motion) {
 void Interpreter::set_modes(const Block& block) {
   if (const GCode* plane = block.code(GGroup::plane)) modes_.plane = plane->tenths;
   if (const GCode* units = block.code(GGroup::units)) {
-    modes_.inches = units->tenths == 200;
+    modes_.inches = units->tenths == g::inches;
     units_stated_ = true;
   }
   if (const GCode* system = block.code(GGroup::system)) {
-    select_system(system->tenths <= 590 ? (system->tenths - 530) / 10 : system->tenths - 590 + 6);
+    select_system(system->tenths <= g::system_6 ? (system->tenths - g::system_1) / 10 + 1
+                                                   : system->tenths - g::system_7 + 7);
   }
   if (const GCode* distance = block.code(GGroup::distance))
-    modes_.incremental = distance->tenths == 910;
+    modes_.incremental = distance->tenths == g::incremental;
   if (const GCode* centres = block.code(GGroup::arc_distance)) {
-    modes_.absolute_centres = centres->tenths == 901;
+    modes_.absolute_centres = centres->tenths == g::absolute_centres;
     note_once(NoteOnce::dotted_code, block.line);
   }
-  if (block.is(GGroup::motion, 800)) modes_.motion = 800;
+  if (block.is(g::no_motion)) modes_.motion = g::no_motion;
   if (const GCode* retract = block.code(GGroup::retract))
-    modes_.retract_to_r = retract->tenths == 990;
+    modes_.retract_to_r = retract->tenths == g::retract_to_r;
 }
 
 Result<AfterBlock> Interpreter::after(const Block& block) const {

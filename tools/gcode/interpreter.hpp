@@ -17,7 +17,7 @@
 #include "tools/gcode/arc_words.hpp"
 #include "tools/gcode/block.hpp"
 #include "tools/gcode/events.hpp"
-#include "tools/gcode/parameters.hpp"
+#include "tools/gcode/value_reader.hpp"
 
 namespace chaintrue::gcode {
 
@@ -80,9 +80,9 @@ class Interpreter {
 
  private:
   struct Modes {
-    int motion = 800;  ///< tenths, as in the tables of codes
-    int plane = 170;
-    int path_control = 640;
+    int motion = g::no_motion;  ///< tenths, as in the tables of codes
+    int plane = g::plane_xy;
+    int path_control = g::blend;
     int system = 1;  ///< 1 is G54, 9 is G59.3
     bool inches = false;
     bool incremental = false;
@@ -104,7 +104,7 @@ class Interpreter {
     double sine = 0.0;
   };
   struct Sticky {
-    int plane = 170;
+    int plane = g::plane_xy;
     double start = 0.0;  ///< height at the start of the row of cycles
     double r = 0.0;      ///< as written, in mm
     double depth = 0.0;
@@ -171,14 +171,11 @@ class Interpreter {
 
   // interpreter_cycles.cpp
   Result<void> cycle(const Block& block, int motion);
-  Result<void> drill(const Block& block, const Cycle& cycle, double first, double second);
-  Result<void> peck(const Block& block, const Cycle& cycle, double first, double second);
-  Result<void> tap_or_bore(const Block& block, const Cycle& cycle, double first, double second);
-  Result<void> back_bore(const Block& block, const Cycle& cycle, double first, double second);
-  Result<void> cycle_move(const Block& block,
-                          const Cycle& cycle,
-                          MoveKind kind,
-                          const std::array<double, 3>& to);
+  Result<void> drill(const Block& block, const Cycle& cycle);
+  Result<void> peck(const Block& block, const Cycle& cycle);
+  Result<void> tap_or_bore(const Block& block, const Cycle& cycle);
+  Result<void> back_bore(const Block& block, const Cycle& cycle);
+  Result<void> cycle_move(const Block& block, const Cycle& cycle, MoveKind kind, double height);
 
   // interpreter_state.cpp
   [[nodiscard]] std::string system_name() const;

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "tools/gcode/interpreter.hpp"
-#include "tools/gcode/word_text.hpp"
+#include "tools/gcode/value_reader.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -24,27 +24,30 @@ constexpr double kPeckClearanceMm = 0.254;
 /// A cycle's numbers, in the program's frame, mm.
 struct Interpreter::Cycle {
   int motion = 0;
-  std::size_t first = 0;  // index of the plane's first axis
-  std::size_t second = 1;
-  std::size_t normal = 2;
+  PlaneAxes axes;
+  std::array<double, 2> hole{};  // along the plane's first and second axis
   double retract = 0.0;  // the R plane
   double bottom = 0.0;
   double clear = 0.0;  // height of the retract at the end
   double dwell_s = 0.0;
   double peck = 0.0;
   Axes program{};  // the other axes
+
+  [[nodiscard]] Axes at(double height) const {
+    Axes place = program;
+    place[axes.first] = hole[0];
+    place[axes.second] = hole[1];
+    place[axes.normal] = height;
+    return place;
+  }
 };
 
 Result<void> Interpreter::cycle_move(const Block& block,
                                      const Cycle& cycle,
                                      MoveKind kind,
-                                     const std::array<double, 3>& to) {
+                                     double height) {
   CHAINTRUE_GCODE_TRY(step(block.start()));
-  Axes program = cycle.program;
-  program[cycle.first] = to[0];
-  program[cycle.second] = to[1];
-  program[cycle.normal] = to[2];
-  const Axes machine = to_machine(program);
+  const Axes machine = to_machine(cycle.at(height));
   Move move = basic_move(block.line, kind, machine);
   move.names_xy = true;
   move.names_z = true;
@@ -57,10 +60,9 @@ Result<void> Interpreter::cycle_move(const Block& block,
 Result<void> Interpreter::cycle(const Block& block, int motion) {
   Cycle cycle;
   cycle.motion = motion;
-  if (modes_.plane == 180) cycle = Cycle{motion, 2, 0, 1};
-  if (modes_.plane == 190) cycle = Cycle{motion, 1, 2, 0};
+  cycle.axes = plane_axes(modes_.plane);
   cycle.program = to_program(machine_);
-  const char depth_letter = kAxisLetters[cycle.normal];
+  const char depth_letter = kAxisLetters[cycle.axes.normal];
   if (!block.has_axes())
     return refuse(ProblemName::bad_cycle, block.start(), "a canned cycle needs axis words");
   if (block.has('a') || block.has('b') || block.has('c') || block.has('@') || block.has('^')) {
@@ -75,7 +77,7 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   const bool within = is_cycle(modes_.motion) && sticky_.plane == modes_.plane;
   // G98 returns to the height at the start of the row of cycles in this plane; with G91, R is
   // relative to it.
-  if (!within) sticky_.start = cycle.program[cycle.normal];
+  if (!within) sticky_.start = cycle.program[cycle.axes.normal];
   sticky_.plane = modes_.plane;
   const auto sticky = [&](char letter, double& kept, bool is_length) -> bool {
     if (block.has(letter)) kept = is_length ? length(block, letter) : block.value(letter);
@@ -89,13 +91,13 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   if (!sticky(depth_letter, sticky_.depth, true)) {
     return refuse(ProblemName::bad_cycle, block.start(), "the cycle's depth is missing");
   }
-  const bool dwells = motion == 820 || motion == 860 || motion == 880 || motion == 890;
+  const bool dwells = motion == g::drill_dwell || motion == g::bore_stop || motion == g::bore_manual || motion == g::bore_dwell;
   if (!sticky('p', sticky_.p, false)) {
     if (dwells)
       return refuse(ProblemName::bad_cycle, block.start(), "the cycle's dwell time P is missing");
     sticky_.p = 0.0;
   }
-  const bool pecks = motion == 730 || motion == 830;
+  const bool pecks = motion == g::peck_break || motion == g::peck;
   if (!sticky('q', sticky_.q, true) && pecks) {
     return refuse(
         ProblemName::bad_cycle, block.start(), "the cycle's depth of a peck, Q, is missing");
@@ -112,27 +114,23 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
                   "a cycle is repeated a whole number of times, at least once");
   }
 
-  double height = cycle.program[cycle.normal];
-  double first = cycle.program[cycle.first];
-  double second = cycle.program[cycle.second];
-  const double here_first = first;
-  const double here_second = second;
+  double height = cycle.program[cycle.axes.normal];
+  const std::size_t axes[] = {cycle.axes.first, cycle.axes.second};
   const auto word = [&](std::size_t axis, double otherwise) {
     return block.has(kAxisLetters[axis]) ? length(block, kAxisLetters[axis]) : otherwise;
   };
-  double step_first = 0.0;
-  double step_second = 0.0;
-  if (modes_.incremental) {
-    step_first = word(cycle.first, 0.0);
-    step_second = word(cycle.second, 0.0);
-    cycle.retract = sticky_.r + sticky_.start;
-    cycle.bottom = sticky_.depth + cycle.retract;
-  } else {
-    first = word(cycle.first, first);
-    second = word(cycle.second, second);
-    cycle.retract = sticky_.r;
-    cycle.bottom = sticky_.depth;
+  std::array<double, 2> place{};
+  std::array<double, 2> stride{};
+  for (const std::size_t i : {0, 1}) {
+    cycle.hole[i] = place[i] = cycle.program[axes[i]];
+    if (modes_.incremental) {
+      stride[i] = word(axes[i], 0.0);
+    } else {
+      place[i] = word(axes[i], place[i]);
+    }
   }
+  cycle.retract = sticky_.r + (modes_.incremental ? sticky_.start : 0.0);
+  cycle.bottom = sticky_.depth + (modes_.incremental ? cycle.retract : 0.0);
   if (cycle.retract < cycle.bottom) {
     return refuse(
         ProblemName::bad_cycle, block.start(), "the retract plane R lies below the cycle's bottom");
@@ -143,67 +141,55 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   // From below the R plane first straight up to it; a row that began below it goes to it even from
   // a higher retract.
   if (sticky_.start < cycle.retract && height != cycle.retract) {
-    CHAINTRUE_GCODE_TRY(
-        cycle_move(block, cycle, MoveKind::rapid, {here_first, here_second, cycle.retract}));
+    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, cycle.retract));
     height = cycle.retract;
   }
   // G98 does not traverse below the height at the start of the row.
   if (!modes_.retract_to_r) height = std::max(height, sticky_.start);
   cycle.clear = modes_.retract_to_r ? cycle.retract : std::max(sticky_.start, cycle.retract);
   for (double count = repeats; count > 0.0; count -= 1.0) {
-    first += step_first;
-    second += step_second;
-    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, {first, second, height}));
+    for (const std::size_t i : {0, 1}) cycle.hole[i] = place[i] += stride[i];
+    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, height));
     if (height != cycle.retract) {
-      CHAINTRUE_GCODE_TRY(
-          cycle_move(block, cycle, MoveKind::rapid, {first, second, cycle.retract}));
+      CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, cycle.retract));
     }
-    CHAINTRUE_GCODE_TRY(motion == 870 ? back_bore(block, cycle, first, second)
-                        : pecks       ? peck(block, cycle, first, second)
-                        : motion == 810 || motion == 820
-                            ? drill(block, cycle, first, second)
-                            : tap_or_bore(block, cycle, first, second));
+    CHAINTRUE_GCODE_TRY(motion == g::back_bore ? back_bore(block, cycle)
+                        : pecks                ? peck(block, cycle)
+                        : motion == g::drill || motion == g::drill_dwell
+                            ? drill(block, cycle)
+                            : tap_or_bore(block, cycle));
     height = cycle.clear;
   }
   return {};
 }
 
 /// G81, G82
-Result<void> Interpreter::drill(const Block& block,
-                                const Cycle& cycle,
-                                double first,
-                                double second) {
-  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, {first, second, cycle.bottom}));
-  if (cycle.motion == 820) CHAINTRUE_GCODE_TRY(pass(block, with_value("G4 P", cycle.dwell_s)));
-  return cycle_move(block, cycle, MoveKind::rapid, {first, second, cycle.clear});
+Result<void> Interpreter::drill(const Block& block, const Cycle& cycle) {
+  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, cycle.bottom));
+  if (cycle.motion == g::drill_dwell) CHAINTRUE_GCODE_TRY(pass(block, with_value("G4 P", cycle.dwell_s)));
+  return cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
 }
 
 /// G73, G83
-Result<void> Interpreter::peck(const Block& block,
-                               const Cycle& cycle,
-                               double first,
-                               double second) {
+Result<void> Interpreter::peck(const Block& block, const Cycle& cycle) {
   for (double depth = cycle.retract - cycle.peck; depth > cycle.bottom; depth -= cycle.peck) {
-    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, {first, second, depth}));
-    if (cycle.motion == 830) {
+    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, depth));
+    if (cycle.motion == g::peck) {
       CHAINTRUE_GCODE_TRY(
-          cycle_move(block, cycle, MoveKind::rapid, {first, second, cycle.retract}));
+          cycle_move(block, cycle, MoveKind::rapid, cycle.retract));
     }
     CHAINTRUE_GCODE_TRY(
-        cycle_move(block, cycle, MoveKind::rapid, {first, second, depth + kPeckClearanceMm}));
+        cycle_move(block, cycle, MoveKind::rapid, depth + kPeckClearanceMm));
   }
-  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, {first, second, cycle.bottom}));
-  return cycle_move(block, cycle, MoveKind::rapid, {first, second, cycle.clear});
+  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, cycle.bottom));
+  return cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
 }
 
 /// G84, G85, G86, G88, G89
-Result<void> Interpreter::tap_or_bore(const Block& block,
-                                      const Cycle& cycle,
-                                      double first,
-                                      double second) {
+Result<void> Interpreter::tap_or_bore(const Block& block, const Cycle& cycle) {
   const int motion = cycle.motion;
-  const bool stops_spindle = motion == 840 || motion == 860 || motion == 880;
-  if (motion == 840 && modes_.spindle != 3) {
+  const bool stops_spindle = motion == g::tap || motion == g::bore_stop || motion == g::bore_manual;
+  if (motion == g::tap && modes_.spindle != 3) {
     return refuse(
         ProblemName::bad_cycle, block.start(), "tapping (G84) needs the spindle turning clockwise");
   }
@@ -214,40 +200,33 @@ Result<void> Interpreter::tap_or_bore(const Block& block,
   }
   const std::string start = fmt::format("M{}", modes_.spindle);
   const std::string dwell = with_value("G4 P", cycle.dwell_s);
-  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, {first, second, cycle.bottom}));
-  if (motion == 840) {
+  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, cycle.bottom));
+  if (motion == g::tap) {
     for (const char* word : {"M5", "M4"}) CHAINTRUE_GCODE_TRY(pass(block, word));
     CHAINTRUE_GCODE_TRY(pass(block, dwell));
-    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, {first, second, cycle.clear}));
+    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, cycle.clear));
     for (const char* word : {"M5", "M3"}) CHAINTRUE_GCODE_TRY(pass(block, word));
     return {};
   }
-  if (motion == 850) {
-    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, {first, second, cycle.retract}));
-    return cycle_move(block, cycle, MoveKind::rapid, {first, second, cycle.clear});
+  if (motion == g::bore) {
+    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, cycle.retract));
+    return cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
   }
   CHAINTRUE_GCODE_TRY(pass(block, dwell));
-  if (motion == 890) return cycle_move(block, cycle, MoveKind::feed, {first, second, cycle.clear});
+  if (motion == g::bore_dwell) return cycle_move(block, cycle, MoveKind::feed, cycle.clear);
   CHAINTRUE_GCODE_TRY(pass(block, "M5"));
-  if (motion == 860) {
-    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, {first, second, cycle.clear}));
+  if (motion == g::bore_stop) {
+    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, cycle.clear));
   } else {
     // The user retracts by hand while the program is stopped.
     CHAINTRUE_GCODE_TRY(pass(block, "M0"));
-    Axes program = cycle.program;
-    program[cycle.first] = first;
-    program[cycle.second] = second;
-    program[cycle.normal] = cycle.clear;
-    machine_ = to_machine(program);
+    machine_ = to_machine(cycle.at(cycle.clear));
   }
   return pass(block, start);
 }
 
 /// G87: through the hole with an oriented spindle, bored from below.
-Result<void> Interpreter::back_bore(const Block& block,
-                                    const Cycle& cycle,
-                                    double first,
-                                    double second) {
+Result<void> Interpreter::back_bore(const Block& block, const Cycle& cycle) {
   if (modes_.spindle == 0) {
     return refuse(ProblemName::bad_cycle,
                   block.start(),
@@ -259,26 +238,23 @@ Result<void> Interpreter::back_bore(const Block& block,
       return refuse(ProblemName::bad_cycle, block.start(), "back boring (G87) needs I, J and K");
     }
   }
-  const double aside_first = first + length(block, words[cycle.first]);
-  const double aside_second = second + length(block, words[cycle.second]);
-  const double middle = modes_.incremental ? cycle.bottom + length(block, words[cycle.normal])
-                                           : length(block, words[cycle.normal]);
+  Cycle aside = cycle;
+  aside.hole[0] += length(block, words[cycle.axes.first]);
+  aside.hole[1] += length(block, words[cycle.axes.second]);
+  const double middle = modes_.incremental ? cycle.bottom + length(block, words[cycle.axes.normal])
+                                           : length(block, words[cycle.axes.normal]);
   const std::string start = fmt::format("M{}", modes_.spindle);
-  CHAINTRUE_GCODE_TRY(
-      cycle_move(block, cycle, MoveKind::rapid, {aside_first, aside_second, cycle.retract}));
+  CHAINTRUE_GCODE_TRY(cycle_move(block, aside, MoveKind::rapid, cycle.retract));
   for (const char* word : {"M5", "M19"}) CHAINTRUE_GCODE_TRY(pass(block, word));
-  CHAINTRUE_GCODE_TRY(
-      cycle_move(block, cycle, MoveKind::rapid, {aside_first, aside_second, cycle.bottom}));
-  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, {first, second, cycle.bottom}));
+  CHAINTRUE_GCODE_TRY(cycle_move(block, aside, MoveKind::rapid, cycle.bottom));
+  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, cycle.bottom));
   CHAINTRUE_GCODE_TRY(pass(block, start));
-  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, {first, second, middle}));
-  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, {first, second, cycle.bottom}));
+  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, middle));
+  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, cycle.bottom));
   for (const char* word : {"M5", "M19"}) CHAINTRUE_GCODE_TRY(pass(block, word));
-  CHAINTRUE_GCODE_TRY(
-      cycle_move(block, cycle, MoveKind::rapid, {aside_first, aside_second, cycle.bottom}));
-  CHAINTRUE_GCODE_TRY(
-      cycle_move(block, cycle, MoveKind::rapid, {aside_first, aside_second, cycle.clear}));
-  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, {first, second, cycle.clear}));
+  CHAINTRUE_GCODE_TRY(cycle_move(block, aside, MoveKind::rapid, cycle.bottom));
+  CHAINTRUE_GCODE_TRY(cycle_move(block, aside, MoveKind::rapid, cycle.clear));
+  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, cycle.clear));
   return pass(block, start);
 }
 

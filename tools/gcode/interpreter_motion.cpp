@@ -9,26 +9,13 @@
 #include <string_view>
 
 #include "tools/gcode/interpreter.hpp"
-#include "tools/gcode/word_text.hpp"
+#include "tools/gcode/value_reader.hpp"
 
 namespace chaintrue::gcode {
 namespace {
 
 /// More turns than this are a typing error.
 constexpr double kMostTurns = 1000.0;
-
-/// The indices of a plane's axes, in the order that makes first x second = normal.
-struct PlaneAxes {
-  std::size_t first;
-  std::size_t second;
-  std::size_t normal;
-};
-
-PlaneAxes plane_axes(int plane) {
-  if (plane == 180) return {2, 0, 1};
-  if (plane == 190) return {1, 2, 0};
-  return {0, 1, 2};
-}
 
 void name_axes(const Block& block, Move& move) {
   const bool changes_xy = move.to.x_mm != move.from.x_mm || move.to.y_mm != move.from.y_mm;
@@ -61,10 +48,10 @@ Result<void> Interpreter::move(const Block& block, int motion) {
   moves_ = true;
   check_start(block, motion);
   switch (motion) {
-    case 0:
-    case 10: {
+    case g::rapid:
+    case g::line: {
       modes_.motion = motion;
-      if (block.is(GGroup::once, 530)) {
+      if (block.is(g::machine_frame)) {
         if (block.has_z_alone()) return machine_height(block, motion);
         note_home(block,
                   "G53 with X or Y goes to a place of the machine's own frame, and only the machine "
@@ -72,27 +59,23 @@ Result<void> Interpreter::move(const Block& block, int motion) {
                   "G53 with Z on a line of its own");
       }
       const auto machine = target(block);
-      if (!machine) return tl::unexpected(machine.error());
-      return straight(block, motion == 0 ? MoveKind::rapid : MoveKind::feed, *machine);
+      CHAINTRUE_GCODE_TRY(machine);
+      return straight(block, motion == g::rapid ? MoveKind::rapid : MoveKind::feed, *machine);
     }
-    case 20:
-    case 30:
+    case g::arc_clockwise:
+    case g::arc_counterclockwise:
       modes_.motion = motion;
-      return arc(block, motion == 20);
-    case 382:
-    case 383:
-    case 384:
-    case 385:
+      return arc(block, motion == g::arc_clockwise);
+    default:
+      if (!is_probe(motion)) return cycle(block, motion);
       modes_.motion = motion;
       return probe(block);
-    default:
-      return cycle(block, motion);
   }
 }
 
 /// The target of the block's axis words, in the machine frame.
 Result<Axes> Interpreter::target(const Block& block) const {
-  if (block.is(GGroup::once, 530)) return machine_target(block);
+  if (block.is(g::machine_frame)) return machine_target(block);
   Axes program = to_program(machine_);
   if (block.has('@') || block.has('^')) {
     CHAINTRUE_GCODE_TRY(polar(block, program));
@@ -136,8 +119,8 @@ Result<void> Interpreter::pass_height(const Block& block, std::string text, int 
 
 /// A height above the machine's switch or stop, which no work offset reaches.
 Result<void> Interpreter::machine_height(const Block& block, int motion) {
-  std::string text = with_value(motion == 0 ? "G53 G0 Z" : "G53 G1 Z", length(block, 'z'));
-  if (motion != 0) {
+  std::string text = with_value(motion == g::rapid ? "G53 G0 Z" : "G53 G1 Z", length(block, 'z'));
+  if (motion != g::rapid) {
     if (modes_.feed_mode == FeedMode::inverse_time) {
       return refuse(ProblemName::unsupported_code,
                     block.start(),
@@ -145,7 +128,7 @@ Result<void> Interpreter::machine_height(const Block& block, int motion) {
     }
     text += with_value(" F", modes_.feed);
   }
-  return pass_height(block, std::move(text), 530);
+  return pass_height(block, std::move(text), g::machine_frame);
 }
 
 /// A slope begins at a height that is known.
@@ -168,7 +151,7 @@ Result<void> Interpreter::check_height(const Block& block, const Axes& machine) 
 
 /// @ is the distance from the program's zero in XY, ^ the angle in degrees.
 Result<void> Interpreter::polar(const Block& block, Axes& program) const {
-  if (modes_.plane != 170) {
+  if (modes_.plane != g::plane_xy) {
     return refuse(ProblemName::bad_word_value,
                   block.start(),
                   "polar coordinates (@, ^) are for the XY plane (G17)");
@@ -207,7 +190,7 @@ Result<void> Interpreter::probe(const Block& block) {
     return refuse(ProblemName::missing_word, block.start(), "probing needs an axis word");
   }
   const auto machine = target(block);
-  if (!machine) return tl::unexpected(machine.error());
+  CHAINTRUE_GCODE_TRY(machine);
   if ((*machine)[0] != machine_[0] || (*machine)[1] != machine_[1]) {
     return refuse(ProblemName::unsupported_code,
                   block.start(),
@@ -237,16 +220,16 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
           fmt::format("P, the number of turns, is a whole number from 1 to {}", kMostTurns));
     }
   }
-  if (block.is(GGroup::once, 530)) {
+  if (block.is(g::machine_frame)) {
     return refuse(ProblemName::bad_word_value, block.start(), "G53 needs G0 or G1");
   }
-  if (z_unknown_ && modes_.plane != 170) {
+  if (z_unknown_ && modes_.plane != g::plane_xy) {
     return refuse(ProblemName::unsupported_code,
                   block.start(),
                   "after probing, G53, G28 or G30 only the machine knows where an upright arc (G18, G19) starts");
   }
   const auto machine = target(block);
-  if (!machine) return tl::unexpected(machine.error());
+  CHAINTRUE_GCODE_TRY(machine);
   const Axes start = to_program(machine_);
   const Axes end = to_program(*machine);
   const PlaneAxes plane = plane_axes(modes_.plane);

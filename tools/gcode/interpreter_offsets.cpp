@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "tools/gcode/interpreter.hpp"
-#include "tools/gcode/word_text.hpp"
+#include "tools/gcode/value_reader.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -81,28 +81,28 @@ Result<void> Interpreter::once(const Block& block) {
   const GCode* code = block.code(GGroup::once);
   if (code == nullptr) return {};
   switch (code->tenths) {
-    case 100:
+    case g::set_data:
       return set_system(block);
-    case 280:
+    case g::home:
       return go_home(block, parameter::kHome);
-    case 281:
+    case g::set_home:
       store_home(parameter::kHome);
       return {};
-    case 300:
+    case g::second_home:
       return go_home(block, parameter::kSecondHome);
-    case 301:
+    case g::set_second_home:
       store_home(parameter::kSecondHome);
       return {};
-    case 520:
-    case 920:
+    case g::local_offset:
+    case g::offset_here:
       return set_offset(block);
-    case 921:
+    case g::offset_off_forget:
       cancel_offset(true);
       return {};
-    case 922:
+    case g::offset_off:
       cancel_offset(false);
       return {};
-    case 923:
+    case g::offset_restore:
       restore_offset();
       return {};
     default:
@@ -184,7 +184,7 @@ Result<void> Interpreter::set_offset(const Block& block) {
     return refuse(
         ProblemName::bad_word_value, block.start(), "G52 and G92 take no polar coordinates");
   }
-  const bool from_here = block.is(GGroup::once, 920);
+  const bool from_here = block.is(g::offset_here);
   if (from_here) CHAINTRUE_GCODE_TRY(needs_known_z(block));
   const Axes program = to_program(machine_);
   for (std::size_t i = 0; i < frame_.offset.size(); ++i) {
@@ -227,10 +227,10 @@ void Interpreter::note_home(const Block& block, const char* sentence) {
 /// Through the point of the axis words, then home with those axes; with all if none is given.
 Result<void> Interpreter::go_home(const Block& block, int first) {
   const auto through = target(block);
-  if (!through) return tl::unexpected(through.error());
+  CHAINTRUE_GCODE_TRY(through);
   moves_ = true;
   if (!dialect_.home_is_zero && !home_known_[first == parameter::kHome ? 0 : 1]) {
-    const int code = first == parameter::kHome ? 280 : 300;
+    const int code = first == parameter::kHome ? g::home : g::second_home;
     if (block.has_z_alone()) {
       // In whole nanometres, which the rounding of offsets and inches leaves alone.
       const double z_mm =

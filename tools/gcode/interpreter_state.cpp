@@ -47,8 +47,7 @@ std::optional<double> Interpreter::state_by_name(std::string_view name) const {
       {"_plane", [](I i) { return static_cast<double>(i.modes_.plane); }},
       {"_coord_system",
        [](I i) {
-         return static_cast<double>(i.modes_.system <= 6 ? 530 + 10 * i.modes_.system
-                                                         : 584 + i.modes_.system);
+         return static_cast<double>(system_code(i.modes_.system));
        }},
       {"_retract_r_plane", [](I i) { return i.modes_.retract_to_r ? 1.0 : 0.0; }},
       {"_retract_old_z", [](I i) { return i.modes_.retract_to_r ? 0.0 : 1.0; }},
@@ -71,7 +70,7 @@ std::optional<double> Interpreter::state_by_name(std::string_view name) const {
 }
 
 std::string Interpreter::system_name() const {
-  return modes_.system <= 6 ? g_name(530 + 10 * modes_.system) : g_name(584 + modes_.system);
+  return g_name(system_code(modes_.system));
 }
 
 std::vector<std::string> Interpreter::describe() const {

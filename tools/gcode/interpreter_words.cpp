@@ -8,7 +8,7 @@
 #include <initializer_list>
 
 #include "tools/gcode/interpreter.hpp"
-#include "tools/gcode/word_text.hpp"
+#include "tools/gcode/value_reader.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -31,13 +31,13 @@ struct WordUse {
   const char* codes;
 };
 
-int g64(const Block& b) { return b.is(GGroup::path_control, 640) ? 1 : 0; }
+int g64(const Block& b) { return b.is(g::blend) ? 1 : 0; }
 bool m98(const Block& b) { return number(b.code(MGroup::flow)) == 98; }
 
 constexpr WordUse kWordUses[] = {
     {'d',
      [](const Block& b, int) {
-       return one_of(tenths(b.code(GGroup::cutter)), {410, 420}) ? 1 : 0;
+       return one_of(tenths(b.code(GGroup::cutter)), {g::cutter_left, g::cutter_right}) ? 1 : 0;
      },
      "G41 or G42"},
     {'e',
@@ -45,19 +45,19 @@ constexpr WordUse kWordUses[] = {
        return one_of(number(b.code(MGroup::output)), {67, 68}) ? 1 : 0;
      },
      "M67 or M68"},
-    {'h', [](const Block& b, int) { return b.is(GGroup::tool_length, 430) ? 1 : 0; }, "G43"},
-    {'i', [](const Block&, int m) { return is_arc(m) || m == 870 ? 1 : 0; }, "G2, G3 or G87"},
-    {'j', [](const Block&, int m) { return is_arc(m) || m == 870 ? 1 : 0; }, "G2, G3 or G87"},
-    {'k', [](const Block&, int m) { return is_arc(m) || m == 870 ? 1 : 0; }, "G2, G3 or G87"},
+    {'h', [](const Block& b, int) { return b.is(g::tool_length) ? 1 : 0; }, "G43"},
+    {'i', [](const Block&, int m) { return is_arc(m) || m == g::back_bore ? 1 : 0; }, "G2, G3 or G87"},
+    {'j', [](const Block&, int m) { return is_arc(m) || m == g::back_bore ? 1 : 0; }, "G2, G3 or G87"},
+    {'k', [](const Block&, int m) { return is_arc(m) || m == g::back_bore ? 1 : 0; }, "G2, G3 or G87"},
     {'l',
      [](const Block& b, int m) {
-       return (is_cycle(m) ? 1 : 0) + (b.is(GGroup::once, 100) ? 1 : 0) + (m98(b) ? 1 : 0);
+       return (is_cycle(m) ? 1 : 0) + (b.is(g::set_data) ? 1 : 0) + (m98(b) ? 1 : 0);
      },
      "G10, M98 or a canned cycle"},
     {'p',
      [](const Block& b, int m) {
-       const bool motion = is_arc(m) || one_of(m, {820, 840, 860, 880, 890});
-       const bool once = one_of(tenths(b.code(GGroup::once)), {40, 100});
+       const bool motion = is_arc(m) || one_of(m, {g::drill_dwell, g::tap, g::bore_stop, g::bore_manual, g::bore_dwell});
+       const bool once = one_of(tenths(b.code(GGroup::once)), {g::dwell, g::set_data});
        const bool output = one_of(number(b.code(MGroup::output)), {62, 63, 64, 65});
        const bool override_code = one_of(number(b.code(MGroup::override)), {50, 51, 52, 53});
        return (motion ? 1 : 0) + (once ? 1 : 0) + g64(b) + (output ? 1 : 0) +
@@ -66,14 +66,14 @@ constexpr WordUse kWordUses[] = {
      "G2, G3, G4, G10, G64, G82, G84, G86, G88, G89, M50-M53, M62-M65 or M98"},
     {'q',
      [](const Block& b, int m) {
-       return (one_of(m, {730, 830}) ? 1 : 0) + g64(b) +
+       return (one_of(m, {g::peck_break, g::peck}) ? 1 : 0) + g64(b) +
               (number(b.code(MGroup::tool)) == 61 ? 1 : 0) +
               (one_of(number(b.code(MGroup::output)), {67, 68}) ? 1 : 0);
      },
      "G64, G73, G83, M61, M67 or M68"},
     {'r',
      [](const Block& b, int m) {
-       return is_arc(m) || is_cycle(m) || b.is(GGroup::once, 100) ? 1 : 0;
+       return is_arc(m) || is_cycle(m) || b.is(g::set_data) ? 1 : 0;
      },
      "G2, G3, G10 or a canned cycle"},
 };
@@ -154,13 +154,13 @@ Result<void> Interpreter::check_words(const Block& block, int motion) const {
                               upper(use.letter),
                               use.codes));
   }
-  if (block.is(GGroup::once, 530)) {
-    if (motion != 0 && motion != 10) {
+  if (block.is(g::machine_frame)) {
+    if (motion != g::rapid && motion != g::line) {
       return refuse(
           ProblemName::bad_word_value, block.start(), "G53 needs G0 or G1 and axis words");
     }
     const bool incremental =
-        block.code(GGroup::distance) ? block.is(GGroup::distance, 910) : modes_.incremental;
+        block.code(GGroup::distance) ? block.is(g::incremental) : modes_.incremental;
     if (incremental)
       return refuse(ProblemName::modal_conflict, block.start(), "G53 cannot be used in G91");
   }
@@ -235,7 +235,7 @@ Result<void> Interpreter::pass_words(const Block& block) {
 }
 
 Result<void> Interpreter::dwell(const Block& block) {
-  if (!block.is(GGroup::once, 40)) return {};
+  if (!block.is(g::dwell)) return {};
   if (!block.has('p') || block.value('p') < 0.0) {
     return refuse(
         ProblemName::missing_word, block.start(), "G4 needs its time as P, not below zero");
@@ -247,12 +247,12 @@ Result<void> Interpreter::dwell(const Block& block) {
 Result<void> Interpreter::tool_length(const Block& block) {
   if (const GCode* cutter = block.code(GGroup::cutter)) {
     // G41 and G42 reach this point only if tools have no diameter.
-    if (cutter->tenths == 400) CHAINTRUE_GCODE_TRY(pass(block, "G40"));
+    if (cutter->tenths == g::cutter_off) CHAINTRUE_GCODE_TRY(pass(block, "G40"));
   }
   if (const GCode* code = block.code(GGroup::tool_length)) {
     std::string text = g_name(code->tenths);
     if (block.has('h')) text += fmt::format(" H{}", whole(block.value('h')));
-    if (code->tenths == 431) {
+    if (code->tenths == g::tool_length_stated) {
       if (block.has('x') || block.has('y') || block.has('a') || block.has('b') || block.has('c')) {
         return refuse(ProblemName::unsupported_code,
                       block.start(),
@@ -266,8 +266,8 @@ Result<void> Interpreter::tool_length(const Block& block) {
     modes_.path_control = control->tenths;
     std::string text = g_name(control->tenths);
     // check_words has ensured that P and Q belong to no other code of the line.
-    if (control->tenths == 640 && block.has('p')) text += with_value(" P", length(block, 'p'));
-    if (control->tenths == 640 && block.has('q')) text += with_value(" Q", length(block, 'q'));
+    if (control->tenths == g::blend && block.has('p')) text += with_value(" P", length(block, 'p'));
+    if (control->tenths == g::blend && block.has('q')) text += with_value(" Q", length(block, 'q'));
     CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
   }
   return {};

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/gcode/clean_line.hpp"
+#include "tools/gcode/line_source.hpp"
 
 namespace chaintrue::gcode {
 

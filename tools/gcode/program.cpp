@@ -37,7 +37,7 @@ class Program::Runner {
     if (ended_) return false;
     SourceLine raw;
     const auto more = flow_.next(raw);
-    if (!more) return tl::unexpected(more.error());
+    CHAINTRUE_GCODE_TRY(more);
     if (!*more) {
       CHAINTRUE_GCODE_TRY(end_of_file());
       return false;
@@ -98,7 +98,7 @@ class Program::Runner {
     if (!words && holds_moves(line_.text)) return line_ends_lost(raw.number);
     CHAINTRUE_GCODE_TRY(words);
     const auto after = interpreter_.execute(block_, line_.comments);
-    if (!after) return tl::unexpected(after.error());
+    CHAINTRUE_GCODE_TRY(after);
     return follow(*after);
   }
 
@@ -172,8 +172,7 @@ class Program::Runner {
       case AfterBlock::Flow::call_program:
         return flow_.call_program(after.program, after.repeats, block_.start());
       case AfterBlock::Flow::leave_program: {
-        const auto left = flow_.leave_program(block_.start());
-        if (!left) return tl::unexpected(left.error());
+        CHAINTRUE_GCODE_TRY(flow_.leave_program(block_.start()));
         return {};
       }
     }
@@ -211,9 +210,49 @@ Result<ProgramSummary> run_program(LineSource& source,
     if (before_line && !before_line(program.next_line(), program.interpreter()))
       return program.summary();
     const auto more = program.step();
-    if (!more) return tl::unexpected(more.error());
+    CHAINTRUE_GCODE_TRY(more);
     if (!*more) return program.summary();
   }
+}
+
+Result<const ProgramEvent*> ProgramStream::peek() {
+  while (events_.empty()) {
+    const auto more = program_.step();
+    CHAINTRUE_GCODE_TRY(more);
+  }
+  return &events_.front();
+}
+
+void ProgramStream::pop() {
+  if (events_.front().kind != ProgramEvent::Kind::end) events_.pop_front();
+}
+
+Result<void> ProgramStream::move(const Move& move) {
+  ProgramEvent& event = events_.emplace_back();
+  event.kind = ProgramEvent::Kind::move;
+  event.line = move.line;
+  event.move = move;
+  return {};
+}
+
+Result<void> ProgramStream::word(const PassedWord& word) {
+  ProgramEvent& event = events_.emplace_back();
+  event.kind = ProgramEvent::Kind::word;
+  event.line = word.line;
+  // G61.1 is written as G61: some controllers misread the dot.
+  event.text = word.text == "G61.1" ? "G61" : word.text;
+  event.moves_itself = word.machine_code != 0;
+  event.leaves_xy = word.leaves_xy;
+  return {};
+}
+
+/// A closing % and the end of the file are equivalent.
+Result<void> ProgramStream::end(std::size_t line, std::string_view word) {
+  ProgramEvent& event = events_.emplace_back();
+  event.kind = ProgramEvent::Kind::end;
+  event.line = line;
+  event.text = word == "%" ? std::string_view() : word;
+  return {};
 }
 
 }  // namespace chaintrue::gcode

@@ -45,6 +45,16 @@ Result<Point> SimulatedMachine::place(Point command, std::size_t line) {
   return tool(as_read(command), line);
 }
 
+model::ChainLengths SimulatedMachine::follow(model::ChainLengths motors) {
+  // Both begin paid out.
+  const auto one = [](std::optional<double>& chain, double motor, double half) {
+    chain = chain ? std::clamp(*chain, motor - half, motor + half) : motor - half;
+    return *chain;
+  };
+  return {one(left_mm_, motors.left_mm, options_.half_play_mm.left_mm),
+          one(right_mm_, motors.right_mm, options_.half_play_mm.right_mm)};
+}
+
 Result<Point> SimulatedMachine::tool(Point command, std::size_t line) {
   const model::BedPoint place{command.x_mm, command.y_mm};
   if (!play_) {
@@ -57,14 +67,7 @@ Result<Point> SimulatedMachine::tool(Point command, std::size_t line) {
   }
   const auto paid = corrector_.paid_out(place);
   if (!paid) return no_place(paid.error(), command, line);
-  // A chain follows once its motor has crossed the gap; both begin paid out.
-  const auto follow = [](std::optional<double>& chain, double motor, double half) {
-    chain = chain ? std::clamp(*chain, motor - half, motor + half) : motor - half;
-    return *chain;
-  };
-  const auto found =
-      corrector_.map().tool({follow(left_mm_, paid->left_mm, options_.half_play_mm.left_mm),
-                             follow(right_mm_, paid->right_mm, options_.half_play_mm.right_mm)});
+  const auto found = corrector_.map().tool(follow(*paid));
   if (!found) return no_place(CorrectionReason::outside_map, command, line);
   return Point{found->x_mm, found->y_mm, command.z_mm};
 }
@@ -97,12 +100,12 @@ Result<void> SimulatedMachine::run(const Move& move, const Visit& visit) {
   Result<bool> done = true;
   if (options_.rapids_whole && move.kind == MoveKind::rapid) {
     const auto end = tool(to, move.line);
-    if (!end) return tl::unexpected(end.error());
+    CHAINTRUE_GCODE_TRY(end);
     visit(*end, to);
   } else {
     done = move.arc ? arc(move, visit) : straight(from, to, move, visit);
   }
-  if (!done) return tl::unexpected(done.error());
+  CHAINTRUE_GCODE_TRY(done);
   return {};
 }
 
@@ -128,11 +131,11 @@ Result<bool> SimulatedMachine::straight(Point from,
     if (gone >= length) break;
     const Point here = as_read(between(from, to, gone / length));
     const auto where = tool(here, move.line);
-    if (!where) return tl::unexpected(where.error());
+    CHAINTRUE_GCODE_TRY(where);
     if (!visit(*where, here)) return false;
   }
   const auto where = tool(to, move.line);
-  if (!where) return tl::unexpected(where.error());
+  CHAINTRUE_GCODE_TRY(where);
   return visit(*where, to);
 }
 
@@ -159,14 +162,7 @@ Result<bool> SimulatedMachine::chain_linear(Point from,
       const double share = look / looks;
       model::ChainLengths lengths{paid->left_mm + share * (arrived->left_mm - paid->left_mm),
                                   paid->right_mm + share * (arrived->right_mm - paid->right_mm)};
-      if (play_) {
-        const auto follow = [](std::optional<double>& chain, double motor, double half) {
-          chain = chain ? std::clamp(*chain, motor - half, motor + half) : motor - half;
-          return *chain;
-        };
-        lengths = {follow(left_mm_, lengths.left_mm, options_.half_play_mm.left_mm),
-                   follow(right_mm_, lengths.right_mm, options_.half_play_mm.right_mm)};
-      }
+      if (play_) lengths = follow(lengths);
       const auto where = corrector_.map().tool(lengths);
       const Point command = between(here, next, share);
       if (!where) return no_place(CorrectionReason::outside_map, command, move.line);

@@ -47,6 +47,9 @@ class SimulatedMachine {
  private:
   [[nodiscard]] Point as_read(Point point) const;
   [[nodiscard]] Result<Point> tool(Point command, std::size_t line);
+  /// Lengths of the chains when their motors have gone to these: a chain follows once its motor has
+  /// crossed the gap.
+  [[nodiscard]] model::ChainLengths follow(model::ChainLengths motors);
   [[nodiscard]] double straight_mm(Point command);
   Result<bool> straight(Point from, Point to, const Move& move, const Visit& visit);
   Result<bool> chain_linear(Point from, Point to, const Move& move, const Visit& visit);

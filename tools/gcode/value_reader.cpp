@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -115,7 +118,88 @@ Result<double> finite(const Outcome& outcome, Place place) {
   return *outcome;
 }
 
+#ifdef __cpp_lib_to_chars
+
+void append_fixed(std::string& text, double value) {
+  // The longest double in fixed notation has 1077 characters.
+  std::array<char, 1100> digits{};
+  const auto end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed);
+  text.append(digits.data(), end.ptr);
+}
+
+#else
+
+/// The fewest decimals that read back as the value: the digits of std::to_chars, which libc++
+/// supports only from version 14 on.
+void append_fixed(std::string& text, double value) {
+  constexpr int kMostDecimals = 1074;  // of the smallest double
+  for (int decimals = 0; decimals <= kMostDecimals; ++decimals) {
+    const std::string digits = fmt::format("{:.{}f}", value, decimals);
+    double read = 0.0;
+    grid::files::parse_double(digits.data(), digits.data() + digits.size(), read);
+    if (read != value && decimals < kMostDecimals) continue;
+    text += digits;
+    return;
+  }
+}
+
+#endif
+
 }  // namespace
+
+Parameters::Parameters() : values_(parameter::kCount, 0.0), frames_(1) {
+  values_[parameter::kSystem] = 1.0;
+}
+
+void Parameters::follow(StateByNumber by_number, StateByName by_name) {
+  state_by_number_ = std::move(by_number);
+  state_by_name_ = std::move(by_name);
+}
+
+double Parameters::get(int index) const {
+  if (index >= parameter::kPosition && state_by_number_) {
+    if (const auto value = state_by_number_(index)) return *value;
+  }
+  return stored(index);
+}
+
+void Parameters::set(int index, double value) { values_[static_cast<std::size_t>(index)] = value; }
+
+bool Parameters::writable(int index) const {
+  // 5400 to 5428 are the tool and the position.
+  return exists(index) && (index < 5400 || index > 5428);
+}
+
+std::optional<double> Parameters::get(std::string_view name) const {
+  if (state_by_name_) {
+    if (const auto value = state_by_name_(name)) return value;
+  }
+  const Names& names = name.starts_with('_') ? global_ : frames_.back().names;
+  const auto found = names.find(name);
+  if (found == names.end()) return std::nullopt;
+  return found->second;
+}
+
+bool Parameters::set(std::string_view name, double value) {
+  if (state_by_name_ && state_by_name_(name)) return false;
+  Names& names = name.starts_with('_') ? global_ : frames_.back().names;
+  names.insert_or_assign(std::string(name), value);
+  return true;
+}
+
+void Parameters::enter(const std::vector<double>& arguments) {
+  Frame frame;
+  std::copy_n(values_.begin() + 1, kArguments, frame.saved.begin());
+  std::fill_n(values_.begin() + 1, kArguments, 0.0);
+  std::copy_n(arguments.begin(), std::min(arguments.size(), kArguments), values_.begin() + 1);
+  frames_.push_back(std::move(frame));
+}
+
+void Parameters::leave() {
+  std::copy(frames_.back().saved.begin(), frames_.back().saved.end(), values_.begin() + 1);
+  frames_.pop_back();
+}
 
 /// Counts the depth of nesting, so that no line can overflow the stack.
 struct ValueReader::Nesting {
@@ -189,7 +273,7 @@ Result<double> ValueReader::number() {
 Result<long> ValueReader::integer() {
   const Place start = place();
   const auto value = real();
-  if (!value) return tl::unexpected(value.error());
+  CHAINTRUE_GCODE_TRY(value);
   const double rounded = std::round(*value);
   if (std::fabs(*value - rounded) > 0.0001 || std::fabs(rounded) > 1e9) {
     return refuse(ProblemName::bad_number,
@@ -216,12 +300,12 @@ Result<double> ValueReader::parameter() {
   ++at_;
   if (peek() == '<') {
     const auto name = angle_name();
-    if (!name) return tl::unexpected(name.error());
+    CHAINTRUE_GCODE_TRY(name);
     if (const auto value = parameters_.get(*name)) return *value;
     return refuse(ProblemName::bad_parameter, start, fmt::format("#<{}> has no value yet", *name));
   }
   const auto index = integer();
-  if (!index) return tl::unexpected(index.error());
+  CHAINTRUE_GCODE_TRY(index);
   if (*index < 1 || *index >= parameter::kCount) {
     return refuse(
         ProblemName::bad_parameter,
@@ -236,7 +320,7 @@ Result<double> ValueReader::exists() {
   const Place start = place();
   if (!accept("[#")) return refuse(ProblemName::bad_expression, start, "exists takes [#<name>]");
   const auto name = angle_name();
-  if (!name) return tl::unexpected(name.error());
+  CHAINTRUE_GCODE_TRY(name);
   if (!accept("]")) return refuse(ProblemName::bad_expression, place(), "']' was expected");
   return truth(parameters_.get(*name).has_value());
 }
@@ -289,6 +373,12 @@ Result<double> ValueReader::operand_chain(int lowest_precedence) {
     left = finite(found->apply(*left, *right), start);
   }
   return left;
+}
+
+std::string with_value(std::string_view word, double value) {
+  std::string text(word);
+  append_fixed(text, value == 0.0 ? 0.0 : value);
+  return text;
 }
 
 }  // namespace chaintrue::gcode

@@ -11,7 +11,7 @@
 
 #include "tools/gcode/path.hpp"
 #include "tools/gcode/path_matcher.hpp"
-#include "tools/gcode/program_stream.hpp"
+#include "tools/gcode/program.hpp"
 #include "tools/gcode/simulated_machine.hpp"
 
 namespace chaintrue::gcode {
@@ -393,7 +393,7 @@ Result<Deviation> uncompensated(LineSource& original,
   bool started = false;
   for (;;) {
     const auto event = stream.peek();
-    if (!event) return tl::unexpected(event.error());
+    CHAINTRUE_GCODE_TRY(event);
     if ((*event)->kind == ProgramEvent::Kind::end) return worst;
     if ((*event)->kind == ProgramEvent::Kind::move) {
       const Move& move = (*event)->move;
@@ -407,11 +407,11 @@ Result<Deviation> uncompensated(LineSource& original,
       };
       if (from_nowhere && started) {
         const auto where = machine.place(move.to, move.line);
-        if (!where) return tl::unexpected(where.error());
+        CHAINTRUE_GCODE_TRY(where);
         look(*where, move.to);
       } else if (started && !(same_xy(move.from, move.to) && !move.arc)) {
         const auto done = machine.run(move, look);
-        if (!done) return tl::unexpected(done.error());
+        CHAINTRUE_GCODE_TRY(done);
       }
     }
     stream.pop();
