@@ -59,7 +59,8 @@ Result<void> read_g(ValueReader& reader, Block& block, bool tools_have_no_diamet
                   place,
                   fmt::format("{} is not known", g_name(static_cast<int>(rounded))));
   }
-  const bool harmless = tools_have_no_diameter && (code->tenths == g::cutter_left || code->tenths == g::cutter_right);
+  const bool harmless = tools_have_no_diameter && (code->tenths == g::cutter_left ||
+                                                   code->tenths == g::cutter_right);
   if (code->refusal != nullptr && !harmless) {
     return refuse(ProblemName::unsupported_code,
                   place,

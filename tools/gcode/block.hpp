@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// One line of a program as words, evaluated and checked as far as possible without the modal
-/// state.
-///
-/// The tables of G and M codes: modal group, axis words, and the reason for a refusal.
+/// state; and the tables of G and M codes: name, modal group, axis words, reason for a refusal.
 #pragma once
 
 #include <array>
@@ -157,6 +155,13 @@ struct Block {
   std::array<double, 28> values_{};
   std::array<std::size_t, 28> columns_{};
 };
+
+/// Of the block as a whole.
+[[nodiscard]] inline tl::unexpected<Problem> refuse(ProblemName problem,
+                                                    const Block& block,
+                                                    std::string sentence) {
+  return refuse(problem, block.start(), std::move(sentence));
+}
 
 /// Whether a text holds more moves than one line can, by its words G0 to G3 and X with a number.
 [[nodiscard]] bool holds_moves(std::string_view text);

@@ -159,8 +159,7 @@ Result<void> Compensator::piece(
   const bool known = here_ && !has_play() && from == 0.0 && here_->target == move.from;
   const auto start = known ? PathSample{0.0, here_->target, here_->command} : commands(from);
   if (!start) {
-    const Point place = at(move, from);
-    object(move, start.error(), place.x_mm, place.y_mm);
+    object(move, start.error(), at(move, from));
     return {};
   }
   // While the play is taken up, the chains move and the tool stays.
@@ -171,8 +170,7 @@ Result<void> Compensator::piece(
   if (whole || (!move.arc && length <= unchecked_length_mm_)) {
     const auto end = commands(to);
     if (!end) {
-      const Point place = at(move, to);
-      object(move, end.error(), place.x_mm, place.y_mm);
+      object(move, end.error(), at(move, to));
       return {};
     }
     visit(*end);
@@ -182,8 +180,7 @@ Result<void> Compensator::piece(
   const double longest = turn > kMostTurnRad ? length * kMostTurnRad / turn : length;
   const auto done = segmenter_.run(commands, *start, to, {length, longest, feed}, visit);
   if (!done) {
-    const Point place = here_ ? here_->target : at(move, from);
-    object(move, done.error(), place.x_mm, place.y_mm);
+    object(move, done.error(), here_ ? here_->target : at(move, from));
   }
   return outcome;
 }
@@ -201,7 +198,7 @@ Result<void> Compensator::along(const Move& move, double feed) {
     // chains: only the end of that move is compensated, as if both chains had been paid out.
     const auto end = curve(move, directions_)(1.0);
     if (!end) {
-      object(move, end.error(), move.to.x_mm, move.to.y_mm);
+      object(move, end.error(), move.to);
       return {};
     }
     return emit(move, feed, *end);

@@ -119,7 +119,7 @@ class Compensator final : private Sink {
       const Move& move, double feed, double from, double to, ChainDirections directions);
   Result<void> emit(const Move& move, double feed, const PathSample& sample);
   void examine(const Move& move, const PathSample& sample);
-  void object(const Move& move, const CorrectionFailure& failure, double x_mm, double y_mm);
+  void object(const Move& move, const CorrectionFailure& failure, Point place);
   [[nodiscard]] ChainDirections directions_at(const Move& move,
                                               double t,
                                               ChainDirections otherwise) const;

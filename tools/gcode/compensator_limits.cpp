@@ -33,15 +33,12 @@ void Findings::add(Note note) {
   if (notes.size() < kMostKept) notes.push_back(std::move(note));
 }
 
-void Compensator::object(const Move& move,
-                         const CorrectionFailure& failure,
-                         double x_mm,
-                         double y_mm) {
+void Compensator::object(const Move& move, const CorrectionFailure& failure, Point place) {
   findings_.add(Problem{failure.reason == CorrectionReason::controller
                             ? ProblemName::outside_controller
                             : ProblemName::outside_map,
                         {move.line, 0},
-                        fmt::format("X{:.3f} Y{:.3f} {}", x_mm, y_mm, failure.sentence())});
+                        fmt::format("X{:.3f} Y{:.3f} {}", place.x_mm, place.y_mm, failure.sentence())});
 }
 
 /// Checks a sample against the limits.

@@ -8,7 +8,7 @@
 /// play is half the width of a named direction_hysteresis, with the sign of each chain's direction
 /// of motion; zero if none was named.
 ///
-/// Why there is no command for where the tool shall be, or no tool for a command.
+/// A CorrectionFailure says why there is no command for a position, or no tool for a command.
 #pragma once
 
 #include <string_view>

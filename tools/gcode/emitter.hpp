@@ -4,7 +4,7 @@
 /// only, X and Y always together, no dotted codes, no exponents, no moves of zero length, at most
 /// 60 characters a line.
 ///
-/// Where a compensated program comes from, as comments of its head:
+/// The head of the file says where it comes from, in comments:
 ///
 ///     (chaintrue 0.1.0, gcode compensate)
 ///     (option --tolerance-mm 0.1)

@@ -18,6 +18,8 @@ constexpr float kMaslowPi = 3.1415F;
 constexpr float kGrblArcToleranceMm = 0.002F;
 constexpr int kGrblArcCorrection = 12;
 constexpr float kGrblAngleEpsilon = 5e-7F;
+/// Of an arc that a controller follows itself.
+constexpr double kFewestChords = 8.0;
 
 /// In the arc's plane, relative to its centre, with the height along its axis as a share of the
 /// whole.
@@ -26,12 +28,8 @@ class PlaneOfArc {
   explicit PlaneOfArc(const Move& move) : arc_(*move.arc) {}
 
   [[nodiscard]] Point at(double u, double v, double share) const {
-    const Point& a = arc_.first;
-    const Point& b = arc_.second;
-    const double h = arc_.start_height_mm + share * (arc_.end_height_mm - arc_.start_height_mm);
-    return {arc_.centre.x_mm + u * a.x_mm + v * b.x_mm + h * (a.y_mm * b.z_mm - a.z_mm * b.y_mm),
-            arc_.centre.y_mm + u * a.y_mm + v * b.y_mm + h * (a.z_mm * b.x_mm - a.x_mm * b.z_mm),
-            arc_.centre.z_mm + u * a.z_mm + v * b.z_mm + h * (a.x_mm * b.y_mm - a.y_mm * b.x_mm)};
+    return in_plane(
+        arc_, u, v, arc_.start_height_mm + share * (arc_.end_height_mm - arc_.start_height_mm));
   }
   [[nodiscard]] double start_angle() const { return arc_.start_angle_rad; }
   [[nodiscard]] double radius() const { return arc_.start_radius_mm; }
@@ -52,14 +50,9 @@ float turned(const PlaneOfArc& plane, float whole_turn, float epsilon) {
   return angle <= epsilon ? angle + whole_turn : angle;
 }
 
-double chords_within(double radius, double sweep, double bow_mm) {
-  const double bow = std::min(bow_mm, radius);
-  return std::max(8.0, std::ceil(sweep / (2.0 * std::acos(1.0 - bow / radius))));
-}
-
 void exact(const Move& move, double bow_mm, const Visit& visit) {
   const double radius = std::max(move.arc->start_radius_mm, move.arc->end_radius_mm);
-  const double chords = chords_within(radius, std::fabs(move.arc->sweep_rad), bow_mm);
+  const double chords = chords_within(radius, move.arc->sweep_rad, bow_mm, kFewestChords);
   for (double i = 1.0; i <= chords; i += 1.0) {
     if (!visit(at(move, i / chords))) return;
   }
@@ -68,7 +61,7 @@ void exact(const Move& move, double bow_mm, const Visit& visit) {
 void as_maslow(const Move& move, double bow_mm, const Visit& visit) {
   const PlaneOfArc plane(move);
   const float theta = turned(plane, 2.0F * kMaslowPi, 0.0F);
-  const double chords = chords_within(plane.radius(), std::fabs(theta), bow_mm);
+  const double chords = chords_within(plane.radius(), theta, bow_mm, kFewestChords);
   for (double i = 1.0; i <= chords; i += 1.0) {
     const double share = i / chords;
     const double angle = plane.start_angle() + share * theta;

@@ -136,21 +136,18 @@ Result<int> Interpreter::motion_to_be(const Block& block) const {
   const bool length_takes_axes = block.is(g::tool_length_stated);
   const bool centre = block.has('i') || block.has('j') || block.has('k');
   if (once_takes_axes && length_takes_axes) {
-    return refuse(
-        ProblemName::modal_conflict, block.start(), "two codes of the line claim its axis words");
+    return refuse(ProblemName::modal_conflict, block, "two codes of the line claim its axis words");
   }
   if (motion != nullptr && motion->takes_axes) {
     if (once_takes_axes || length_takes_axes) {
-      return refuse(
-          ProblemName::modal_conflict, block.start(), "two codes of the line claim its axis words");
+      return refuse(ProblemName::modal_conflict, block, "two codes of the line claim its axis words");
     }
     return motion->tenths;
   }
   if (once_takes_axes || length_takes_axes) return -1;
   if (!block.has_axes() && !(centre && is_arc(modes_.motion))) return -1;
   if (motion != nullptr || modes_.motion == g::no_motion) {
-    return refuse(ProblemName::no_motion_mode,
-                  block.start(),
+    return refuse(ProblemName::no_motion_mode, block,
                   "axis words stand here, but no motion (G0, G1, G2, G3 ...) is in force that "
                   "could use them");
   }
@@ -256,18 +253,15 @@ Result<void> Interpreter::set_feed(const Block& block, int motion) {
       motion == g::line || is_arc(motion) || is_cycle(motion) || is_probe(motion);
   if (!feeds) return {};
   if (inverse && is_cycle(motion)) {
-    return refuse(ProblemName::bad_cycle,
-                  block.start(),
+    return refuse(ProblemName::bad_cycle, block,
                   "a canned cycle cannot run with inverse time feed (G93)");
   }
   if (inverse && !block.has('f')) {
-    return refuse(ProblemName::no_feed_rate,
-                  block.start(),
+    return refuse(ProblemName::no_feed_rate, block,
                   "with inverse time feed (G93) every feed move needs its own F");
   }
   if (!(modes_.feed > 0.0)) {
-    return refuse(ProblemName::no_feed_rate,
-                  block.start(),
+    return refuse(ProblemName::no_feed_rate, block,
                   "no feed rate (F) is set for this move, or it is zero");
   }
   return {};
@@ -302,8 +296,7 @@ Result<AfterBlock> Interpreter::after(const Block& block) const {
       return result;
     }
     if (!block.has('p')) {
-      return refuse(
-          ProblemName::missing_word, block.start(), "M98 needs the number of a program as P");
+      return refuse(ProblemName::missing_word, block, "M98 needs the number of a program as P");
     }
     result.flow = AfterBlock::Flow::call_program;
     result.program = std::lround(block.value('p'));

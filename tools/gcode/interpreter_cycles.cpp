@@ -64,13 +64,12 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   cycle.program = to_program(machine_);
   const char depth_letter = kAxisLetters[cycle.axes.normal];
   if (!block.has_axes())
-    return refuse(ProblemName::bad_cycle, block.start(), "a canned cycle needs axis words");
+    return refuse(ProblemName::bad_cycle, block, "a canned cycle needs axis words");
   if (block.has('a') || block.has('b') || block.has('c') || block.has('@') || block.has('^')) {
-    return refuse(ProblemName::bad_cycle, block.start(), "a canned cycle takes X, Y and Z only");
+    return refuse(ProblemName::bad_cycle, block, "a canned cycle takes X, Y and Z only");
   }
   if (z_unknown_) {
-    return refuse(ProblemName::unsupported_code,
-                  block.start(),
+    return refuse(ProblemName::unsupported_code, block,
                   "after probing, G53, G28 or G30 only the machine knows where a cycle starts");
   }
   const bool again = modes_.motion == motion;
@@ -84,33 +83,31 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
     return block.has(letter) || again;
   };
   if (!sticky('r', sticky_.r, true)) {
-    return refuse(ProblemName::bad_cycle,
-                  block.start(),
+    return refuse(ProblemName::bad_cycle, block,
                   "the cycle's R (the height of its retract plane) is missing");
   }
   if (!sticky(depth_letter, sticky_.depth, true)) {
-    return refuse(ProblemName::bad_cycle, block.start(), "the cycle's depth is missing");
+    return refuse(ProblemName::bad_cycle, block, "the cycle's depth is missing");
   }
-  const bool dwells = motion == g::drill_dwell || motion == g::bore_stop || motion == g::bore_manual || motion == g::bore_dwell;
+  const bool dwells = motion == g::drill_dwell || motion == g::bore_stop ||
+                      motion == g::bore_manual || motion == g::bore_dwell;
   if (!sticky('p', sticky_.p, false)) {
     if (dwells)
-      return refuse(ProblemName::bad_cycle, block.start(), "the cycle's dwell time P is missing");
+      return refuse(ProblemName::bad_cycle, block, "the cycle's dwell time P is missing");
     sticky_.p = 0.0;
   }
   const bool pecks = motion == g::peck_break || motion == g::peck;
   if (!sticky('q', sticky_.q, true) && pecks) {
-    return refuse(
-        ProblemName::bad_cycle, block.start(), "the cycle's depth of a peck, Q, is missing");
+    return refuse(ProblemName::bad_cycle, block, "the cycle's depth of a peck, Q, is missing");
   }
   if (pecks && !(sticky_.q > 0.0)) {
-    return refuse(ProblemName::bad_cycle, block.start(), "the depth Q must be above zero");
+    return refuse(ProblemName::bad_cycle, block, "the depth Q must be above zero");
   }
   if (sticky_.p < 0.0)
-    return refuse(ProblemName::bad_cycle, block.start(), "the dwell time is below zero");
+    return refuse(ProblemName::bad_cycle, block, "the dwell time is below zero");
   const double repeats = block.find('l').value_or(1.0);
   if (!(repeats >= 1.0) || std::round(repeats) != repeats) {
-    return refuse(ProblemName::bad_cycle,
-                  block.start(),
+    return refuse(ProblemName::bad_cycle, block,
                   "a cycle is repeated a whole number of times, at least once");
   }
 
@@ -132,8 +129,7 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   cycle.retract = sticky_.r + (modes_.incremental ? sticky_.start : 0.0);
   cycle.bottom = sticky_.depth + (modes_.incremental ? cycle.retract : 0.0);
   if (cycle.retract < cycle.bottom) {
-    return refuse(
-        ProblemName::bad_cycle, block.start(), "the retract plane R lies below the cycle's bottom");
+    return refuse(ProblemName::bad_cycle, block, "the retract plane R lies below the cycle's bottom");
   }
   cycle.dwell_s = sticky_.p;
   cycle.peck = sticky_.q;
@@ -190,12 +186,10 @@ Result<void> Interpreter::tap_or_bore(const Block& block, const Cycle& cycle) {
   const int motion = cycle.motion;
   const bool stops_spindle = motion == g::tap || motion == g::bore_stop || motion == g::bore_manual;
   if (motion == g::tap && modes_.spindle != 3) {
-    return refuse(
-        ProblemName::bad_cycle, block.start(), "tapping (G84) needs the spindle turning clockwise");
+    return refuse(ProblemName::bad_cycle, block, "tapping (G84) needs the spindle turning clockwise");
   }
   if (stops_spindle && modes_.spindle == 0) {
-    return refuse(ProblemName::bad_cycle,
-                  block.start(),
+    return refuse(ProblemName::bad_cycle, block,
                   "the cycle stops the spindle, but it is not turning");
   }
   const std::string start = fmt::format("M{}", modes_.spindle);
@@ -228,14 +222,13 @@ Result<void> Interpreter::tap_or_bore(const Block& block, const Cycle& cycle) {
 /// G87: through the hole with an oriented spindle, bored from below.
 Result<void> Interpreter::back_bore(const Block& block, const Cycle& cycle) {
   if (modes_.spindle == 0) {
-    return refuse(ProblemName::bad_cycle,
-                  block.start(),
+    return refuse(ProblemName::bad_cycle, block,
                   "the cycle stops the spindle, but it is not turning");
   }
   const char words[] = {'i', 'j', 'k'};
   for (const char letter : words) {
     if (!block.has(letter)) {
-      return refuse(ProblemName::bad_cycle, block.start(), "back boring (G87) needs I, J and K");
+      return refuse(ProblemName::bad_cycle, block, "back boring (G87) needs I, J and K");
     }
   }
   Cycle aside = cycle;

@@ -90,7 +90,7 @@ Result<Axes> Interpreter::target(const Block& block) const {
 
 Result<Axes> Interpreter::machine_target(const Block& block) const {
   if (block.has('@') || block.has('^')) {
-    return refuse(ProblemName::bad_word_value, block.start(), "G53 takes no polar coordinates");
+    return refuse(ProblemName::bad_word_value, block, "G53 takes no polar coordinates");
   }
   Axes machine = machine_;
   for (std::size_t i = 0; i < machine.size(); ++i) {
@@ -122,8 +122,7 @@ Result<void> Interpreter::machine_height(const Block& block, int motion) {
   std::string text = with_value(motion == g::rapid ? "G53 G0 Z" : "G53 G1 Z", length(block, 'z'));
   if (motion != g::rapid) {
     if (modes_.feed_mode == FeedMode::inverse_time) {
-      return refuse(ProblemName::unsupported_code,
-                    block.start(),
+      return refuse(ProblemName::unsupported_code, block,
                     "a height in the machine's frame (G53) takes a feed rate in mm/min or inch/min");
     }
     text += with_value(" F", modes_.feed);
@@ -152,20 +151,17 @@ Result<void> Interpreter::check_height(const Block& block, const Axes& machine) 
 /// @ is the distance from the program's zero in XY, ^ the angle in degrees.
 Result<void> Interpreter::polar(const Block& block, Axes& program) const {
   if (modes_.plane != g::plane_xy) {
-    return refuse(ProblemName::bad_word_value,
-                  block.start(),
+    return refuse(ProblemName::bad_word_value, block,
                   "polar coordinates (@, ^) are for the XY plane (G17)");
   }
   if (block.has('x') || block.has('y')) {
-    return refuse(ProblemName::modal_conflict,
-                  block.start(),
+    return refuse(ProblemName::modal_conflict, block,
                   "a point has X and Y or polar coordinates (@, ^), not both");
   }
   double radius = std::hypot(program[0], program[1]);
   double angle_deg = std::atan2(program[1], program[0]) / kRadiansPerDegree;
   if ((modes_.incremental || !block.has('^')) && radius == 0.0) {
-    return refuse(ProblemName::bad_word_value,
-                  block.start(),
+    return refuse(ProblemName::bad_word_value, block,
                   "at the program's zero a polar step has no direction");
   }
   if (block.has('@')) radius = (modes_.incremental ? radius : 0.0) + length(block, '@');
@@ -187,18 +183,16 @@ Result<void> Interpreter::straight(const Block& block, MoveKind kind, const Axes
 
 Result<void> Interpreter::probe(const Block& block) {
   if (!block.has('x') && !block.has('y') && !block.has('z')) {
-    return refuse(ProblemName::missing_word, block.start(), "probing needs an axis word");
+    return refuse(ProblemName::missing_word, block, "probing needs an axis word");
   }
   const auto machine = target(block);
   CHAINTRUE_GCODE_TRY(machine);
   if ((*machine)[0] != machine_[0] || (*machine)[1] != machine_[1]) {
-    return refuse(ProblemName::unsupported_code,
-                  block.start(),
+    return refuse(ProblemName::unsupported_code, block,
                   "probing sideways (X, Y) ends at a place that only the machine knows");
   }
   if (std::fabs((*machine)[2] - machine_[2]) < 0.254) {
-    return refuse(ProblemName::bad_word_value,
-                  block.start(),
+    return refuse(ProblemName::bad_word_value, block,
                   "the probe starts closer than 0.254 mm (0.01 inch) to its end");
   }
   CHAINTRUE_GCODE_TRY(straight(block, MoveKind::probe, *machine));
@@ -221,11 +215,10 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
     }
   }
   if (block.is(g::machine_frame)) {
-    return refuse(ProblemName::bad_word_value, block.start(), "G53 needs G0 or G1");
+    return refuse(ProblemName::bad_word_value, block, "G53 needs G0 or G1");
   }
   if (z_unknown_ && modes_.plane != g::plane_xy) {
-    return refuse(ProblemName::unsupported_code,
-                  block.start(),
+    return refuse(ProblemName::unsupported_code, block,
                   "after probing, G53, G28 or G30 only the machine knows where an upright arc (G18, G19) starts");
   }
   const auto machine = target(block);

@@ -121,14 +121,12 @@ Result<void> Interpreter::needs_known_z(const Block& block) const {
 Result<void> Interpreter::set_system(const Block& block) {
   const double mode = block.find('l').value_or(-1.0);
   if (mode != 2.0 && mode != 20.0) {
-    return refuse(ProblemName::unsupported_code,
-                  block.start(),
+    return refuse(ProblemName::unsupported_code, block,
                   "of G10 only L2 and L20 (work offsets) are supported; tool tables are not");
   }
   const double number = block.find('p').value_or(-1.0);
   if (number < 0.0 || number > 9.0 || std::round(number) != number) {
-    return refuse(
-        ProblemName::bad_word_value, block.start(), "G10 needs P0 (the system in force) to P9");
+    return refuse(ProblemName::bad_word_value, block, "G10 needs P0 (the system in force) to P9");
   }
   const int system = number == 0.0 ? modes_.system : static_cast<int>(number);
   const bool from_here = mode == 20.0;
@@ -141,7 +139,7 @@ Result<void> Interpreter::set_system(const Block& block) {
     }
   }
   if (block.has('@') || block.has('^')) {
-    return refuse(ProblemName::bad_word_value, block.start(), "G10 takes no polar coordinates");
+    return refuse(ProblemName::bad_word_value, block, "G10 takes no polar coordinates");
   }
   if (block.has('r')) parameters_.set(rotation_parameter(system), block.value('r'));
 
@@ -178,11 +176,10 @@ Result<void> Interpreter::set_system(const Block& block) {
 /// share it.
 Result<void> Interpreter::set_offset(const Block& block) {
   if (!block.has_axes()) {
-    return refuse(ProblemName::missing_word, block.start(), "G52 and G92 need an axis word");
+    return refuse(ProblemName::missing_word, block, "G52 and G92 need an axis word");
   }
   if (block.has('@') || block.has('^')) {
-    return refuse(
-        ProblemName::bad_word_value, block.start(), "G52 and G92 take no polar coordinates");
+    return refuse(ProblemName::bad_word_value, block, "G52 and G92 take no polar coordinates");
   }
   const bool from_here = block.is(g::offset_here);
   if (from_here) CHAINTRUE_GCODE_TRY(needs_known_z(block));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <string_view>
 
 #include "tools/gcode/interpreter.hpp"
 #include "tools/gcode/value_reader.hpp"
@@ -23,10 +24,10 @@ bool one_of(int value, std::initializer_list<int> list) {
 int tenths(const GCode* code) { return code == nullptr ? -1 : code->tenths; }
 int number(const MCode* code) { return code == nullptr ? -1 : code->number; }
 
-/// Number of codes in a line that use a word of this letter. With two, its meaning depends on the
+/// Number of codes in a line that use a word of one of these letters. With two, its meaning depends on the
 /// controller.
 struct WordUse {
-  char letter;
+  std::string_view letters;
   int (*users)(const Block&, int motion);
   const char* codes;
 };
@@ -35,28 +36,31 @@ int g64(const Block& b) { return b.is(g::blend) ? 1 : 0; }
 bool m98(const Block& b) { return number(b.code(MGroup::flow)) == 98; }
 
 constexpr WordUse kWordUses[] = {
-    {'d',
+    {"d",
      [](const Block& b, int) {
        return one_of(tenths(b.code(GGroup::cutter)), {g::cutter_left, g::cutter_right}) ? 1 : 0;
      },
      "G41 or G42"},
-    {'e',
+    {"e",
      [](const Block& b, int) {
        return one_of(number(b.code(MGroup::output)), {67, 68}) ? 1 : 0;
      },
      "M67 or M68"},
-    {'h', [](const Block& b, int) { return b.is(g::tool_length) ? 1 : 0; }, "G43"},
-    {'i', [](const Block&, int m) { return is_arc(m) || m == g::back_bore ? 1 : 0; }, "G2, G3 or G87"},
-    {'j', [](const Block&, int m) { return is_arc(m) || m == g::back_bore ? 1 : 0; }, "G2, G3 or G87"},
-    {'k', [](const Block&, int m) { return is_arc(m) || m == g::back_bore ? 1 : 0; }, "G2, G3 or G87"},
-    {'l',
+    {"h", [](const Block& b, int) { return b.is(g::tool_length) ? 1 : 0; }, "G43"},
+    {"ijk", [](const Block&, int m) { return is_arc(m) || m == g::back_bore ? 1 : 0; }, "G2, G3 or G87"},
+    {"l",
      [](const Block& b, int m) {
        return (is_cycle(m) ? 1 : 0) + (b.is(g::set_data) ? 1 : 0) + (m98(b) ? 1 : 0);
      },
      "G10, M98 or a canned cycle"},
-    {'p',
+    {"p",
      [](const Block& b, int m) {
-       const bool motion = is_arc(m) || one_of(m, {g::drill_dwell, g::tap, g::bore_stop, g::bore_manual, g::bore_dwell});
+       const bool motion = is_arc(m) || one_of(m,
+                                                 {g::drill_dwell,
+                                                  g::tap,
+                                                  g::bore_stop,
+                                                  g::bore_manual,
+                                                  g::bore_dwell});
        const bool once = one_of(tenths(b.code(GGroup::once)), {g::dwell, g::set_data});
        const bool output = one_of(number(b.code(MGroup::output)), {62, 63, 64, 65});
        const bool override_code = one_of(number(b.code(MGroup::override)), {50, 51, 52, 53});
@@ -64,19 +68,40 @@ constexpr WordUse kWordUses[] = {
               (override_code ? 1 : 0) + (m98(b) ? 1 : 0);
      },
      "G2, G3, G4, G10, G64, G82, G84, G86, G88, G89, M50-M53, M62-M65 or M98"},
-    {'q',
+    {"q",
      [](const Block& b, int m) {
        return (one_of(m, {g::peck_break, g::peck}) ? 1 : 0) + g64(b) +
               (number(b.code(MGroup::tool)) == 61 ? 1 : 0) +
               (one_of(number(b.code(MGroup::output)), {67, 68}) ? 1 : 0);
      },
      "G64, G73, G83, M61, M67 or M68"},
-    {'r',
+    {"r",
      [](const Block& b, int m) {
        return is_arc(m) || is_cycle(m) || b.is(g::set_data) ? 1 : 0;
      },
      "G2, G3, G10 or a canned cycle"},
 };
+
+Result<void> check_use(const WordUse& use, char letter, const Block& block, int motion) {
+  const int users = use.users(block, motion);
+  if (users == 1) return {};
+  if (users > 1) {
+    return refuse(ProblemName::bad_word_value,
+                  block.place(letter),
+                  fmt::format("the {} word could belong to two codes of this line; write each "
+                              "of them on a line of its own",
+                              upper(letter)));
+  }
+  if (letter == 'e') {
+    return refuse(ProblemName::unsupported_axis,
+                  block.place('e'),
+                  "an E word (the extruder of a 3D printer) has no meaning on a router");
+  }
+  return refuse(
+      ProblemName::unused_word,
+      block.place(letter),
+      fmt::format("nothing on the line uses the {} word; it belongs to {}", upper(letter), use.codes));
+}
 
 /// Words that are counts or numbers.
 struct WholeWord {
@@ -133,36 +158,18 @@ Result<void> Interpreter::check_words(const Block& block, int motion) const {
     }
   }
   for (const WordUse& use : kWordUses) {
-    if (!block.has(use.letter)) continue;
-    const int users = use.users(block, motion);
-    if (users == 1) continue;
-    if (users > 1) {
-      return refuse(ProblemName::bad_word_value,
-                    block.place(use.letter),
-                    fmt::format("the {} word could belong to two codes of this line; write each "
-                                "of them on a line of its own",
-                                upper(use.letter)));
+    for (const char letter : use.letters) {
+      if (block.has(letter)) CHAINTRUE_GCODE_TRY(check_use(use, letter, block, motion));
     }
-    if (use.letter == 'e') {
-      return refuse(ProblemName::unsupported_axis,
-                    block.place('e'),
-                    "an E word (the extruder of a 3D printer) has no meaning on a router");
-    }
-    return refuse(ProblemName::unused_word,
-                  block.place(use.letter),
-                  fmt::format("nothing on the line uses the {} word; it belongs to {}",
-                              upper(use.letter),
-                              use.codes));
   }
   if (block.is(g::machine_frame)) {
     if (motion != g::rapid && motion != g::line) {
-      return refuse(
-          ProblemName::bad_word_value, block.start(), "G53 needs G0 or G1 and axis words");
+      return refuse(ProblemName::bad_word_value, block, "G53 needs G0 or G1 and axis words");
     }
     const bool incremental =
         block.code(GGroup::distance) ? block.is(g::incremental) : modes_.incremental;
     if (incremental)
-      return refuse(ProblemName::modal_conflict, block.start(), "G53 cannot be used in G91");
+      return refuse(ProblemName::modal_conflict, block, "G53 cannot be used in G91");
   }
   for (const char letter : {'s', 't', 'f'}) {
     if (block.has(letter) && block.value(letter) < 0.0) {
@@ -185,8 +192,7 @@ Result<void> Interpreter::output_word(const Block& block) {
   const bool analog = output->number >= 67;
   for (const char letter : analog ? std::string_view("eq") : std::string_view("p")) {
     if (!block.has(letter)) {
-      return refuse(ProblemName::missing_word,
-                    block.start(),
+      return refuse(ProblemName::missing_word, block,
                     fmt::format("{} needs {}", text, upper(letter)));
     }
     const bool numbers = letter != 'q';
@@ -210,7 +216,7 @@ Result<void> Interpreter::pass_words(const Block& block) {
     std::string text = fmt::format("M{}", tool->number);
     if (tool->number == 61) {
       if (!block.has('q')) {
-        return refuse(ProblemName::missing_word, block.start(), "M61 needs the tool's number as Q");
+        return refuse(ProblemName::missing_word, block, "M61 needs the tool's number as Q");
       }
       modes_.tool = whole(block.value('q'));
       text += fmt::format(" Q{}", modes_.tool);
@@ -237,8 +243,7 @@ Result<void> Interpreter::pass_words(const Block& block) {
 Result<void> Interpreter::dwell(const Block& block) {
   if (!block.is(g::dwell)) return {};
   if (!block.has('p') || block.value('p') < 0.0) {
-    return refuse(
-        ProblemName::missing_word, block.start(), "G4 needs its time as P, not below zero");
+    return refuse(ProblemName::missing_word, block, "G4 needs its time as P, not below zero");
   }
   note_once(NoteOnce::dwell_unit, block.line);
   return pass(block, with_value("G4 P", block.value('p')));
@@ -254,8 +259,7 @@ Result<void> Interpreter::tool_length(const Block& block) {
     if (block.has('h')) text += fmt::format(" H{}", whole(block.value('h')));
     if (code->tenths == g::tool_length_stated) {
       if (block.has('x') || block.has('y') || block.has('a') || block.has('b') || block.has('c')) {
-        return refuse(ProblemName::unsupported_code,
-                      block.start(),
+        return refuse(ProblemName::unsupported_code, block,
                       "a tool offset (G43.1) in any axis but Z moves the path");
       }
       if (block.has('z')) text += with_value(" Z", length(block, 'z'));

@@ -134,7 +134,7 @@ Result<LineSource> LineSource::from_file(const std::string& path) {
   // A folder can be opened but not read.
   if (!*file || (file->peek(), file->bad())) {
     return refuse(
-        ProblemName::unreadable_file, {}, fmt::format("the file '{}' cannot be read", path));
+        ProblemName::unreadable_file, Place{}, fmt::format("the file '{}' cannot be read", path));
   }
   file->clear();
   return LineSource(std::move(file));

@@ -6,9 +6,8 @@
 /// LF, CRLF and CR end a line. A UTF-8 byte order mark is skipped. NUL bytes and UTF-16 are
 /// rejected as not text.
 ///
-/// A line without its comments, blanks and capitals; every character keeps its column.
-///
-/// RS274/NGC ignores blanks everywhere outside comments, even inside numbers: `X1 0` is X10.
+/// A clean line is without comments, blanks and capitals; every character keeps its column. RS274/NGC
+/// ignores blanks everywhere outside comments, even inside numbers: `X1 0` is X10.
 #pragma once
 
 #include <cstdint>

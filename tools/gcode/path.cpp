@@ -33,6 +33,22 @@ double nearest_on_line(Point a, Point b, Point p) {
   return std::clamp(along / squared, 0.0, 1.0);
 }
 
+Point in_plane(const Arc& arc, double u, double v, double height_mm) {
+  const Point& a = arc.first;
+  const Point& b = arc.second;
+  const Point normal{a.y_mm * b.z_mm - a.z_mm * b.y_mm,
+                     a.z_mm * b.x_mm - a.x_mm * b.z_mm,
+                     a.x_mm * b.y_mm - a.y_mm * b.x_mm};
+  return {arc.centre.x_mm + u * a.x_mm + v * b.x_mm + height_mm * normal.x_mm,
+          arc.centre.y_mm + u * a.y_mm + v * b.y_mm + height_mm * normal.y_mm,
+          arc.centre.z_mm + u * a.z_mm + v * b.z_mm + height_mm * normal.z_mm};
+}
+
+double chords_within(double radius_mm, double sweep_rad, double bow_mm, double fewest) {
+  const double turn = 2.0 * std::acos(1.0 - std::min(bow_mm, radius_mm) / radius_mm);
+  return std::ceil(std::max(std::fabs(sweep_rad) / turn, fewest));
+}
+
 Point at(const Move& move, double t) {
   if (t <= 0.0) return move.from;
   if (t >= 1.0) return move.to;
@@ -41,16 +57,7 @@ Point at(const Move& move, double t) {
   const double radius = arc.start_radius_mm + t * (arc.end_radius_mm - arc.start_radius_mm);
   const double angle = arc.start_angle_rad + t * arc.sweep_rad;
   const double height = arc.start_height_mm + t * (arc.end_height_mm - arc.start_height_mm);
-  const double u = radius * std::cos(angle);
-  const double v = radius * std::sin(angle);
-  const Point& a = arc.first;
-  const Point& b = arc.second;
-  const Point normal{a.y_mm * b.z_mm - a.z_mm * b.y_mm,
-                     a.z_mm * b.x_mm - a.x_mm * b.z_mm,
-                     a.x_mm * b.y_mm - a.y_mm * b.x_mm};
-  return {arc.centre.x_mm + u * a.x_mm + v * b.x_mm + height * normal.x_mm,
-          arc.centre.y_mm + u * a.y_mm + v * b.y_mm + height * normal.y_mm,
-          arc.centre.z_mm + u * a.z_mm + v * b.z_mm + height * normal.z_mm};
+  return in_plane(arc, radius * std::cos(angle), radius * std::sin(angle), height);
 }
 
 std::vector<double> bounding_places(const Move& move) {

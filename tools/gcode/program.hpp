@@ -14,8 +14,8 @@
 ///   }
 /// \endcode
 ///
-/// A program's events, pulled one by one instead of pushed: moves, words that are passed through,
-/// the end.
+/// A ProgramStream gives the events one by one to who pulls them: moves, words that are passed
+/// through, the end.
 #pragma once
 
 #include <cstdint>

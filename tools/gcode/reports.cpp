@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Sampling a path.
+/// Bounding boxes, counts, and sampling a path.
 #include "tools/gcode/reports.hpp"
 
 #include <fmt/format.h>

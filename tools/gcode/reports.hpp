@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Chain lengths along a program's path: at the end of every move, and between, no further apart
-/// than requested; at least eight per turn.
-///
-/// A program without a map: its bounding box, its moves, and the lines that leave the sheet.
+/// What a program is: without a map its bounding box, its moves, and the lines that leave the sheet;
+/// with a map the chain lengths along its path, at the end of every move, and between, no further
+/// apart than requested, at least eight per turn.
 #pragma once
 
 #include <cstdint>

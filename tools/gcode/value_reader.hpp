@@ -13,7 +13,7 @@
 /// Lengths in #5161-#5390 are in mm for every unit of the program, as in LinuxCNC on a metric
 /// machine.
 ///
-/// Formats the value of a word.
+/// with_value() writes the value of a word.
 #pragma once
 
 #include <array>

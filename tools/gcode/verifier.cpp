@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tools/gcode/path.hpp"
 #include "tools/gcode/path_matcher.hpp"
@@ -154,11 +155,12 @@ class Verification {
   }
 
   [[nodiscard]] int chords_of(const Arc& arc) const {
-    const double radius = std::max(arc.start_radius_mm, arc.end_radius_mm);
-    const double bow = std::min(kArcShare * options_.tolerance_mm, radius);
-    const double turn = std::min(2.0 * std::acos(1.0 - bow / radius),
-                                 2.0 * 3.14159265358979323846 / kFewestChordsPerTurn);
-    return static_cast<int>(std::min(1e8, std::ceil(std::fabs(arc.sweep_rad) / turn)));
+    constexpr double kWidestChordRad = 2.0 * std::numbers::pi / kFewestChordsPerTurn;
+    return static_cast<int>(std::min(1e8,
+                                     chords_within(std::max(arc.start_radius_mm, arc.end_radius_mm),
+                                                   arc.sweep_rad,
+                                                   kArcShare * options_.tolerance_mm,
+                                                   std::fabs(arc.sweep_rad) / kWidestChordRad)));
   }
 
   /// Both curves start: at the end of a rapid or of the way from home, or at the start of a cut.
