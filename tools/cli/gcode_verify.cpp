@@ -14,8 +14,8 @@
 #include "tools/cli/gcode_verbs.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
-#include "tools/gcode/firmware.hpp"
 #include "tools/gcode/emitter.hpp"
+#include "tools/gcode/firmware.hpp"
 
 namespace chaintrue::cli {
 namespace {

@@ -74,7 +74,9 @@ Result<PlanePoint> by_centre(const ArcRequest& request, const Block& block) {
   const char first = centre_word(request.first_axis);
   const char second = centre_word(request.second_axis);
   if (request.absolute_centre && !(block.has(first) && block.has(second))) {
-    return refuse(ProblemName::bad_arc, block,
+    return refuse(
+        ProblemName::bad_arc,
+        block,
         fmt::format("absolute centres (G90.1) need both {} and {}", upper(first), upper(second)));
   }
   const PlanePoint base = request.absolute_centre ? PlanePoint{} : request.start;
@@ -86,14 +88,16 @@ Result<PlanePoint> by_centre(const ArcRequest& request, const Block& block) {
   const double from_start = distance(centre, request.start);
   const double from_end = distance(centre, request.end);
   if (from_start < radius_tolerance || from_end < radius_tolerance) {
-    return refuse(ProblemName::bad_arc, block,
+    return refuse(ProblemName::bad_arc,
+                  block,
                   "the arc's radius is zero: its centre lies at its start or end");
   }
   const double difference = std::fabs(from_start - from_end);
   const double relative = difference / std::max(from_start, from_end);
   if (difference > 100.0 * spiral_tolerance ||
       (relative > kSpiralRelativeTolerance && difference > spiral_tolerance)) {
-    return refuse(ProblemName::bad_arc, block,
+    return refuse(ProblemName::bad_arc,
+                  block,
                   fmt::format("the arc's end does not lie on its circle: the radius is {} at the "
                               "start and {} at the end",
                               in_units(from_start, request),
@@ -115,12 +119,13 @@ Result<PlanePoint> arc_centre(const ArcRequest& request, const Block& block) {
   const bool has_centre = block.has(centre_word(request.first_axis)) ||
                           block.has(centre_word(request.second_axis));
   if (block.has('r') && has_centre) {
-    return refuse(ProblemName::bad_arc, block,
+    return refuse(ProblemName::bad_arc,
+                  block,
                   "the arc has a radius and a centre: only one of them can hold");
   }
   if (!block.has('r') && !has_centre) {
-    return refuse(ProblemName::bad_arc, block,
-                  "the arc has neither a centre (I, J, K) nor a radius (R)");
+    return refuse(
+        ProblemName::bad_arc, block, "the arc has neither a centre (I, J, K) nor a radius (R)");
   }
   if (!block.has(request.first_axis) && !block.has(request.second_axis) && block.has('r')) {
     return refuse(ProblemName::bad_arc, block, "an arc by radius needs an end point");

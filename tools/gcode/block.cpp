@@ -14,7 +14,8 @@ namespace chaintrue::gcode {
 namespace {
 
 constexpr GCode kGCodes[] = {
-#define CHAINTRUE_GCODE_G(name, tenths, group, axes, refusal) {tenths, GGroup::group, axes, refusal},
+#define CHAINTRUE_GCODE_G(name, tenths, group, axes, refusal) \
+  {tenths, GGroup::group, axes, refusal},
 #include "tools/gcode/g_codes.def"
 #undef CHAINTRUE_GCODE_G
 };
@@ -59,8 +60,8 @@ Result<void> read_g(ValueReader& reader, Block& block, bool tools_have_no_diamet
                   place,
                   fmt::format("{} is not known", g_name(static_cast<int>(rounded))));
   }
-  const bool harmless = tools_have_no_diameter && (code->tenths == g::cutter_left ||
-                                                   code->tenths == g::cutter_right);
+  const bool harmless =
+      tools_have_no_diameter && (code->tenths == g::cutter_left || code->tenths == g::cutter_right);
   if (code->refusal != nullptr && !harmless) {
     return refuse(ProblemName::unsupported_code,
                   place,

@@ -126,10 +126,10 @@ Result<void> Compensator::emit(const Move& move, double feed, const PathSample& 
   if (findings_.problem_count > 0) return {};
   const bool named_z = move.names_z;
   CHAINTRUE_GCODE_TRY(emitter_.command(move.kind == MoveKind::rapid,
-                                        move.line,
-                                        model::BedPoint{sample.command.x_mm, sample.command.y_mm},
-                                        named_z ? std::optional(sample.target.z_mm) : std::nullopt,
-                                        feed));
+                                       move.line,
+                                       model::BedPoint{sample.command.x_mm, sample.command.y_mm},
+                                       named_z ? std::optional(sample.target.z_mm) : std::nullopt,
+                                       feed));
   return {};
 }
 

@@ -34,11 +34,11 @@ void Findings::add(Note note) {
 }
 
 void Compensator::object(const Move& move, const CorrectionFailure& failure, Point place) {
-  findings_.add(Problem{failure.reason == CorrectionReason::controller
-                            ? ProblemName::outside_controller
-                            : ProblemName::outside_map,
-                        {move.line, 0},
-                        fmt::format("X{:.3f} Y{:.3f} {}", place.x_mm, place.y_mm, failure.sentence())});
+  findings_.add(
+      Problem{failure.reason == CorrectionReason::controller ? ProblemName::outside_controller
+                                                             : ProblemName::outside_map,
+              {move.line, 0},
+              fmt::format("X{:.3f} Y{:.3f} {}", place.x_mm, place.y_mm, failure.sentence())});
 }
 
 /// Checks a sample against the limits.

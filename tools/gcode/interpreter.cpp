@@ -140,14 +140,16 @@ Result<int> Interpreter::motion_to_be(const Block& block) const {
   }
   if (motion != nullptr && motion->takes_axes) {
     if (once_takes_axes || length_takes_axes) {
-      return refuse(ProblemName::modal_conflict, block, "two codes of the line claim its axis words");
+      return refuse(
+          ProblemName::modal_conflict, block, "two codes of the line claim its axis words");
     }
     return motion->tenths;
   }
   if (once_takes_axes || length_takes_axes) return -1;
   if (!block.has_axes() && !(centre && is_arc(modes_.motion))) return -1;
   if (motion != nullptr || modes_.motion == g::no_motion) {
-    return refuse(ProblemName::no_motion_mode, block,
+    return refuse(ProblemName::no_motion_mode,
+                  block,
                   "axis words stand here, but no motion (G0, G1, G2, G3 ...) is in force that "
                   "could use them");
   }
@@ -232,7 +234,8 @@ Result<void> Interpreter::comments(const Block& block, const std::vector<Comment
 
 Result<void> Interpreter::set_feed(const Block& block, int motion) {
   if (const GCode* mode = block.code(GGroup::feed_mode)) {
-    const FeedMode next = mode->tenths == g::inverse_time ? FeedMode::inverse_time : FeedMode::per_minute;
+    const FeedMode next =
+        mode->tenths == g::inverse_time ? FeedMode::inverse_time : FeedMode::per_minute;
     // A feed rate of the other mode has no meaning; LinuxCNC clears it with every G94 that follows
     // G93.
     if (next != modes_.feed_mode) modes_.feed = 0.0;
@@ -240,8 +243,7 @@ Result<void> Interpreter::set_feed(const Block& block, int motion) {
   }
   const bool inverse = modes_.feed_mode == FeedMode::inverse_time;
   if (block.has('f')) {
-    if (block.code(GGroup::units) != nullptr && block.is(g::inches) != modes_.inches &&
-        !inverse) {
+    if (block.code(GGroup::units) != nullptr && block.is(g::inches) != modes_.inches && !inverse) {
       sink_.note({block.line,
                   "feed_before_units",
                   "F and a change of units share a line: F counts in the old unit here, other "
@@ -249,20 +251,20 @@ Result<void> Interpreter::set_feed(const Block& block, int motion) {
     }
     modes_.feed = inverse ? block.value('f') : length(block, 'f');
   }
-  const bool feeds =
-      motion == g::line || is_arc(motion) || is_cycle(motion) || is_probe(motion);
+  const bool feeds = motion == g::line || is_arc(motion) || is_cycle(motion) || is_probe(motion);
   if (!feeds) return {};
   if (inverse && is_cycle(motion)) {
-    return refuse(ProblemName::bad_cycle, block,
-                  "a canned cycle cannot run with inverse time feed (G93)");
+    return refuse(
+        ProblemName::bad_cycle, block, "a canned cycle cannot run with inverse time feed (G93)");
   }
   if (inverse && !block.has('f')) {
-    return refuse(ProblemName::no_feed_rate, block,
+    return refuse(ProblemName::no_feed_rate,
+                  block,
                   "with inverse time feed (G93) every feed move needs its own F");
   }
   if (!(modes_.feed > 0.0)) {
-    return refuse(ProblemName::no_feed_rate, block,
-                  "no feed rate (F) is set for this move, or it is zero");
+    return refuse(
+        ProblemName::no_feed_rate, block, "no feed rate (F) is set for this move, or it is zero");
   }
   return {};
 }
@@ -275,7 +277,7 @@ void Interpreter::set_modes(const Block& block) {
   }
   if (const GCode* system = block.code(GGroup::system)) {
     select_system(system->tenths <= g::system_6 ? (system->tenths - g::system_1) / 10 + 1
-                                                   : system->tenths - g::system_7 + 7);
+                                                : system->tenths - g::system_7 + 7);
   }
   if (const GCode* distance = block.code(GGroup::distance))
     modes_.incremental = distance->tenths == g::incremental;

@@ -69,7 +69,8 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
     return refuse(ProblemName::bad_cycle, block, "a canned cycle takes X, Y and Z only");
   }
   if (z_unknown_) {
-    return refuse(ProblemName::unsupported_code, block,
+    return refuse(ProblemName::unsupported_code,
+                  block,
                   "after probing, G53, G28 or G30 only the machine knows where a cycle starts");
   }
   const bool again = modes_.motion == motion;
@@ -83,7 +84,8 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
     return block.has(letter) || again;
   };
   if (!sticky('r', sticky_.r, true)) {
-    return refuse(ProblemName::bad_cycle, block,
+    return refuse(ProblemName::bad_cycle,
+                  block,
                   "the cycle's R (the height of its retract plane) is missing");
   }
   if (!sticky(depth_letter, sticky_.depth, true)) {
@@ -92,8 +94,7 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   const bool dwells = motion == g::drill_dwell || motion == g::bore_stop ||
                       motion == g::bore_manual || motion == g::bore_dwell;
   if (!sticky('p', sticky_.p, false)) {
-    if (dwells)
-      return refuse(ProblemName::bad_cycle, block, "the cycle's dwell time P is missing");
+    if (dwells) return refuse(ProblemName::bad_cycle, block, "the cycle's dwell time P is missing");
     sticky_.p = 0.0;
   }
   const bool pecks = motion == g::peck_break || motion == g::peck;
@@ -103,11 +104,11 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   if (pecks && !(sticky_.q > 0.0)) {
     return refuse(ProblemName::bad_cycle, block, "the depth Q must be above zero");
   }
-  if (sticky_.p < 0.0)
-    return refuse(ProblemName::bad_cycle, block, "the dwell time is below zero");
+  if (sticky_.p < 0.0) return refuse(ProblemName::bad_cycle, block, "the dwell time is below zero");
   const double repeats = block.find('l').value_or(1.0);
   if (!(repeats >= 1.0) || std::round(repeats) != repeats) {
-    return refuse(ProblemName::bad_cycle, block,
+    return refuse(ProblemName::bad_cycle,
+                  block,
                   "a cycle is repeated a whole number of times, at least once");
   }
 
@@ -129,7 +130,8 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   cycle.retract = sticky_.r + (modes_.incremental ? sticky_.start : 0.0);
   cycle.bottom = sticky_.depth + (modes_.incremental ? cycle.retract : 0.0);
   if (cycle.retract < cycle.bottom) {
-    return refuse(ProblemName::bad_cycle, block, "the retract plane R lies below the cycle's bottom");
+    return refuse(
+        ProblemName::bad_cycle, block, "the retract plane R lies below the cycle's bottom");
   }
   cycle.dwell_s = sticky_.p;
   cycle.peck = sticky_.q;
@@ -162,7 +164,8 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
 /// G81, G82
 Result<void> Interpreter::drill(const Block& block, const Cycle& cycle) {
   CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, cycle.bottom));
-  if (cycle.motion == g::drill_dwell) CHAINTRUE_GCODE_TRY(pass(block, with_value("G4 P", cycle.dwell_s)));
+  if (cycle.motion == g::drill_dwell)
+    CHAINTRUE_GCODE_TRY(pass(block, with_value("G4 P", cycle.dwell_s)));
   return cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
 }
 
@@ -171,11 +174,9 @@ Result<void> Interpreter::peck(const Block& block, const Cycle& cycle) {
   for (double depth = cycle.retract - cycle.peck; depth > cycle.bottom; depth -= cycle.peck) {
     CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, depth));
     if (cycle.motion == g::peck) {
-      CHAINTRUE_GCODE_TRY(
-          cycle_move(block, cycle, MoveKind::rapid, cycle.retract));
+      CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, cycle.retract));
     }
-    CHAINTRUE_GCODE_TRY(
-        cycle_move(block, cycle, MoveKind::rapid, depth + kPeckClearanceMm));
+    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, depth + kPeckClearanceMm));
   }
   CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, cycle.bottom));
   return cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
@@ -186,11 +187,12 @@ Result<void> Interpreter::tap_or_bore(const Block& block, const Cycle& cycle) {
   const int motion = cycle.motion;
   const bool stops_spindle = motion == g::tap || motion == g::bore_stop || motion == g::bore_manual;
   if (motion == g::tap && modes_.spindle != 3) {
-    return refuse(ProblemName::bad_cycle, block, "tapping (G84) needs the spindle turning clockwise");
+    return refuse(
+        ProblemName::bad_cycle, block, "tapping (G84) needs the spindle turning clockwise");
   }
   if (stops_spindle && modes_.spindle == 0) {
-    return refuse(ProblemName::bad_cycle, block,
-                  "the cycle stops the spindle, but it is not turning");
+    return refuse(
+        ProblemName::bad_cycle, block, "the cycle stops the spindle, but it is not turning");
   }
   const std::string start = fmt::format("M{}", modes_.spindle);
   const std::string dwell = with_value("G4 P", cycle.dwell_s);
@@ -222,8 +224,8 @@ Result<void> Interpreter::tap_or_bore(const Block& block, const Cycle& cycle) {
 /// G87: through the hole with an oriented spindle, bored from below.
 Result<void> Interpreter::back_bore(const Block& block, const Cycle& cycle) {
   if (modes_.spindle == 0) {
-    return refuse(ProblemName::bad_cycle, block,
-                  "the cycle stops the spindle, but it is not turning");
+    return refuse(
+        ProblemName::bad_cycle, block, "the cycle stops the spindle, but it is not turning");
   }
   const char words[] = {'i', 'j', 'k'};
   for (const char letter : words) {

@@ -122,8 +122,10 @@ Result<void> Interpreter::machine_height(const Block& block, int motion) {
   std::string text = with_value(motion == g::rapid ? "G53 G0 Z" : "G53 G1 Z", length(block, 'z'));
   if (motion != g::rapid) {
     if (modes_.feed_mode == FeedMode::inverse_time) {
-      return refuse(ProblemName::unsupported_code, block,
-                    "a height in the machine's frame (G53) takes a feed rate in mm/min or inch/min");
+      return refuse(
+          ProblemName::unsupported_code,
+          block,
+          "a height in the machine's frame (G53) takes a feed rate in mm/min or inch/min");
     }
     text += with_value(" F", modes_.feed);
   }
@@ -151,18 +153,19 @@ Result<void> Interpreter::check_height(const Block& block, const Axes& machine) 
 /// @ is the distance from the program's zero in XY, ^ the angle in degrees.
 Result<void> Interpreter::polar(const Block& block, Axes& program) const {
   if (modes_.plane != g::plane_xy) {
-    return refuse(ProblemName::bad_word_value, block,
-                  "polar coordinates (@, ^) are for the XY plane (G17)");
+    return refuse(
+        ProblemName::bad_word_value, block, "polar coordinates (@, ^) are for the XY plane (G17)");
   }
   if (block.has('x') || block.has('y')) {
-    return refuse(ProblemName::modal_conflict, block,
+    return refuse(ProblemName::modal_conflict,
+                  block,
                   "a point has X and Y or polar coordinates (@, ^), not both");
   }
   double radius = std::hypot(program[0], program[1]);
   double angle_deg = std::atan2(program[1], program[0]) / kRadiansPerDegree;
   if ((modes_.incremental || !block.has('^')) && radius == 0.0) {
-    return refuse(ProblemName::bad_word_value, block,
-                  "at the program's zero a polar step has no direction");
+    return refuse(
+        ProblemName::bad_word_value, block, "at the program's zero a polar step has no direction");
   }
   if (block.has('@')) radius = (modes_.incremental ? radius : 0.0) + length(block, '@');
   if (block.has('^')) angle_deg = (modes_.incremental ? angle_deg : 0.0) + block.value('^');
@@ -188,11 +191,13 @@ Result<void> Interpreter::probe(const Block& block) {
   const auto machine = target(block);
   CHAINTRUE_GCODE_TRY(machine);
   if ((*machine)[0] != machine_[0] || (*machine)[1] != machine_[1]) {
-    return refuse(ProblemName::unsupported_code, block,
+    return refuse(ProblemName::unsupported_code,
+                  block,
                   "probing sideways (X, Y) ends at a place that only the machine knows");
   }
   if (std::fabs((*machine)[2] - machine_[2]) < 0.254) {
-    return refuse(ProblemName::bad_word_value, block,
+    return refuse(ProblemName::bad_word_value,
+                  block,
                   "the probe starts closer than 0.254 mm (0.01 inch) to its end");
   }
   CHAINTRUE_GCODE_TRY(straight(block, MoveKind::probe, *machine));
@@ -218,8 +223,10 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
     return refuse(ProblemName::bad_word_value, block, "G53 needs G0 or G1");
   }
   if (z_unknown_ && modes_.plane != g::plane_xy) {
-    return refuse(ProblemName::unsupported_code, block,
-                  "after probing, G53, G28 or G30 only the machine knows where an upright arc (G18, G19) starts");
+    return refuse(ProblemName::unsupported_code,
+                  block,
+                  "after probing, G53, G28 or G30 only the machine knows where an upright arc "
+                  "(G18, G19) starts");
   }
   const auto machine = target(block);
   CHAINTRUE_GCODE_TRY(machine);

@@ -121,7 +121,8 @@ Result<void> Interpreter::needs_known_z(const Block& block) const {
 Result<void> Interpreter::set_system(const Block& block) {
   const double mode = block.find('l').value_or(-1.0);
   if (mode != 2.0 && mode != 20.0) {
-    return refuse(ProblemName::unsupported_code, block,
+    return refuse(ProblemName::unsupported_code,
+                  block,
                   "of G10 only L2 and L20 (work offsets) are supported; tool tables are not");
   }
   const double number = block.find('p').value_or(-1.0);

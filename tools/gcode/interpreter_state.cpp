@@ -45,10 +45,7 @@ std::optional<double> Interpreter::state_by_name(std::string_view name) const {
       {"_units_per_rev", [](I) { return 0.0; }},
       {"_motion_mode", [](I i) { return static_cast<double>(i.modes_.motion); }},
       {"_plane", [](I i) { return static_cast<double>(i.modes_.plane); }},
-      {"_coord_system",
-       [](I i) {
-         return static_cast<double>(system_code(i.modes_.system));
-       }},
+      {"_coord_system", [](I i) { return static_cast<double>(system_code(i.modes_.system)); }},
       {"_retract_r_plane", [](I i) { return i.modes_.retract_to_r ? 1.0 : 0.0; }},
       {"_retract_old_z", [](I i) { return i.modes_.retract_to_r ? 0.0 : 1.0; }},
       {"_spindle_on", [](I i) { return i.modes_.spindle != 0 ? 1.0 : 0.0; }},
@@ -69,9 +66,7 @@ std::optional<double> Interpreter::state_by_name(std::string_view name) const {
   return std::nullopt;
 }
 
-std::string Interpreter::system_name() const {
-  return g_name(system_code(modes_.system));
-}
+std::string Interpreter::system_name() const { return g_name(system_code(modes_.system)); }
 
 std::vector<std::string> Interpreter::describe() const {
   const Axes program = to_program(machine_);

@@ -24,8 +24,8 @@ bool one_of(int value, std::initializer_list<int> list) {
 int tenths(const GCode* code) { return code == nullptr ? -1 : code->tenths; }
 int number(const MCode* code) { return code == nullptr ? -1 : code->number; }
 
-/// Number of codes in a line that use a word of one of these letters. With two, its meaning depends on the
-/// controller.
+/// Number of codes in a line that use a word of one of these letters. With two, its meaning depends
+/// on the controller.
 struct WordUse {
   std::string_view letters;
   int (*users)(const Block&, int motion);
@@ -47,7 +47,9 @@ constexpr WordUse kWordUses[] = {
      },
      "M67 or M68"},
     {"h", [](const Block& b, int) { return b.is(g::tool_length) ? 1 : 0; }, "G43"},
-    {"ijk", [](const Block&, int m) { return is_arc(m) || m == g::back_bore ? 1 : 0; }, "G2, G3 or G87"},
+    {"ijk",
+     [](const Block&, int m) { return is_arc(m) || m == g::back_bore ? 1 : 0; },
+     "G2, G3 or G87"},
     {"l",
      [](const Block& b, int m) {
        return (is_cycle(m) ? 1 : 0) + (b.is(g::set_data) ? 1 : 0) + (m98(b) ? 1 : 0);
@@ -55,12 +57,9 @@ constexpr WordUse kWordUses[] = {
      "G10, M98 or a canned cycle"},
     {"p",
      [](const Block& b, int m) {
-       const bool motion = is_arc(m) || one_of(m,
-                                                 {g::drill_dwell,
-                                                  g::tap,
-                                                  g::bore_stop,
-                                                  g::bore_manual,
-                                                  g::bore_dwell});
+       const bool motion =
+           is_arc(m) ||
+           one_of(m, {g::drill_dwell, g::tap, g::bore_stop, g::bore_manual, g::bore_dwell});
        const bool once = one_of(tenths(b.code(GGroup::once)), {g::dwell, g::set_data});
        const bool output = one_of(number(b.code(MGroup::output)), {62, 63, 64, 65});
        const bool override_code = one_of(number(b.code(MGroup::override)), {50, 51, 52, 53});
@@ -76,9 +75,7 @@ constexpr WordUse kWordUses[] = {
      },
      "G64, G73, G83, M61, M67 or M68"},
     {"r",
-     [](const Block& b, int m) {
-       return is_arc(m) || is_cycle(m) || b.is(g::set_data) ? 1 : 0;
-     },
+     [](const Block& b, int m) { return is_arc(m) || is_cycle(m) || b.is(g::set_data) ? 1 : 0; },
      "G2, G3, G10 or a canned cycle"},
 };
 
@@ -100,7 +97,8 @@ Result<void> check_use(const WordUse& use, char letter, const Block& block, int 
   return refuse(
       ProblemName::unused_word,
       block.place(letter),
-      fmt::format("nothing on the line uses the {} word; it belongs to {}", upper(letter), use.codes));
+      fmt::format(
+          "nothing on the line uses the {} word; it belongs to {}", upper(letter), use.codes));
 }
 
 /// Words that are counts or numbers.
@@ -168,8 +166,7 @@ Result<void> Interpreter::check_words(const Block& block, int motion) const {
     }
     const bool incremental =
         block.code(GGroup::distance) ? block.is(g::incremental) : modes_.incremental;
-    if (incremental)
-      return refuse(ProblemName::modal_conflict, block, "G53 cannot be used in G91");
+    if (incremental) return refuse(ProblemName::modal_conflict, block, "G53 cannot be used in G91");
   }
   for (const char letter : {'s', 't', 'f'}) {
     if (block.has(letter) && block.value(letter) < 0.0) {
@@ -192,8 +189,8 @@ Result<void> Interpreter::output_word(const Block& block) {
   const bool analog = output->number >= 67;
   for (const char letter : analog ? std::string_view("eq") : std::string_view("p")) {
     if (!block.has(letter)) {
-      return refuse(ProblemName::missing_word, block,
-                    fmt::format("{} needs {}", text, upper(letter)));
+      return refuse(
+          ProblemName::missing_word, block, fmt::format("{} needs {}", text, upper(letter)));
     }
     const bool numbers = letter != 'q';
     text += numbers ? fmt::format(" {}{}", upper(letter), whole(block.value(letter)))
@@ -259,7 +256,8 @@ Result<void> Interpreter::tool_length(const Block& block) {
     if (block.has('h')) text += fmt::format(" H{}", whole(block.value('h')));
     if (code->tenths == g::tool_length_stated) {
       if (block.has('x') || block.has('y') || block.has('a') || block.has('b') || block.has('c')) {
-        return refuse(ProblemName::unsupported_code, block,
+        return refuse(ProblemName::unsupported_code,
+                      block,
                       "a tool offset (G43.1) in any axis but Z moves the path");
       }
       if (block.has('z')) text += with_value(" Z", length(block, 'z'));

@@ -17,7 +17,10 @@ namespace chaintrue::gcode {
 /// u along the arc's first axis, v along its second, from the centre, and the height over its plane.
 [[nodiscard]] Point in_plane(const Arc& arc, double u, double v, double height_mm);
 /// Of an arc, so that none bows by more, nor are there fewer.
-[[nodiscard]] double chords_within(double radius_mm, double sweep_rad, double bow_mm, double fewest);
+[[nodiscard]] double chords_within(double radius_mm,
+                                   double sweep_rad,
+                                   double bow_mm,
+                                   double fewest);
 
 /// Where X, Y or Z turns around, and both ends: t = 0 .. 1 of the places that bound the move.
 [[nodiscard]] std::vector<double> bounding_places(const Move& move);

@@ -68,7 +68,7 @@ struct ProgramEvent {
   enum class Kind { move, word, end };
   Kind kind = Kind::end;
   Move move;
-  std::string text;  ///< of a word, or of the word that ends the program
+  std::string text;           ///< of a word, or of the word that ends the program
   bool moves_itself = false;  ///< a word that moves the tool in the machine's frame
   bool leaves_xy = false;     ///< ... in X and Y
   std::size_t line = 0;

@@ -16,8 +16,8 @@ namespace chaintrue::gcode {
 struct PathLengths {
   std::size_t line = 0;
   MoveKind kind = MoveKind::rapid;
-  Point place;  ///< on the sheet, mm
-  grid::LengthsAnswer answer;  ///< the first two are paid out
+  Point place;                   ///< on the sheet, mm
+  grid::LengthsAnswer answer;    ///< the first two are paid out
   double feed_mm_per_min = 0.0;  ///< 0 for rapids
 };
 
