@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
+import functools
 import html
 import json
 import os
 import warnings
-from typing import Any, Callable, ClassVar, Optional, Sequence, Union
+from typing import Any, Callable, Iterable, Optional, Sequence, Union
 
 import numpy
 
@@ -20,42 +21,22 @@ Sources = Sequence[tuple[str, str]]
 """Files that were read, by name without folders and SHA-256."""
 
 
-class Filed:
-    """A thing of the library, with the text of its file. It does not change."""
+class Written:
+    """What has the text of a JSON file, and does not change."""
 
-    _core: Any
-    _sources: Sources
-    _parse: ClassVar[Callable[[str, str], tuple[Any, list[str]]]]
+    _text: str
 
-    def __init__(self, core: Any, sources: Sources = ()):
-        self._core = core
-        self._sources = tuple(sources)
-
-    @classmethod
-    def _of(cls, core: Any, sources: Sources = ()) -> Any:
-        thing = cls.__new__(cls)
-        Filed.__init__(thing, core, sources)
-        return thing
+    @functools.cached_property
+    def _contents(self) -> dict[str, Any]:
+        return self.to_dict()
 
     def to_dict(self) -> dict[str, Any]:
         """The contents of its JSON file (docs/formats) as dictionaries and lists."""
-        return json.loads(self._text())
+        return json.loads(self._text)
 
     def write(self, path: PathLike) -> None:
         """Writes its JSON file, whole or not at all; the same object gives the same bytes."""
-        _core.write(os.fspath(path), self._text())
-
-    @property
-    def name(self) -> str:
-        """What it is called in its file."""
-        return self._core.name
-
-    @classmethod
-    def from_dict(cls, contents: dict[str, Any]) -> Any:
-        """The thing whose to_dict() this is, held to what a file is held to."""
-        text = json.dumps(contents)
-        made_by = _core.made_by(text) if issubclass(cls, Made) else None
-        return told((*cls._parse(text, "the dictionary"), (), made_by), cls)
+        _core.write(os.fspath(path), self._text)
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -63,22 +44,58 @@ class Filed:
         return self._content() == other._content()
 
     def __hash__(self) -> int:
-        return hash(self._content())
+        return hash(json.dumps(self._content()))
+
+    def _content(self) -> dict[str, Any]:
+        """What makes two of them equal: all but where it comes from."""
+        return {k: v for k, v in self._contents.items() if k not in ("made_by", "content_hash")}
+
+
+def key(
+    name: str, meaning: str, shown: Callable[[Any], Any] = Record.of, missing: Any = None
+) -> Any:
+    """A property of a Written thing: what its file has under this name, `missing` where it has nothing."""
+
+    def get(self: Written) -> Any:
+        return shown(self._contents.get(name, missing))
+
+    get.__doc__ = meaning
+    return property(get)
+
+
+class Filed(Written):
+    """A thing of the library, by the text of its file."""
+
+    _sources: Sources
+
+    name: str = key("name", "What it is called in its file.", missing="")
+
+    def __init__(self) -> None:
+        raise TypeError(f"a {type(self).__name__} is read, fitted or made by from_dict()")
+
+    @classmethod
+    def _of(cls, text: str, sources: Sources = ()) -> Any:
+        thing = cls.__new__(cls)
+        thing._text, thing._sources = text, tuple(sources)
+        return thing
+
+    def _become(self, contents: dict[str, Any], sources: Sources, few: bool = False) -> None:
+        """What a file with these contents is; keys without a value are left out."""
+        kind = type(self).__name__.lower()
+        text = text_of(contents, f"chaintrue_{kind}")
+        self._text, _ = _core.parse(kind, text, "arrays", "", few)
+        self._sources = tuple(sources)
+
+    @classmethod
+    def from_dict(cls, contents: dict[str, Any]) -> Any:
+        """The thing whose to_dict() this is, held to what a file is held to."""
+        return told(cls, parsed(cls, json.dumps(contents), "the dictionary"))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, (type(self), self._text(), self._sources)
-
-    def _text(self) -> str:
-        """Of its file."""
-        return self._core.text()
-
-    def _content(self) -> str:
-        """The same without where it comes from: what makes two of them equal."""
-        return self._core.text()
+        return _again, (type(self), self._text, self._sources)
 
     def __repr__(self) -> str:
-        facts = ", ".join(f"{value} {key}" for key, value in self._facts().items())
-        return f"<chaintrue.{type(self).__name__} {self.name!r}: {facts}>"
+        return f"<chaintrue.{type(self).__name__} {self.name!r}: {in_words(self._facts())}>"
 
     def _facts(self) -> dict[str, Any]:
         """What repr and a notebook tell, a value for each word."""
@@ -88,60 +105,51 @@ class Filed:
         return facts_table(f"{type(self).__name__} {self.name}", self._facts())
 
 
-MadeBy = Optional[tuple[str, str, list[str], Sources]]
-"""Version, verb, options and inputs of where a result comes from."""
-
-
 class Made(Filed):
     """A result, which knows what it was made from, and has a page of its own, which a notebook shows."""
 
-    _made_by: MadeBy = None
+    made_by: Optional[Record] = key(
+        "made_by",
+        "version, verb, options, and inputs with name and sha256 of each file that was read; None where "
+        "that is not known.",
+    )
 
-    @classmethod
-    def _made(cls, core: Any, verb: str, options: dict[str, Any], sources: Sources) -> Any:
-        """The result of such a call; options as those of the command, without what was not given."""
-        thing = cls._of(core)
-        given = [
-            option if value is True else f"{option} {value}"
-            for option, value in options.items()
-            if value is not None and value is not False
-        ]
-        thing._made_by = (_core.__version__, verb, given, list(sources))
-        return thing
-
-    @property
-    def made_by(self) -> Optional[Record]:
-        """version, verb, options, and inputs with name and sha256 of each file that was read; None
-        where that is not known."""
-        if self._made_by is None:
-            return None
-        version, verb, options, sources = self._made_by
-        inputs = [{"name": name, "sha256": sha256} for name, sha256 in sources]
-        return Record.of({"version": version, "verb": verb, "options": options, "inputs": inputs})
-
-    def _text(self) -> str:
-        return self._core.text(self._made_by)
-
-    def _content(self) -> str:
-        return self._core.text(None)
-
-    def _page(self, source: str) -> str:
-        return self._core.page(source, self._made_by)
+    def _page(self, source: str, certificate: bool = False) -> str:
+        return _core.page(self._text, source, certificate)
 
     def _repr_html_(self) -> str:
         return framed(self._page("Python"))
 
 
+def made_by(
+    verb: str, options: dict[str, Any], sources: Iterable[tuple[str, str]]
+) -> tuple[str, list[str], list[tuple[str, str]]]:
+    """Where such a call's result comes from; options as those of the command, without what was not
+    given."""
+    given = [
+        option if value is True else f"{option} {value}"
+        for option, value in options.items()
+        if value is not None and value is not False
+    ]
+    return verb, given, list(sources)
+
+
+def parsed(kind: type[Filed], text: str, file: str) -> tuple[str, list[str]]:
+    """A text as this version writes it, and what was assumed of it."""
+    return _core.parse(kind.__name__.lower(), text, file, "", True)
+
+
+def from_file(
+    kind: type[Filed], path: PathLike, machine: Optional[Filed] = None, few: bool = False
+) -> tuple[str, list[str], Sources]:
+    """The same of a file, on that machine, and the files that were read for it."""
+    stated = "" if machine is None else machine._text
+    return _core.read(kind.__name__.lower(), os.fspath(path), stated, few)
+
+
 def _again(kind: type[Filed], text: str, sources: Sources) -> Any:
     """What was pickled."""
-    made_by = _core.made_by(text) if issubclass(kind, Made) else None
-    return told((*kind._parse(text, f"the stored {kind.__name__}"), sources, made_by), kind)
-
-
-def read_made(path: PathLike, kind: type[Made]) -> tuple[Any, list[str], Sources, MadeBy]:
-    """For told()."""
-    text, sources = _core.read_text(os.fspath(path))
-    return (*kind._parse(text, os.fspath(path)), sources, _core.made_by(text))
+    return told(kind, (*parsed(kind, text, f"the stored {kind.__name__}"), sources))
 
 
 def sources_of(*things: Optional[Filed]) -> list[tuple[str, str]]:
@@ -164,16 +172,17 @@ def framed(page: str, height: int = 640) -> str:
     )
 
 
-def told(read: tuple[Any, ...], kind: type[Filed], machine: Optional[Filed] = None) -> Any:
+def told(kind: type[Filed], read: tuple[Any, ...], machine: Optional[Filed] = None) -> Any:
     """What was read, on that machine; what was assumed of it is a warning where the reading was asked
     for."""
-    core, sentences, sources, *made_by = read
+    text, sentences, *sources = read
     for sentence in sentences:
         warnings.warn(sentence, stacklevel=3)
-    thing = kind._of(core, [*sources, *sources_of(machine)])
-    if isinstance(thing, Made):
-        thing._made_by = made_by[0]
-    return thing
+    return kind._of(text, [*(sources[0] if sources else ()), *sources_of(machine)])
+
+
+def in_words(facts: dict[str, Any]) -> str:
+    return ", ".join(f"{value} {key}" for key, value in facts.items())
 
 
 def text_of(contents: dict[str, Any], file_type: str) -> str:

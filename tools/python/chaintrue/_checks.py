@@ -3,63 +3,42 @@
 
 from __future__ import annotations
 
-import json
 import os
 from typing import Any, Optional, Union
 
 from . import _core, _plots
-from ._base import PathLike, framed
-from ._maps import Anchors, Map, Measured, sorted_out
+from ._base import PathLike, Written, framed, key
+from ._maps import Anchors, Map, Measured, sorted_out, texts_of
 from ._records import Record, Records, records
 
 
-class Check:
-    """Whether a map, or anchors, still hold."""
+class Check(Written):
+    """Whether a map, or anchors, still hold. Its file is what `chaintrue check --json` writes."""
 
-    def __init__(self, text: str, page: str, valid: bool):
+    def __init__(self, text: str, page: str):
         self._text = text
         self._page_text = page
-        self.valid: bool = valid
+
+    sentence: str = key("sentence", "The answer.")
+    verdict: str = key("verdict", "valid, valid_after_rezeroing or measure_again.")
+    decided: bool = key("decided", "False: more readings are needed to tell.")
+    probability: Record = key("probability", "Of valid, valid_after_rezeroing and measure_again.")
+    hypotheses: Records = key(
+        "hypotheses",
+        "What may have changed, the most probable first: what, side, verdict, probability.",
+        records,
+    )
+
+    @property
+    def valid(self) -> bool:
         """It holds as it is, and the new readings are enough to say so."""
-
-    def to_dict(self) -> dict[str, Any]:
-        """What `chaintrue check --json` writes, as dictionaries and lists."""
-        return json.loads(self._text)
-
-    def write(self, path: PathLike) -> None:
-        """Writes that file, whole or not at all."""
-        _core.write(os.fspath(path), self._text)
-
-    @property
-    def sentence(self) -> str:
-        """The answer."""
-        return self.to_dict()["sentence"]
-
-    @property
-    def verdict(self) -> str:
-        """valid, valid_after_rezeroing or measure_again."""
-        return self.to_dict()["verdict"]
-
-    @property
-    def decided(self) -> bool:
-        """False: more readings are needed to tell."""
-        return self.to_dict()["decided"]
-
-    @property
-    def probability(self) -> Record:
-        """Of valid, valid_after_rezeroing and measure_again."""
-        return Record.of(self.to_dict()["probability"])
-
-    @property
-    def hypotheses(self) -> Records:
-        """What may have changed, the most probable first: what, side, verdict, probability."""
-        return records(self.to_dict()["hypotheses"])
+        has_changed = "settings_have_changed" in self._contents
+        return self.decided and self.verdict == "valid" and not has_changed
 
     @property
     def residuals(self) -> Records:
         """How far the new readings lie from what was expected, with sigmas; mm."""
-        contents = self.to_dict()
-        return records(contents.get("residuals", contents.get("places", [])))
+        return records(self._contents.get("residuals") or self._contents.get("places"))
 
     def to_frame(self) -> Any:
         """residuals.to_frame(): a pandas.DataFrame. Raises MissingPackage without pandas."""
@@ -68,12 +47,6 @@ class Check:
     def plot(self, ax: Any = None) -> Any:
         """The probabilities of what may have changed; the axes are given back."""
         return _plots.probabilities(self.hypotheses, "what", ax)
-
-    def __eq__(self, other: object) -> bool:
-        return self._text == other._text if isinstance(other, Check) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self._text)
 
     def __repr__(self) -> str:
         return f"<chaintrue.Check: {self.sentence}>"
@@ -100,8 +73,8 @@ def check(
             raise ValueError("anchors are checked by one Belts")
         if settings is not None:
             raise ValueError("settings are of a map: anchors are checked by lengths")
-        return Check(*_core.check_anchors(calibration._core, belts[0]))
+        return Check(*_core.check_anchors(calibration._text, belts[0]._text))
     if belts:
         raise ValueError("a map is checked by Grids and Holes; Belts check Anchors")
     file = "" if settings is None else os.fspath(settings)
-    return Check(*_core.check_map(calibration._core, grids, holes, file))
+    return Check(*_core.check_map(calibration._text, texts_of(grids, holes), file))

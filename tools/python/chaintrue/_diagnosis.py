@@ -6,9 +6,9 @@ from __future__ import annotations
 from typing import Any, Optional
 
 from . import _core, _plots
-from ._base import Made, PathLike, read_made, sources_of, told
-from ._maps import Measured, sorted_out
-from ._measured import Grid, Machine
+from ._base import Made, PathLike, from_file, key, made_by, sources_of, told
+from ._maps import Measured, sorted_out, texts_of
+from ._measured import Grid, Machine, machine_in
 from ._records import Record, Records, records
 
 
@@ -27,48 +27,35 @@ class Cause(Record):
 class Diagnosis(Made):
     """Why a machine errs, and how sure that is (docs/diagnosis.md)."""
 
-    _parse = staticmethod(_core.parse_diagnosis)
-
-    @property
-    def sentence(self) -> str:
-        """The answer."""
-        return self._core.sentence
-
-    @property
-    def verdict(self) -> str:
-        """named, named_set, several_causes, unknown_pattern, noise_larger_than_stated, bad_points or
-        nothing_found."""
-        return self.to_dict()["verdict"]
-
-    @property
-    def what_to_do(self) -> list[str]:
-        """What to do now, a sentence each."""
-        return self.to_dict().get("what_to_do", [])
-
-    @property
-    def causes(self) -> Records:
-        """The causes named, the most probable first: a Cause each. causes.to_frame() is their table."""
-        return records(self.to_dict()["causes"], Cause)
-
-    @property
-    def hypotheses(self) -> Records:
-        """Everything that was weighed, with its probability: effect, side, probability."""
-        return records(self.to_dict()["hypotheses"])
-
-    @property
-    def next_measurements(self) -> Records:
-        """What to measure next, the most telling first."""
-        return records(self.to_dict().get("next_measurements", []))
-
-    @property
-    def held_out(self) -> Optional[Record]:
-        """How well the result predicts another Grid, mm; None where none was given."""
-        return Record.of(self.to_dict().get("held_out_grid"))
+    name: str = key("grid_name", "What was diagnosed, as its file calls it.", missing="")
+    sentence: str = key("sentence", "The answer.")
+    verdict: str = key(
+        "verdict",
+        "named, named_set, several_causes, unknown_pattern, noise_larger_than_stated, bad_points or "
+        "nothing_found.",
+    )
+    what_to_do: list[str] = key("what_to_do", "What to do now, a sentence each.", missing=[])
+    causes: Records = key(
+        "causes",
+        "The causes named, the most probable first: a Cause each. causes.to_frame() is their table.",
+        lambda causes: records(causes, Cause),
+    )
+    hypotheses: Records = key(
+        "hypotheses",
+        "Everything that was weighed, with its probability: effect, side, probability.",
+        records,
+    )
+    next_measurements: Records = key(
+        "next_measurements", "What to measure next, the most telling first.", records
+    )
+    held_out: Optional[Record] = key(
+        "held_out_grid", "How well the result predicts another Grid, mm; None where none was given."
+    )
 
     @property
     def machine(self) -> Optional[Machine]:
         """The Machine with what was found in it: what to fit on. None of four belts."""
-        return None if self._core.of_belts else Machine(self._core.machine)
+        return machine_in(self._contents, "extended_machine")
 
     def to_frame(self) -> Any:
         """causes.to_frame(): a pandas.DataFrame. Raises MissingPackage without pandas."""
@@ -101,17 +88,15 @@ def diagnose(
         raise TypeError(f"held_out is a Grid, not {type(held_out).__name__}")
     if held_out is not None and (len(grids) != 1 or holes or belts):
         raise ValueError("held_out is predicted by what one Grid alone says")
-    options = {"--seed": None if seed == 1 else seed}
-    sources = sources_of(*measured, held_out)
-    if not belts:
-        core = _core.diagnose(grids, holes, seed, gain, None if held_out is None else held_out._core)
-    elif len(belts) > 1 or grids or holes:
+    if belts and (len(belts) > 1 or grids or holes):
         raise ValueError("Belts are diagnosed by themselves, one at a time")
-    else:
-        core = _core.diagnose_belts(belts[0], seed)
-    return Diagnosis._made(core, "diagnose", options, sources)
+    origin = made_by(
+        "diagnose", {"--seed": None if seed == 1 else seed}, sources_of(*measured, held_out)
+    )
+    other = "" if held_out is None else held_out._text
+    return Diagnosis._of(_core.diagnose(texts_of(grids, holes, belts), seed, gain, other, origin))
 
 
 def read_diagnosis(path: PathLike) -> Diagnosis:
     """The Diagnosis of a chaintrue_diagnosis file."""
-    return told(read_made(path, Diagnosis), Diagnosis)
+    return told(Diagnosis, from_file(Diagnosis, path))

@@ -111,22 +111,23 @@ def places_of(numbers: Any, name: str) -> NDArray[numpy.float64]:
     return array
 
 
+def masked(numbers: NDArray[numpy.float64]) -> numpy.ma.MaskedArray:
+    """Zero and masked where they are none."""
+    mask = numpy.isnan(numbers)
+    return numpy.ma.array(numpy.where(mask, 0.0, numbers), mask=mask)
+
+
 def answered(places: NDArray[numpy.float64], found: dict[str, Any]) -> Lengths:
     """The core's answer to places.reshape(-1, 2), in the shape of places."""
     shape = places.shape[:-1]
-    outside = found["outside"].reshape(shape)
-    both = numpy.stack([outside, outside], axis=-1)
-    lengths = found["lengths"].reshape(*shape, len(found["names"]))
     status = numpy.array(found["status"]).reshape(shape)
     why = numpy.array(found["why"], dtype=object).reshape(shape)
     return Lengths(
         points=places,
         names=tuple(found["names"]),
-        lengths=numpy.ma.array(lengths, mask=numpy.repeat(outside[..., None], lengths.shape[-1], -1)),
-        sigma=numpy.ma.array(found["sigma"].reshape(*shape, 2), mask=both),
-        tool_sigma=numpy.ma.array(
-            found["tool_sigma"].reshape(shape), mask=~found["tool_known"].reshape(shape)
-        ),
+        lengths=masked(found["lengths"].reshape(*shape, len(found["names"]))),
+        sigma=masked(found["sigma"].reshape(*shape, 2)),
+        tool_sigma=masked(found["tool_sigma"].reshape(shape)),
         status=status if shape else str(status[()]),
         why=why if shape else str(why[()]),
     )

@@ -3,14 +3,15 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Any, Iterable, Optional, Union, overload
 
 import numpy
 from numpy.typing import ArrayLike
 
 from . import _core, _plots
-from ._base import Made, PathLike, one_of, read_made, sources_of, told
-from ._lengths import Lengths, answered, places_of
+from ._base import Made, PathLike, from_file, key, made_by, one_of, sources_of, told
+from ._lengths import Lengths, answered, masked, places_of
 from ._measured import Grid, Machine
 from ._records import Record, Records, records
 from ._taped import Belts, Holes
@@ -43,60 +44,71 @@ class AnchorsAccuracy(Record):
     """Readings that were left out, as the others foretell them."""
 
 
-class Map(Made):
+class _Asked(Made):
+    """A result that answers for places and for lengths."""
+
+    @functools.cached_property
+    def _answering(self) -> Any:
+        return _core.Answering(self._text)
+
+    def _query(self, xy: ArrayLike, bed: bool) -> Lengths:
+        places = places_of(xy, "points")
+        return answered(places, self._answering.query(places.reshape(-1, 2), bed))
+
+    def _inverse(self, lengths: Any, bed: bool) -> numpy.ma.MaskedArray:
+        if isinstance(lengths, Lengths):
+            lengths = lengths.lengths[..., :2]
+        unknown = numpy.ma.getmaskarray(numpy.ma.asarray(lengths)).any(axis=-1)
+        pairs = places_of(numpy.ma.filled(lengths, 0.0), "lengths")
+        points = self._answering.inverse(pairs.reshape(-1, 2), bed).reshape(pairs.shape)
+        points[unknown] = numpy.nan
+        return masked(points)
+
+
+class Map(_Asked):
     """A compensation map: what the chains must be for every place of the bed."""
 
-    _parse = staticmethod(_core.parse_map)
-
-    @property
-    def notes(self) -> list[str]:
-        """What its reader should know, in sentences."""
-        return self._core.notes
+    notes: list[str] = key("notes", "What its reader should know, in sentences.", missing=[])
+    accuracy: Accuracy = key(
+        "accuracy",
+        "What it says of its own error: accuracy.expected_tool.rms_mm and more.",
+        Accuracy.of,
+    )
+    settings: Records = key(
+        "settings", "The settings as stated and as fitted, with their sigmas.", records
+    )
+    points: Records = key(
+        "points",
+        "The measured points: how far the tool was off as stated, with the map, and left out.",
+        records,
+    )
 
     @property
     def sentence(self) -> str:
         """How far the tool is off, and what is left with this map."""
-        return self._core.sentence
+        return self._answering.sentence()
 
     @property
     def machine(self) -> Optional[Machine]:
         """The Machine with its settings as fitted; None of a direct surface."""
-        return None if self._core.machine is None else Machine(self._core.machine)
-
-    @property
-    def accuracy(self) -> Accuracy:
-        """What it says of its own error: accuracy.expected_tool.rms_mm and more."""
-        return Accuracy.of(self.to_dict()["accuracy"])
-
-    @property
-    def settings(self) -> Records:
-        """The settings as stated and as fitted, with their sigmas."""
-        return records(self.to_dict().get("settings", []))
-
-    @property
-    def points(self) -> Records:
-        """The measured points: how far the tool was off as stated, with the map, and left out."""
-        return records(self.to_dict().get("points", []))
+        text = self._answering.machine()
+        return Machine._of(text) if text else None
 
     def query(self, xy: ArrayLike, frame: str = "marks") -> Lengths:
         """What the chains must be at places, an array (..., 2) of x and y in mm; (2,) is one place.
 
         frame  marks: as the grid's points were given; bed: as the machine file has it
         """
-        places = places_of(xy, "points")
-        return answered(places, self._core.query(places.reshape(-1, 2), _is_bed(frame)))
+        return self._query(xy, _is_bed(frame))
 
     def inverse(self, lengths: Union[ArrayLike, Lengths], frame: str = "marks") -> numpy.ma.MaskedArray:
         """Where the tool is, a masked array (..., 2) of x and y in mm, for lengths: an array (..., 2)
         of left and right chain in mm, or what query gave."""
-        return _placed(lengths, lambda pairs: self._core.inverse(pairs, _is_bed(frame)))
+        return self._inverse(lengths, _is_bed(frame))
 
     def plot(self, ax: Any = None) -> Any:
         """The expected error of the tool over the bed, and the points; the axes are given back."""
         return _plots.calibration(self, ax)
-
-    def _page(self, source: str, certificate: bool = False) -> str:
-        return self._core.page(source, certificate, self._made_by)
 
     def _facts(self) -> dict[str, Any]:
         return {
@@ -105,15 +117,13 @@ class Map(Made):
         }
 
 
-class Anchors(Made):
+class Anchors(_Asked):
     """The anchors of four belts as fitted: the map of such a machine."""
-
-    _parse = staticmethod(_core.parse_anchors)
 
     @property
     def accuracy(self) -> AnchorsAccuracy:
         """What the fit says of its own error."""
-        fit = self.to_dict()["fit"]
+        fit = self._contents["fit"]
         return AnchorsAccuracy.of(
             {key: fit[key] for key in ("spread_mm", "rms_mm", "rms_of_mm", "foretold") if key in fit}
         )
@@ -121,44 +131,31 @@ class Anchors(Made):
     @property
     def coordinates(self) -> Records:
         """Each coordinate of an anchor: coordinate, stated_mm, fitted_mm, sigma_mm, rests_on."""
-        return records(self.to_dict()["fit"]["coordinates"])
+        return records(self._contents["fit"]["coordinates"])
 
     @property
     def settings(self) -> str:
         """Lines to paste into the machine's terminal."""
-        return self._core.settings()
+        return _core.maslow4_settings(self._text)
 
     def query(self, xy: ArrayLike) -> Lengths:
         """What the belts must be at places, an array (..., 2) of x and y in mm; (2,) is one place."""
-        places = places_of(xy, "points")
-        return answered(places, self._core.query(places.reshape(-1, 2)))
+        return self._query(xy, False)
 
     def inverse(self, lengths: Union[ArrayLike, Lengths]) -> numpy.ma.MaskedArray:
         """Where the tool is, a masked array (..., 2) of x and y in mm, for lengths: an array (..., 2)
         of the upper two belts in mm, or what query gave."""
-        return _placed(lengths, self._core.inverse)
+        return self._inverse(lengths, False)
 
     def plot(self, ax: Any = None) -> Any:
         """The anchors and the places; the axes are given back."""
-        return _plots.belts(self.to_dict()["fit"], ax)
+        return _plots.belts(self._contents["fit"], ax)
 
     def _facts(self) -> dict[str, Any]:
         return {
-            "places": len(self.to_dict()["fit"].get("places", [])),
+            "places": len(self._contents["fit"].get("places", [])),
             "mm a reading is off": f"{self.accuracy.spread_mm:.2f}",
         }
-
-
-def _placed(lengths: Any, ask: Any) -> numpy.ma.MaskedArray:
-    if isinstance(lengths, Lengths):
-        lengths = lengths.lengths[..., :2]
-    unknown = numpy.ma.getmaskarray(numpy.ma.asarray(lengths)).any(axis=-1)
-    pairs = places_of(numpy.ma.filled(lengths, 0.0), "lengths")
-    points, outside = ask(pairs.reshape(-1, 2))
-    outside = outside.reshape(pairs.shape[:-1]) | unknown
-    return numpy.ma.array(
-        points.reshape(pairs.shape), mask=numpy.stack([outside, outside], axis=-1)
-    )
 
 
 def _is_bed(frame: str) -> bool:
@@ -171,10 +168,15 @@ def sorted_out(measured: Iterable[Measured], who: str) -> tuple[list[Any], list[
     for thing in measured:
         if type(thing) not in found:
             raise TypeError(f"{who} takes Grids, Holes and Belts, not {type(thing).__name__}")
-        found[type(thing)].append(thing._core)
+        found[type(thing)].append(thing)
     if not any(found.values()):
         raise TypeError(f"{who} takes Grids, Holes and Belts, one at least")
     return found[Grid], found[Holes], found[Belts]
+
+
+def texts_of(*things: Iterable[Measured]) -> list[str]:
+    """Their files' texts, list after list."""
+    return [thing._text for one in things for thing in one]
 
 
 @overload
@@ -217,13 +219,14 @@ def fit(
     one_of(surface, "surface", ("residual", "direct"))
     if surface == "direct" and (plain or accept_class):
         raise ValueError("a direct surface has no machine that could err")
-    if belts or any(read.of_belts for read in holes):
+    if belts or any(read._are_of_belts for read in holes):
         return _fit_belts(grids, holes, belts, surface, plain or accept_class, sources)
     if surface == "direct" and (holes or len(grids) != 1):
         raise ValueError("a direct surface is of the lengths of one Grid")
     direct = surface == "direct"
     options = {"--surface direct": direct, "--plain": plain, "--accept-class": accept_class}
-    return Map._made(_core.fit(grids, holes, direct, plain, accept_class), "fit", options, sources)
+    origin = made_by("fit", options, sources)
+    return Map._of(_core.fit(texts_of(grids, holes), direct, plain, accept_class, origin))
 
 
 def _fit_belts(
@@ -233,17 +236,18 @@ def _fit_belts(
         raise ValueError("anchors are fitted to one Belts and any number of Holes")
     if surface != "residual" or of_causes:
         raise ValueError("surface, plain and accept_class are of two chains: leave them out with Belts")
-    return Anchors._made(_core.fit_belts(belts[0] if belts else None, holes), "fit", {}, sources)
+    text = belts[0]._text if belts else ""
+    return Anchors._of(_core.fit_belts(text, texts_of(holes), made_by("fit", {}, sources)))
 
 
 def read_map(path: PathLike) -> Map:
     """The Map of a chaintrue_map file."""
-    return told(read_made(path, Map), Map)
+    return told(Map, from_file(Map, path))
 
 
 def read_anchors(path: PathLike) -> Anchors:
     """The Anchors of a chaintrue_anchors file."""
-    return told(read_made(path, Anchors), Anchors)
+    return told(Anchors, from_file(Anchors, path))
 
 
 def query(map: Union[Map, Anchors], points: ArrayLike, frame: str = "marks") -> Lengths:

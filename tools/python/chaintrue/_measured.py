@@ -3,30 +3,27 @@
 
 from __future__ import annotations
 
-import os
+import json
 from typing import Any, Iterable, Optional
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core, _plots
-from ._base import Filed, PathLike, sources_of, text_of, told
+from . import _plots
+from ._base import Filed, PathLike, from_file, parsed, sources_of, told
 from ._contents import Readings, points_of
 
 
 class Machine(Filed):
     """A machine as its owner states it (docs/formats/machine.md): read_machine, or from_dict."""
 
-    _parse = staticmethod(_core.parse_machine)
-
     def _facts(self) -> dict[str, Any]:
-        contents = self.to_dict()
-        bed = contents["bed"]
+        bed = self._contents["bed"]
         return {"mm wide": bed["width_mm"], "mm high": bed["height_mm"]}
 
     def plot(self, ax: Any = None) -> Any:
         """Bed and motors, with matplotlib; the axes are given back."""
-        return _plots.machine(self.to_dict(), ax)
+        return _plots.machine(self._contents, ax)
 
 
 class Grid(Filed):
@@ -44,8 +41,6 @@ class Grid(Filed):
     readings   what was measured besides, dictionaries as in a file
     few        a handful of points, which only check a map
     """
-
-    _parse = staticmethod(lambda text, file: _core.parse_grid(text, file, True))
 
     def __init__(
         self,
@@ -73,36 +68,42 @@ class Grid(Filed):
             "readings": list(readings) or None,
             "points": points_of(marks, lengths, commanded, order),
         }
-        grid, _ = _core.parse_grid(text_of(contents, "chaintrue_grid"), "arrays", few)
-        super().__init__(grid, sources_of(machine))
+        self._become(contents, sources_of(machine), few)
 
     @property
     def machine(self) -> Optional[Machine]:
         """The Machine that the grid names, or None."""
-        return None if self._core.machine is None else Machine(self._core.machine)
+        return machine_in(self._contents)
 
     @property
     def marks(self) -> NDArray[numpy.float64]:
         """(n, 2) array, mm: where the tool was, x and y."""
-        return self._core.marks
+        return self._column(float, "x_mm", "y_mm")
 
     @property
     def lengths(self) -> Optional[NDArray[numpy.float64]]:
         """(n, 2) array, mm: left and right chain as read; None where a point has none."""
-        return self._core.lengths
+        return self._column(float, "left_mm", "right_mm")
 
     @property
     def commanded(self) -> Optional[NDArray[numpy.float64]]:
         """(n, 2) array, mm: where the controller was told to go; None where a point has none."""
-        return self._core.commanded
+        return self._column(float, "commanded_x_mm", "commanded_y_mm")
 
     @property
     def order(self) -> Optional[NDArray[numpy.int_]]:
         """(n,) array of whole numbers: which visit each was; None where that is not known."""
-        return None if self._core.order is None else numpy.array(self._core.order)
+        order = self._column(int, "order")
+        return None if order is None else order[:, 0]
+
+    def _column(self, number: type, *keys: str) -> Any:
+        points = self._contents["points"]
+        if any(key not in point for point in points for key in keys):
+            return None
+        return numpy.array([[point[key] for key in keys] for point in points], dtype=number)
 
     def __len__(self) -> int:
-        return len(self._core.marks)
+        return len(self._contents["points"])
 
     def _facts(self) -> dict[str, Any]:
         read = "read at each" if self.lengths is not None else "commanded for each"
@@ -114,13 +115,16 @@ class Grid(Filed):
         return _plots.grid(self.marks, self.commanded, ax)
 
 
-def core_of(machine: Optional[Machine]) -> Any:
-    return None if machine is None else machine._core
+def machine_in(contents: dict[str, Any], key: str = "machine") -> Optional[Machine]:
+    """The Machine on two chains that a file holds, or None."""
+    if "motors" not in contents.get(key, {}):
+        return None
+    return Machine._of(parsed(Machine, json.dumps(contents[key]), key)[0])
 
 
 def read_machine(path: PathLike) -> Machine:
     """The Machine of a chaintrue_machine file. What was assumed is a warning."""
-    return told(_core.read_machine(os.fspath(path)), Machine)
+    return told(Machine, from_file(Machine, path))
 
 
 def read_grid(path: PathLike, machine: Optional[Machine] = None, few: bool = False) -> Grid:
@@ -128,4 +132,4 @@ def read_grid(path: PathLike, machine: Optional[Machine] = None, few: bool = Fal
 
     few  a handful of points, which only check a map
     """
-    return told(_core.read_grid(os.fspath(path), core_of(machine), few), Grid, machine)
+    return told(Grid, from_file(Grid, path, machine, few), machine)

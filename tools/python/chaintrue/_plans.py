@@ -11,9 +11,9 @@ import numpy
 from numpy.typing import NDArray
 
 from . import _core, _plots
-from ._base import PathLike, facts_table, in_range, one_of
+from ._base import PathLike, facts_table, in_range, in_words, one_of
 from ._diagnosis import Diagnosis
-from ._maps import Map, Measured, sorted_out
+from ._maps import Map, Measured, sorted_out, texts_of
 from ._measured import Grid, Machine
 from ._records import Records, records
 from ._taped import Belts, Holes
@@ -53,7 +53,7 @@ class Plan:
         return len(self.marks)
 
     def __repr__(self) -> str:
-        return f"<chaintrue.Plan: {', '.join(f'{v} {k}' for k, v in self._facts().items())}>"
+        return f"<chaintrue.Plan: {in_words(self._facts())}>"
 
     def write(self, path: PathLike) -> None:
         """Writes the table: as JSON where the file is called .json, as CSV otherwise."""
@@ -133,18 +133,16 @@ def plan(
     count = holes if holes is not None else usual if points is None else points
     if holes is None:
         in_range(count, "points", *limits)
-    asked = _core.Asked(
-        count, margin_mm, length_noise_mm, position_noise_mm, measure, drill_depth_mm
-    )
+    asked = (count, margin_mm, length_noise_mm, position_noise_mm, measure, drill_depth_mm)
     if isinstance(of, Map):
-        return Plan(**_core.plan_check(of._core, asked))
+        return Plan(**_core.plan_check(of._text, asked))
     if holes is None:
         in_range(second_visits, "second_visits", 0, count // 3)
-        return Plan(**_core.plan_marks(of._core, asked, second_visits))
+        return Plan(**_core.plan_marks(of._text, asked, second_visits))
     in_range(holes, "holes", *_core.PLANNED_HOLES)
     if distances:
         in_range(distances, "distances", *_core.planned_distances(holes, edges))
-    return Plan(**_core.plan_holes(of._core, asked, distances, edges, tape_sigma_mm, hole_sigma_mm))
+    return Plan(**_core.plan_holes(of._text, asked, distances, edges, tape_sigma_mm, hole_sigma_mm))
 
 
 def _plan_after(measured: Any, found: Diagnosis) -> Plan:
@@ -152,8 +150,6 @@ def _plan_after(measured: Any, found: Diagnosis) -> Plan:
         raise TypeError("after a diagnosis a plan is of what was diagnosed: Grids, Holes or Belts")
     one = isinstance(measured, (Grid, Holes, Belts))
     grids, holes, belts = sorted_out([measured] if one else measured, "plan")
-    if not belts:
-        return Plan(**_core.plan_after(found._core, grids, holes))
-    if len(belts) > 1 or grids or holes:
+    if belts and (len(belts) > 1 or grids or holes):
         raise ValueError("Belts are diagnosed by themselves, one at a time")
-    return Plan(**_core.plan_after_belts(found._core, belts[0]))
+    return Plan(**_core.plan_after(found._text, texts_of(grids, holes, belts)))

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any, Iterable, Iterator
+from typing import Any, Iterable, Iterator, Optional
 
 from ._errors import MissingPackage
 
@@ -49,8 +49,8 @@ class Records(list):
         return table(self.columns())
 
 
-def records(values: Iterable[dict], kind: type[Record] = Record) -> Records:
-    return Records(kind.of(value) for value in values)
+def records(values: Optional[Iterable[dict]], kind: type[Record] = Record) -> Records:
+    return Records(kind.of(value) for value in values or ())
 
 
 def frame(columns: dict[str, Any]) -> Any:

@@ -3,16 +3,17 @@
 
 from __future__ import annotations
 
-import os
 from typing import Any, Iterable, Optional
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core, _plots
-from ._base import Filed, PathLike, rows, same_count, sources_of, text_of, told
+from . import _plots
+from ._base import Filed, PathLike, from_file, rows, same_count, sources_of, told
 from ._contents import Readings, add_visits, distance_of
-from ._measured import Machine, core_of
+from ._measured import Machine, machine_in
+
+_LENGTHS = ("tl_mm", "tr_mm", "bl_mm", "br_mm")
 
 
 class Belts(Filed):
@@ -27,8 +28,6 @@ class Belts(Filed):
     machine    what else its file says of the machine, {"arm_mm": 123.4, ...}; or other Belts
     """
 
-    _parse = staticmethod(_core.parse_belts)
-
     def __init__(
         self,
         lengths: ArrayLike,
@@ -39,11 +38,7 @@ class Belts(Filed):
         machine: Any = None,
         name: str = "",
     ):
-        belts = ("tl", "tr", "bl", "br")
-        points = [
-            {f"{belt}_mm": length for belt, length in zip(belts, row)}
-            for row in rows(lengths, "lengths", 4).tolist()
-        ]
+        points = [dict(zip(_LENGTHS, row)) for row in rows(lengths, "lengths", 4).tolist()]
         add_visits(points, commanded, order, "lengths")
         stated = dict(machine.to_dict()["machine"] if isinstance(machine, Belts) else machine or {})
         if anchors is not None:
@@ -51,30 +46,29 @@ class Belts(Filed):
             placed = rows(anchors, "anchors", wide).tolist()
             same_count({"belts": 4, "anchors": len(placed)})
             keys = ("x_mm", "y_mm", "z_mm")
-            stated["anchors"] = {belt: dict(zip(keys, at)) for belt, at in zip(belts, placed)}
+            stated["anchors"] = {length[:2]: dict(zip(keys, at)) for length, at in zip(_LENGTHS, placed)}
         contents = {
             "name": name,
             "machine": stated or None,
             "points": points,
             "distances": [distance_of(one) for one in distances] or None,
         }
-        found, _ = _core.parse_belts(text_of(contents, "chaintrue_belts"), "arrays")
-        super().__init__(found, sources_of(machine if isinstance(machine, Belts) else None))
+        self._become(contents, sources_of(machine if isinstance(machine, Belts) else None))
 
     @property
     def lengths(self) -> NDArray[numpy.float64]:
         """(n, 4) array, mm: top left, top right, bottom left, bottom right belt as printed."""
-        return self._core.lengths
+        return numpy.array([[point[key] for key in _LENGTHS] for point in self._contents["points"]])
 
     def __len__(self) -> int:
-        return len(self._core.lengths)
+        return len(self._contents["points"])
 
     def _facts(self) -> dict[str, Any]:
-        return {"places": len(self), "taped distances": len(self.to_dict().get("distances", []))}
+        return {"places": len(self), "taped distances": len(self._contents.get("distances", []))}
 
     def plot(self, ax: Any = None) -> Any:
         """The anchors, and where the machine was sent; the axes are given back."""
-        return _plots.belts(self.to_dict(), ax)
+        return _plots.belts(self._contents, ax)
 
 
 class Holes(Filed):
@@ -93,8 +87,6 @@ class Holes(Filed):
     readings   what was measured besides, dictionaries as in a file
     few        a few distances, which only check a map
     """
-
-    _parse = staticmethod(lambda text, file: _core.parse_holes(text, file, True))
 
     def __init__(
         self,
@@ -128,28 +120,31 @@ class Holes(Filed):
             "holes": holes,
             "distances": [distance_of(one) for one in distances],
         }
-        found, _ = _core.parse_holes(text_of(contents, "chaintrue_holes"), "arrays", few)
-        super().__init__(found, sources_of(machine))
+        self._become(contents, sources_of(machine), few)
 
     @property
     def machine(self) -> Optional[Machine]:
         """The Machine on two chains that drilled them, or None."""
-        return None if self._core.machine is None else Machine(self._core.machine)
+        return machine_in(self._contents)
 
     @property
     def commanded(self) -> NDArray[numpy.float64]:
         """(n, 2) array, mm: where the controller was told to drill."""
-        return numpy.array([(hole["x_mm"], hole["y_mm"]) for hole in self.to_dict()["holes"]])
+        return numpy.array([(hole["x_mm"], hole["y_mm"]) for hole in self._contents["holes"]])
+
+    @property
+    def _are_of_belts(self) -> bool:
+        return "anchors" in self._contents.get("machine", {})
 
     def __len__(self) -> int:
-        return len(self.to_dict()["holes"])
+        return len(self._contents["holes"])
 
     def _facts(self) -> dict[str, Any]:
-        return {"holes": len(self), "distances": len(self.to_dict()["distances"])}
+        return {"holes": len(self), "distances": len(self._contents["distances"])}
 
     def plot(self, ax: Any = None) -> Any:
         """The holes and the distances between them; the axes are given back."""
-        return _plots.holes(self.to_dict(), ax)
+        return _plots.holes(self._contents, ax)
 
 
 def _machine_of(machine: Optional[Filed]) -> Optional[dict[str, Any]]:
@@ -163,9 +158,9 @@ def read_holes(path: PathLike, machine: Optional[Machine] = None, few: bool = Fa
 
     few  a few distances, which only check a map
     """
-    return told(_core.read_holes(os.fspath(path), core_of(machine), few), Holes, machine)
+    return told(Holes, from_file(Holes, path, machine, few), machine)
 
 
 def read_belts(path: PathLike) -> Belts:
     """The Belts of a chaintrue_belts file."""
-    return told(_core.read_belts(os.fspath(path)), Belts)
+    return told(Belts, from_file(Belts, path))

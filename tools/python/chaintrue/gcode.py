@@ -32,7 +32,7 @@ import numpy
 from numpy.typing import NDArray
 
 from . import _core, _plots
-from ._base import PathLike, facts_table, one_of
+from ._base import PathLike, facts_table, in_words, one_of
 from ._errors import GcodeError, GcodeProblem
 from ._maps import Anchors, Map
 
@@ -87,8 +87,7 @@ class Compensated:
         return facts
 
     def __repr__(self) -> str:
-        facts = ", ".join(f"{value} {key}" for key, value in self._facts().items())
-        return f"<chaintrue.gcode.Compensated: {facts}>"
+        return f"<chaintrue.gcode.Compensated: {in_words(self._facts())}>"
 
     def _repr_html_(self) -> str:
         return facts_table("Compensated program", self._facts())
@@ -149,9 +148,8 @@ def compensate(
     given = [_as_typed(name, value) for name, value in options.items() if value is not False]
     target = _target(calibration)
     sources = [*_sources_of(program), *(calibration._sources or _as_written(calibration))]
-    return Compensated(
-        **_core.compensate(_text(program), *target, asked, given, sources)
-    )
+    origin = ("gcode compensate", given, sources)
+    return Compensated(**_core.compensate(_text(program), target, asked, origin))
 
 
 def verify(
@@ -162,7 +160,7 @@ def verify(
 ) -> Verification:
     """What the compensated program does on a simulated machine, against what the program means."""
     run = compensated.text if isinstance(compensated, Compensated) else _text(compensated)
-    return Verification(**_core.verify(_text(program), run, *_target(calibration), _options(options)))
+    return Verification(**_core.verify(_text(program), run, _target(calibration), _options(options)))
 
 
 def _options(given: dict[str, Any]) -> Any:
@@ -212,10 +210,10 @@ def _sources_of(program: Union[str, PathLike]) -> list[tuple[str, str]]:
 def _as_written(calibration: Union[Map, Anchors]) -> list[tuple[str, str]]:
     """The file that write() would make of it."""
     name = "anchors" if isinstance(calibration, Anchors) else "map"
-    return [(name, hashlib.sha256(calibration._text().encode()).hexdigest())]
+    return [(name, hashlib.sha256(calibration._text.encode()).hexdigest())]
 
 
-def _target(calibration: Union[Map, Anchors]) -> tuple[str, bool]:
+def _target(calibration: Union[Map, Anchors]) -> str:
     if not isinstance(calibration, (Map, Anchors)):
         raise TypeError(f"programs are compensated with a Map or Anchors, not {calibration!r}")
-    return calibration._text(), isinstance(calibration, Anchors)
+    return calibration._text

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Diagnoses: made, read, and their pages.
+/// Diagnoses, and the pages of all that has one.
 #include <cstdint>
-#include <optional>
-#include <utility>
 
 #include "grid/diagnosis/diagnose.hpp"
+#include "grid/files/anchors_file.hpp"
+#include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
+#include "grid/files/file_type.hpp"
+#include "grid/files/map_file.hpp"
+#include "tools/cli/anchors_document.hpp"
+#include "tools/cli/certificate.hpp"
 #include "tools/cli/diagnosis_document.hpp"
 #include "tools/cli/made_by.hpp"
+#include "tools/cli/map_document.hpp"
 #include "tools/python/core/bind.hpp"
 #include "tools/python/core/failures.hpp"
-#include "tools/python/core/gather.hpp"
 
 namespace chaintrue::python {
 namespace {
@@ -19,53 +23,62 @@ namespace {
 namespace files = grid::files;
 using grid::diagnosis::Diagnosis;
 
-Diagnosis diagnose(const Grids& grids,
-                   const HolesRead& holes,
-                   std::uint64_t seed,
-                   bool improvement,
-                   const std::optional<grid::MeasuredGrid>& held_out) {
-  const py::gil_scoped_release others_may_work;
-  grid::diagnosis::DiagnosisOptions options;
-  options.seed = seed;
-  options.improvement = improvement;
-  Diagnosis found = value_or_throw(grid::diagnosis::diagnose(gathered(grids, holes), options));
-  if (held_out) {
-    found.transferred = value_or_throw(grid::diagnosis::transfer(grids.front(), found, *held_out));
-    if (found.transferred->to.empty()) found.transferred->to = held_out->name;
+/// `held_out` is the text of another grid, or empty.
+Diagnosis diagnosis_of(const Texts& texts,
+                       const grid::diagnosis::DiagnosisOptions& options,
+                       const std::string& held_out) {
+  if (files::kind_of(texts.front(), "") == files::FileKind::belts) {
+    const grid::MeasuredBelts belts = files::parse_belts(texts.front(), "").belts;
+    return value_or_throw(grid::diagnosis::diagnose(belts, options));
+  }
+  const grid::Measured measured = measured_of(texts);
+  Diagnosis found = value_or_throw(grid::diagnosis::diagnose(measured, options));
+  if (!held_out.empty()) {
+    const grid::MeasuredGrid other = grid_of(held_out);
+    found.transferred =
+        value_or_throw(grid::diagnosis::transfer(*measured.grids().front(), found, other));
+    if (found.transferred->to.empty()) found.transferred->to = other.name;
   }
   return found;
 }
 
-Diagnosis diagnose_belts(const grid::MeasuredBelts& belts, std::uint64_t seed) {
+std::string diagnose(const Texts& texts,
+                     std::uint64_t seed,
+                     bool improvement,
+                     const std::string& held_out,
+                     const MadeBy& made_by) {
   const py::gil_scoped_release others_may_work;
   grid::diagnosis::DiagnosisOptions options;
   options.seed = seed;
-  return value_or_throw(grid::diagnosis::diagnose(belts, options));
+  options.improvement = improvement;
+  return files::write_diagnosis(diagnosis_of(texts, options, held_out), provenance_of(made_by));
+}
+
+report::Document document_of(const std::string& text, const std::string& source, bool certificate) {
+  const files::FileKind kind = files::kind_of(text, "");
+  if (kind == files::FileKind::diagnosis)
+    return cli::diagnosis_document(files::parse_diagnosis(text, ""), source);
+  if (kind == files::FileKind::anchors) {
+    const files::FittedAnchors anchors = files::parse_anchors(text, "");
+    return cli::anchors_document(
+        {anchors.fit, anchors.holes ? &*anchors.holes : nullptr}, anchors.name, source);
+  }
+  const grid::CompensationMap map = files::parse_map(text, "");
+  return certificate ? cli::certificate(map, source) : cli::map_document(map, source);
+}
+
+/// Of a map, of anchors or of a diagnosis, as `chaintrue report` makes it.
+std::string page(const std::string& text, const std::string& source, bool certificate) {
+  report::Document document = document_of(text, source, certificate);
+  if (!certificate) cli::add_made_by(files::made_by_of(text, ""), document.sections);
+  return report::render_html(document);
 }
 
 }  // namespace
 
 void add_diagnoses(py::module_& module) {
-  py::class_<Diagnosis>(module, "Diagnosis")
-      .def_readonly("name", &Diagnosis::grid_name)
-      .def_readonly("sentence", &Diagnosis::sentence)
-      .def_property_readonly("of_belts",
-                             [](const Diagnosis& found) { return found.belts.has_value(); })
-      .def_readonly("machine", &Diagnosis::extended_machine)
-      .def("text",
-           [](const Diagnosis& found, const MadeBy& made_by) {
-             return files::write_diagnosis(found, provenance_of(made_by));
-           })
-      .def("page", [](const Diagnosis& found, const std::string& source, const MadeBy& made_by) {
-        report::Document document = cli::diagnosis_document(found, source);
-        cli::add_made_by(provenance_of(made_by), document.sections);
-        return report::render_html(document);
-      });
   module.def("diagnose", diagnose);
-  module.def("diagnose_belts", diagnose_belts);
-  module.def("parse_diagnosis", [](const std::string& text, const std::string& file) {
-    return py::make_tuple(files::parse_diagnosis(text, file), sentences_of({}));
-  });
+  module.def("page", page);
 }
 
 }  // namespace chaintrue::python

@@ -10,20 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "grid/belts/belts_fit.hpp"
-#include "grid/diagnosis/options.hpp"
-#include "grid/map/check.hpp"
-#include "grid/map/fit.hpp"
-#include "grid/planning/measurement_plan.hpp"
 #include "tools/gcode/problem.hpp"
 
 namespace chaintrue::python {
-
-[[nodiscard]] std::string_view name_of(grid::FitFailure::Reason reason);
-[[nodiscard]] std::string_view name_of(grid::BeltsFitFailure::Reason reason);
-[[nodiscard]] std::string_view name_of(grid::diagnosis::DiagnosisFailure::Reason reason);
-[[nodiscard]] std::string_view name_of(grid::CheckFailure::Reason reason);
-[[nodiscard]] std::string_view name_of(grid::PlanFailure::Reason reason);
 
 struct Failure : std::runtime_error {
   Failure(std::string_view why, const std::string& sentence)
@@ -38,10 +27,27 @@ struct GcodeFailure : std::runtime_error {
   std::vector<gcode::Problem> problems;
 };
 
+/// An enumerator as the compiler spells it: "[with auto kReason = chaintrue::grid::FitReason::no_machine;".
+template <auto kReason>
+[[nodiscard]] constexpr std::string_view spelled() {
+  std::string_view text = __PRETTY_FUNCTION__;
+  text.remove_prefix(text.find("kReason = "));
+  text = text.substr(0, text.find_first_of(";]"));
+  return text.substr(text.rfind(':') + 1);
+}
+
+/// Of an enumeration that counts from 0 to at most 15: the name of its enumerator.
+template <class Reason, int... kValues>
+[[nodiscard]] std::string_view name_of(Reason reason, std::integer_sequence<int, kValues...>) {
+  constexpr std::string_view kNames[] = {spelled<static_cast<Reason>(kValues)>()...};
+  return kNames[static_cast<std::size_t>(reason)];
+}
+
 template <class Expected>
 auto value_or_throw(Expected result) {
-  if (!result) throw Failure(name_of(result.error().reason), result.error().sentence());
-  return *std::move(result);
+  if (result) return *std::move(result);
+  throw Failure(name_of(result.error().reason, std::make_integer_sequence<int, 16>()),
+                result.error().sentence());
 }
 
 /// From here on a Failure, a GcodeFailure and an InputError arrive in Python as the exceptions of

@@ -2,9 +2,12 @@
 /// \file
 /// Programs compensated and verified, from text to text; options, map and controller are those of
 /// `chaintrue gcode`.
+#include <fmt/format.h>
+
 #include <optional>
 #include <utility>
 
+#include "grid/files/file_type.hpp"
 #include "tools/cli/gcode_expected.hpp"
 #include "tools/cli/gcode_job.hpp"
 #include "tools/cli/map_words.hpp"
@@ -19,10 +22,10 @@ using cli::GcodeMachine;
 using cli::GcodeOptions;
 
 /// The text of a map's or of anchors' file in place of the file.
-GcodeMachine machine_of(GcodeOptions& options, const std::string& text, bool of_belts) {
-  options.map = of_belts ? "the anchors" : "the map";
-  options.map_file = cli::InputFile{
-      options.map, options.map, text, of_belts ? cli::FileKind::anchors : cli::FileKind::map};
+GcodeMachine machine_of(GcodeOptions& options, const std::string& text) {
+  const cli::FileKind kind = grid::files::kind_of(text, "");
+  options.map = kind == cli::FileKind::anchors ? "the anchors" : "the map";
+  options.map_file = cli::InputFile{options.map, options.map, text, kind};
   return GcodeMachine(options);
 }
 
@@ -136,41 +139,36 @@ Pairs rows_of(const report::PathReport& path) {
 py::dict handed_over(const Compensated& done) {
   py::list notes;
   for (const gcode::Note& note : done.notes)
-    notes.append(py::make_tuple(note.line, std::string(note.name), note.sentence));
-  py::dict result;
-  result["text"] = done.text;
-  result["moves"] = done.summary.moves;
-  result["commands"] = done.summary.commands;
-  result["path_mm"] = done.summary.path_mm;
-  result["largest_correction_mm"] = done.summary.largest_correction_mm;
-  result["largest_correction_line"] = done.summary.largest_correction_line;
-  result["strays_mm"] = done.proof ? std::optional(done.proof->largest_mm()) : std::nullopt;
-  result["expected_mm"] = done.promised.measured_mm();
-  result["notes"] = notes;
-  result["pieces"] = rows_of(done.path);
-  return result;
+    notes.append(py::make_tuple(note.line, note.name, note.sentence));
+  return py::dict(
+      "text"_a = done.text,
+      "moves"_a = done.summary.moves,
+      "commands"_a = done.summary.commands,
+      "path_mm"_a = done.summary.path_mm,
+      "largest_correction_mm"_a = done.summary.largest_correction_mm,
+      "largest_correction_line"_a = done.summary.largest_correction_line,
+      "strays_mm"_a = done.proof ? std::optional(done.proof->largest_mm()) : std::nullopt,
+      "expected_mm"_a = done.promised.measured_mm(),
+      "notes"_a = notes,
+      "pieces"_a = rows_of(done.path));
 }
 
 py::dict compensate(const std::string& program,
                     const std::string& target,
-                    bool of_belts,
                     GcodeOptions options,
-                    const std::vector<std::string>& given,
-                    const Sources& sources) {
+                    const MadeBy& made_by) {
   const Compensated done = [&] {
     const py::gil_scoped_release others_may_work;
+    grid::Provenance from = provenance_of(made_by);
     grid::files::forget_sources();
-    for (const auto& [name, sha256] : sources) grid::files::note_source({name, sha256});
-    const GcodeMachine machine = machine_of(options, target, of_belts);
+    for (const grid::SourceFile& source : from.inputs) grid::files::note_source(source);
+    const GcodeMachine machine = machine_of(options, target);
     if (machine.map() != nullptr && !options.forced) {
       const std::string why = cli::not_to_cut_with(*machine.map());
       if (!why.empty()) throw Failure("not_to_cut_with", why + " force=True goes on all the same.");
     }
     // What the machine reads is known now.
-    const grid::Provenance from{std::string(grid::files::version()),
-                                "gcode compensate",
-                                given,
-                                grid::files::sources_read()};
+    from.inputs = grid::files::sources_read();
     return compensated(program, options, machine, from);
   }();
   return handed_over(done);
@@ -179,14 +177,13 @@ py::dict compensate(const std::string& program,
 py::dict verify(const std::string& original,
                 const std::string& run,
                 const std::string& target,
-                bool of_belts,
                 GcodeOptions options) {
   gcode::VerifySummary summary;
   std::optional<double> uncompensated_mm;
   cli::PromisedError promised;
   {
     const py::gil_scoped_release others_may_work;
-    const GcodeMachine machine = machine_of(options, target, of_belts);
+    const GcodeMachine machine = machine_of(options, target);
     gcode::VerifyOptions settings = cli::verify_options(options, machine);
     gcode::CutPlaces cuts;
     settings.on_move = [&cuts](const gcode::Move& move) { cuts.add(move); };
@@ -197,42 +194,42 @@ py::dict verify(const std::string& original,
     if (control) uncompensated_mm = control->largest_mm;
     promised = {control ? cuts.expected(machine.target()) : std::nullopt, summary.largest_mm()};
   }
-  py::dict result;
-  result["holds"] = summary.holds();
-  result["largest_mm"] = summary.largest_mm();
-  result["feeds_mm"] = summary.feeds.largest_mm;
-  result["rapids_mm"] = summary.rapids.largest_mm;
-  result["line"] = summary.feeds.largest_mm >= summary.rapids.largest_mm
-                       ? summary.feeds.original_line
-                       : summary.rapids.original_line;
-  result["uncompensated_mm"] = uncompensated_mm;
-  result["expected_mm"] = promised.measured_mm();
-  result["tick_overshoot_mm"] = summary.tick_overshoot_mm;
-  result["commands"] = summary.commands;
-  result["fault"] = summary.fault;
-  return result;
+  const gcode::Deviation& worst =
+      summary.feeds.largest_mm >= summary.rapids.largest_mm ? summary.feeds : summary.rapids;
+  return py::dict("holds"_a = summary.holds(),
+                  "largest_mm"_a = summary.largest_mm(),
+                  "line"_a = worst.original_line,
+                  "feeds_mm"_a = summary.feeds.largest_mm,
+                  "rapids_mm"_a = summary.rapids.largest_mm,
+                  "uncompensated_mm"_a = uncompensated_mm,
+                  "expected_mm"_a = promised.measured_mm(),
+                  "tick_overshoot_mm"_a = summary.tick_overshoot_mm,
+                  "commands"_a = summary.commands,
+                  "fault"_a = summary.fault);
 }
 
 }  // namespace
 
 void add_gcode(py::module_& module) {
-  py::class_<GcodeOptions>(module, "GcodeOptions")
-      .def(py::init<>())
-      .def_readwrite("tolerance_mm", &GcodeOptions::tolerance_mm)
-      .def_readwrite("decimals", &GcodeOptions::decimals)
-      .def_readwrite("largest_correction_mm", &GcodeOptions::largest_correction_mm)
-      .def_readwrite("steepest_correction", &GcodeOptions::steepest_correction)
-      .def_readwrite("controller", &GcodeOptions::controller)
-      .def_readwrite("machine", &GcodeOptions::machine)
-      .def_readwrite("settings", &GcodeOptions::settings)
-      .def_readwrite("frame", &GcodeOptions::frame)
-      .def_readwrite("home", &GcodeOptions::home)
-      .def_readwrite("keep_rapids_whole", &GcodeOptions::keep_rapids_whole)
-      .def_readwrite("home_is_zero", &GcodeOptions::home_is_zero)
-      .def_readwrite("skip_deletable", &GcodeOptions::skip_deletable)
-      .def_readwrite("tools_have_no_diameter", &GcodeOptions::tools_have_no_diameter)
-      .def_readwrite("no_verify", &GcodeOptions::no_verify)
-      .def_readwrite("forced", &GcodeOptions::forced);
+  py::class_<GcodeOptions> options(module, "GcodeOptions");
+  options.def(py::init<>());
+#define CHAINTRUE_OPTION(name) options.def_readwrite(#name, &GcodeOptions::name)
+  CHAINTRUE_OPTION(tolerance_mm);
+  CHAINTRUE_OPTION(decimals);
+  CHAINTRUE_OPTION(largest_correction_mm);
+  CHAINTRUE_OPTION(steepest_correction);
+  CHAINTRUE_OPTION(controller);
+  CHAINTRUE_OPTION(machine);
+  CHAINTRUE_OPTION(settings);
+  CHAINTRUE_OPTION(frame);
+  CHAINTRUE_OPTION(home);
+  CHAINTRUE_OPTION(keep_rapids_whole);
+  CHAINTRUE_OPTION(home_is_zero);
+  CHAINTRUE_OPTION(skip_deletable);
+  CHAINTRUE_OPTION(tools_have_no_diameter);
+  CHAINTRUE_OPTION(no_verify);
+  CHAINTRUE_OPTION(forced);
+#undef CHAINTRUE_OPTION
   module.def("compensate", compensate);
   module.def("verify", verify);
 }

@@ -1,172 +1,162 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What was measured: machines, grids, holes and belts, from files and as arrays.
+/// Files read, and texts held to what such a file is held to.
+#include <algorithm>
+#include <limits>
 #include <optional>
-#include <utility>
+#include <stdexcept>
 
+#include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
+#include "grid/files/diagnosis_file.hpp"
+#include "grid/files/file_type.hpp"
 #include "grid/files/formats.hpp"
 #include "grid/files/grid_file.hpp"
-#include "grid/files/holes_file.hpp"
 #include "grid/files/machine_file.hpp"
+#include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/python/core/bind.hpp"
 
 namespace chaintrue::python {
-namespace {
 
 namespace files = grid::files;
+
+namespace {
+
 using OptionalMachine = std::optional<model::Machine>;
-using Pair = std::optional<std::pair<double, double>>;
 
-/// A column of the points, or nothing if one of them has none.
-template <class Get>
-std::optional<Pairs> column(const grid::MeasuredGrid& grid, Get get) {
-  Pairs pairs = new_rows(grid.points.size());
-  double* number = pairs.mutable_data();
-  for (const grid::MeasuredPoint& point : grid.points) {
-    const Pair pair = get(point);
-    if (!pair) return std::nullopt;
-    *number++ = pair->first;
-    *number++ = pair->second;
-  }
-  return pairs;
-}
-
-std::optional<Pairs> marks_of(const grid::MeasuredGrid& grid) {
-  return column(grid, [](const grid::MeasuredPoint& point) -> Pair {
-    return std::pair(point.mark.x_mm, point.mark.y_mm);
-  });
-}
-std::optional<Pairs> lengths_of(const grid::MeasuredGrid& grid) {
-  return column(grid, [](const grid::MeasuredPoint& point) -> Pair {
-    if (!point.lengths) return std::nullopt;
-    return std::pair(point.lengths->left_mm, point.lengths->right_mm);
-  });
-}
-std::optional<Pairs> commanded_of(const grid::MeasuredGrid& grid) {
-  return column(grid, [](const grid::MeasuredPoint& point) -> Pair {
-    if (!point.commanded) return std::nullopt;
-    return std::pair(point.commanded->x_mm, point.commanded->y_mm);
-  });
-}
-std::optional<std::vector<int>> order_of(const grid::MeasuredGrid& grid) {
-  std::vector<int> order;
-  for (const grid::MeasuredPoint& point : grid.points) {
-    if (!point.order) return std::nullopt;
-    order.push_back(*point.order);
-  }
-  return order;
-}
-
-Pairs belt_lengths_of(const grid::MeasuredBelts& belts) {
-  Pairs rows = new_rows(belts.points.size(), 4);
-  double* number = rows.mutable_data();
-  for (const grid::BeltPoint& point : belts.points) {
-    for (const model::Belt belt : model::kBelts) *number++ = point.lengths_mm[belt];
-  }
-  return rows;
-}
-
-/// A few points or distances only check what is known.
-files::GridOptions grid_options(const OptionalMachine& machine, bool few) {
+files::ReadGrid read_as_grid(const std::string& text,
+                             const std::string& file,
+                             const OptionalMachine& machine,
+                             bool few) {
   files::GridOptions options;
   options.machine = machine;
   if (few) options.fewest_points = 1;
-  return options;
+  return files::parse_grid(text, file, options);
 }
-files::HolesOptions holes_options(const OptionalMachine& machine, bool few) {
+
+files::ReadHoles read_as_holes(const std::string& text,
+                               const std::string& file,
+                               const OptionalMachine& machine,
+                               bool few) {
   files::HolesOptions options;
   options.machine = machine;
   if (few) options.fewest_distances = 1;
-  return options;
+  return files::parse_holes(text, file, options);
 }
 
-template <class Read, class Thing>
-py::tuple answer(Read read, Thing thing) {
-  return py::make_tuple(std::move(thing), sentences_of(read.warnings));
+/// The text as this program writes it, and what was assumed of it in sentences. `machine` is the text
+/// of one in place of that in the file, or empty.
+py::tuple parse(const std::string& kind,
+                const std::string& text,
+                const std::string& file,
+                const std::string& machine,
+                bool few) {
+  const auto answer = [](const std::string& written, const std::vector<files::Warning>& warnings) {
+    return py::make_tuple(written, sentences_of(warnings));
+  };
+  OptionalMachine stated;
+  if (!machine.empty()) stated = files::parse_machine(machine, "");
+  if (kind == "grid") {
+    const files::ReadGrid read = read_as_grid(text, file, stated, few);
+    return answer(files::write_grid(read.grid), read.warnings);
+  }
+  if (kind == "holes") {
+    const files::ReadHoles read = read_as_holes(text, file, stated, few);
+    return answer(files::write_holes(read.holes, read.belt_machine), read.warnings);
+  }
+  if (kind == "belts") {
+    const files::ReadBelts read = files::parse_belts(text, file);
+    return answer(files::write_belts(read.belts), read.warnings);
+  }
+  if (kind == "machine") {
+    const files::ReadMachine read = files::parse_machine_with_warnings(text, file);
+    return answer(files::write_machine(read.machine), read.warnings);
+  }
+  if (kind == "map") {
+    const grid::CompensationMap map = files::parse_map(text, file);
+    return answer(files::write_map(map, files::made_by_of(text, file)), {});
+  }
+  if (kind == "anchors") {
+    const files::FittedAnchors anchors = files::parse_anchors(text, file);
+    return answer(files::write_anchors(anchors, files::made_by_of(text, file)), {});
+  }
+  const grid::diagnosis::Diagnosis found = files::parse_diagnosis(text, file);
+  return answer(files::write_diagnosis(found, files::made_by_of(text, file)), {});
 }
-py::tuple answer(files::ReadGrid read) { return answer(read, read.grid); }
-py::tuple answer(files::ReadBelts read) { return answer(read, read.belts); }
-py::tuple answer(files::ReadMachine read) { return answer(read, read.machine); }
-py::tuple answer(files::ReadHoles read) { return answer(read, read); }
 
-void add_measured_types(py::module_& module) {
-  py::class_<model::Machine>(module, "Machine")
-      .def_readonly("name", &model::Machine::name)
-      .def("text", [](const model::Machine& machine) { return files::write_machine(machine); });
-  py::class_<grid::MeasuredGrid>(module, "Grid")
-      .def_readonly("name", &grid::MeasuredGrid::name)
-      .def_readonly("machine", &grid::MeasuredGrid::machine)
-      .def_property_readonly("marks", marks_of)
-      .def_property_readonly("lengths", lengths_of)
-      .def_property_readonly("commanded", commanded_of)
-      .def_property_readonly("order", order_of)
-      .def("text", [](const grid::MeasuredGrid& grid) { return files::write_grid(grid); });
-  py::class_<files::ReadHoles>(module, "Holes")
-      .def_property_readonly("name", [](const files::ReadHoles& read) { return read.holes.name; })
-      .def_property_readonly("machine",
-                             [](const files::ReadHoles& read) { return read.holes.machine; })
-      .def_property_readonly(
-          "of_belts", [](const files::ReadHoles& read) { return read.belt_machine.has_value(); })
-      .def("text", [](const files::ReadHoles& read) {
-        return files::write_holes(read.holes, read.belt_machine);
-      });
-  py::class_<grid::MeasuredBelts>(module, "Belts")
-      .def_readonly("name", &grid::MeasuredBelts::name)
-      .def_property_readonly("lengths", belt_lengths_of)
-      .def("text", [](const grid::MeasuredBelts& belts) { return files::write_belts(belts); });
+/// The same of a file, and the files that were read for it.
+py::tuple read(const std::string& kind,
+               const std::string& path,
+               const std::string& machine,
+               bool few) {
+  files::forget_sources();
+  const py::tuple found =
+      parse(kind, files::read_whole_file(path), files::name_in_messages(path), machine, few);
+  Sources sources;
+  for (const grid::SourceFile& file : files::sources_read())
+    sources.emplace_back(file.name, file.sha256);
+  return py::make_tuple(found[0], found[1], sources);
 }
 
 }  // namespace
 
+Pairs new_rows(std::size_t count, std::size_t columns) {
+  Pairs rows({static_cast<py::ssize_t>(count), static_cast<py::ssize_t>(columns)});
+  std::fill_n(rows.mutable_data(), count * columns, std::numeric_limits<double>::quiet_NaN());
+  return rows;
+}
+
+grid::MeasuredGrid grid_of(const std::string& text) {
+  return read_as_grid(text, "", std::nullopt, true).grid;
+}
+
+files::ReadHoles holes_of(const std::string& text) {
+  return read_as_holes(text, "", std::nullopt, true);
+}
+
+grid::Measured measured_of(const Texts& texts) {
+  grid::Measured measured;
+  for (const std::string& text : texts) {
+    const files::FileKind kind = files::kind_of(text, "");
+    if (kind == files::FileKind::belt_holes) {
+      throw std::invalid_argument(
+          "these holes are of a machine on four belts: they are fitted with its belts alone");
+    }
+    if (kind == files::FileKind::grid) {
+      measured.add(grid_of(text));
+    } else {
+      measured.add(holes_of(text).holes);
+    }
+  }
+  return measured;
+}
+
+std::vector<std::string> sentences_of(const std::vector<files::Warning>& warnings) {
+  std::vector<std::string> sentences;
+  for (const files::Warning& warning : warnings) sentences.push_back(warning.message());
+  return sentences;
+}
+
+grid::Provenance provenance_of(const MadeBy& made_by) {
+  const auto& [verb, options, sources] = made_by;
+  grid::Provenance found{std::string(files::version()), verb, options, {}};
+  for (const auto& [name, sha256] : sources) found.inputs.push_back({name, sha256});
+  return found;
+}
+
 void add_measured(py::module_& module) {
-  add_measured_types(module);
-  module.def("read_machine", [](const std::string& path) {
-    return read_from_files([&] { return answer(files::read_machine_with_warnings(path)); });
-  });
-  module.def("parse_machine", [](const std::string& text, const std::string& file) {
-    return answer(files::parse_machine_with_warnings(text, file));
-  });
-  module.def("read_grid", [](const std::string& path, const OptionalMachine& machine, bool few) {
-    return read_from_files(
-        [&] { return answer(files::read_grid(path, grid_options(machine, few))); });
-  });
-  module.def("parse_grid", [](const std::string& text, const std::string& file, bool few) {
-    return answer(files::parse_grid(text, file, grid_options(std::nullopt, few)));
-  });
-  module.def("read_holes", [](const std::string& path, const OptionalMachine& machine, bool few) {
-    return read_from_files(
-        [&] { return answer(files::read_holes(path, holes_options(machine, few))); });
-  });
-  module.def("parse_holes", [](const std::string& text, const std::string& file, bool few) {
-    return answer(files::parse_holes(text, file, holes_options(std::nullopt, few)));
-  });
-  module.def("read_belts", [](const std::string& path) {
-    return read_from_files([&] { return answer(files::read_belts(path)); });
-  });
-  module.def("parse_belts", [](const std::string& text, const std::string& file) {
-    return answer(files::parse_belts(text, file));
-  });
-  module.def("read_text", [](const std::string& path) {
-    files::forget_sources();
-    const std::string text = files::read_whole_file(path);
-    return py::make_tuple(py::bytes(text), pairs_of(files::sources_read()));
-  });
-  module.def("made_by", [](const std::string& text) {
-    MadeBy made_by;
-    if (const auto found = files::made_by_of(text, ""))
-      made_by = {found->version, found->verb, found->options, pairs_of(found->inputs)};
-    return made_by;
-  });
+  module.def("parse", parse);
+  module.def("read", read);
   module.def("write", [](const std::string& path, const std::string& text) {
     files::write_whole_file(path, text);
   });
   module.def("format_version", [](const std::string& file_type) {
-    for (const files::Format* format : files::kFormats) {
-      if (format->file_type == file_type) return std::string(format->version);
-    }
-    throw std::invalid_argument(fmt::format("there is no format \"{}\"", file_type));
+    const auto* const format =
+        std::find_if(std::begin(files::kFormats), std::end(files::kFormats), [&](const auto* one) {
+          return one->file_type == file_type;
+        });
+    return std::string((*format)->version);
   });
 }
 

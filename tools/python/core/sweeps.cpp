@@ -17,14 +17,13 @@ namespace sweep = grid::sweep;
 py::list as_records(const sweep::SweepSpec& spec, const std::vector<files::LevelError>& errors) {
   py::list records;
   for (const files::LevelError& error : errors) {
-    py::dict record;
-    record["factor"] = std::string(sweep::kFactorNames.at(error.factor));
-    record["level"] = sweep::level_name(spec, error.factor, error.level);
-    record["points"] = spec.grids.at(error.grid).columns * spec.grids.at(error.grid).rows;
-    record["cells"] = error.cells;
-    record["tool_rms_mm"] = error.tool_rms_mm;
-    record["tool_max_mm"] = error.tool_max_mm;
-    records.append(record);
+    records.append(
+        py::dict("factor"_a = sweep::kFactorNames.at(error.factor),
+                 "level"_a = sweep::level_name(spec, error.factor, error.level),
+                 "points"_a = spec.grids.at(error.grid).columns * spec.grids.at(error.grid).rows,
+                 "cells"_a = error.cells,
+                 "tool_rms_mm"_a = error.tool_rms_mm,
+                 "tool_max_mm"_a = error.tool_max_mm));
   }
   return records;
 }
@@ -38,13 +37,11 @@ py::dict run(const std::string& specification, const std::string& directory, int
     sweep::run_sweep(read.spec, files::cells_kept_in(directory, read, settings.share), settings);
     return files::write_results(read.spec, files::finished_cells(directory, read), directory);
   }();
-  py::dict result;
-  result["name"] = read.spec.name;
-  result["question"] = read.spec.question;
-  result["errors"] = as_records(read.spec, errors);
-  result["page"] = report::render_html(cli::sweep_page(read.spec, errors));
-  result["warnings"] = sentences_of(read.warnings);
-  return result;
+  return py::dict("name"_a = read.spec.name,
+                  "question"_a = read.spec.question,
+                  "errors"_a = as_records(read.spec, errors),
+                  "page"_a = report::render_html(cli::sweep_page(read.spec, errors)),
+                  "warnings"_a = sentences_of(read.warnings));
 }
 
 }  // namespace

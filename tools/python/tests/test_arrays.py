@@ -102,10 +102,23 @@ def test_bad_input_has_fields(machine):
     assert all(problem.message in str(told.value) for problem in problems)
 
 
-def test_a_failure_has_a_reason(grid):
+@pytest.mark.parametrize(
+    "reason, make",
+    [
+        ("no_machine", lambda grid: chaintrue.fit(chaintrue.Grid(grid.marks, grid.lengths))),
+        ("not_a_grid", lambda grid: chaintrue.fit(grid, surface="direct")),
+        (
+            "rank_deficient",
+            lambda grid: chaintrue.fit(
+                chaintrue.Grid(grid.marks[:4], grid.lengths[:4], machine=grid.machine, few=True), plain=True
+            ),
+        ),
+    ],
+)
+def test_a_failure_has_a_reason(grid, reason, make):
     with pytest.raises(chaintrue.Failure) as told:
-        chaintrue.fit(chaintrue.Grid(grid.marks, grid.lengths))
-    assert told.value.reason == "no_machine"
+        make(grid)
+    assert told.value.reason == reason
     assert told.value.sentence == str(told.value)
 
 
@@ -117,6 +130,8 @@ def test_few_points_check_and_do_not_fit(grid):
 
 
 def test_a_dictionary_is_held_to_what_a_file_is(machine):
+    with pytest.raises(TypeError, match="from_dict"):
+        chaintrue.Machine()
     assert chaintrue.Machine.from_dict(machine.to_dict()) == machine
     with pytest.raises(chaintrue.InputError, match="motors"):
         chaintrue.Machine.from_dict({**machine.to_dict(), "motors": 3})

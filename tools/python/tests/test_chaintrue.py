@@ -4,31 +4,15 @@
 import doctest
 import inspect
 import json
-import pathlib
 import warnings
 
 import numpy
 import pytest
 
 import chaintrue
+from conftest import FIXTURES
 
-FIXTURES = pathlib.Path(__file__).resolve().parents[3] / "fixtures"
 GRID = FIXTURES / "grids" / "seven_by_four.json"
-
-
-@pytest.fixture(scope="module")
-def grid():
-    return chaintrue.read_grid(GRID)
-
-
-@pytest.fixture(scope="module")
-def map(grid):
-    return chaintrue.fit(grid)
-
-
-@pytest.fixture(scope="module")
-def diagnosis(grid):
-    return chaintrue.diagnose(grid, gain=False)
 
 
 def test_a_grid_is_what_its_file_says(grid):
@@ -41,7 +25,7 @@ def test_a_grid_is_what_its_file_says(grid):
     assert grid.lengths[3].tolist() == [points[3]["left_mm"], points[3]["right_mm"]]
 
 
-def test_a_grid_of_arrays_gives_the_same_map(grid, map):
+def test_a_grid_of_arrays_gives_the_same_map(grid, calibration):
     noise = grid.to_dict().get("noise", {})
     again = chaintrue.Grid(
         grid.marks,
@@ -53,12 +37,12 @@ def test_a_grid_of_arrays_gives_the_same_map(grid, map):
         noise_dof=noise.get("dof", 15.0),
         name=grid.name,
     )
-    assert chaintrue.fit(again).to_dict()["points"] == map.to_dict()["points"]
+    assert chaintrue.fit(again).to_dict()["points"] == calibration.to_dict()["points"]
 
 
-def test_a_query_has_shapes_and_an_inverse(map):
+def test_a_query_has_shapes_and_an_inverse(calibration):
     points = numpy.array([[100.0, 200.0], [-1000.0, -450.0], [0.0, 0.0]])
-    answer = chaintrue.query(map, points)
+    answer = chaintrue.query(calibration, points)
     assert answer.lengths.shape == answer.sigma.shape == (3, 2)
     assert answer.tool_sigma.shape == answer.status.shape == (3,)
     # The numbers of docs/cut.md, to the last digit.
@@ -66,27 +50,27 @@ def test_a_query_has_shapes_and_an_inverse(map):
     assert answer.status[0] == "inside"
     # Newton's steps end at 1e-9 mm; on the bed the tool moves at most ten times as far as the
     # chains.
-    assert numpy.abs(chaintrue.inverse(map, answer.lengths) - points).max() < 1e-8
+    assert numpy.abs(chaintrue.inverse(calibration, answer.lengths) - points).max() < 1e-8
 
 
-def test_outside_is_masked_and_no_number(map):
-    answer = chaintrue.query(map, [[0.0, 0.0], [0.0, 20000.0]])
+def test_outside_is_masked_and_no_number(calibration):
+    answer = chaintrue.query(calibration, [[0.0, 0.0], [0.0, 20000.0]])
     assert answer.lengths.mask.tolist() == [[False, False], [True, True]]
     assert answer.status[1] == "outside"
     assert numpy.isfinite(answer.lengths.data).all()
-    assert chaintrue.inverse(map, [[10.0, 10.0]]).mask.all()
+    assert chaintrue.inverse(calibration, [[10.0, 10.0]]).mask.all()
 
 
 @pytest.mark.parametrize(
     "points", [1.0, [1.0, 2.0, 3.0], [[1.0, 2.0, 3.0]], [[numpy.nan, 0.0]], [[numpy.inf, 0.0]]]
 )
-def test_other_shapes_and_numbers_that_are_none_are_refused(map, points):
+def test_other_shapes_and_numbers_that_are_none_are_refused(calibration, points):
     with pytest.raises(ValueError, match=r"shape|none, or infinite"):
-        chaintrue.query(map, points)
+        chaintrue.query(calibration, points)
 
 
-def test_files_and_objects_are_the_same(tmp_path, map, diagnosis):
-    for thing, read in ((map, chaintrue.read_map), (diagnosis, chaintrue.read_diagnosis)):
+def test_files_and_objects_are_the_same(tmp_path, calibration, diagnosis):
+    for thing, read in ((calibration, chaintrue.read_map), (diagnosis, chaintrue.read_diagnosis)):
         path = tmp_path / "file.json"
         thing.write(path)
         assert read(path).to_dict() == thing.to_dict()
@@ -99,8 +83,8 @@ def test_a_diagnosis_answers(diagnosis):
 
 
 def test_holes_are_fitted_too():
-    map = chaintrue.fit(chaintrue.read_holes(FIXTURES / "holes" / "nine_holes.json"))
-    assert chaintrue.query(map, [[0.0, 0.0]]).lengths.shape == (1, 2)
+    fitted = chaintrue.fit(chaintrue.read_holes(FIXTURES / "holes" / "nine_holes.json"))
+    assert chaintrue.query(fitted, [[0.0, 0.0]]).lengths.shape == (1, 2)
 
 
 def test_a_map_is_built_on_the_causes_that_are_found():
@@ -113,11 +97,11 @@ def test_a_map_is_built_on_the_causes_that_are_found():
         chaintrue.fit(grid, surface="direct", plain=True)
 
 
-def test_pages_are_the_commands(tmp_path, map, diagnosis):
-    page = chaintrue.report(map, tmp_path / "map.html")
+def test_pages_are_the_commands(tmp_path, calibration, diagnosis):
+    page = chaintrue.report(calibration, tmp_path / "map.html")
     assert (tmp_path / "map.html").read_text() == page
     assert page.startswith("<!DOCTYPE html>")
-    assert "Certificate" in chaintrue.report(map, certificate=True)
+    assert "Certificate" in chaintrue.report(calibration, certificate=True)
     assert "Diagnosis" in chaintrue.report(diagnosis)
     with pytest.raises(ValueError):
         chaintrue.report(diagnosis, certificate=True)
