@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid {
@@ -109,7 +110,7 @@ std::size_t Random::below(std::size_t count) {
   const std::uint64_t limit = UINT64_MAX - UINT64_MAX % n;
   std::uint64_t drawn = bits();
   while (drawn >= limit) drawn = bits();
-  return static_cast<std::size_t>(drawn % n);
+  return as_size(drawn % n);
 }
 
 double Random::normal() { return normal_quantile(uniform()); }

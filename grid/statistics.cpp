@@ -6,11 +6,13 @@
 #include <limits>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid {
 
 double median(std::vector<double> values) {
   if (values.empty()) throw std::invalid_argument("the median of no values");
-  std::sort(values.begin(), values.end());
+  sort(values);
   const std::size_t middle = values.size() / 2;
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }

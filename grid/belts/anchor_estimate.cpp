@@ -162,7 +162,7 @@ std::optional<AnchorFit> with_tape(const MeasuredBelts& belts, std::optional<Anc
       readings_of(belts, fit->counting, fit->residual_sigma_mm));
   estimation::EstimationInput input = anchor_input(belts, fit->counting, fit->state.anchors);
   input.mechanism = mechanism_at(belts, fit->state);
-  input.fixed_weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(readings->units().size()));
+  input.fixed_weights = Eigen::VectorXd::Ones(std::ssize(readings->units()));
   input.observations = {readings};
   input.noise.knowledge = interp::NoiseKnowledge::exact;
   const auto estimate = estimation::estimate(input);
@@ -231,7 +231,7 @@ observation::BeltLengthReadings readings_of(const MeasuredBelts& belts,
     observation::LengthsAtPlace place;
     place.index = k;
     place.name = std::to_string(k + 1);
-    place.lengths_mm.resize(static_cast<Eigen::Index>(kBelts.size()));
+    place.lengths_mm.resize(std::ssize(kBelts));
     const bool all_count = readings_counting(counting.at(k)) == 4;
     for (const Belt belt : kBelts) {
       place.lengths_mm[static_cast<Eigen::Index>(belt)] = point.lengths_mm[belt];
@@ -285,7 +285,7 @@ estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
       std::make_shared<const observation::BeltLengthReadings>(readings_of(untaped, counting));
   estimation::EstimationInput input;
   input.mechanism = mechanism_at(untaped, {start, 0.0, {}});
-  input.fixed_weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(readings->units().size()));
+  input.fixed_weights = Eigen::VectorXd::Ones(std::ssize(readings->units()));
   input.observations.push_back(std::move(readings));
   input.noise.knowledge = interp::NoiseKnowledge::unknown;
   input.noise_prior = interp::SmoothingPrior::none;

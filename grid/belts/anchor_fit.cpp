@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::belts {
 
 AnchorVector anchors_of(const model::BeltMachine& machine) {
@@ -23,9 +25,9 @@ model::BeltMachine with_anchors(model::BeltMachine machine, const AnchorVector& 
 
 bool are_on_a_line(const std::vector<model::FramePoint>& places) {
   constexpr double kLineMm = 50.0;
-  Eigen::Matrix2Xd at(2, static_cast<Eigen::Index>(places.size()));
+  Eigen::Matrix2Xd at(2, std::ssize(places));
   for (std::size_t k = 0; k < places.size(); ++k) {
-    at.col(static_cast<Eigen::Index>(k)) << places[k].x_mm, places[k].y_mm;
+    at.col(as_index(k)) << places[k].x_mm, places[k].y_mm;
   }
   at.colwise() -= at.rowwise().mean().eval();
   const Eigen::Matrix2d square = at * at.transpose();

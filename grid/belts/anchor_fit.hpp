@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grid/belts/measured_belts.hpp"
+#include "grid/containers.hpp"
 
 namespace chaintrue::grid::belts {
 
@@ -38,7 +39,7 @@ struct AnchorFit {
 
 /// The row of a point's belt among all.
 [[nodiscard]] inline Eigen::Index row_of(std::size_t point, model::Belt belt) {
-  return 4 * static_cast<Eigen::Index>(point) + static_cast<Eigen::Index>(belt);
+  return 4 * as_index(point) + static_cast<Eigen::Index>(belt);
 }
 [[nodiscard]] inline int readings_counting(const model::PerBelt<bool>& counting) {
   return counting.tl + counting.tr + counting.bl + counting.br;

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/precondition.hpp"
 #include "model/belts/belt_kinematics.hpp"
@@ -66,13 +67,12 @@ std::optional<HoleRows> hole_rows(const BeltHoles& holes,
   const model::BeltMachine machine = with_anchors(holes.machine, anchors);
   const FramePoint centre = model::centre_of(holes.machine);
   const double factor = std::exp(log_scale);
-  const auto count = static_cast<Eigen::Index>(holes.set.holes.size());
+  const auto count = std::ssize(holes.set.holes);
   HoleRows rows;
   rows.marks_by_frame = Eigen::MatrixXd::Zero(2 * count, kFrameUnknowns);
   Eigen::MatrixXd laid(2 * count, 3);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const auto place =
-        placed(holes.machine, machine, holes.set.holes[static_cast<std::size_t>(i)].commanded);
+    const auto place = placed(holes.machine, machine, holes.set.holes[as_size(i)].commanded);
     if (!place) return std::nullopt;
     const Eigen::Vector2d mark = factor * (place->at - Eigen::Vector2d(centre.x_mm, centre.y_mm));
     rows.frame_places.push_back({place->at.x(), place->at.y()});
@@ -85,8 +85,8 @@ std::optional<HoleRows> hole_rows(const BeltHoles& holes,
       observation::distance_geometry(holes.set, rows.marks);
   rows.residual_mm.resize(geometry.predicted_mm.size());
   for (Eigen::Index k = 0; k < rows.residual_mm.size(); ++k) {
-    rows.residual_mm[k] = length_of(holes.set, holes.set.distances[static_cast<std::size_t>(k)]) -
-                          geometry.predicted_mm[k];
+    rows.residual_mm[k] =
+        length_of(holes.set, holes.set.distances[as_size(k)]) - geometry.predicted_mm[k];
   }
   rows.by_mark = geometry.by_mark;
   rows.by_size = geometry.by_size;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 #include "model/belts/belt_mechanism.hpp"
@@ -255,7 +256,7 @@ model::BeltMachine commanded_by(const BeltsFit& fit, const HolesWithBelts* holes
 model::BeltMachine machine_in_force(const BeltsFit& fit) {
   belts::AnchorVector stated;
   for (Eigen::Index i = 0; i < kAnchorUnknowns; ++i) {
-    const auto& one = fit.coordinates[static_cast<std::size_t>(i)].stated_mm;
+    const auto& one = fit.coordinates[as_size(i)].stated_mm;
     if (!one) throw precondition("anchors in force that nobody gave");
     stated[i] = *one;
   }

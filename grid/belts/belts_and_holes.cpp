@@ -11,6 +11,7 @@
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/holes_estimate.hpp"
 #include "grid/belts/taped_state.hpp"
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/precondition.hpp"
@@ -41,7 +42,7 @@ void fill_frame(const MeasuredBelts& measured,
   fit.machine = belts::with_anchors(measured.machine, state.frame.anchors);
   fit.covariance_mm2 = covariance.topLeftCorner<5, 5>();
   for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
+    const auto row = as_index(i);
     AnchorCoordinate& coordinate = fit.coordinates[i];
     coordinate.fitted_mm = state.frame.anchors[row];
     coordinate.sigma_mm = std::sqrt(covariance(row, row));
@@ -67,7 +68,7 @@ void fill_frame(const MeasuredBelts& measured,
   if (!fit.scale || measured.distances.empty()) return;
   for (std::size_t i = 0; i < measured.distances.size(); ++i) {
     fit.scale->residuals_mm[i] =
-        there.distance_residual[static_cast<Eigen::Index>(i)] * measured.distances[i].sigma_mm;
+        there.distance_residual[as_index(i)] * measured.distances[i].sigma_mm;
   }
 }
 
@@ -113,7 +114,7 @@ std::optional<Eigen::Vector3d> sheet_by_edges(const std::vector<BeltHoles>& sets
   const observation::SheetPrior measured = observation::sheet_measured(first);
   if (!measured.knows_x || !measured.knows_y || !measured.knows_rotation) return std::nullopt;
   const Eigen::MatrixXd c = belts::taped_covariance(sets, state.rows, state.noise, state.counting);
-  const auto own = static_cast<Eigen::Index>(first.distances.size());
+  const auto own = std::ssize(first.distances);
   const Eigen::VectorXd weighed = linear::Cholesky(c).solve(state.rows.residual_mm).head(own);
   const Eigen::Vector3d along = state.rows.by_sheet.topRows(own).transpose() * weighed;
   return belts::sheet_variance().cwiseProduct(along);
@@ -134,7 +135,7 @@ void fill_distances(const HolesEstimate& frame,
                             state.rows.residual_mm[row],
                             now.left_out_mm(row),
                             now.left_out_sigma_mm(row),
-                            !state.counting[static_cast<std::size_t>(row)]};
+                            !state.counting[as_size(row)]};
       if (!one.rejected) left_out.push_back(one.left_out_mm);
       found.distances.push_back(std::move(one));
       ++row;
@@ -158,7 +159,7 @@ tl::expected<std::pair<BeltsFit, belts::AnchorFit>, BeltsFitFailure> by_belts(
         "tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"};
     for (std::size_t i = 0; i < kNames.size(); ++i) {
       fit.coordinates[i].name = kNames[i];
-      fit.coordinates[i].stated_mm = stated.state.anchors[static_cast<Eigen::Index>(i)];
+      fit.coordinates[i].stated_mm = stated.state.anchors[as_index(i)];
     }
     return std::pair(std::move(fit), std::move(stated));
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "grid/belts/belt_map.hpp"
+#include "grid/containers.hpp"
 #include "grid/map/controller_error.hpp"
 #include "model/belts/belt_controller.hpp"
 
@@ -12,9 +13,8 @@ namespace chaintrue::grid {
 namespace {
 
 bool anchors_were_known(const BeltsFit& fit) {
-  return std::all_of(fit.coordinates.begin(),
-                     fit.coordinates.end(),
-                     [](const AnchorCoordinate& one) { return one.stated_mm.has_value(); });
+  return all_of(fit.coordinates,
+                [](const AnchorCoordinate& one) { return one.stated_mm.has_value(); });
 }
 
 /// Nobody knows the anchors in force: the sheet is laid by the fitted ones.
@@ -51,7 +51,7 @@ std::optional<BeltsError> error_of_belts(const BeltsFit& fit, const HolesWithBel
   double worst_mm = -1.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const model::BedPoint at = places[i].commanded;
-    const auto row = 2 * static_cast<Eigen::Index>(i);
+    const auto row = 2 * as_index(i);
     if (displacement) left_mm.segment<2>(row) = displacement->at({at.x_mm, at.y_mm});
     const double error_mm = std::hypot(places[i].spread_mm.norm(), left_mm.segment<2>(row).norm());
     if (error_mm <= worst_mm) continue;

@@ -11,6 +11,7 @@
 #include "grid/belts/fit_report.hpp"
 #include "grid/belts/prediction.hpp"
 #include "grid/belts/repeated_pulls.hpp"
+#include "grid/containers.hpp"
 
 namespace chaintrue::grid {
 
@@ -42,7 +43,7 @@ tl::unexpected<BeltsFitFailure> not_determined(const MeasuredBelts& belts) {
 /// No belt's readings differ by more than the width of a spot: no frame can be made of them.
 bool are_in_one_spot(const MeasuredBelts& belts) {
   constexpr double kSpotMm = 50.0;
-  return std::all_of(kBelts.begin(), kBelts.end(), [&](Belt belt) {
+  return all_of(kBelts, [&](Belt belt) {
     const auto [least, most] = std::minmax_element(
         belts.points.begin(), belts.points.end(), [&](const BeltPoint& a, const BeltPoint& b) {
           return a.lengths_mm[belt] < b.lengths_mm[belt];
@@ -64,7 +65,7 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
                                2 * kFewestBeltPoints - 5));
   }
   const bool has_holes =
-      std::any_of(belts.distances.begin(), belts.distances.end(), [](const BeltDistance& distance) {
+      any_of(belts.distances, [](const BeltDistance& distance) {
         return std::holds_alternative<CutHole>(distance.from) ||
                std::holds_alternative<CutHole>(distance.to);
       });

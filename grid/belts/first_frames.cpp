@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::belts {
@@ -60,8 +61,8 @@ std::vector<AnchorVector> first_frames(const MeasuredBelts& belts) {
     widths.push_back(std::min(l.tl + l.tr, l.bl + l.br));
     heights.push_back(std::min(l.tl + l.bl, l.tr + l.br));
   }
-  std::sort(widths.begin(), widths.end());
-  std::sort(heights.begin(), heights.end());
+  sort(widths);
+  sort(heights);
   const double arms_mm = belts.machine.lengths == model::BeltLengths::belt
                              ? 2.0 * model::reach_mm(belts.machine)
                              : 0.0;

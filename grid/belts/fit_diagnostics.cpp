@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "grid/belts/anchor_estimate.hpp"
+#include "grid/containers.hpp"
 #include "grid/estimation/reading_shifts.hpp"
 #include "grid/linear_algebra.hpp"
 #include "model/belts/belt_kinematics.hpp"
@@ -16,7 +17,7 @@ using model::Belt;
 using model::kBelts;
 
 ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state) {
-  const auto rows = 4 * static_cast<Eigen::Index>(belts.points.size());
+  const auto rows = 4 * std::ssize(belts.points);
   ReadingLines lines;
   lines.residual_mm.setZero(rows);
   lines.by_place.setZero(rows, 2);
@@ -48,7 +49,7 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
   const auto readings = readings_of(belts, frame_.counting, frame_.residual_sigma_mm);
   const observation::View view(mechanism_);
   const Eigen::Index unknowns = mechanism_->values().size();
-  const auto rows = 4 * static_cast<Eigen::Index>(belts.points.size());
+  const auto rows = 4 * std::ssize(belts.points);
   equations_.residual = Eigen::VectorXd::Zero(rows);
   equations_.by_place = Eigen::MatrixX2d::Zero(rows, 2);
   precision_ = Eigen::MatrixXd::Zero(unknowns, unknowns);
@@ -67,7 +68,7 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
     precision_ += block.precision();
     for (std::size_t p = 0; p < own.places.size(); ++p) {
       const std::size_t point = readings.readings()[own.places[p]].index;
-      const auto slot = static_cast<Eigen::Index>(p);
+      const auto slot = as_index(p);
       slots_[point] = Slot{blocks_.size(), slot};
       equations_.residual.segment<4>(row_of(point, Belt::tl)) =
           block.line.residual_mm.segment<4>(4 * slot);
@@ -78,10 +79,10 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
   }
   covariance_ = linear::PivotedCholesky(precision_).inverse();
   add_unplaced(belts);
-  equations_.distance_residual.resize(static_cast<Eigen::Index>(belts.distances.size()));
+  equations_.distance_residual.resize(std::ssize(belts.distances));
   for (std::size_t i = 0; i < belts.distances.size(); ++i) {
     const auto at = distance_at(belts, *mechanism_, frame_.state, belts.distances[i]);
-    equations_.distance_residual[static_cast<Eigen::Index>(i)] =
+    equations_.distance_residual[as_index(i)] =
         at ? (belts.distances[i].distance_mm - at->predicted_mm) / belts.distances[i].sigma_mm
            : std::numeric_limits<double>::infinity();
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid/belts/prediction.hpp"
+#include "grid/containers.hpp"
 
 namespace chaintrue::grid::belts {
 
@@ -28,7 +29,7 @@ void fill_coordinates(const MeasuredBelts& belts, const FitDiagnostics& view, Be
     }
   }
   for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
+    const auto row = as_index(i);
     AnchorCoordinate& coordinate = fit.coordinates[i];
     coordinate.name = kCoordinateNames[i];
     if (belts.machine.anchors_known) coordinate.stated_mm = stated[row];
@@ -71,7 +72,7 @@ void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFi
   for (const Belt belt : kBelts) {
     fit.rms_of_mm[belt] = counts[belt] > 0 ? std::sqrt(squares[belt] / counts[belt]) : 0.0;
   }
-  std::stable_sort(fit.bad.begin(), fit.bad.end(), [](const auto& a, const auto& b) {
+  stable_sort(fit.bad, [](const auto& a, const auto& b) {
     return std::abs(a.residual_mm) > std::abs(b.residual_mm);
   });
 }
@@ -85,7 +86,7 @@ void fill_scale(const MeasuredBelts& belts,
   scale.factor = std::exp(view.frame().state.log_scale);
   scale.sigma = scale.factor * std::sqrt(covariance(kAnchorUnknowns, kAnchorUnknowns));
   for (std::size_t i = 0; i < belts.distances.size(); ++i) {
-    scale.residuals_mm.push_back(view.equations().distance_residual[static_cast<Eigen::Index>(i)] *
+    scale.residuals_mm.push_back(view.equations().distance_residual[as_index(i)] *
                                  belts.distances[i].sigma_mm);
   }
   fit.scale = std::move(scale);

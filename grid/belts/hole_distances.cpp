@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid::belts {
@@ -19,7 +20,7 @@ std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets,
     auto part = hole_rows(set, anchors, log_scale);
     if (!part) return std::nullopt;
     distances += part->residual_mm.size();
-    holes += static_cast<Eigen::Index>(part->marks.size());
+    holes += std::ssize(part->marks);
     parts.push_back(*std::move(part));
   }
   TapedRows all{Eigen::VectorXd(distances),
@@ -35,9 +36,7 @@ std::optional<TapedRows> taped_rows(const std::vector<BeltHoles>& sets,
     const Eigen::Index count = part.residual_mm.size();
     all.residual_mm.segment(row, count) = part.residual_mm;
     all.by_frame.middleRows(row, count) = part.by_frame;
-    all.by_mark.block(
-        row, 2 * static_cast<Eigen::Index>(all.marks.size()), count, part.by_mark.cols()) =
-        part.by_mark;
+    all.by_mark.block(row, 2 * std::ssize(all.marks), count, part.by_mark.cols()) = part.by_mark;
     all.by_size.middleRows(row, count) = part.by_size;
     all.by_sheet.middleRows(row, count) = part.by_sheet;
     for (const model::FramePoint& at : part.frame_places)
@@ -66,7 +65,7 @@ HoleDistances::HoleDistances(const std::vector<BeltHoles>& sets, const Eigen::Ma
     : sets_(&sets), covariance_(covariance) {
   measured_ = Eigen::VectorXd::Zero(covariance.rows());
   for (Eigen::Index row = 0; row < covariance.rows(); ++row)
-    units_.push_back({row, 1, static_cast<std::size_t>(row)});
+    units_.push_back({row, 1, as_size(row)});
 }
 
 tl::expected<Eigen::VectorXd, observation::Unreachable> HoleDistances::predicted(

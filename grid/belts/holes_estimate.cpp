@@ -3,6 +3,7 @@
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/belts_and_holes.hpp"
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "model/belts/belt_mechanism.hpp"
 
@@ -26,8 +27,8 @@ Eigen::MatrixXd taped_covariance(const std::vector<BeltHoles>& sets,
   Eigen::Index row = 0;
   Eigen::Index hole = 0;
   for (const BeltHoles& set : sets) {
-    const auto own = static_cast<Eigen::Index>(set.set.distances.size());
-    const auto holes = static_cast<Eigen::Index>(set.set.holes.size());
+    const auto own = std::ssize(set.set.distances);
+    const auto holes = std::ssize(set.set.holes);
     HoleRows part;
     part.residual_mm = rows.residual_mm.segment(row, own);
     part.by_mark = rows.by_mark.block(row, 2 * hole, own, 2 * holes);
@@ -46,7 +47,7 @@ Eigen::MatrixXd taped_covariance(const std::vector<BeltHoles>& sets,
     }
   }
   for (Eigen::Index k = 0; k < count; ++k) {
-    if (!counting[static_cast<std::size_t>(k)]) covariance(k, k) += kRejectedMm2;
+    if (!counting[as_size(k)]) covariance(k, k) += kRejectedMm2;
   }
   return covariance;
 }
@@ -127,8 +128,7 @@ std::optional<FrameState> HolesEstimate::converged(const FrameState& state,
   if (has_points) input.observations.push_back(readings);
   input.observations.push_back(std::make_shared<const HoleDistances>(sets_, covariance));
   Eigen::Index units = 0;
-  for (const auto& own : input.observations)
-    units += static_cast<Eigen::Index>(own->units().size());
+  for (const auto& own : input.observations) units += std::ssize(own->units());
   input.fixed_weights = Eigen::VectorXd::Ones(units);
   model::BeltMachine machine = belts_.machine;
   machine.anchors_known = !has_points;

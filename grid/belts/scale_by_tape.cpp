@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "grid/belts/fit_diagnostics.hpp"
+#include "grid/containers.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -28,11 +29,9 @@ std::vector<std::size_t> outermost(const BeltsFit& fit) {
         fit.places.begin(), fit.places.end(), [&](const FittedPlace& a, const FittedPlace& b) {
           return along(a) < along(b);
         });
-    const auto index = static_cast<std::size_t>(most - fit.places.begin());
-    const bool bad =
-        std::find(fit.bad_points.begin(), fit.bad_points.end(), index) != fit.bad_points.end();
-    if (!bad && std::find(points.begin(), points.end(), index) == points.end())
-      points.push_back(index);
+    const auto index = as_size(most - fit.places.begin());
+    const bool bad = contains(fit.bad_points, index);
+    if (!bad && !contains(points, index)) points.push_back(index);
   }
   return points;
 }

@@ -7,6 +7,7 @@
 
 #include "grid/belts/commands_check.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
+#include "grid/containers.hpp"
 
 namespace chaintrue::grid {
 
@@ -33,7 +34,7 @@ std::optional<OtherFrame> suspected_other_frame(const MeasuredBelts& belts,
     const double variance = view.covariance()(i, i);
     if (!(variance > 0.0) || difference_mm < far_mm || difference_mm < kSigmas * std::sqrt(variance)) continue;
     if (found && difference_mm <= std::abs(found->fitted_mm - found->stated_mm)) continue;
-    found = {kNames[static_cast<std::size_t>(i)], stated[i], frame.state.anchors[i], upper_mm};
+    found = {kNames[as_size(i)], stated[i], frame.state.anchors[i], upper_mm};
   }
   return found;
 }

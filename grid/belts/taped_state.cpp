@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/linear_algebra.hpp"
 
@@ -125,7 +126,7 @@ std::optional<std::size_t> worst_of(const HolesEstimate& frame,
   std::optional<std::size_t> worst;
   double most = estimation::kBadDistanceSigmas;
   for (std::size_t k = 0; k < state.counting.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
+    const auto row = as_index(k);
     const double sigmas = std::abs(now.left_out_mm(row)) / now.left_out_sigma_mm(row);
     if (!state.counting[k] || sigmas <= most) continue;
     most = sigmas;
@@ -142,7 +143,7 @@ std::optional<TapedState> converged_state(const HolesEstimate& frame,
   auto rows = taped_rows(sets, first.anchors, first.log_scale);
   if (!rows) return std::nullopt;
   TapedState state{first, *std::move(rows), {}, {}, {}};
-  state.counting.assign(static_cast<std::size_t>(state.rows.residual_mm.size()), true);
+  state.counting.assign(as_size(state.rows.residual_mm.size()), true);
   const double dof = noise_dof(sets);
   if (!converge(frame, sets, state)) return std::nullopt;
   const auto most = static_cast<std::size_t>(static_cast<double>(state.counting.size()) / 3.0);

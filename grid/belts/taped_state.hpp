@@ -10,6 +10,7 @@
 
 #include "grid/belts/belt_holes.hpp"
 #include "grid/belts/holes_estimate.hpp"
+#include "grid/containers.hpp"
 
 namespace chaintrue::grid::belts {
 
@@ -35,7 +36,7 @@ struct TapedMarginal {
   /// The tape's own and that of what the others predict; what kept a rejected distance from
   /// counting is no part of it.
   [[nodiscard]] double left_out_sigma_mm(Eigen::Index k) const {
-    const double added = counting[static_cast<std::size_t>(k)] ? 0.0 : kRejectedMm2;
+    const double added = counting[as_size(k)] ? 0.0 : kRejectedMm2;
     return std::sqrt(1.0 / inverse(k, k) - added);
   }
 };

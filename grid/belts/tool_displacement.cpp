@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 
@@ -12,21 +13,19 @@ namespace chaintrue::grid {
 Eigen::MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
                                     const std::vector<model::MarkPoint>& to,
                                     double reach_mm) {
-  Eigen::MatrixXd kernel(static_cast<Eigen::Index>(from.size()),
-                         static_cast<Eigen::Index>(to.size()));
+  Eigen::MatrixXd kernel(std::ssize(from), std::ssize(to));
   for (std::size_t i = 0; i < from.size(); ++i) {
     for (std::size_t j = 0; j < to.size(); ++j) {
       const double u = std::sqrt(5.0) *
                        std::hypot(from[i].x_mm - to[j].x_mm, from[i].y_mm - to[j].y_mm) / reach_mm;
-      kernel(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          (1.0 + u + u * u / 3.0) * std::exp(-u);
+      kernel(as_index(i), as_index(j)) = (1.0 + u + u * u / 3.0) * std::exp(-u);
     }
   }
   return kernel;
 }
 
 ToolDisplacement::ToolDisplacement(DisplacementParts parts) : parts_(std::move(parts)) {
-  const auto count = static_cast<Eigen::Index>(parts_.places.size());
+  const auto count = std::ssize(parts_.places);
   if (parts_.at_mm.size() != 2 * count || count == 0 || !(parts_.reach_mm > 0.0)) {
     throw precondition(
         "{} displacements of {} places over {} mm", parts_.at_mm.size(), count, parts_.reach_mm);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/regressor_places.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -16,9 +17,7 @@ namespace {
 bool has_order(const MeasuredFile& file) {
   const MeasuredGrid* grid = file.grid();
   return grid != nullptr &&
-         std::all_of(grid->points.begin(), grid->points.end(), [](const MeasuredPoint& point) {
-           return point.order.has_value();
-         });
+         all_of(grid->points, [](const MeasuredPoint& point) { return point.order.has_value(); });
 }
 
 }  // namespace

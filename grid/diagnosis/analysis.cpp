@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/bed_parts.hpp"
 #include "grid/diagnosis/link_priors.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
@@ -48,8 +49,8 @@ double move_mm(const ObservationSet& session, const Eigen::VectorXd& change) {
   const double to_edge_mm = 0.5 * session.stated.bed.width_mm;
   double most = 0.0;
   for (Eigen::Index k = 0; k < session.setting_columns(); ++k) {
-    const bool turn = session.is_of_chains() && session.settings[static_cast<std::size_t>(k)] ==
-                                                    model::Setting::sheet_rotation_rad;
+    const bool turn = session.is_of_chains() &&
+                      session.settings[as_size(k)] == model::Setting::sheet_rotation_rad;
     most = std::max(most, (turn ? to_edge_mm : 1.0) * std::abs(change(k)));
   }
   return most;
@@ -91,14 +92,12 @@ void drop_invisible(const MarginalisedSystem& marginalised, Analysis& a) {
       hidden.reason = "whatever its size, calibrating the settings would hide it";
     }
   }
-  const auto is_visible = [&](const Regressor& d) {
-    return std::find(visible.begin(), visible.end(), d.cause) != visible.end();
-  };
+  const auto is_visible = [&](const Regressor& d) { return contains(visible, d.cause); };
   std::vector<Eigen::Index> kept;
   std::vector<Regressor> regressors;
   for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
     if (!is_visible(a.system.regressors[k])) continue;
-    kept.push_back(static_cast<Eigen::Index>(k));
+    kept.push_back(as_index(k));
     regressors.push_back(a.system.regressors[k]);
   }
   a.system.g = a.system.g.subset(kept);
@@ -111,22 +110,20 @@ void speak_of_leaders(const RegressorSystem& system,
                       const ModelComparison& comparison,
                       Decision& decision) {
   for (int& k : decision.regressors) {
-    const CauseId own = system.regressors[static_cast<std::size_t>(k)].cause;
+    const CauseId own = system.regressor(k).cause;
     for (const CauseClass& members : decision.classes) {
-      if (members.front() == own ||
-          std::find(members.begin(), members.end(), own) == members.end()) {
+      if (members.front() == own || !contains(members, own)) {
         continue;
       }
       const auto alone = std::find_if(
           comparison.models.begin(), comparison.models.end(), [&](const CandidateModel& model) {
             return model.regressors.size() == 1 &&
-                   system.regressors[static_cast<std::size_t>(model.regressors.front())].cause ==
-                       members.front();
+                   system.regressor(model.regressors.front()).cause == members.front();
           });
       if (alone != comparison.models.end()) k = alone->regressors.front();
     }
   }
-  std::sort(decision.regressors.begin(), decision.regressors.end());
+  sort(decision.regressors);
 }
 
 }  // namespace
@@ -145,7 +142,7 @@ bool is_observable(const RegressorSystem& system,
     const Regressor& d = system.regressors[k];
     if (!(d.cause == cause)) continue;
     const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
-    most = std::max(most, size * marginalised.g.col(static_cast<Eigen::Index>(k)).norm());
+    most = std::max(most, size * marginalised.g.col(as_index(k)).norm());
   }
   return most >= kLeastReach;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "grid/belts/fit_report.hpp"
+#include "grid/containers.hpp"
 #include "grid/diagnosis/belts_report.hpp"
 #include "grid/linear_algebra.hpp"
 
@@ -32,8 +33,7 @@ void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, Anc
   MeasuredBelts untaped = without_causes;
   untaped.distances.clear();
   find_places(untaped, frame);
-  frame.checks = std::max<Eigen::Index>(
-      belts::checks_of(frame.counting) - static_cast<Eigen::Index>(sizes), 1);
+  frame.checks = std::max<Eigen::Index>(belts::checks_of(frame.counting) - as_index(sizes), 1);
   const belts::ReadingLines lines = belts::reading_lines(untaped, frame.state);
   double square = 0.0;
   for (std::size_t k = 0; k < frame.counting.size(); ++k) {

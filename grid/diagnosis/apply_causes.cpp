@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include "grid/containers.hpp"
+#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/best_model.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
   const ObservationSet& session = a.session;
-  const bool scale_read =
-      std::any_of(session.readings().begin(), session.readings().end(), [](const ExtraReading& r) {
-        return r.what == ReadingOf::link_pitch || r.what == ReadingOf::tape_error;
-      });
+  const bool scale_read = any_of(session.readings(), [](const ExtraReading& r) {
+    return r.what == ReadingOf::link_pitch || r.what == ReadingOf::tape_error;
+  });
   // Of a set the most probable goes in: on these points its rivals would do the same.
   std::vector<Cause> used = diagnosis.causes;
   if (diagnosis.verdict == Verdict::named_set) used.resize(1);
@@ -26,10 +26,9 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
     const int column = best_regressor(a, cause.cause);
     // Links miscounted or skipped are none of the machine's: readings are mended whatever it gains.
     if (worse && !regressor(a, column).fixed) continue;
-    const bool paper_too =
-        std::any_of(cause.same_as.begin(), cause.same_as.end(), [](const auto& s) {
-          return s.cause.effect->station == model::effects::Station::paper;
-        });
+    const bool paper_too = any_of(cause.same_as, [](const auto& s) {
+      return s.cause.effect->station == model::effects::Station::paper;
+    });
     // Chain or paper: neither is touched before somebody has read the links or checked the tape.
     if (paper_too && !scale_read && !a.options.accept_class) continue;
     const bool in_machine = !model::effects::depends_on_visit(*cause.cause.effect) &&

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/regressors.hpp"
 
@@ -47,9 +48,7 @@ double odds_of(const CauseId& cause) {
 }
 
 bool is_in(const BeltsState& state, const CauseId& cause) {
-  return std::any_of(state.causes.begin(), state.causes.end(), [&cause](const BeltCause& own) {
-    return own.cause == cause;
-  });
+  return any_of(state.causes, [&cause](const BeltCause& own) { return own.cause == cause; });
 }
 
 /// Variances of a coefficient's prior, in the noise found: usual, and as wide as an estimate has it.
@@ -83,12 +82,12 @@ double hold_to_usual_sizes(const BeltsState& state,
   double log_evidence = 0.0;
   for (std::size_t i = 0; i < found.free.size(); ++i) {
     const std::size_t k = found.free[i];
-    const Regressor& regressor = system.regressors[static_cast<std::size_t>(found.regressors[k])];
+    const Regressor& regressor = system.regressor(found.regressors[k]);
     if (!(regressor.coefficient_sigma > 0.0) || is_in(state, regressor.cause)) continue;
     const SizePrior prior = prior_of(regressor, found.noise_square);
-    const Eigen::Index at = settings + static_cast<Eigen::Index>(i);
+    const Eigen::Index at = settings + as_index(i);
     const double variance = found.covariance(at, at);
-    const double coefficient = found.coefficient(static_cast<Eigen::Index>(k)) + change(at);
+    const double coefficient = found.coefficient(as_index(k)) + change(at);
     // A prior that leaves a variance as it is has learnt nothing of the readings.
     constexpr double kNothing = 1e-9;
     const double from_readings =
@@ -105,8 +104,8 @@ double hold_to_usual_sizes(const BeltsState& state,
   found.setting_change += change.head(settings);
   found.setting_covariance = found.covariance.topLeftCorner(settings, settings);
   for (std::size_t i = 0; i < found.free.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(found.free[i]);
-    const Eigen::Index at = settings + static_cast<Eigen::Index>(i);
+    const auto k = as_index(found.free[i]);
+    const Eigen::Index at = settings + as_index(i);
     found.coefficient(k) += change(at);
     found.coefficient_sigma(k) = std::sqrt(std::max(found.covariance(at, at), 0.0));
   }
@@ -227,7 +226,7 @@ class Averaging {
     bool gives = false;
     bool given_others = false;
     for (const int index : model.regressors) {
-      const Regressor& own = system_.regressors[static_cast<std::size_t>(index)];
+      const Regressor& own = system_.regressor(index);
       if (own.expected) {
         change += std::log(share_of_expected(own.cause.effect->id));
         if (gives) change += std::log(kWeightGivenOthers);
@@ -250,17 +249,16 @@ class Averaging {
     weight *= std::exp(hold_to_usual_sizes(state_, system_, found));
     total_ += weight;
     std::vector<Key> causes;
-    for (const int index : model.regressors)
-      causes.push_back(key_of(system_.regressors[static_cast<std::size_t>(index)]));
-    std::sort(causes.begin(), causes.end());
+    for (const int index : model.regressors) causes.push_back(key_of(system_.regressor(index)));
+    sort(causes);
     causes.erase(std::unique(causes.begin(), causes.end()), causes.end());
     parts_.push_back({weight,
                       std::move(causes),
                       found.setting_change.head<belts::kAnchorUnknowns>(),
                       AnchorSquare(found.setting_covariance)});
     for (std::size_t k = 0; k < model.regressors.size(); ++k) {
-      const auto row = static_cast<Eigen::Index>(k);
-      const Regressor& own = system_.regressors[static_cast<std::size_t>(model.regressors[k])];
+      const auto row = as_index(k);
+      const Regressor& own = system_.regressor(model.regressors[k]);
       BeltCause cause{own.cause, own.values};
       cause.values.front() = size_at(own, found.coefficient(row));
       const double slope = std::abs(size_slope(own, found.coefficient(row)));

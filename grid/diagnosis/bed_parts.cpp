@@ -9,6 +9,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/downdating.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
@@ -85,7 +86,7 @@ PartPosterior summary(const RegressorSystem& system,
   for (std::size_t k = 0; k < models.size(); ++k) {
     if (!models[k]->regressors.empty()) result.caused += probability[k];
     for (const int regressor : models[k]->regressors) {
-      const CauseId& cause = system.regressors[static_cast<std::size_t>(regressor)].cause;
+      const CauseId& cause = system.regressor(regressor).cause;
       const auto known = std::find_if(result.causes.begin(),
                                       result.causes.end(),
                                       [&](const auto& own) { return own.first == cause; });
@@ -95,9 +96,7 @@ PartPosterior summary(const RegressorSystem& system,
   }
   for (auto& own : result.causes) own.second = std::min(own.second, 1.0);
   result.caused = std::min(result.caused, 1.0);
-  std::stable_sort(result.causes.begin(), result.causes.end(), [](const auto& x, const auto& y) {
-    return x.second > y.second;
-  });
+  stable_sort(result.causes, [](const auto& x, const auto& y) { return x.second > y.second; });
   return result;
 }
 
@@ -147,7 +146,7 @@ std::vector<BedPart> bed_parts(const RegressorSystem& system,
     std::vector<double> along;
     for (const UnitPlace& place : places) along.push_back(direction.dot(place.at));
     std::vector<double> sorted = along;
-    std::sort(sorted.begin(), sorted.end(), std::greater<>());
+    sort(sorted, std::greater<>());
     // Readings of one mark go together.
     constexpr double kOneMarkMm = 1e-6;
     BedPart part{towards, {}};
@@ -162,7 +161,7 @@ std::vector<BedPart> bed_parts(const RegressorSystem& system,
     if (rest.size() >= std::max<std::size_t>(fewest, 3) && !lie_on_a_line(rest))
       parts.push_back(std::move(part));
   }
-  if (2 * parts.size() < static_cast<std::size_t>(kCutDirections)) parts.clear();
+  if (2 * parts.size() < as_size(kCutDirections)) parts.clear();
   return parts;
 }
 

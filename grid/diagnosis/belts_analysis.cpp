@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
 #include "grid/diagnosis/regressors.hpp"
 #include "grid/statistics.hpp"
@@ -46,7 +47,7 @@ std::vector<int> found_before(const BeltsAnalysis& a) {
       }
     }
   }
-  std::sort(found.begin(), found.end());
+  sort(found);
   return found;
 }
 
@@ -69,8 +70,8 @@ double spoken_for(const Analysis& a, const CauseClass& members) {
       without.push_back(model.log_weight);
       continue;
     }
-    const Regressor& own = a.system.regressors[static_cast<std::size_t>(model.regressors.front())];
-    if (std::find(members.begin(), members.end(), own.cause) == members.end()) continue;
+    const Regressor& own = a.system.regressor(model.regressors.front());
+    if (!contains(members, own.cause)) continue;
     with.push_back(model.log_weight);
     beforehand = log_prior(a.system, model.regressors, true) - log_prior(a.system, {}, true);
   }
@@ -177,9 +178,8 @@ belts::Counting decided_counting(const BeltsAnalysis& a) {
 
 Analysis analysis_of_laws(const BeltsAnalysis& a) {
   Analysis own = a.analysis;
-  const bool ordered = std::any_of(a.belts.points.begin(), a.belts.points.end(), [](const BeltPoint& point) {
-    return point.order.has_value();
-  });
+  const bool ordered =
+      any_of(a.belts.points, [](const BeltPoint& point) { return point.order.has_value(); });
   own.system.discrepancies = &length_discrepancies_of_laws(ordered);
   return own;
 }
@@ -195,9 +195,9 @@ BeltsAnalysis analyse_without(BeltsAnalysis a, Eigen::VectorXd rows) {
 std::vector<BeltCause> decided_causes(const Analysis& a) {
   std::vector<BeltCause> causes;
   for (std::size_t k = 0; k < a.estimate.regressors.size(); ++k) {
-    const Regressor& d = a.system.regressors[static_cast<std::size_t>(a.estimate.regressors[k])];
+    const Regressor& d = a.system.regressor(a.estimate.regressors[k]);
     BeltCause own{d.cause, d.values};
-    own.values.front() = size_at(d, a.estimate.coefficient(static_cast<Eigen::Index>(k)));
+    own.values.front() = size_at(d, a.estimate.coefficient(as_index(k)));
     causes.push_back(std::move(own));
   }
   return causes;

@@ -7,6 +7,7 @@
 
 #include "grid/belts/fit_report.hpp"
 #include "grid/belts/prediction.hpp"
+#include "grid/containers.hpp"
 #include "grid/diagnosis/belts_report.hpp"
 #include "grid/linear_algebra.hpp"
 #include "model/belts/belt_kinematics.hpp"
@@ -54,11 +55,11 @@ double shape_error_mm(const Believed& believed, const std::vector<FramePoint>& p
                       believed[k]->y_mm - places[k].y_mm);
   }
   if (rows.size() < 2) return 0.0;
-  const auto n = static_cast<Eigen::Index>(rows.size());
+  const auto n = std::ssize(rows);
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(2 * n, 3);
   Eigen::VectorXd shift(2 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Vector4d& row = rows[static_cast<std::size_t>(i)];
+    const Eigen::Vector4d& row = rows[as_size(i)];
     design.row(2 * i) << 1.0, 0.0, -row[1];
     design.row(2 * i + 1) << 0.0, 1.0, row[0];
     shift.segment<2>(2 * i) = row.tail<2>();
@@ -176,7 +177,7 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
   found.machine = belts::with_anchors(belts.machine, a.averaged.anchors);
   const Eigen::MatrixXd covariance = a.averaged.covariance_mm2;
   for (std::size_t i = 0; i < found.coordinates.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
+    const auto at = as_index(i);
     found.coordinates[i] = {alone.coordinates[i].name,
                             alone.coordinates[i].stated_mm,
                             alone.coordinates[i].fitted_mm,
@@ -199,7 +200,7 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
     }
     found.places.push_back(place);
   }
-  const auto values = static_cast<Eigen::Index>(a.analysis.estimate.free.size());
+  const auto values = std::ssize(a.analysis.estimate.free);
   found.checks = static_cast<int>(std::max<Eigen::Index>(frame.checks - values, 1));
   found.residual_sigma_mm = std::sqrt(good_square / found.checks);
   found.prediction_before = alone.half_left_out;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "model/belts/belt_readings.hpp"
 
@@ -53,14 +54,13 @@ Eigen::MatrixXd value_columns(const MeasuredBelts& belts,
                               const std::vector<FreeValue>& free) {
   // Of a value's usual spread: far enough for differences.
   constexpr double kStep = 0.05;
-  Eigen::MatrixXd columns(4 * static_cast<Eigen::Index>(belts.points.size()),
-                          static_cast<Eigen::Index>(free.size()));
+  Eigen::MatrixXd columns(4 * std::ssize(belts.points), std::ssize(free));
   for (std::size_t f = 0; f < free.size(); ++f) {
     const double step = kStep * parameter_of(causes, free[f]).prior_sigma;
     const BeltCause& here = causes[free[f].cause];
     BeltCause there = here;
     there.values[free[f].value] += step;
-    columns.col(static_cast<Eigen::Index>(f)) =
+    columns.col(as_index(f)) =
         (added_by(belts, {there}, state) - added_by(belts, {here}, state)) / step;
   }
   return columns;
@@ -76,7 +76,7 @@ bool moved(const Eigen::VectorXd& change,
   for (std::size_t f = 0; f < free.size(); ++f) {
     const auto& parameter = parameter_of(causes, free[f]);
     double& value = causes[free[f].cause].values[free[f].value];
-    double next = value + change[belts::kAnchorUnknowns + static_cast<Eigen::Index>(f)];
+    double next = value + change[belts::kAnchorUnknowns + as_index(f)];
     if (parameter.name.ends_with("_rad")) {
       next = std::remainder(next, 2.0 * std::numbers::pi);
     } else {
@@ -126,15 +126,14 @@ model::belts::BeltVisit visit_of(const BeltPoint& point,
 Eigen::VectorXd added_by(const MeasuredBelts& belts,
                          const std::vector<BeltCause>& causes,
                          const belts::FrameState& state) {
-  Eigen::VectorXd added = Eigen::VectorXd::Zero(4 * static_cast<Eigen::Index>(belts.points.size()));
+  Eigen::VectorXd added = Eigen::VectorXd::Zero(4 * std::ssize(belts.points));
   if (causes.empty()) return added;
   const auto effects = resolved(causes);
   const model::BeltMachine machine = belts::with_anchors(belts.machine, state.anchors);
   const std::optional<BeltPull> reference = reference_pull(belts);
   for (const Belt belt : kBelts) {
-    const bool acts = std::any_of(effects.begin(), effects.end(), [belt](const auto& own) {
-      return model::belts::acts_on(own.side, belt);
-    });
+    const bool acts =
+        any_of(effects, [belt](const auto& own) { return model::belts::acts_on(own.side, belt); });
     if (!acts) continue;
     for (std::size_t k = 0; k < belts.points.size(); ++k) {
       const model::FramePoint at = state.places[k];

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
@@ -194,7 +195,7 @@ std::optional<double> all_once_more(const BeltsAnalysis& a, double times = 1.0) 
     gathering.add(a.state.frame.state.places[k], a.belts.points[k].pulled, a.belts.points[k].pull);
   gathering.count_visits();
   const std::vector<Alternative> alternatives = predicted_at(a, gathering.take()).alternatives;
-  std::vector<Eigen::Index> rows(static_cast<std::size_t>(alternatives.front().mean.size()));
+  std::vector<Eigen::Index> rows(as_size(alternatives.front().mean.size()));
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
   return expected_discrimination(alternatives, rows).named_alone;
 }

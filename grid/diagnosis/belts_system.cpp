@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
 #include "grid/diagnosis/secants.hpp"
 
@@ -75,7 +76,7 @@ std::vector<int> visits_to_set_in(const MeasuredBelts& belts) {
   for (const BeltPoint& point : belts.points) {
     if (point.order) orders.push_back(*point.order);
   }
-  std::sort(orders.begin(), orders.end());
+  sort(orders);
   if (orders.size() <= 2 * kLeastAfter) return {};
   return {orders.begin() + kLeastAfter, orders.end() - (kLeastAfter - 1)};
 }
@@ -117,7 +118,7 @@ class Columns {
     if (found != nullptr) {
       const std::vector<int> near = about(visits_, static_cast<int>(values.back()));
       visits.insert(visits.end(), near.begin(), near.end());
-      std::sort(visits.begin(), visits.end());
+      sort(visits);
       visits.erase(std::unique(visits.begin(), visits.end()), visits.end());
     }
     const double share = side / static_cast<double>(visits.size());

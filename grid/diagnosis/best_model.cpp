@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::diagnosis {
 
-const Regressor& regressor(const Analysis& a, int k) {
-  return a.system.regressors[static_cast<std::size_t>(k)];
-}
+const Regressor& regressor(const Analysis& a, int k) { return a.system.regressor(k); }
 
 const MarginalisedSystem& marginalised_system(const Analysis& a) {
   return a.comparison.marginalised_systems[a.decision.marginalised];
@@ -27,7 +27,7 @@ int best_regressor(const Analysis& a, const CauseId& cause) {
   double most = -1.0;
   for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
     if (!(a.system.regressors[k].cause == cause)) continue;
-    const auto g = marginalised.g.col(static_cast<Eigen::Index>(k));
+    const auto g = marginalised.g.col(as_index(k));
     const double score = g.squaredNorm() > 1e-12 ? std::abs(g.dot(marginalised.e)) / g.norm() : 0.0;
     if (score > most) {
       most = score;
@@ -52,9 +52,7 @@ void reject_slips(const Analysis& a, std::vector<bool>& outliers) {
 
 bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
   for (const CauseClass& members : a.decision.classes) {
-    const auto in = [&](const CauseId& c) {
-      return std::find(members.begin(), members.end(), c) != members.end();
-    };
+    const auto in = [&](const CauseId& c) { return contains(members, c); };
     if (in(x)) return in(y);
   }
   return x == y;
@@ -66,13 +64,12 @@ Nearest nearest_other(const Analysis& a, int column) {
   const auto excluded = [&](const CauseId& other) {
     if (same_class(a, other, regressor(a, column).cause)) return true;
     if (a.decision.verdict != Verdict::several_causes) return false;
-    return std::any_of(a.decision.regressors.begin(), a.decision.regressors.end(), [&](int k) {
-      return same_class(a, other, regressor(a, k).cause);
-    });
+    return any_of(a.decision.regressors,
+                  [&](int k) { return same_class(a, other, regressor(a, k).cause); });
   };
   Nearest nearest;
   for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
-    const auto g = marginalised.g.col(static_cast<Eigen::Index>(k));
+    const auto g = marginalised.g.col(as_index(k));
     if (excluded(a.system.regressors[k].cause)) continue;
     const double collinearity = collinearity_of(g, own);
     if (collinearity > nearest.collinearity) nearest = {static_cast<int>(k), collinearity};
@@ -97,7 +94,7 @@ Shown shown(const Analysis& a) {
 }
 
 Estimate estimate_with(const Analysis& a, std::vector<int> regressors) {
-  std::sort(regressors.begin(), regressors.end());
+  sort(regressors);
   return estimate(a.system, marginalised_system(a), regressors, a.noise.get());
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/linear_algebra.hpp"
@@ -21,7 +22,7 @@ std::vector<std::pair<CauseId, int>> best_regressors(const RegressorSystem& syst
   std::vector<std::pair<CauseId, int>> result;
   double best = -1.0;
   for (std::size_t k = 0; k < system.regressors.size(); ++k) {
-    const auto column = marginalised.g.col(static_cast<Eigen::Index>(k));
+    const auto column = marginalised.g.col(as_index(k));
     const double length = column.norm();
     if (!(length > 1e-4)) continue;
     const double score = std::abs(column.dot(marginalised.e)) / length;
@@ -58,9 +59,7 @@ std::optional<FreeModel> model_with(const RegressorSystem& system,
                                     const ModelComparison& comparison,
                                     const CauseId& whole,
                                     const CauseId& free) {
-  const auto regressor = [&](int k) -> const Regressor& {
-    return system.regressors[static_cast<std::size_t>(k)];
-  };
+  const auto regressor = [&](int k) -> const Regressor& { return system.regressor(k); };
   for (const CandidateModel& model : comparison.models) {
     FreeModel found{{}, -1, model.marginalised};
     for (const int k : model.regressors) {
@@ -77,7 +76,7 @@ std::optional<FreeModel> model_with(const RegressorSystem& system,
       if (found.free >= 0) found.regressors.push_back(found.free);
     }
     if (found.free < 0) continue;
-    std::sort(found.regressors.begin(), found.regressors.end());
+    sort(found.regressors);
     found.regressors.erase(std::unique(found.regressors.begin(), found.regressors.end()),
                            found.regressors.end());
     return found;
@@ -95,16 +94,15 @@ bool is_whole(const RegressorSystem& system,
   if (!model) return false;
   const Estimate found = estimate(
       system, comparison.marginalised_systems[model->marginalised], model->regressors, -1);
-  const auto at = static_cast<Eigen::Index>(
-      std::find(model->regressors.begin(), model->regressors.end(), model->free) -
-      model->regressors.begin());
+  const auto at =
+      as_index(std::find(model->regressors.begin(), model->regressors.end(), model->free) -
+               model->regressors.begin());
   const Eigen::VectorXd own = system.g.col(model->free);
-  const Regressor& of_free = system.regressors[static_cast<std::size_t>(model->free)];
+  const Regressor& of_free = system.regressor(model->free);
   for (std::size_t k = 0; k < system.regressors.size(); ++k) {
     const Regressor& of_whole = system.regressors[k];
     if (!(of_whole.cause == whole) || of_whole.values.back() != of_free.values.back()) continue;
-    const double asked =
-        own.dot(Eigen::VectorXd(system.g.col(static_cast<Eigen::Index>(k)))) / own.squaredNorm();
+    const double asked = own.dot(Eigen::VectorXd(system.g.col(as_index(k)))) / own.squaredNorm();
     if (std::abs(found.coefficient(at) - asked) <= kSigmas * found.coefficient_sigma(at)) return true;
   }
   return false;
@@ -132,9 +130,8 @@ void put_likelier_first(const RegressorSystem& system,
   const auto weight_of = [&](const CauseId& cause) {
     double sum = kMinusInfinity;
     for (const CandidateModel& model : comparison.models) {
-      const bool acts = std::any_of(model.regressors.begin(), model.regressors.end(), [&](int k) {
-        return system.regressors[static_cast<std::size_t>(k)].cause == cause;
-      });
+      const bool acts =
+          any_of(model.regressors, [&](int k) { return system.regressor(k).cause == cause; });
       if (acts) sum = log_sum(sum, model.log_weight);
     }
     return sum;
@@ -177,7 +174,7 @@ std::vector<CauseClass> classes_of(const RegressorSystem& system,
     Representative own{visible(marginalised.kept(system.g.col(column))),
                        marginalised.g.col(column),
                        cause,
-                       system.regressors[static_cast<std::size_t>(column)].fixed};
+                       system.regressor(column).fixed};
     const double whole = own.free.norm();
     linear::add_product(
         own.free, -1.0, basis, linear::product(linear::transposed(basis), own.free));

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/regressor_places.hpp"
 #include "grid/linear_algebra.hpp"
@@ -86,14 +87,14 @@ double fitted_place_sigma(const Analysis& a,
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const RegressorSystem& system = a.system;
   const Eigen::Index settings = system.setting.size();
-  const auto free = static_cast<Eigen::Index>(fitted.free.size());
+  const auto free = std::ssize(fitted.free);
   Eigen::MatrixXd design(marginalised.kept.size(), settings + free + 1);
   Eigen::VectorXd sigma(settings + free + 1);
   design.leftCols(settings) =
       marginalised.kept.of(system.by_setting + coefficient * slope_by_settings(a, own));
   sigma.head(settings) = system.sigma;
   for (Eigen::Index k = 0; k < free; ++k) {
-    const int other = fitted.regressors[fitted.free[static_cast<std::size_t>(k)]];
+    const int other = fitted.regressors[fitted.free[as_size(k)]];
     design.col(settings + k) = marginalised.kept(system.g.col(other));
     sigma(settings + k) = wide_coefficient_sigma(system, marginalised, other);
   }
@@ -161,7 +162,7 @@ ParameterEstimate estimated_place(
 
 Eigen::Index position_of(const Estimate& e, int column) {
   const auto found = std::find(e.regressors.begin(), e.regressors.end(), column);
-  return static_cast<Eigen::Index>(found - e.regressors.begin());
+  return as_index(found - e.regressors.begin());
 }
 
 std::vector<ParameterEstimate> parameters_of(const Analysis& a, int column, const Estimate& fitted) {

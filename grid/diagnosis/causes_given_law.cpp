@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
 
@@ -22,15 +23,13 @@ bool may_name_a_cause(const Analysis& a, const Eigen::VectorXd& rows) {
   const SingleScores scores = single_scores(a.system, marginalised, noise, e, true);
   const double beforehand = log_odds_of_another(a.system, {}, false);
   const double least = std::log(kHardlyLikely / (1.0 - kHardlyLikely));
-  return std::any_of(scores.log_factor.begin(), scores.log_factor.end(), [&](double factor) {
-    return factor + beforehand > least;
-  });
+  return any_of(scores.log_factor, [&](double factor) { return factor + beforehand > least; });
 }
 
 bool holds(const Analysis& a, const CauseId& cause) {
-  return std::any_of(a.decision.listed.begin(), a.decision.listed.end(), [&](std::size_t index) {
+  return any_of(a.decision.listed, [&](std::size_t index) {
     const CauseClass& members = a.decision.classes[index];
-    return std::find(members.begin(), members.end(), cause) != members.end();
+    return contains(members, cause);
   });
 }
 
@@ -56,7 +55,7 @@ std::vector<CauseGivenLaw> causes_that_change(const Analysis& without_law, const
                        std::move(cause.parameters)});
     for (SameCause& same : cause.same_as) changed.back().same_as.push_back(same.cause);
   }
-  std::stable_sort(changed.begin(), changed.end(), [](const CauseGivenLaw& x, const CauseGivenLaw& y) {
+  stable_sort(changed, [](const CauseGivenLaw& x, const CauseGivenLaw& y) {
     return x.probability > y.probability;
   });
   for (const std::size_t index : without_law.decision.listed) {
@@ -82,9 +81,8 @@ void take_names_back(const Analysis& given_law, Analysis& a) {
     withdraw_names(a.comparison, a.decision);
   } else if (a.decision.verdict == Verdict::several_causes) {
     std::erase_if(a.decision.regressors, [&](int k) {
-      return std::any_of(lost.begin(), lost.end(), [&](const CauseId& cause) {
-        return same_class(a, regressor(a, k).cause, cause);
-      });
+      return any_of(
+          lost, [&](const CauseId& cause) { return same_class(a, regressor(a, k).cause, cause); });
     });
     std::erase_if(a.decision.listed, is_lost);
     if (a.decision.listed.size() == 1) a.decision.verdict = Verdict::named;
@@ -92,14 +90,11 @@ void take_names_back(const Analysis& given_law, Analysis& a) {
   estimate_decided(a);
   for (ClassProbability& one : a.decision.marginal) {
     const CauseId& cause = a.decision.classes[one.index].front();
-    if (std::find(lost.begin(), lost.end(), cause) != lost.end())
-      one.probability = probability_of(given_law, cause);
+    if (contains(lost, cause)) one.probability = probability_of(given_law, cause);
   }
-  std::stable_sort(a.decision.marginal.begin(),
-                   a.decision.marginal.end(),
-                   [](const ClassProbability& x, const ClassProbability& y) {
-                     return x.probability > y.probability;
-                   });
+  stable_sort(a.decision.marginal, [](const ClassProbability& x, const ClassProbability& y) {
+    return x.probability > y.probability;
+  });
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/statistics.hpp"
@@ -53,7 +54,7 @@ class Decider {
   [[nodiscard]] std::size_t class_of(const CauseId& cause) const {
     for (std::size_t k = 0; k < result_.classes.size(); ++k) {
       const CauseClass& members = result_.classes[k];
-      if (std::find(members.begin(), members.end(), cause) != members.end()) return k;
+      if (contains(members, cause)) return k;
     }
     return result_.classes.size();
   }
@@ -63,9 +64,9 @@ class Decider {
       const double p = comparison_.probability(model);
       Key key;
       for (const int k : model.regressors) {
-        key.push_back(class_of(system_.regressors[static_cast<std::size_t>(k)].cause));
+        key.push_back(class_of(system_.regressor(k).cause));
       }
-      std::sort(key.begin(), key.end());
+      sort(key);
       Grouped& one = groups_[key];
       one.probability += p;
       if (model.discrepancy >= 0) {
@@ -113,9 +114,8 @@ class Decider {
       }
     }
     for (std::size_t k = 0; k < p.size(); ++k) result_.marginal.push_back({k, std::min(p[k], 1.0)});
-    std::stable_sort(result_.marginal.begin(),
-                     result_.marginal.end(),
-                     [](const auto& a, const auto& b) { return a.probability > b.probability; });
+    stable_sort(result_.marginal,
+                [](const auto& a, const auto& b) { return a.probability > b.probability; });
   }
 
   /// The number of causes is decided first, then which.
@@ -193,16 +193,14 @@ class Decider {
       if (one.probability >= kSure) sure.push_back(one.index);
     }
     const auto& listed = result_.listed;
-    const bool missing = std::any_of(sure.begin(), sure.end(), [&](std::size_t k) {
-      return std::find(listed.begin(), listed.end(), k) == listed.end();
-    });
+    const bool missing = any_of(sure, [&](std::size_t k) { return !contains(listed, k); });
     if (!missing) return;
     if (result_.verdict == Verdict::named || result_.verdict == Verdict::several_causes) {
       for (const std::size_t k : listed) {
-        if (std::find(sure.begin(), sure.end(), k) == sure.end()) sure.push_back(k);
+        if (!contains(sure, k)) sure.push_back(k);
       }
     }
-    std::sort(sure.begin(), sure.end());
+    sort(sure);
     const Grouped* home = likeliest_with(sure);
     if (home == nullptr) return;
     best_key_ = sure;
@@ -224,8 +222,8 @@ class Decider {
   /// Of what was taken into the model the causes of these classes alone.
   void keep_only(const Key& causes) {
     std::erase_if(result_.regressors, [&](int k) {
-      const auto own = class_of(system_.regressors[static_cast<std::size_t>(k)].cause);
-      return std::find(causes.begin(), causes.end(), own) == causes.end();
+      const auto own = class_of(system_.regressor(k).cause);
+      return !contains(causes, own);
     });
   }
 
@@ -233,9 +231,8 @@ class Decider {
     if (best_key_.size() > 1) {
       result_.verdict = Verdict::several_causes;
       result_.listed = best_key_;
-      std::stable_sort(result_.listed.begin(),
-                       result_.listed.end(),
-                       [&](std::size_t a, std::size_t b) { return marginal(a) > marginal(b); });
+      stable_sort(result_.listed,
+                  [&](std::size_t a, std::size_t b) { return marginal(a) > marginal(b); });
       take(best_model);
       return;
     }
@@ -265,9 +262,7 @@ class Decider {
       alone.push_back({key.front(), grouped.probability});
       all += grouped.probability;
     }
-    std::stable_sort(alone.begin(), alone.end(), [](const auto& a, const auto& b) {
-      return a.probability > b.probability;
-    });
+    stable_sort(alone, [](const auto& a, const auto& b) { return a.probability > b.probability; });
     double sum = 0.0;
     for (const ClassProbability& one : alone) {
       result_.listed.push_back(one.index);

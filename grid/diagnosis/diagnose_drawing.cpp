@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/findings.hpp"
@@ -35,7 +36,7 @@ std::vector<DrawnSetting> drawn_settings(const Analysis& a) {
   const auto parameters = a.session.mechanism->parameters();
   std::vector<DrawnSetting> settings;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(k);
+    const auto at = as_index(k);
     DrawnSetting own{std::string(parameters[k].name),
                      a.session.stated_value(at),
                      a.system.setting(at) + a.estimate.setting_change(at),

@@ -27,6 +27,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/kept_rows.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
@@ -93,10 +94,10 @@ struct DiscrepancyFamily {
     return static_cast<int>(kernels.size() * strengths.size());
   }
   [[nodiscard]] std::size_t kernel_of(int discrepancy) const {
-    return static_cast<std::size_t>(discrepancy) / strengths.size();
+    return as_size(discrepancy) / strengths.size();
   }
   [[nodiscard]] double strength_of(int discrepancy) const {
-    return strengths[static_cast<std::size_t>(discrepancy) % strengths.size()];
+    return strengths[as_size(discrepancy) % strengths.size()];
   }
   /// Its kernel's share, and of its strengths what a half-Cauchy of scale 10 has, so that a huge
   /// discrepancy is rarer than one that just shows (A. Gelman, Bayesian Analysis 1 (2006), 515,

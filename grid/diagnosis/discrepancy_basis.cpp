@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 
@@ -42,13 +43,9 @@ Eigen::MatrixXd low_rank(Eigen::Index n, double least, const Covariance& covaria
 /// F, a line an argument.
 Eigen::MatrixXd low_rank_field(const DiscrepancyField& field,
                                const std::vector<FieldArgument>& arguments) {
-  return low_rank(static_cast<Eigen::Index>(arguments.size()),
-                  kLeftOfField,
-                  [&](Eigen::Index i, Eigen::Index j) {
-                    return field_covariance(field,
-                                            arguments[static_cast<std::size_t>(i)],
-                                            arguments[static_cast<std::size_t>(j)]);
-                  });
+  return low_rank(std::ssize(arguments), kLeftOfField, [&](Eigen::Index i, Eigen::Index j) {
+    return field_covariance(field, arguments[as_size(i)], arguments[as_size(j)]);
+  });
 }
 
 /// B of a kernel of lengths.
@@ -89,7 +86,7 @@ Components components_of(const RegressorSystem& system,
                          const std::vector<DiscrepancyPlace>& places) {
   const Eigen::MatrixXd factor = low_rank_field(field, arguments_of(field, places));
   // Where the second component's arguments begin.
-  const Eigen::Index second = factor.rows() - static_cast<Eigen::Index>(places.size());
+  const Eigen::Index second = factor.rows() - std::ssize(places);
   const Eigen::Index n = marginalised.kept.size();
   Components result{Eigen::MatrixXd::Zero(n, factor.cols()),
                     Eigen::MatrixXd::Zero(n, factor.cols())};
@@ -98,7 +95,7 @@ Components components_of(const RegressorSystem& system,
     const Eigen::Index row = kept.at;
     for (const observation::PlaceColumns& place_columns : unit.places) {
       const auto entry = (place_columns.by_chain * field_entry(field, places[place_columns.place])).eval();
-      const auto at = static_cast<Eigen::Index>(place_columns.place);
+      const auto at = as_index(place_columns.place);
       for (Eigen::Index k = 0; k < unit.rows; ++k) {
         result.first.row(row + k) += entry(k, 0) * factor.row(at);
         result.second.row(row + k) += entry(k, 1) * factor.row(second + at);
@@ -190,7 +187,7 @@ class DiscrepancyBasis::Fields {
  private:
   /// The residual and these columns.
   [[nodiscard]] Eigen::MatrixXd columns_of(const NormalEquations& plain) const {
-    Eigen::MatrixXd e(marginalised_.e.size(), static_cast<Eigen::Index>(plain.columns.size()) + 1);
+    Eigen::MatrixXd e(marginalised_.e.size(), std::ssize(plain.columns) + 1);
     e.col(0) = marginalised_.e;
     e.rightCols(e.cols() - 1) = marginalised_.g.dense(plain.columns);
     return e;
@@ -275,7 +272,7 @@ DiscrepancyBasis::GivenKernel DiscrepancyBasis::given(std::size_t kernel,
   GivenKernel result;
   result.plain_ = &plain;
   result.trace_ = marginalised_.discrepancy_trace.at(kernel);
-  const auto lines = static_cast<Eigen::Index>(plain.columns.size()) + 1;
+  const auto lines = std::ssize(plain.columns) + 1;
   if (own.blocks.empty() || !(result.trace_ > 0.0)) {
     result.rotated_.resize(lines, 0);
     return result;

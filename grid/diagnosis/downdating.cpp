@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/ties.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/statistics.hpp"
@@ -33,13 +34,11 @@ std::map<FactorisationKey, std::vector<CandidateModel>> models_to_follow(
   for (const auto& [key, p] : share) {
     if (key.second >= 0 && p >= limits.discrepancy_share) discrepancies.emplace_back(-p, key);
   }
-  std::sort(discrepancies.begin(), discrepancies.end());
+  sort(discrepancies);
   if (discrepancies.size() > limits.most_discrepancies)
     discrepancies.resize(limits.most_discrepancies);
   const auto is_followed = [&](const FactorisationKey& key) {
-    return key.second < 0 || std::any_of(discrepancies.begin(),
-                                         discrepancies.end(),
-                                         [&](const auto& p) { return p.second == key; });
+    return key.second < 0 || any_of(discrepancies, [&](const auto& p) { return p.second == key; });
   };
   const double best = comparison.best().log_weight;
   std::map<FactorisationKey, std::vector<CandidateModel>> result;
@@ -55,9 +54,9 @@ std::map<FactorisationKey, std::vector<CandidateModel>> models_to_follow(
                        (taken < limits.most || tied(model.log_weight, last));
     bool first_alone = model.regressors.empty();
     if (model.regressors.size() == 1) {
-      const CauseId& cause = system.regressors[static_cast<std::size_t>(model.regressors[0])].cause;
+      const CauseId& cause = system.regressor(model.regressors[0]).cause;
       auto& known = alone[key];
-      first_alone = std::find(known.begin(), known.end(), cause) == known.end();
+      first_alone = !contains(known, cause);
       if (first_alone) known.push_back(cause);
     }
     if (!leads && !(first_alone && marginalised_systems.contains(key.first))) continue;
@@ -84,7 +83,7 @@ std::vector<Eigen::Index> rows_of(const MarginalisedSystem& marginalised,
                                   const std::vector<std::size_t>& units) {
   std::vector<Eigen::Index> result;
   for (const KeptRows::Unit& kept : marginalised.kept.units()) {
-    if (std::find(units.begin(), units.end(), kept.unit) == units.end()) continue;
+    if (!contains(units, kept.unit)) continue;
     for (Eigen::Index k = 0; k < kept.rows; ++k) result.push_back(kept.at + k);
   }
   return result;
@@ -100,9 +99,9 @@ std::vector<bool> with_units(const RegressorSystem& system,
     return groups;
   }
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    const auto row = static_cast<std::size_t>(system.groups[k].first_row);
-    const auto own = static_cast<std::size_t>(system.unit_of_row[row]);
-    if (std::find(units.begin(), units.end(), own) != units.end()) groups[k] = rejected;
+    const auto row = as_size(system.groups[k].first_row);
+    const auto own = as_size(system.unit_of_row[row]);
+    if (contains(units, own)) groups[k] = rejected;
   }
   return groups;
 }
@@ -114,7 +113,7 @@ std::size_t home_of(ModelComparison& comparison, std::vector<bool> outliers) {
       comparison.marginalised_systems.end(),
       [&](const MarginalisedSystem& marginalised) { return marginalised.outliers == outliers; });
   if (same != comparison.marginalised_systems.end())
-    return static_cast<std::size_t>(same - comparison.marginalised_systems.begin());
+    return as_size(same - comparison.marginalised_systems.begin());
   comparison.marginalised_systems.emplace_back().outliers = std::move(outliers);
   return comparison.marginalised_systems.size() - 1;
 }
@@ -145,11 +144,11 @@ void Downdating::add_factorisation(std::size_t number,
   for (const CandidateModel& model : models) {
     columns.insert(columns.end(), model.regressors.begin(), model.regressors.end());
   }
-  std::sort(columns.begin(), columns.end());
+  sort(columns);
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
   const Eigen::Index n = marginalised.kept.size();
   factorised.inverse = marginalised.root.inverse();
-  Eigen::MatrixXd e(n, static_cast<Eigen::Index>(columns.size()) + 1);
+  Eigen::MatrixXd e(n, std::ssize(columns) + 1);
   e.col(0) = marginalised.e;
   e.rightCols(e.cols() - 1) = marginalised.g.dense(columns);
   double log_det = marginalised.log_det;
@@ -220,7 +219,7 @@ Downdating::Without Downdating::without(const std::vector<std::size_t>& units) c
     const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.marginalised];
     const auto out = rows_of(whole, units);
     const NormalEquations equations = downdated_equations(factorised, out);
-    const Eigen::Index rows = factorised.inverse.rows() - static_cast<Eigen::Index>(out.size());
+    const Eigen::Index rows = factorised.inverse.rows() - std::ssize(out);
     const NoiseDensity noise(dof_, rows);
     // Marginalised systems that differ in the points left out alone are one.
     const std::size_t home = home_of(comparison, with_units(system_, whole.outliers, units, true));
@@ -270,7 +269,7 @@ std::vector<double> Downdating::probabilities_without(const std::vector<std::siz
     const auto out = rows_of(whole, units);
     const NormalEquations equations = downdated_equations(factorised, out);
     const Eigen::Index all = factorised.inverse.rows();
-    const Eigen::Index rows = all - static_cast<Eigen::Index>(out.size());
+    const Eigen::Index rows = all - std::ssize(out);
     const NoiseDensity noise(dof_, rows);
     const double power = count_as == CountAs::all
                              ? static_cast<double>(all) / static_cast<double>(std::max<Eigen::Index>(rows, 1))

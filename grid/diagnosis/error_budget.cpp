@@ -3,8 +3,9 @@
 #include <array>
 #include <cmath>
 
-#include "grid/diagnosis/findings.hpp"
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/other_places.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -146,7 +147,7 @@ class Budget {
     for (std::size_t k = 0; k < a_.decision.regressors.size(); ++k) {
       const int column = a_.decision.regressors[k];
       const Regressor& own = regressor(a_, column);
-      const double size = a_.estimate.coefficient(static_cast<Eigen::Index>(k));
+      const double size = a_.estimate.coefficient(as_index(k));
       const Shifts shifts = shifts_of(a_.system.g.col(column) * size);
       take_away(shifts, rest);
       BudgetLine line{.what = BudgetLine::What::cause, .cause = own.cause};
@@ -192,10 +193,9 @@ class Budget {
     const double whole = budget.uncalibrated_mm * budget.uncalibrated_mm;
     double sum = 0.0;
     for (const BudgetLine& line : budget.lines) sum += line.mean_square_mm2;
-    std::stable_sort(
-        budget.lines.begin(), budget.lines.end(), [](const BudgetLine& x, const BudgetLine& y) {
-          return x.mean_square_mm2 > y.mean_square_mm2;
-        });
+    stable_sort(budget.lines, [](const BudgetLine& x, const BudgetLine& y) {
+      return x.mean_square_mm2 > y.mean_square_mm2;
+    });
     budget.lines.push_back({.what = BudgetLine::What::inseparable,
                             .mean_square_mm2 = whole - sum,
                             .changes_with = BudgetLine::ChangesWith::nothing});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -95,12 +96,12 @@ Estimate estimate(const RegressorSystem& system,
   Estimate result;
   result.regressors = regressors;
   const auto settings = system.setting.size();
-  result.coefficient = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(regressors.size()));
+  result.coefficient = Eigen::VectorXd::Zero(std::ssize(regressors));
   result.coefficient_sigma = result.coefficient;
   Eigen::VectorXd data = system.e;
   for (std::size_t k = 0; k < regressors.size(); ++k) {
-    if (system.regressors[static_cast<std::size_t>(regressors[k])].fixed) {
-      result.coefficient(static_cast<Eigen::Index>(k)) = 1.0;
+    if (system.regressor(regressors[k]).fixed) {
+      result.coefficient(as_index(k)) = 1.0;
       data -= system.g.col(regressors[k]);
     } else {
       result.free.push_back(k);
@@ -109,7 +110,7 @@ Estimate estimate(const RegressorSystem& system,
   Solution solution;
   // A coefficient that leaves its bounds is fixed there and the rest solved again.
   while (true) {
-    const auto free = static_cast<Eigen::Index>(result.free.size());
+    const auto free = std::ssize(result.free);
     Unknowns unknowns{
         Eigen::MatrixXd(marginalised.kept.size(), settings + free),
         Eigen::VectorXd::Zero(settings + free),
@@ -118,7 +119,7 @@ Estimate estimate(const RegressorSystem& system,
     unknowns.mean.head(settings) = system.expected_change;
     unknowns.sigma.head(settings) = system.sigma;
     for (Eigen::Index k = 0; k < free; ++k) {
-      const int column = regressors[result.free[static_cast<std::size_t>(k)]];
+      const int column = regressors[result.free[as_size(k)]];
       unknowns.design.col(settings + k) = marginalised.kept(system.g.col(column));
       unknowns.sigma(settings + k) =
           wide_coefficient_sigma(system, marginalised, column);
@@ -128,16 +129,15 @@ Estimate estimate(const RegressorSystem& system,
                      noise != nullptr ? &noise->covariance : nullptr);
     std::size_t outside = result.free.size();
     for (std::size_t k = 0; k < result.free.size(); ++k) {
-      const Regressor& d = system.regressors[static_cast<std::size_t>(regressors[result.free[k]])];
-      const double value = solution.value(settings + static_cast<Eigen::Index>(k));
+      const Regressor& d = system.regressor(regressors[result.free[k]]);
+      const double value = solution.value(settings + as_index(k));
       if (value < d.lowest || value > d.highest) outside = k;
     }
     if (outside == result.free.size()) break;
-    const auto at = static_cast<Eigen::Index>(result.free[outside]);
-    const Regressor& d =
-        system.regressors[static_cast<std::size_t>(regressors[result.free[outside]])];
-    result.coefficient(at) = std::clamp(
-        solution.value(settings + static_cast<Eigen::Index>(outside)), d.lowest, d.highest);
+    const auto at = as_index(result.free[outside]);
+    const Regressor& d = system.regressor(regressors[result.free[outside]]);
+    result.coefficient(at) =
+        std::clamp(solution.value(settings + as_index(outside)), d.lowest, d.highest);
     data -= system.g.col(regressors[result.free[outside]]) * result.coefficient(at);
     result.free.erase(result.free.begin() + static_cast<std::ptrdiff_t>(outside));
   }
@@ -145,8 +145,8 @@ Estimate estimate(const RegressorSystem& system,
   Eigen::VectorXd left = data;
   linear::add_product(left, -1.0, system.by_setting, result.setting_change);
   for (std::size_t k = 0; k < result.free.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(result.free[k]);
-    const Eigen::Index column = settings + static_cast<Eigen::Index>(k);
+    const auto at = as_index(result.free[k]);
+    const Eigen::Index column = settings + as_index(k);
     result.coefficient(at) = solution.value(column);
     left -= system.g.col(regressors[result.free[k]]) * result.coefficient(at);
   }
@@ -168,13 +168,13 @@ Estimate estimate(const RegressorSystem& system,
   result.covariance = solution.covariance * result.noise_square;
   result.setting_covariance = result.covariance.topLeftCorner(settings, settings);
   for (std::size_t k = 0; k < result.free.size(); ++k) {
-    const Eigen::Index column = settings + static_cast<Eigen::Index>(k);
-    result.coefficient_sigma(static_cast<Eigen::Index>(result.free[k])) =
+    const Eigen::Index column = settings + as_index(k);
+    result.coefficient_sigma(as_index(result.free[k])) =
         std::sqrt(result.covariance(column, column));
   }
   for (std::size_t k = 0; k < regressors.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(k);
-    const bool is_fixed = system.regressors[static_cast<std::size_t>(regressors[k])].fixed;
+    const auto at = as_index(k);
+    const bool is_fixed = system.regressor(regressors[k]).fixed;
     if (is_fixed || result.coefficient_sigma(at) > 0.0) continue;
     const double length = std::max(marginalised.g.col(regressors[k]).norm(), 1e-12);
     result.coefficient_sigma(at) = std::sqrt(result.noise_square) / length;

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/normal.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/statistics.hpp"
@@ -72,15 +73,15 @@ double log_price_of_outliers(const RegressorSystem& system, const std::vector<bo
   std::array<double, 2> rejected{};
   if (system.groups.empty()) {
     for (std::size_t u = 0; u < outliers.size(); ++u) {
-      if (outliers[u]) rejected[static_cast<std::size_t>(system.units[u].rows - 1)] += 1.0;
+      if (outliers[u]) rejected[as_size(system.units[u].rows - 1)] += 1.0;
     }
   } else {
     // Each direction is a slip of its own, and a unit has no more of them than rows.
     std::vector<Eigen::Index> of_unit(system.units.size(), 0);
     for (std::size_t k = 0; k < outliers.size(); ++k) {
       const OutlierGroup& group = system.groups[k];
-      const int unit = system.unit_of_row[static_cast<std::size_t>(group.first_row)];
-      Eigen::Index& own = of_unit[static_cast<std::size_t>(unit)];
+      const int unit = system.unit_of_row[as_size(group.first_row)];
+      Eigen::Index& own = of_unit[as_size(unit)];
       if (outliers[k]) own = std::min(own + (group.direction ? 1 : group.rows), group.rows);
     }
     for (const Eigen::Index directions : of_unit) rejected[0] += static_cast<double>(directions);
@@ -138,22 +139,22 @@ Eigen::VectorXd reduced(const MarginalisedSystem& marginalised, const Eigen::Vec
 double wide_coefficient_sigma(const RegressorSystem& system,
                               const MarginalisedSystem& marginalised,
                               int regressor) {
-  const double usual = system.regressors[static_cast<std::size_t>(regressor)].coefficient_sigma;
+  const double usual = system.regressor(regressor).coefficient_sigma;
   if (usual > 0.0) return usual * kWideSignalToNoise / kUsualSignalToNoise;
   return kWideSignalToNoise / std::max(marginalised.g.col(regressor).norm(), 1e-12);
 }
 
 Eigen::Index NormalEquations::position(int column) const {
   const auto found = std::lower_bound(columns.begin(), columns.end(), column);
-  return static_cast<Eigen::Index>(found - columns.begin());
+  return as_index(found - columns.begin());
 }
 
 Eigen::VectorXd prior_squares(const std::vector<Regressor>& regressors,
                               const std::vector<int>& columns,
                               Eigen::VectorXd squares) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const double sigma = regressors[static_cast<std::size_t>(columns[i])].coefficient_sigma;
-    if (sigma > 0.0) squares(static_cast<Eigen::Index>(i)) = std::pow(kUsualSignalToNoise / sigma, 2);
+    const double sigma = regressors[as_size(columns[i])].coefficient_sigma;
+    if (sigma > 0.0) squares(as_index(i)) = std::pow(kUsualSignalToNoise / sigma, 2);
   }
   return squares;
 }
@@ -162,7 +163,7 @@ NormalEquations normal_equations(const RegressorSystem& system,
                                  const MarginalisedSystem& marginalised,
                                  std::vector<int> columns) {
   NormalEquations equations;
-  std::sort(columns.begin(), columns.end());
+  sort(columns);
   equations.columns = std::move(columns);
   const Eigen::MatrixXd g = marginalised.g.dense(equations.columns);
   equations.ee = marginalised.e.squaredNorm();
@@ -217,7 +218,7 @@ FreeEquations free_equations(const NormalEquations& equations,
                              const std::vector<Regressor>& regressors,
                              std::span<const Eigen::Index> set) {
   const auto regressor = [&](Eigen::Index i) -> const Regressor& {
-    return regressors[static_cast<std::size_t>(equations.columns[static_cast<std::size_t>(i)])];
+    return regressors[as_size(equations.columns[as_size(i)])];
   };
   std::array<Eigen::Index, kMostFreeRegressors> free{};
   Eigen::Index m = 0;
@@ -227,7 +228,7 @@ FreeEquations free_equations(const NormalEquations& equations,
     if (!regressor(i).fixed) {
       if (m == kMostFreeRegressors)
         throw std::length_error(fmt::format("a set of {} regressors, at most {}", set.size(), kMostFreeRegressors));
-      free[static_cast<std::size_t>(m++)] = i;
+      free[as_size(m++)] = i;
       continue;
     }
     result.ee -= 2.0 * equations.ge(i);
@@ -239,7 +240,7 @@ FreeEquations free_equations(const NormalEquations& equations,
   for (FewValues* values : {&result.c, &result.prior_length, &result.low, &result.high}) values->resize(m);
   result.gram.resize(m, m);
   for (Eigen::Index i = 0; i < m; ++i) {
-    const Eigen::Index at = free[static_cast<std::size_t>(i)];
+    const Eigen::Index at = free[as_size(i)];
     const Regressor& own = regressor(at);
     if (!(equations.gg(at, at) > 0.0)) {
       result.is_empty_column = true;
@@ -249,7 +250,7 @@ FreeEquations free_equations(const NormalEquations& equations,
     result.prior_length(i) = length(i) / std::sqrt(equations.prior_square(at));
     result.low(i) = own.lowest * length(i);
     result.high(i) = own.highest * length(i);
-    result.refined[static_cast<std::size_t>(i)] = own.refined;
+    result.refined[as_size(i)] = own.refined;
     double right = equations.ge(at);
     for (const Eigen::Index j : set) {
       if (regressor(j).fixed) right -= equations.gg(at, j);
@@ -257,7 +258,7 @@ FreeEquations free_equations(const NormalEquations& equations,
     result.c(i) = right / length(i);
     for (Eigen::Index j = 0; j <= i; ++j) {
       result.gram(i, j) = result.gram(j, i) =
-          equations.gg(at, free[static_cast<std::size_t>(j)]) / (length(i) * length(j));
+          equations.gg(at, free[as_size(j)]) / (length(i) * length(j));
     }
   }
   return result;
@@ -284,7 +285,7 @@ SetEvidence evidence_at(const FreeEquations& free, double log_det, const NoiseDe
     // Further beyond what it may be than noise takes it, and not merely about null: the data ask
     // for something else.
     const double slack = 2.0 * sigma;
-    const double reach = free.refined[static_cast<std::size_t>(i)] ? 1.0 : 2.0;
+    const double reach = free.refined[as_size(i)] ? 1.0 : 2.0;
     if (ratio(i) > reach * free.high(i) + slack ||
         (free.low(i) < 0.0 && ratio(i) < reach * free.low(i) - slack)) {
       result.log_evidence = kMinusInfinity;

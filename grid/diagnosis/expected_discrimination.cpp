@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/normal.hpp"
 #include "grid/linear_algebra.hpp"
@@ -23,7 +24,7 @@ Member member_of(const Analysis& a, const CauseId& cause) {
   for (std::size_t k = 0; k < a.decision.classes.size(); ++k) {
     const CauseClass& members = a.decision.classes[k];
     const auto found = std::find(members.begin(), members.end(), cause);
-    if (found != members.end()) return {k, static_cast<std::size_t>(found - members.begin())};
+    if (found != members.end()) return {k, as_size(found - members.begin())};
   }
   return {a.decision.classes.size(), 0};
 }
@@ -42,7 +43,7 @@ std::vector<Group> groups_of(const Analysis& a) {
     if (named > 0 ? model.regressors.size() != named : model.regressors.size() > 1) continue;
     std::vector<Member> causes;
     for (const int k : model.regressors) causes.push_back(member_of(a, regressor(a, k).cause));
-    std::sort(causes.begin(), causes.end());
+    sort(causes);
     std::vector<std::size_t> classes;
     for (const Member& cause : causes) classes.push_back(cause.first);
     const bool pattern = named == 0 && model.discrepancy >= 0;
@@ -81,8 +82,7 @@ Eigen::MatrixXd add_discrepancy(const Analysis& a,
   const Eigen::Index settings = fitted.setting_change.size();
   x.leftCols(settings) = kept.of(a.system.by_setting);
   for (std::size_t i = 0; i < fitted.free.size(); ++i) {
-    x.col(settings + static_cast<Eigen::Index>(i)) =
-        kept(a.system.g.col(fitted.regressors[fitted.free[i]]));
+    x.col(settings + as_index(i)) = kept(a.system.g.col(fitted.regressors[fitted.free[i]]));
   }
   linear::add_product(mean, 1.0, k, fitted.discrepancy_weights);
   linear::add_product(design, -1.0, k, covariance.solve(x));
@@ -103,17 +103,17 @@ void predict(const Analysis& a,
   const Eigen::Index settings = fitted.setting_change.size();
   const Eigen::Index to_come = system.by_setting.cols() - settings;
   h.mean = linear::product(system.by_setting.leftCols(settings), fitted.setting_change);
-  const auto free = static_cast<Eigen::Index>(fitted.free.size());
+  const auto free = std::ssize(fitted.free);
   Eigen::MatrixXd design(system.by_setting.rows(), settings + free);
   design.leftCols(settings) = system.by_setting.leftCols(settings);
   Eigen::Index column = settings;
   for (std::size_t k = 0; k < fitted.regressors.size(); ++k) {
-    const Regressor& d = a.system.regressors[static_cast<std::size_t>(fitted.regressors[k])];
+    const Regressor& d = a.system.regressor(fitted.regressors[k]);
     const auto g = column_of_cause(d);
     const Eigen::VectorXd column_of =
         g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(system.by_setting.rows()));
-    h.mean += column_of * fitted.coefficient(static_cast<Eigen::Index>(k));
-    if (std::find(fitted.free.begin(), fitted.free.end(), k) != fitted.free.end()) {
+    h.mean += column_of * fitted.coefficient(as_index(k));
+    if (contains(fitted.free, k)) {
       design.col(column++) = column_of;
     }
   }
@@ -141,14 +141,12 @@ double distance(const Alternative& k, const Alternative& l, const std::vector<Ei
 /// D between all alternatives.
 Eigen::MatrixXd distances(const std::vector<Alternative>& alternatives,
                           const std::vector<Eigen::Index>& rows) {
-  const auto count = static_cast<Eigen::Index>(alternatives.size());
+  const auto count = std::ssize(alternatives);
   Eigen::MatrixXd d = Eigen::MatrixXd::Zero(count, count);
   if (rows.empty()) return d;
   for (Eigen::Index k = 0; k < count; ++k) {
     for (Eigen::Index l = 0; l < k; ++l) {
-      d(k, l) = d(l, k) = distance(alternatives[static_cast<std::size_t>(k)],
-                                   alternatives[static_cast<std::size_t>(l)],
-                                   rows);
+      d(k, l) = d(l, k) = distance(alternatives[as_size(k)], alternatives[as_size(l)], rows);
     }
   }
   return d;
@@ -159,7 +157,7 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> groups_in(
     const std::vector<Alternative>& alternatives) {
   std::vector<std::pair<Eigen::Index, Eigen::Index>> result;
   for (std::size_t k = 0; k < alternatives.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(k);
+    const auto at = as_index(k);
     if (k == 0 || alternatives[k].group != alternatives[k - 1].group) result.emplace_back(at, at);
     result.back().second = at + 1;
   }
@@ -178,9 +176,7 @@ std::vector<Alternative> alternatives_of_best(const Analysis& a) {
   double all = 0.0;
   for (const Group& group : groups) all += group.probability;
   std::erase_if(groups, [&](const Group& g) { return g.probability < kLeastProbability * all; });
-  std::stable_sort(groups.begin(), groups.end(), [](const Group& x, const Group& y) {
-    return x.probability > y.probability;
-  });
+  stable_sort(groups, [](const Group& x, const Group& y) { return x.probability > y.probability; });
   if (groups.size() > kMostGroups) groups.resize(kMostGroups);
   std::vector<Alternative> result;
   for (std::size_t number = 0; number < groups.size(); ++number) {
@@ -257,9 +253,7 @@ ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& a
                                                const std::vector<Eigen::Index>& rows) {
   const Eigen::MatrixXd d = distances(alternatives, rows);
   const auto groups = groups_in(alternatives);
-  const auto p = [&](Eigen::Index k) {
-    return alternatives[static_cast<std::size_t>(k)].probability;
-  };
+  const auto p = [&](Eigen::Index k) { return alternatives[as_size(k)].probability; };
   const auto sum = [](const auto& group, const auto& term) {
     double total = 0.0;
     for (Eigen::Index k = group.first; k < group.second; ++k) total += term(k);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/other_places.hpp"
 #include "grid/linear_algebra.hpp"
@@ -18,8 +19,8 @@ constexpr int kImprovementColumns =
 constexpr int kImprovementRows = 13;
 
 bool hangs_on_visits(const Analysis& a) {
-  return std::any_of(a.decision.regressors.begin(), a.decision.regressors.end(), [&](int k) {
-    const Regressor& d = a.system.regressors[static_cast<std::size_t>(k)];
+  return any_of(a.decision.regressors, [&](int k) {
+    const Regressor& d = a.system.regressor(k);
     return !d.slip && model::effects::depends_on_visit(*d.cause.effect);
   });
 }
@@ -72,12 +73,12 @@ ExpectedImprovement improvement_of_distances(const Analysis& a) {
   const Eigen::VectorXd moved =
       left_of_machine(a.system, plain, plain.left) - left_of_machine(a.system, named, named.left);
   const Eigen::Index settings = a.system.by_setting.cols() - a.system.nuisances;
-  const auto free = static_cast<Eigen::Index>(named.free.size());
+  const auto free = std::ssize(named.free);
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(moved.size(), named.covariance.rows());
   design.leftCols(settings) = a.system.by_setting.leftCols(settings);
   for (Eigen::Index k = 0; k < free; ++k) {
     design.col(a.system.by_setting.cols() + k) =
-        a.system.g.col(named.regressors[named.free[static_cast<std::size_t>(k)]]);
+        a.system.g.col(named.regressors[named.free[as_size(k)]]);
   }
   return over_units(a.system, moved, design, named.covariance);
 }
@@ -107,7 +108,7 @@ ExpectedImprovement expected_improvement(const Analysis& a) {
     const Regressor& d = regressor(a, causes[k]);
     const auto g = d.slip ? std::nullopt : signature(area, a.state, *there, d.cause, d.values);
     const Eigen::VectorXd column = g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(moved.size()));
-    moved -= column * named.coefficient(static_cast<Eigen::Index>(k));
+    moved -= column * named.coefficient(as_index(k));
     const auto free = std::find(named.free.begin(), named.free.end(), k);
     if (free != named.free.end()) design.col(settings + (free - named.free.begin())) = column;
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/cause_parameters.hpp"
 #include "grid/diagnosis/constants.hpp"
@@ -41,7 +42,7 @@ Cause describe(const Analysis& a, std::size_t index) {
   for (const int k : a.decision.regressors) {
     const CauseId& acting = regressor(a, k).cause;
     const bool several = a.decision.verdict == Verdict::several_causes;
-    if (several && std::find(members.begin(), members.end(), acting) == members.end()) {
+    if (several && !contains(members, acting)) {
       others.push_back(k);
     }
   }
@@ -103,7 +104,7 @@ std::vector<Hypothesis> hypotheses(const Analysis& a) {
   result.push_back({"unknown", "", a.decision.discrepancy});
   result.push_back({"noise", "", a.decision.noise});
   result.push_back({"bad_points", "", a.decision.outliers});
-  std::stable_sort(result.begin(), result.end(), [](const Hypothesis& x, const Hypothesis& y) {
+  stable_sort(result, [](const Hypothesis& x, const Hypothesis& y) {
     return x.probability > y.probability;
   });
   return result;
@@ -119,7 +120,7 @@ constexpr double kMayAct = 0.05;
 double probability_of(const Analysis& a, const CauseId& cause) {
   for (const ClassProbability& one : a.decision.marginal) {
     const CauseClass& members = a.decision.classes[one.index];
-    if (std::find(members.begin(), members.end(), cause) != members.end()) return one.probability;
+    if (contains(members, cause)) return one.probability;
   }
   return 0.0;
 }
@@ -129,7 +130,7 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
   const MarginalisedSystem& marginalised = marginalised_system(a);
   std::vector<Bound> result;
   for (const CauseId& cause : a.candidates.testable) {
-    if (std::find(listed.begin(), listed.end(), cause) != listed.end()) continue;
+    if (contains(listed, cause)) continue;
     const int column = best_regressor(a, cause);
     const EffectParameter& size = cause.effect->parameters.front();
     const double left = column < 0 ? 0.0 : marginalised.g.col(column).norm();
@@ -144,7 +145,7 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
       continue;
     }
     std::vector<int> set = a.decision.regressors;
-    if (std::find(set.begin(), set.end(), column) == set.end()) set.push_back(column);
+    if (!contains(set, column)) set.push_back(column);
     const Estimate fitted = estimate_with(a, set);
     const Eigen::Index at = position_of(fitted, column);
     const double s = fitted.coefficient_sigma(at);
@@ -166,7 +167,7 @@ std::vector<CalibratedSetting> settings_found(const Analysis& a) {
   const ObservationSet& session = a.session;
   std::vector<CalibratedSetting> result;
   for (std::size_t k = 0; k < session.settings.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(k);
+    const auto at = as_index(k);
     if (!session.knows(k)) continue;
     CalibratedSetting one;
     one.setting = session.settings[k];

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/discrepancy_basis.hpp"
 #include "grid/diagnosis/ties.hpp"
 #include "grid/parallel.hpp"
@@ -44,10 +45,9 @@ class Scout {
         discrepancy, prior_of_nothing_ + share + collector_.noise().log_density(d.ee), {}};
     std::vector<std::pair<double, int>> all;
     for (std::size_t k = 0; k < plain_.columns.size(); ++k) {
-      all.emplace_back(prior_[k] + share + single(d, static_cast<Eigen::Index>(k)),
-                       plain_.columns[k]);
+      all.emplace_back(prior_[k] + share + single(d, as_index(k)), plain_.columns[k]);
     }
-    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    sort(all, [](const auto& a, const auto& b) {
       return a.first != b.first ? a.first > b.first : a.second < b.second;
     });
     all.resize(count_with_ties(
@@ -65,8 +65,7 @@ class Scout {
 
   /// log evidence of one regressor but for determinants that all share, its bounds let go.
   [[nodiscard]] double single(const DiscrepancyBasis::GivenKernel::Diagonal& d, Eigen::Index k) const {
-    const Regressor& own =
-        system_.regressors[static_cast<std::size_t>(plain_.columns[static_cast<std::size_t>(k)])];
+    const Regressor& own = system_.regressor(plain_.columns[as_size(k)]);
     const NoiseDensity& noise = collector_.noise();
     if (own.fixed) return noise.log_density_as_stated(d.ee - 2.0 * d.ge(k) + d.gg(k));
     const double gg = std::max(d.gg(k), 0.0);
@@ -84,7 +83,7 @@ class Scout {
                                 const std::vector<int>& set) const {
     const NormalEquations equations = given.equations(family().strength_of(discrepancy), set);
     ColumnSet all;
-    for (std::size_t k = 0; k < set.size(); ++k) all.push_back(static_cast<Eigen::Index>(k));
+    for (std::size_t k = 0; k < set.size(); ++k) all.push_back(as_index(k));
     return set_evidence(equations, system_.regressors, all, collector_.noise()).log_evidence +
            collector_.log_prior_of(set, discrepancy);
   }
@@ -126,7 +125,7 @@ class GivenDiscrepancySearch {
     }
     const std::vector<WeighedSet> alone = parents;
     for (std::size_t size = 2; size <= kMostCauses; ++size) {
-      std::stable_sort(parents.begin(), parents.end(), heavier);
+      stable_sort(parents, heavier);
       if (parents.empty() || parents.front().weight < collector_.best() - kGrowWithin) return;
       parents.resize(count_with_ties(parents, kBeamGivenDiscrepancy, weight_of));
       for (const WeighedSet& parent : parents) extend(parent.set, alone);
@@ -144,7 +143,7 @@ class GivenDiscrepancySearch {
   void extend(const ColumnSet& parent, const std::vector<WeighedSet>& alone) {
     for (const WeighedSet& one : alone) {
       const Eigen::Index own = one.set.front();
-      const bool fits = std::all_of(parent.begin(), parent.end(), [&](Eigen::Index p) {
+      const bool fits = all_of(parent, [&](Eigen::Index p) {
         return compatible(regressor(p), regressor(own), limits_);
       });
       if (!fits) continue;
@@ -156,8 +155,7 @@ class GivenDiscrepancySearch {
   }
 
   [[nodiscard]] const Regressor& regressor(Eigen::Index i) const {
-    return system_
-        .regressors[static_cast<std::size_t>(equations_.columns[static_cast<std::size_t>(i)])];
+    return system_.regressor(equations_.columns[as_size(i)]);
   }
 
   const RegressorSystem& system_;
@@ -176,7 +174,7 @@ class PlacesOfCauses {
 
   /// Whether this one is among the first `most` of its cause, or ties with the last of these.
   [[nodiscard]] bool takes(int regressor, double score) {
-    const CauseId& cause = system_.regressors[static_cast<std::size_t>(regressor)].cause;
+    const CauseId& cause = system_.regressor(regressor).cause;
     const auto known = std::find_if(
         taken_.begin(), taken_.end(), [&](const Taken& own) { return own.cause == cause; });
     Taken& own = known != taken_.end() ? *known : taken_.emplace_back(Taken{cause, 0, 0.0});
@@ -215,28 +213,26 @@ std::vector<int> columns_to_scout(const RegressorSystem& system,
   PlacesOfCauses places(system, 4);
   std::vector<std::pair<double, int>> order;
   for (std::size_t k = 0; k < plain.columns.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(k);
-    const bool fixed = system.regressors[static_cast<std::size_t>(plain.columns[k])].fixed;
+    const auto at = as_index(k);
+    const bool fixed = system.regressor(plain.columns[k]).fixed;
     const double gain = fixed ? 2.0 * plain.ge(at) - plain.gg(at, at)
                               : plain.ge(at) * plain.ge(at) / plain.gg(at, at);
     order.emplace_back(-gain, plain.columns[k]);
   }
-  std::sort(order.begin(), order.end());
+  sort(order);
   std::vector<int> result;
   for (const auto& [gain, k] : order) {
     if (places.takes(k, gain)) result.push_back(k);
   }
   for (const auto& set : best_models) result.insert(result.end(), set.begin(), set.end());
-  std::sort(result.begin(), result.end());
+  sort(result);
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 
 /// Those that hold a share of the weight, best first.
 std::vector<int> worth_searching(std::vector<Scouted> scouted) {
-  std::stable_sort(scouted.begin(), scouted.end(), [](const Scouted& a, const Scouted& b) {
-    return a.weight > b.weight;
-  });
+  stable_sort(scouted, [](const Scouted& a, const Scouted& b) { return a.weight > b.weight; });
   scouted.resize(count_with_ties(
       scouted, kMostDiscrepanciesSearched, [](const Scouted& own) { return own.weight; }));
   std::vector<int> result;
@@ -294,7 +290,7 @@ std::vector<double> search_given_discrepancies(const RegressorSystem& system,
   for_each_index(kernels.size(), [&](std::size_t k) {
     const DiscrepancyBasis::GivenKernel given = basis.given(kernels[k], few);
     for (int strength = 0; strength < strengths; ++strength) {
-      Scouted& own = scouted[k * family.strengths.size() + static_cast<std::size_t>(strength)];
+      Scouted& own = scouted[k * family.strengths.size() + as_size(strength)];
       own = first_look.look_at(given, static_cast<int>(kernels[k]) * strengths + strength);
       of_kernel[k] = std::max(of_kernel[k], own.weight);
     }
@@ -310,7 +306,7 @@ std::vector<double> search_given_discrepancies(const RegressorSystem& system,
                      : worth_trying(system, closer_look.look_at(given, discrepancy));
     std::vector<int> used = singles;
     for (const auto& set : best_models) used.insert(used.end(), set.begin(), set.end());
-    std::sort(used.begin(), used.end());
+    sort(used);
     used.erase(std::unique(used.begin(), used.end()), used.end());
     GivenDiscrepancySearch(system,
                  given.equations(family.strength_of(discrepancy), used),

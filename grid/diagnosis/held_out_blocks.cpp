@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -42,7 +43,7 @@ HeldOutBlocks blocks_by_hole(const ObservationSet& session) {
     }
   }
   std::erase_if(result.units, [](const auto& block) { return block.empty(); });
-  const bool enough = std::all_of(result.units.begin(), result.units.end(), [&](const auto& block) {
+  const bool enough = all_of(result.units, [&](const auto& block) {
     return session.units.size() - block.size() >= kFewestDistances;
   });
   if (!enough) result.units.clear();

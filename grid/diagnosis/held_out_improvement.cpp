@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/expected_improvement.hpp"
 #include "grid/diagnosis/held_out_blocks.hpp"
@@ -13,8 +14,8 @@
 #include "grid/diagnosis/uncalibrated.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/parallel.hpp"
-#include "grid/statistics.hpp"
 #include "grid/random.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -30,7 +31,7 @@ bool names_agree(const Fold& fold, const Analysis& a) {
     whole.push_back(a.decision.classes[index].front());
   const std::vector<CauseId> here = leader(fold.named);
   if (whole.empty() || here.empty()) return whole.empty() && here.empty();
-  return std::find(whole.begin(), whole.end(), here.front()) != whole.end();
+  return contains(whole, here.front());
 }
 
 /// Root mean square of what noise alone does to a reading, at the tool.
@@ -50,8 +51,8 @@ BeforeCalibration before_calibration(const Analysis& a, const std::vector<std::s
   const ObservationSet& session = a.session;
   const auto stated = linearise(session, stated_state(session), {});
   if (!stated) return result;
-  constexpr auto kOfMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
-  const auto sheet = static_cast<Eigen::Index>(session.settings.size()) - kOfMachine;
+  constexpr auto kOfMachine = std::ssize(model::kMachineSettings);
+  const auto sheet = std::ssize(session.settings) - kOfMachine;
   bool moves = false;
   for (std::size_t k = model::kMachineSettings.size(); k < session.settings.size(); ++k) {
     moves =
@@ -158,7 +159,7 @@ HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
   for (const auto& e : tool_mm) size.push_back(e.norm());
   result.rms_mm = rms_length(tool_mm);
   std::vector<double> sorted = size;
-  std::sort(sorted.begin(), sorted.end());
+  sort(sorted);
   const auto at = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(sorted.size())));
   result.percentile_95_mm = sorted[std::max<std::size_t>(at, 1) - 1];
   const std::size_t blocks = 1 + *std::max_element(block.begin(), block.end());
@@ -182,7 +183,7 @@ HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
     }
     drawn.push_back(n > 0.0 ? std::sqrt(s / n) : 0.0);
   }
-  std::sort(drawn.begin(), drawn.end());
+  sort(drawn);
   result.low_mm = drawn[kDraws / 20];
   result.high_mm = drawn[kDraws - 1 - kDraws / 20];
   return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/kept_rows.hpp"
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -37,8 +38,8 @@ std::vector<Rejected> rejected_units(const RegressorSystem& system,
   }
   for (std::size_t k = 0; k < system.groups.size(); ++k) {
     if (!rejected[k]) continue;
-    const auto row = static_cast<std::size_t>(system.groups[k].first_row);
-    reject(system.groups[k], units[static_cast<std::size_t>(system.unit_of_row[row])]);
+    const auto row = as_size(system.groups[k].first_row);
+    reject(system.groups[k], units[as_size(system.unit_of_row[row])]);
   }
   return units;
 }
@@ -53,7 +54,7 @@ KeptRows::KeptRows(const RegressorSystem& system, const std::vector<bool>& rejec
       rows_.push_back(row);
       continue;
     }
-    const auto unit = static_cast<std::size_t>(number);
+    const auto unit = as_size(number);
     const Rejected& own = of_unit[unit];
     if (own.whole) continue;
     const bool first = system.units[unit].first_row == row;

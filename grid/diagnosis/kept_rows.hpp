@@ -17,6 +17,7 @@
 #include <optional>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -38,7 +39,7 @@ class KeptRows {
   KeptRows(const RegressorSystem& system, const std::vector<bool>& rejected);
   [[nodiscard]] static KeptRows all(const RegressorSystem& system);
 
-  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(rows_.size()); }
+  [[nodiscard]] Eigen::Index size() const { return std::ssize(rows_); }
   /// Numbers in the system, ascending; of a row across a direction that of its unit's first.
   [[nodiscard]] const std::vector<Eigen::Index>& rows() const { return rows_; }
   [[nodiscard]] const std::vector<Unit>& units() const { return units_; }
@@ -51,7 +52,7 @@ class KeptRows {
   }
 
  private:
-  static std::size_t index(Eigen::Index row) { return static_cast<std::size_t>(row); }
+  static std::size_t index(Eigen::Index row) { return as_size(row); }
   std::vector<Eigen::Index> rows_;
   std::vector<Unit> units_;
 };

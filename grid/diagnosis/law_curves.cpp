@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::diagnosis {
 namespace {
 
@@ -37,7 +39,7 @@ class CurveList {
     start_.direction_rad = direction_rad;
     start_.from = *low;
     start_.to = *high;
-    std::sort(values_.begin(), values_.end());
+    sort(values_);
     double most = 0.0;
     for (const LawEntrance& entrance : law_entrances(system_, of))
       most = std::max(most, start_.span() / shortest_wave(of, entrance.enters, start_.span()));
@@ -235,16 +237,16 @@ namespace {
 /// Values of every amplitude at each of some points of the grid.
 Eigen::RowVectorXd values_at(const LawCurve& curve, const std::vector<double>& at, double v) {
   const Eigen::Index each = columns_of(curve.shape);
-  Eigen::RowVectorXd values(each * static_cast<Eigen::Index>(at.size()));
+  Eigen::RowVectorXd values(each * std::ssize(at));
   for (Eigen::Index k = 0; k < values.size(); ++k)
-    values(k) = basis(curve, at[static_cast<std::size_t>(k / each)], k % each, v);
+    values(k) = basis(curve, at[as_size(k / each)], k % each, v);
   return values;
 }
 
 }  // namespace
 
 Eigen::MatrixXd LawColumns::of(const LawCurve& curve, const std::vector<double>& at) const {
-  const Eigen::Index count = columns_of(curve.shape) * static_cast<Eigen::Index>(at.size());
+  const Eigen::Index count = columns_of(curve.shape) * std::ssize(at);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(system_.e.size(), count);
   for (std::size_t u = 0; u < system_.units.size(); ++u) {
     const SystemUnit& unit = system_.units[u];

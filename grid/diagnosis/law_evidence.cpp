@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/law_system.hpp"
 #include "grid/statistics.hpp"
 
@@ -30,11 +31,10 @@ std::vector<std::vector<int>> leading_sets(const Analysis& a) {
     weight[model.regressors] += a.comparison.probability(model);
   std::vector<std::pair<double, std::vector<int>>> order;
   for (const auto& [set, own] : weight) order.emplace_back(-own, set);
-  std::sort(order.begin(), order.end());
+  sort(order);
   std::vector<std::vector<int>> sets = {{}};
   const auto add = [&](const std::vector<int>& set) {
-    if (sets.size() < kMostSets && std::find(sets.begin(), sets.end(), set) == sets.end())
-      sets.push_back(set);
+    if (sets.size() < kMostSets && !contains(sets, set)) sets.push_back(set);
   };
   constexpr double kHardly = 0.01;
   for (const auto& [minus, set] : order) {
@@ -92,7 +92,7 @@ class LawSearch {
       }
     }
     log_without_ = log_sum(weights);
-    std::sort(all.begin(), all.end());
+    sort(all);
     for (const auto& [minus, context] : all) {
       if (without_.size() == kMostContexts / 2 || minus > all.front().first + kContextsWithin) break;
       without_.push_back(context);
@@ -109,7 +109,7 @@ class LawSearch {
       if (context == first_.front()) continue;
       if (context.discrepancy >= 0) {
         const std::size_t kernel = system_.family().kernel_of(context.discrepancy);
-        const bool known = std::find(kernels.begin(), kernels.end(), kernel) != kernels.end();
+        const bool known = contains(kernels, kernel);
         if (kernels.size() == 2 || known) continue;
         kernels.push_back(kernel);
       }
@@ -121,7 +121,7 @@ class LawSearch {
   std::vector<LawPoint> weighed(const LawCurve& curve, const std::vector<double>& grid) {
     const Eigen::Index each = columns_of(curve.shape);
     std::vector<LawPoint> points;
-    const auto step = static_cast<std::size_t>(kChunk / each);
+    const auto step = as_size(kChunk / each);
     for (std::size_t from = 0; from < grid.size(); from += step) {
       const std::vector<double> own(
           grid.begin() + static_cast<std::ptrdiff_t>(from),
@@ -146,7 +146,7 @@ class LawSearch {
 
   static std::vector<Eigen::Index> columns_at(std::size_t k, Eigen::Index each) {
     std::vector<Eigen::Index> at;
-    for (Eigen::Index i = 0; i < each; ++i) at.push_back(static_cast<Eigen::Index>(k) * each + i);
+    for (Eigen::Index i = 0; i < each; ++i) at.push_back(as_index(k) * each + i);
     return at;
   }
 
@@ -171,7 +171,7 @@ class LawSearch {
       const double own = log_sum(terms) + std::log(kLawPrior * curve.share);
       if (std::isfinite(own)) order.emplace_back(-own, c);
     }
-    std::sort(order.begin(), order.end());
+    sort(order);
     for (const auto& [minus, c] : order) {
       if (leading_.size() == kMostCurves || minus > order.front().first + kLawsWithin) break;
       leading_.push_back(c);
@@ -198,14 +198,12 @@ class LawSearch {
       for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(at - 1 - pass, 0);
            k < std::min(at + 1 + pass, last);
            ++k) {
-        between(points[static_cast<std::size_t>(k)].at, points[static_cast<std::size_t>(k) + 1].at);
+        between(points[as_size(k)].at, points[as_size(k) + 1].at);
       }
       if (finer.empty()) return;
       const std::vector<LawPoint> more = weighed(curve, finer);
       points.insert(points.end(), more.begin(), more.end());
-      std::sort(points.begin(), points.end(), [](const LawPoint& a, const LawPoint& b) {
-        return a.at < b.at;
-      });
+      sort(points, [](const LawPoint& a, const LawPoint& b) { return a.at < b.at; });
     }
     curve.grid.clear();
     for (const LawPoint& point : points) curve.grid.push_back(point.at);
@@ -246,9 +244,8 @@ class LawSearch {
           chosen.push_back({c, k, {}, prior, prior + points_[c][k].weight});
       }
     }
-    std::stable_sort(chosen.begin(), chosen.end(), [](const Chosen& a, const Chosen& b) {
-      return a.first_weight > b.first_weight;
-    });
+    stable_sort(chosen,
+                [](const Chosen& a, const Chosen& b) { return a.first_weight > b.first_weight; });
     constexpr std::size_t kMostPoints = 240;
     std::size_t count = 0;
     while (count < std::min(chosen.size(), kMostPoints) &&
@@ -282,8 +279,8 @@ class LawSearch {
   std::vector<LawContext> contexts_with(const std::vector<Chosen>& chosen) {
     std::vector<Chosen> best;
     for (const Chosen& own : chosen) {
-      const bool known = std::any_of(
-          best.begin(), best.end(), [&](const Chosen& other) { return other.curve == own.curve; });
+      const bool known =
+          any_of(best, [&](const Chosen& other) { return other.curve == own.curve; });
       if (!known && best.size() < 3) best.push_back(own);
     }
     take(best);
@@ -301,17 +298,16 @@ class LawSearch {
     }
     std::vector<std::pair<double, LawContext>> order;
     for (const auto& [context, w] : weight) order.emplace_back(-w, context);
-    std::sort(order.begin(), order.end());
+    sort(order);
     std::vector<LawContext> contexts;
     for (const auto& [minus, context] : order) {
       if (contexts.size() == kMostContexts || minus > order.front().first + kContextsWithin) break;
       contexts.push_back(context);
     }
     for (const LawContext& context : without_) {
-      if (std::find(contexts.begin(), contexts.end(), context) == contexts.end())
-        contexts.push_back(context);
+      if (!contains(contexts, context)) contexts.push_back(context);
     }
-    std::sort(contexts.begin(), contexts.end(), [](const LawContext& a, const LawContext& b) {
+    sort(contexts, [](const LawContext& a, const LawContext& b) {
       return std::pair(a.discrepancy, a.set) < std::pair(b.discrepancy, b.set);
     });
     return contexts;
@@ -347,9 +343,8 @@ class LawSearch {
       laws[k].log_weight = log_sum(terms[k]) + chosen[k].log_prior;
     }
     std::erase_if(laws, [](const WeighedLaw& law) { return !std::isfinite(law.log_weight); });
-    std::stable_sort(laws.begin(), laws.end(), [](const WeighedLaw& a, const WeighedLaw& b) {
-      return a.log_weight > b.log_weight;
-    });
+    stable_sort(
+        laws, [](const WeighedLaw& a, const WeighedLaw& b) { return a.log_weight > b.log_weight; });
     return laws;
   }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/laws.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -18,7 +19,7 @@ void take_laws(std::vector<Law> laws, Diagnosis& d) {
       one.probability *= 1.0 - some_law;
   }
   d.hypotheses.push_back({"law", "", some_law});
-  std::stable_sort(d.hypotheses.begin(), d.hypotheses.end(), [](const Hypothesis& x, const Hypothesis& y) {
+  stable_sort(d.hypotheses, [](const Hypothesis& x, const Hypothesis& y) {
     return x.probability > y.probability;
   });
   if (claimed_law(d) != nullptr && d.causes.empty()) d.verdict = Verdict::model_discrepancy;

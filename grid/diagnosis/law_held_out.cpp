@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/bed_parts.hpp"
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/law_model.hpp"
@@ -18,14 +19,11 @@ constexpr std::size_t kFolds = 4;
 /// Values of a place or period that a part may choose among: the posterior of one is narrower than these.
 constexpr std::size_t kMostValues = 5;
 
-bool has(const Units& units, std::size_t unit) {
-  return std::find(units.begin(), units.end(), unit) != units.end();
-}
+bool has(const Units& units, std::size_t unit) { return contains(units, unit); }
 
 /// Distances between holes.
 bool joins_places(const RegressorSystem& system) {
-  return std::any_of(
-      system.units.begin(), system.units.end(), [](const SystemUnit& unit) { return unit.places.size() > 1; });
+  return any_of(system.units, [](const SystemUnit& unit) { return unit.places.size() > 1; });
 }
 
 /// Every fourth place.
@@ -39,7 +37,7 @@ std::vector<Units> folds(const RegressorSystem& system, const KeptRows& kept) {
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
     for (const KeptRows::Unit& unit : kept.units()) {
       const auto& places = system.units[unit.unit].places;
-      if (std::any_of(places.begin(), places.end(), [&](const auto& own) { return own.place % kFolds == fold; }))
+      if (any_of(places, [&](const auto& own) { return own.place % kFolds == fold; }))
         result[fold].push_back(unit.unit);
     }
   }
@@ -53,13 +51,13 @@ Units quarter_of_places(const RegressorSystem& system, const KeptRows& kept, dou
     const model::MarkPoint& mark = system.places[p].mark;
     order.emplace_back(-(mark.x_mm * std::cos(towards_rad) + mark.y_mm * std::sin(towards_rad)), p);
   }
-  std::sort(order.begin(), order.end());
+  sort(order);
   order.resize(order.size() / 4);
   Units units;
   for (const KeptRows::Unit& unit : kept.units()) {
     const auto& places = system.units[unit.unit].places;
-    if (std::any_of(places.begin(), places.end(), [&](const auto& own) {
-          return std::any_of(order.begin(), order.end(), [&](const auto& p) { return p.second == own.place; });
+    if (any_of(places, [&](const auto& own) {
+          return any_of(order, [&](const auto& p) { return p.second == own.place; });
         }))
       units.push_back(unit.unit);
   }
@@ -106,7 +104,7 @@ class Predictor {
   const LawModel& likeliest(const Rows& kept) const {
     std::vector<double> density;
     for (const LawModel& model : with_) density.push_back(model.log_density(kept));
-    return with_[static_cast<std::size_t>(std::max_element(density.begin(), density.end()) - density.begin())];
+    return with_[as_size(std::max_element(density.begin(), density.end()) - density.begin())];
   }
 
   double square_mm2(const LawModel& model, const Rows& kept, const Rows& out, const Units& units) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/expected_discrimination.hpp"
 #include "grid/linear_algebra.hpp"
 
@@ -85,8 +86,8 @@ LawModel::Expected LawModel::expected_of(const RegressorSystem& next,
   there.leftCols(settings) =
       linear::scaled_columns(next.by_setting.leftCols(settings), system_.sigma);
   for (Eigen::Index k = 0; k < columns.cols(); ++k) {
-    here.col(settings + k) = columns_[static_cast<std::size_t>(k)];
-    there.col(settings + k) = sigmas_[static_cast<std::size_t>(k)] * columns.col(k);
+    here.col(settings + k) = columns_[as_size(k)];
+    there.col(settings + k) = sigmas_[as_size(k)] * columns.col(k);
   }
   Eigen::MatrixXd across = linear::product(there, linear::transposed(here));
   Eigen::MatrixXd own = linear::outer(there);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/bed_parts.hpp"
 #include "grid/diagnosis/law_model.hpp"
 
@@ -15,7 +16,7 @@ using Rows = std::vector<Eigen::Index>;
 Rows rows_without(const KeptRows& kept, const std::vector<std::size_t>& units) {
   Rows rows;
   for (const KeptRows::Unit& unit : kept.units()) {
-    if (std::find(units.begin(), units.end(), unit.unit) != units.end()) continue;
+    if (contains(units, unit.unit)) continue;
     for (Eigen::Index k = 0; k < unit.rows; ++k) rows.push_back(unit.at + k);
   }
   return rows;

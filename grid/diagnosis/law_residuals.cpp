@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/law_model.hpp"
 
@@ -42,9 +43,7 @@ std::vector<LawResidual> residuals_about(const Analysis& a,
       points.push_back(point);
     }
   }
-  std::stable_sort(points.begin(), points.end(), [](const LawResidual& x, const LawResidual& y) {
-    return x.index < y.index;
-  });
+  stable_sort(points, [](const LawResidual& x, const LawResidual& y) { return x.index < y.index; });
   return points;
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -28,8 +29,7 @@ LawSystem::LawSystem(const Analysis& a,
     sets_.push_back(std::move(at));
     log_prior_.push_back({log_prior(a.system, set, false), log_prior(a.system, set, true)});
   }
-  for (const int k : all)
-    cause_regressors_.push_back(from_.regressors[static_cast<std::size_t>(k)]);
+  for (const int k : all) cause_regressors_.push_back(from_.regressors[as_size(k)]);
   own_.units = from_.units;
   own_.places = from_.places;
   own_.entries = from_.entries;
@@ -54,7 +54,7 @@ void LawSystem::take(const Eigen::MatrixXd& laws) {
   law.lowest = -std::numeric_limits<double>::infinity();
   law.highest = std::numeric_limits<double>::infinity();
   own_.regressors = cause_regressors_;
-  own_.regressors.resize(cause_regressors_.size() + static_cast<std::size_t>(laws.cols()), law);
+  own_.regressors.resize(cause_regressors_.size() + as_size(laws.cols()), law);
   std::vector<int> all(own_.regressors.size());
   std::iota(all.begin(), all.end(), 0);
   given_.clear();
@@ -97,7 +97,7 @@ LawAmplitudes LawSystem::amplitudes(const NormalEquations& equations,
   const Eigen::VectorXd c = equations.ge(all);
   const Eigen::VectorXd b = factor.solve(c);
   const double square = noise_.noise_square(std::max(equations.ee - c.dot(b), 0.0));
-  const auto m = static_cast<Eigen::Index>(laws.size());
+  const auto m = std::ssize(laws);
   return {b.tail(m), square * factor.inverse().bottomRightCorner(m, m)};
 }
 

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/law_held_out.hpp"
 #include "grid/diagnosis/law_parts.hpp"
 #include "grid/diagnosis/law_residuals.hpp"
@@ -44,8 +45,7 @@ struct FoundPoint {
     const LawCurve& own = curve();
     if (!is_continuous(own.shape)) return law->log_weight;
     const auto at = std::find(own.grid.begin(), own.grid.end(), law->at) - own.grid.begin();
-    return law->log_weight - std::log(own.mass[static_cast<std::size_t>(at)]) +
-           std::log(density_at(own, law->at));
+    return law->log_weight - std::log(own.mass[as_size(at)]) + std::log(density_at(own, law->at));
   }
 };
 
@@ -93,8 +93,8 @@ PointParameters parameters_of(const LawCurve& curve, const WeighedLaw& law) {
     }
     case LawShape::step: {
       // Anywhere between two readings.
-      const std::size_t k = static_cast<std::size_t>(
-          std::find(curve.grid.begin(), curve.grid.end(), law.at) - curve.grid.begin());
+      const std::size_t k =
+          as_size(std::find(curve.grid.begin(), curve.grid.end(), law.at) - curve.grid.begin());
       const double gap = k < curve.mass.size() ? curve.mass[k] * curve.span() : 0.0;
       return {{a(0), law.at}, {c(0, 0), gap * gap / 12.0}};
     }
@@ -270,9 +270,8 @@ LawsFound laws_of(const Analysis& a, std::vector<LawEvidence> evidence) {
   for (auto& law : worth) {
     if (law) laws.push_back(*std::move(law));
   }
-  std::stable_sort(laws.begin(), laws.end(), [](const auto& x, const auto& y) {
-    return x.first.probability > y.first.probability;
-  });
+  stable_sort(
+      laws, [](const auto& x, const auto& y) { return x.first.probability > y.first.probability; });
   // Parts of the bed may deny what all of it says.
   std::erase_if(laws, [](const auto& law) { return law.first.probability < kLeastLaw; });
   double any = 0.0;
@@ -281,9 +280,8 @@ LawsFound laws_of(const Analysis& a, std::vector<LawEvidence> evidence) {
   if (laws.size() > kMostLaws) laws.erase(laws.begin() + kMostLaws, laws.end());
   for (auto& [law, heaviest] : laws) {
     found.laws.push_back(std::move(law));
-    const auto at = static_cast<std::size_t>(heaviest.evidence - found.evidence.data());
-    found.heaviest.push_back(
-        {at, static_cast<std::size_t>(heaviest.law - found.evidence[at].laws.data())});
+    const auto at = as_size(heaviest.evidence - found.evidence.data());
+    found.heaviest.push_back({at, as_size(heaviest.law - found.evidence[at].laws.data())});
   }
   return found;
 }

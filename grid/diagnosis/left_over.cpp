@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/linear_algebra.hpp"
@@ -23,12 +24,12 @@ Eigen::MatrixXd design_of(const Analysis& a) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const Eigen::Index n = marginalised.kept.size();
   const Eigen::Index settings = a.system.by_setting.cols();
-  const auto causes = static_cast<Eigen::Index>(a.estimate.free.size());
+  const auto causes = std::ssize(a.estimate.free);
   Eigen::MatrixXd design(n, settings + causes);
   design.leftCols(settings) =
       linear::scaled_columns(marginalised.kept.of(a.system.by_setting), a.system.sigma);
   for (Eigen::Index k = 0; k < causes; ++k) {
-    const int column = a.estimate.regressors[a.estimate.free[static_cast<std::size_t>(k)]];
+    const int column = a.estimate.regressors[a.estimate.free[as_size(k)]];
     design.col(settings + k) = marginalised.kept(a.system.g.col(column)) * kWideSignalToNoise /
                                std::max(marginalised.g.col(column).norm(), 1e-12);
   }
@@ -122,15 +123,15 @@ double share_along(const Analysis& a, const Coordinate& coordinate) {
   }
   const auto [low, high] = std::minmax_element(t.begin(), t.end());
   if (!(*high > *low)) return 0.0;
-  const auto n = static_cast<Eigen::Index>(t.size());
+  const auto n = std::ssize(t);
   Eigen::MatrixXd basis(n, kDegree + 1);
   Eigen::MatrixXd values(n, 2);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double x = 2.0 * (t[static_cast<std::size_t>(i)] - *low) / (*high - *low) - 1.0;
+    const double x = 2.0 * (t[as_size(i)] - *low) / (*high - *low) - 1.0;
     basis(i, 0) = 1.0;
     basis(i, 1) = x;
     for (int k = 2; k <= kDegree; ++k) basis(i, k) = 2.0 * x * basis(i, k - 1) - basis(i, k - 2);
-    values.row(i) = chain[static_cast<std::size_t>(i)].transpose();
+    values.row(i) = chain[as_size(i)].transpose();
   }
   Eigen::MatrixXd rest = values;
   linear::add_product(rest, -1.0, basis, linear::least_squares(basis, values));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/link_priors.hpp"
+#include "grid/containers.hpp"
 #include "grid/statistics.hpp"
 
 #include <algorithm>
@@ -31,9 +32,8 @@ void share_out_links(const MarginalisedSystem& marginalised, RegressorSystem& sy
     for (; last < system.regressors.size(); ++last) {
       const Regressor& d = system.regressors[last];
       if (!(d.cause == system.regressors[first].cause)) break;
-      log_weight.push_back(
-          log_share_of_links(d.values.front()) +
-          log_strength_density(marginalised.g.col(static_cast<Eigen::Index>(last)).norm()));
+      log_weight.push_back(log_share_of_links(d.values.front()) +
+                           log_strength_density(marginalised.g.col(as_index(last)).norm()));
       log_all = last == first ? log_weight.back() : log_sum(log_all, log_weight.back());
     }
     for (std::size_t k = first; k < last && system.regressors[first].fixed; ++k) {

@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::diagnosis {
 
 namespace {
@@ -60,9 +62,9 @@ double ModelCollector::consider(const ColumnSet& set,
   if (!std::isfinite(evidence.log_evidence)) return -std::numeric_limits<double>::infinity();
   CandidateModel model;
   for (const Eigen::Index i : set) {
-    model.regressors.push_back(equations.columns[static_cast<std::size_t>(i)]);
+    model.regressors.push_back(equations.columns[as_size(i)]);
   }
-  std::sort(model.regressors.begin(), model.regressors.end());
+  sort(model.regressors);
   model.discrepancy = discrepancy;
   model.marginalised = number_;
   model.log_weight = evidence.log_evidence + marginalised_.log_outliers +
@@ -82,7 +84,7 @@ double ModelCollector::log_prior_of(const std::vector<int>& regressors, int disc
   if (discrepancy >= 0) value += system_.discrepancies->log_share_of(discrepancy);
   if (!options_.steps.average_location) {
     for (const int k : regressors) {
-      value -= system_.regressors[static_cast<std::size_t>(k)].log_prior;
+      value -= system_.regressor(k).log_prior;
     }
   }
   return value;
@@ -96,8 +98,7 @@ void search_by_beam(const RegressorSystem& system,
   // Sets of none, one, two and three that are extended.
   constexpr std::array<std::size_t, kMostCauses> kExtended = {1, 12, 6, 4};
   const auto regressor = [&](Eigen::Index i) -> const Regressor& {
-    return system
-        .regressors[static_cast<std::size_t>(equations.columns[static_cast<std::size_t>(i)])];
+    return system.regressor(equations.columns[as_size(i)]);
   };
   collector.consider({}, discrepancy, equations);
   std::vector<WeighedSet> parents = {{0.0, {}}};
@@ -106,10 +107,9 @@ void search_by_beam(const RegressorSystem& system,
     std::set<ColumnSet> found;
     for (const WeighedSet& parent : parents) {
       for (Eigen::Index i = 0; i < equations.ge.size(); ++i) {
-        const bool fits =
-            std::all_of(parent.set.begin(), parent.set.end(), [&](Eigen::Index other) {
-              return compatible(regressor(i), regressor(other), limits);
-            });
+        const bool fits = all_of(parent.set, [&](Eigen::Index other) {
+          return compatible(regressor(i), regressor(other), limits);
+        });
         if (!fits) continue;
         ColumnSet set = parent.set;
         set.insert(std::lower_bound(set.begin(), set.end(), i), i);
@@ -118,7 +118,7 @@ void search_by_beam(const RegressorSystem& system,
         if (std::isfinite(weight)) children.push_back({weight, std::move(set)});
       }
     }
-    std::stable_sort(children.begin(), children.end(), heavier);
+    stable_sort(children, heavier);
     if (size < kMostCauses && children.size() > kExtended.at(size)) children.resize(kExtended.at(size));
     parents = std::move(children);
   }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/diagnosis/set_search.hpp"
@@ -58,10 +59,9 @@ double ModelComparison::probability(const CandidateModel& model) const {
 }
 
 void sort_by_weight(ModelComparison& comparison) {
-  std::stable_sort(
-      comparison.models.begin(),
-      comparison.models.end(),
-      [](const CandidateModel& a, const CandidateModel& b) { return a.log_weight > b.log_weight; });
+  stable_sort(comparison.models, [](const CandidateModel& a, const CandidateModel& b) {
+    return a.log_weight > b.log_weight;
+  });
   std::vector<double> weights;
   for (const CandidateModel& model : comparison.models) weights.push_back(model.log_weight);
   comparison.log_total = log_sum(weights);
@@ -71,7 +71,7 @@ double log_prior(const RegressorSystem& system, const std::vector<int>& set, boo
   std::size_t lasting = 0, expected = 0;
   double value = discrepancy ? std::log(kDiscrepancyPrior) : 0.0;
   for (const int k : set) {
-    const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
+    const Regressor& d = system.regressor(k);
     value += d.log_prior - std::log(system.prior.shares);
     if (d.expected) {
       value += std::log(kPriorOfOne / kPriorOfNothing);
@@ -86,8 +86,8 @@ double log_prior(const RegressorSystem& system, const std::vector<int>& set, boo
 }
 
 double log_odds_of_another(const RegressorSystem& system, const std::vector<int>& set, bool discrepancy) {
-  const auto lasting = static_cast<std::size_t>(std::count_if(set.begin(), set.end(), [&](int k) {
-    const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
+  const auto lasting = as_size(std::count_if(set.begin(), set.end(), [&](int k) {
+    const Regressor& d = system.regressor(k);
     return !d.expected && !d.slip;
   }));
   if (lasting == kMostCauses) return kMinusInfinity;
@@ -122,7 +122,7 @@ SingleScores single_scores(const RegressorSystem& system,
       terms.emplace_back();
       best.push_back(kMinusInfinity);
     }
-    const auto at = static_cast<Eigen::Index>(k);
+    const auto at = as_index(k);
     if (!(square(at) > 1e-8)) continue;
     equations.ge(0) = c(at);
     equations.gg(0, 0) = square(at);
@@ -161,17 +161,15 @@ std::vector<std::vector<bool>> sets_without_links(const RegressorSystem& system,
     bool links = false;
     for (std::size_t k = 0; k < system.regressors.size() && !links; ++k) {
       if (!system.regressors[k].fixed) continue;
-      const auto g = system.g.col(static_cast<Eigen::Index>(k)).segment(unit.first_row, unit.rows);
+      const auto g = system.g.col(as_index(k)).segment(unit.first_row, unit.rows);
       links = g.squaredNorm() > 0.0 &&
               (unit.segment(fitted.left) - g).squaredNorm() < kLinksAlike * fitted.noise_square;
     }
     if (!links) continue;
     std::vector<bool> without = marginalised.outliers;
     without[i] = false;
-    const bool known =
-        std::any_of(comparison.marginalised_systems.begin(),
-                    comparison.marginalised_systems.end(),
-                    [&](const MarginalisedSystem& s) { return s.outliers == without; });
+    const bool known = any_of(comparison.marginalised_systems,
+                              [&](const MarginalisedSystem& s) { return s.outliers == without; });
     if (!known) result.push_back(std::move(without));
   }
   return result;
@@ -192,9 +190,7 @@ std::vector<std::size_t> by_weight(const std::vector<std::size_t>& kernels,
                                    const std::vector<double>& weight) {
   std::vector<std::size_t> order(kernels.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return weight[a] > weight[b];
-  });
+  stable_sort(order, [&](std::size_t a, std::size_t b) { return weight[a] > weight[b]; });
   for (std::size_t& k : order) k = kernels[k];
   return order;
 }
@@ -243,7 +239,7 @@ class Comparer {
   void look_alongside_likeliest(std::vector<SetSearch>& searches) {
     std::vector<std::size_t> order(searches.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    stable_sort(order, [&](std::size_t a, std::size_t b) {
       return searches[a].best() > searches[b].best();
     });
     order.resize(std::min(order.size(), options_.search.sets_given));
@@ -281,7 +277,7 @@ ModelComparison compare_models(const RegressorSystem& system,
   Comparer comparer(system, excluded, options);
   auto sets =
       outlier_sets(system, excluded, first_hypotheses(system, excluded, options), options.steps);
-  if (std::find(sets.begin(), sets.end(), excluded) == sets.end()) sets.push_back(excluded);
+  if (!contains(sets, excluded)) sets.push_back(excluded);
   comparer.compare_with(sets);
   const auto more = sets_without_links(system, excluded, comparer.comparison());
   if (!more.empty()) comparer.compare_with(more);

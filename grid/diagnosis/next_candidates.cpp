@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::diagnosis {
 namespace {
 
@@ -58,7 +60,7 @@ class PointCandidates {
 
  private:
   void add(model::MarkPoint mark, MeasurementKind kind, std::string what) {
-    const auto row = 2 * static_cast<Eigen::Index>(places_.size());
+    const auto row = 2 * std::ssize(places_);
     places_.push_back({0, "", mark, {}, next_visit_});
     candidates_.push_back({{kind, std::move(what), "", mark, 0.0}, {row, row + 1}, 2});
   }
@@ -110,9 +112,8 @@ std::optional<CandidateReadings> candidate_readings(const ObservationSet& sessio
   const std::vector<ExtraReading>& taken = session.readings();
   std::vector<ExtraReading> readings;
   for (const MachineReading& r : kReadings) {
-    const bool done = std::any_of(taken.begin(), taken.end(), [&](const ExtraReading& x) {
-      return x.what == r.what && x.side == r.side;
-    });
+    const bool done =
+        any_of(taken, [&](const ExtraReading& x) { return x.what == r.what && x.side == r.side; });
     const ExtraReading reading{r.what, r.side, 0.0, r.sigma};
     if (!done && observation::is_predictable(session.stated, reading)) readings.push_back(reading);
   }

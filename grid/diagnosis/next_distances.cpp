@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/next_candidates.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -40,12 +41,11 @@ class HoleCandidates {
 
  private:
   [[nodiscard]] bool is_measured(const HoleDistance& wanted) const {
-    return std::any_of(
-        measured_.distances.begin(), measured_.distances.end(), [&](const HoleDistance& d) {
-          if (d.edge != wanted.edge) return false;
-          if (d.edge) return d.from == wanted.from;
-          return std::minmax(d.from, d.to) == std::minmax(wanted.from, wanted.to);
-        });
+    return any_of(measured_.distances, [&](const HoleDistance& d) {
+      if (d.edge != wanted.edge) return false;
+      if (d.edge) return d.from == wanted.from;
+      return std::minmax(d.from, d.to) == std::minmax(wanted.from, wanted.to);
+    });
   }
 
   void add(HoleDistance distance) {
@@ -58,7 +58,7 @@ class HoleCandidates {
     next.from = measured_.holes[distance.from].name;
     next.to = {distance.edge ? std::string(grid::name(*distance.edge))
                              : measured_.holes[distance.to].name};
-    candidates_.push_back({std::move(next), {static_cast<Eigen::Index>(set_.distances.size())}, 1});
+    candidates_.push_back({std::move(next), {std::ssize(set_.distances)}, 1});
     set_.distances.push_back(distance);
   }
 
@@ -70,9 +70,8 @@ class HoleCandidates {
 
   /// To edges where the sheet's were measured before: a first one only says where the sheet lies.
   void add_edges() {
-    const bool edged = std::any_of(measured_.distances.begin(),
-                                   measured_.distances.end(),
-                                   [](const HoleDistance& d) { return d.edge.has_value(); });
+    const bool edged =
+        any_of(measured_.distances, [](const HoleDistance& d) { return d.edge.has_value(); });
     if (!edged) return;
     for (std::size_t i = 0; i < measured_.holes.size(); ++i) {
       for (const SheetEdge edge : kSheetEdges) add({.from = i, .edge = edge});
@@ -87,9 +86,7 @@ class HoleCandidates {
       const model::BedPoint& hole = measured_.holes[i].commanded;
       return std::pow(hole.x_mm - place.x_mm, 2) + std::pow(hole.y_mm - place.y_mm, 2);
     };
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
-      return squared(i) > squared(j);
-    });
+    stable_sort(order, [&](std::size_t i, std::size_t j) { return squared(i) > squared(j); });
     return order;
   }
 
@@ -115,7 +112,7 @@ class HoleCandidates {
                         {},
                         1};
     for (std::size_t k = 0; k < std::min(kArms, others.size()); ++k) {
-      candidate.rows.push_back(static_cast<Eigen::Index>(set_.distances.size()));
+      candidate.rows.push_back(std::ssize(set_.distances));
       set_.distances.push_back({.from = set_.holes.size(), .to = others[k]});
       candidate.measurement.to.push_back(measured_.holes[others[k]].name);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/law_model.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/diagnosis/regressors.hpp"
@@ -19,11 +20,10 @@ Eigen::MatrixXd columns_of(const Analysis& a,
                            const Next& next,
                            const std::vector<int>& regressors,
                            const Eigen::MatrixXd& law) {
-  const auto causes = static_cast<Eigen::Index>(regressors.size());
+  const auto causes = std::ssize(regressors);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(next.system.e.size(), causes + law.cols());
   for (Eigen::Index k = 0; k < causes; ++k) {
-    const Regressor& own =
-        a.system.regressors[static_cast<std::size_t>(regressors[static_cast<std::size_t>(k)])];
+    const Regressor& own = a.system.regressor(regressors[as_size(k)]);
     if (const auto g = signature(next.session, a.state, next.system, own.cause, own.values))
       columns.col(k) = *g;
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -17,7 +18,7 @@ constexpr double kPays = 0.002;  // a measurement that helps less is not worth t
 void add_link_reading(const Analysis& a, std::vector<NextMeasurement>& list) {
   if (a.decision.listed.empty() || list.size() >= kMostNextMeasurements) return;
   const CauseClass& members = a.decision.classes[a.decision.listed.front()];
-  const bool pitch = std::any_of(members.begin(), members.end(), [](const CauseId& c) {
+  const bool pitch = any_of(members, [](const CauseId& c) {
     return c.effect->elongation != nullptr && c.effect->law == nullptr;
   });
   const auto proposes_it = [](const NextMeasurement& next) {
@@ -26,8 +27,8 @@ void add_link_reading(const Analysis& a, std::vector<NextMeasurement>& list) {
   const auto is_pitch = [](const ExtraReading& taken) {
     return taken.what == ReadingOf::link_pitch;
   };
-  if (members.size() < 2 || !pitch || std::any_of(list.begin(), list.end(), proposes_it) ||
-      std::any_of(a.session.readings().begin(), a.session.readings().end(), is_pitch)) {
+  if (members.size() < 2 || !pitch || any_of(list, proposes_it) ||
+      any_of(a.session.readings(), is_pitch)) {
     return;
   }
   NextMeasurement reading{MeasurementKind::reading, "", "left", std::nullopt, kLinkPitchSigmaMm};

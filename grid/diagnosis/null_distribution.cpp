@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 #include "grid/random.hpp"
@@ -26,7 +27,7 @@ SingleScore::SingleScore(const RegressorSystem& system,
   square_ = marginalised.g.squared_norms();
   constant_.resize(square_.size());
   for (Eigen::Index k = 0; k < square_.size(); ++k) {
-    const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
+    const Regressor& d = system.regressor(k);
     fixed_.push_back(d.fixed);
     sign_.push_back(d.fixed || (d.lowest < 0.0 && d.highest > 0.0) ? 0
                                                                    : (d.highest > 0.0 ? 1 : -1));
@@ -42,7 +43,7 @@ double SingleScore::share_taken(std::size_t at, double square, double c, double 
 }
 
 double SingleScore::score(Eigen::Index k, double square, double c, double ee, double n) const {
-  const auto at = static_cast<std::size_t>(k);
+  const auto at = as_size(k);
   if (!(square > 1e-8) || sign_[at] * c < 0.0) return kNoScore;
   return constant_(k) - 0.5 * (n + dof_) * std::log1p(-share_taken(at, square, c, ee));
 }
@@ -50,14 +51,14 @@ double SingleScore::score(Eigen::Index k, double square, double c, double ee, do
 double SingleScore::most(Eigen::Index k, double square, double c, double ee, double n) const {
   // -log(1 - x) <= x / (1 - x); the last digits of either side do not matter to a score that is far below.
   constexpr double kRounding = 1e-9;
-  const double taken = share_taken(static_cast<std::size_t>(k), square, c, ee);
+  const double taken = share_taken(as_size(k), square, c, ee);
   return constant_(k) + 0.5 * (n + dof_) * taken / (1.0 - taken) + kRounding;
 }
 
 double SingleScore::largest(const NormalEquations& equations, Eigen::Index rows) const {
   double result = kNoScore;
   for (std::size_t i = 0; i < equations.columns.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
+    const auto at = as_index(i);
     result = std::max(result,
                       score(equations.columns[i],
                             equations.gg(at, at),
@@ -117,14 +118,14 @@ NullDistribution drawn(const SingleScore& score,
     for (double& own : e.reshaped()) own = random.normal();
   }
   NullDistribution result;
-  result.largest.resize(static_cast<std::size_t>(draws));
+  result.largest.resize(as_size(draws));
   for_each_index(blocks.size(), [&](std::size_t k) {
     prepare(blocks[k]);
     const Eigen::VectorXd largest = score.largest(blocks[k]);
     std::copy(largest.begin(), largest.end(), result.largest.begin() + static_cast<std::ptrdiff_t>(k) * kBlock);
     blocks[k].resize(0, 0);
   });
-  std::sort(result.largest.begin(), result.largest.end());
+  sort(result.largest);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "grid/containers.hpp"
 #include "grid/map/noise_from_repeats.hpp"
 #include "grid/observation/length_points.hpp"
 
@@ -119,7 +120,7 @@ std::vector<std::string> unmeasured(const MeasuredHoles& set, std::size_t most) 
       if (done.count({i, j}) == 0) left.push_back({.from = i, .to = j});
     }
   }
-  std::stable_sort(left.begin(), left.end(), [&](const HoleDistance& a, const HoleDistance& b) {
+  stable_sort(left, [&](const HoleDistance& a, const HoleDistance& b) {
     return commanded_mm(set, a) > commanded_mm(set, b);
   });
   std::vector<std::string> words;
@@ -169,10 +170,9 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
                    "--noise-position-mm), or measure at least six points twice");
   }
   // Visits are those of one session: an order of another says nothing about them.
-  const bool ordered =
-      !so_far.ordered && std::all_of(grid.points.begin(),
-                                     grid.points.end(),
-                                     [](const MeasuredPoint& p) { return p.order.has_value(); });
+  const bool ordered = !so_far.ordered && all_of(grid.points, [](const MeasuredPoint& p) {
+    return p.order.has_value();
+  });
   so_far.ordered = so_far.ordered || ordered;
   std::vector<observation::Place> places;
   for (const LengthPoint& point : *lengths) {

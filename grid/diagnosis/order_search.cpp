@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/regressors.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/linear_algebra.hpp"
@@ -27,8 +28,8 @@ constexpr std::size_t kMostModels = 5;
 const MeasuredGrid* grid_without_order(const Measured& measured) {
   if (measured.files().empty()) return nullptr;
   for (const MeasuredGrid* grid : measured.grids()) {
-    const bool numbered = std::any_of(
-        grid->points.begin(), grid->points.end(), [](const MeasuredPoint& point) { return point.order.has_value(); });
+    const bool numbered =
+        any_of(grid->points, [](const MeasuredPoint& point) { return point.order.has_value(); });
     if (numbered) return nullptr;
   }
   return measured.files().front().grid();
@@ -41,9 +42,8 @@ std::optional<Measured> grid_alone(const Measured& measured) {
   Measured alone;
   alone.add({measured.files().front().name, *grid});
   const std::vector<VisitingOrder> orders = line_by_line_orders();
-  const bool has_lines = std::any_of(orders.begin(), orders.end(), [&](const VisitingOrder& order) {
-    return visited_in(alone, order).has_value();
-  });
+  const bool has_lines = any_of(
+      orders, [&](const VisitingOrder& order) { return visited_in(alone, order).has_value(); });
   if (!has_lines) return std::nullopt;
   return alone;
 }
@@ -57,7 +57,7 @@ std::vector<std::size_t> by_place(const std::vector<MeasuredPoint>& points) {
     const model::ChainLengths lengths = point.lengths.value_or(model::ChainLengths{});
     return std::tuple(point.mark.y_mm, point.mark.x_mm, lengths.left_mm, lengths.right_mm);
   };
-  std::stable_sort(result.begin(), result.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  stable_sort(result, [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   return result;
 }
 
@@ -100,7 +100,7 @@ GivenModel given(const Analysis& a, const CandidateModel& model, const std::vect
   Eigen::MatrixXd covariance = linear::one_plus_outer(linear::scaled_columns(settings, system.sigma));
   for (const int k : model.regressors) {
     const Eigen::VectorXd column = result.kept(system.g.col(k));
-    if (system.regressors[static_cast<std::size_t>(k)].fixed) {
+    if (system.regressor(k).fixed) {
       e -= column;
       continue;
     }
@@ -135,10 +135,9 @@ RegressorSystem order_columns(const Analysis& a, const Measured& ordered) {
   if (!system) return result;
   std::vector<CauseId> causes;
   for (const CauseId& cause : candidates(*set).testable) {
-    const bool at_a_visit = std::any_of(
-        cause.effect->parameters.begin(), cause.effect->parameters.end(), [](const auto& parameter) {
-          return parameter.role == model::effects::ParameterRole::place;
-        });
+    const bool at_a_visit = any_of(cause.effect->parameters, [](const auto& parameter) {
+      return parameter.role == model::effects::ParameterRole::place;
+    });
     if (cause.effect->needs == model::effects::DataNeed::order && !at_a_visit) causes.push_back(cause);
   }
   add_regressors(*set, a.state, causes, {}, *system);
@@ -216,13 +215,13 @@ std::optional<VisitingOrderFound> find_order_of_first(const Measured& measured, 
 std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured, const Analysis& analysis) {
   const std::vector<double> probabilities = order_probabilities(measured, analysis);
   const std::vector<VisitingOrder> orders = line_by_line_orders();
-  const auto best = static_cast<std::size_t>(
-      std::max_element(probabilities.begin(), probabilities.end()) - probabilities.begin());
+  const auto best =
+      as_size(std::max_element(probabilities.begin(), probabilities.end()) - probabilities.begin());
   VisitingOrderFound found{orders[best], probabilities[best], true};
   if (found.probability < kLeastModelShare) return std::nullopt;
   // Corners differ in the few steps between lines, which marks measured again in between make others.
   const std::vector<bool> again = measured_again(grid_without_order(measured)->points);
-  const bool tells_corners = std::find(again.begin(), again.end(), true) == again.end();
+  const bool tells_corners = !contains(again, true);
   if (tells_corners && found.probability >= kOrderFound) return found;
   double from_any_corner = 0.0;
   for (std::size_t k = 0; k < orders.size(); ++k) {

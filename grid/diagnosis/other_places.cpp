@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::diagnosis {
 namespace {
 
@@ -11,7 +13,7 @@ std::size_t chain_part(const ObservationSet& session) {
   const auto found = std::find_if(session.parts.begin(),
                                   session.parts.end(),
                                   [](const ObservationPart& part) { return part.reads_chains(); });
-  return static_cast<std::size_t>(found - session.parts.begin());
+  return as_size(found - session.parts.begin());
 }
 
 const observation::ChainLengthReadings& readings_of(const ObservationSet& session, std::size_t part) {

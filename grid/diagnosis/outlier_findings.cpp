@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/linear_algebra.hpp"
@@ -54,7 +55,7 @@ std::vector<Outlier> outliers_found(const Analysis& a) {
     if (&part.observation->kind() == &observation::drawn_measures)
       result.back().of = Observations::drawing;
   }
-  std::sort(result.begin(), result.end(), [](const Outlier& x, const Outlier& y) {
+  sort(result, [](const Outlier& x, const Outlier& y) {
     return std::pair(x.of, x.index) < std::pair(y.of, y.index);
   });
   return result;

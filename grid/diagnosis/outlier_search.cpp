@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
 #include "grid/linear_algebra.hpp"
 
@@ -171,11 +172,10 @@ MeanShifts under(MeanShifts shifts,
                  const RegressorSystem& system,
                  const std::vector<int>& set) {
   for (const int k : set) {
-    if (system.regressors[static_cast<std::size_t>(k)].fixed)
-      shifts.subtract(marginalised.g.col(k));
+    if (system.regressor(k).fixed) shifts.subtract(marginalised.g.col(k));
   }
   for (const int k : set) {
-    if (system.regressors[static_cast<std::size_t>(k)].fixed) continue;
+    if (system.regressor(k).fixed) continue;
     const Eigen::VectorXd g = marginalised.g.col(k);
     shifts.free(g, g.squaredNorm() / (kWideSignalToNoise * kWideSignalToNoise));
   }
@@ -195,8 +195,7 @@ std::vector<FreeGroup> free_groups(const MarginalisedSystem& marginalised,
         *last != group.first_row + group.rows - 1) {
       continue;
     }
-    FreeGroup own{
-        k, static_cast<Eigen::Index>(at - kept.begin()), group.rows, group.direction};
+    FreeGroup own{k, as_index(at - kept.begin()), group.rows, group.direction};
     if (own.direction) own.direction->normalize();
     free.push_back(std::move(own));
   }
@@ -278,7 +277,7 @@ FoundSet search(MeanShifts shifts,
     const FreeGroup group = free[worst->position];
     shifts.reject(group, worst->drop);
     take_out(group, free, outliers);
-    rejected[static_cast<std::size_t>(group.directions() - 1)] += 1.0;
+    rejected[as_size(group.directions() - 1)] += 1.0;
     n -= group.directions();
     const double own = weight();
     if (own > best.log_weight) {
@@ -326,9 +325,8 @@ std::vector<std::vector<bool>> outlier_sets(const RegressorSystem& system,
       same->log_weight = std::max(same->log_weight, one.log_weight);
     }
   }
-  std::stable_sort(found.begin(), found.end(), [](const FoundSet& a, const FoundSet& b) {
-    return a.log_weight > b.log_weight;
-  });
+  stable_sort(found,
+              [](const FoundSet& a, const FoundSet& b) { return a.log_weight > b.log_weight; });
   std::vector<std::vector<bool>> sets;
   for (const FoundSet& one : found) {
     if (sets.size() == kMostFoundSets ||

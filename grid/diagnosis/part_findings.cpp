@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "model/effects/catalogue.hpp"
@@ -20,7 +21,7 @@ constexpr double kHoldsInSession = 0.9;
 double probability_of_class(const PartPosterior& part, const CauseClass& members) {
   double sum = 0.0;
   for (const auto& [cause, p] : part.causes) {
-    if (std::find(members.begin(), members.end(), cause) != members.end()) sum += p;
+    if (contains(members, cause)) sum += p;
   }
   return std::min(sum, 1.0);
 }
@@ -49,7 +50,7 @@ std::string_view quarter(double towards_rad) {
   constexpr std::array<std::string_view, 8> kNames = {"right", "upper right", "top", "upper left",
                                                       "left", "lower left", "bottom", "lower right"};
   const long eighth = std::lround(towards_rad / (0.25 * std::numbers::pi));
-  return kNames[static_cast<std::size_t>(eighth) % kNames.size()];
+  return kNames[as_size(eighth) % kNames.size()];
 }
 
 /// What a hypothesis is called in sentences.
@@ -59,7 +60,7 @@ std::string cause_words(const Hypothesis& one) {
 }
 
 bool is_named(const PartFinding& part, const Hypothesis& one) {
-  return std::any_of(part.named.begin(), part.named.end(), [&](const Hypothesis& own) {
+  return any_of(part.named, [&](const Hypothesis& own) {
     return own.effect == one.effect && own.side == one.side;
   });
 }
@@ -72,7 +73,7 @@ bool denies(const Diagnosis& d, const PartFinding& part) {
     for (const Hypothesis& own : part.named) sum += own.probability;
     return sum < kHolds;
   }
-  return !std::all_of(part.named.begin(), part.named.end(), holds);
+  return !all_of(part.named, holds);
 }
 
 /// One answer of several quarters.
@@ -109,8 +110,7 @@ std::string words_of_quarters(const Diagnosis& d) {
     answer.least = std::min(answer.least, own.least);
     answer.most = std::max(answer.most, own.most);
     const std::string_view where = quarter(part.towards_rad);
-    if (std::find(answer.quarters.begin(), answer.quarters.end(), where) == answer.quarters.end())
-      answer.quarters.push_back(where);
+    if (!contains(answer.quarters, where)) answer.quarters.push_back(where);
   }
   std::vector<std::string> sentences;
   for (const OtherAnswer& answer : answers) {

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/findings.hpp"
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/findings.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -96,17 +97,13 @@ DistancePicture picture_of(const Analysis& a,
 
 template <class Picture>
 void in_order_of_files(std::vector<Picture>& pictures) {
-  std::sort(pictures.begin(), pictures.end(), [](const Picture& x, const Picture& y) {
-    return x.index < y.index;
-  });
+  sort(pictures, [](const Picture& x, const Picture& y) { return x.index < y.index; });
 }
 
 }  // namespace
 
 std::string words_of_ends(const DistancePicture& distance) {
-  return std::any_of(kSheetEdges.begin(),
-                     kSheetEdges.end(),
-                     [&](SheetEdge edge) { return grid::name(edge) == distance.to; })
+  return any_of(kSheetEdges, [&](SheetEdge edge) { return grid::name(edge) == distance.to; })
              ? fmt::format("{} to the {} edge", distance.from, distance.to)
              : fmt::format("{}-{}", distance.from, distance.to);
 }
@@ -135,9 +132,7 @@ std::vector<HolePicture> hole_pictures(const Analysis& a) {
           HolePicture{hole.name, hole.mark, places ? (*places)[i].mark : hole.mark});
     }
   }
-  std::sort(found.begin(), found.end(), [](const auto& x, const auto& y) {
-    return x.first < y.first;
-  });
+  sort(found, [](const auto& x, const auto& y) { return x.first < y.first; });
   std::vector<HolePicture> result;
   for (auto& [index, picture] : found) result.push_back(std::move(picture));
   return result;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 
@@ -37,9 +38,9 @@ Eigen::MatrixXd RegressorColumns::dense() const {
 }
 
 Eigen::MatrixXd RegressorColumns::dense(const std::vector<int>& columns) const {
-  Eigen::MatrixXd result(rows(), static_cast<Eigen::Index>(columns.size()));
+  Eigen::MatrixXd result(rows(), std::ssize(columns));
   for (Eigen::Index k = 0; k < result.cols(); ++k) {
-    result.col(k) = col(columns[static_cast<std::size_t>(k)]);
+    result.col(k) = col(columns[as_size(k)]);
   }
   return result;
 }
@@ -49,7 +50,7 @@ RegressorColumns RegressorColumns::subset(const std::vector<Eigen::Index>& colum
   RegressorColumns result;
   for (const Eigen::Index k : columns) {
     if (kept.empty() || kept.back() != index(k)) kept.push_back(index(k));
-    result.of_.push_back({static_cast<Eigen::Index>(kept.size()) - 1, factor(k)});
+    result.of_.push_back({std::ssize(kept) - 1, factor(k)});
   }
   result.distinct_ = distinct_(Eigen::all, kept);
   result.count_ = result.distinct_.cols();

@@ -15,6 +15,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::diagnosis {
 
 class RegressorColumns {
@@ -32,7 +34,7 @@ class RegressorColumns {
   /// Column k is factor(k) times column index(k) of these.
   [[nodiscard]] auto distinct() const { return distinct_.leftCols(count_); }
   [[nodiscard]] Eigen::Index rows() const { return distinct_.rows(); }
-  [[nodiscard]] Eigen::Index cols() const { return static_cast<Eigen::Index>(of_.size()); }
+  [[nodiscard]] Eigen::Index cols() const { return std::ssize(of_); }
   [[nodiscard]] auto col(Eigen::Index k) const { return distinct_.col(index(k)) * factor(k); }
   /// Some rows of a column.
   [[nodiscard]] Eigen::VectorXd column(const std::vector<Eigen::Index>& rows,
@@ -59,12 +61,8 @@ class RegressorColumns {
   /// cols()
   [[nodiscard]] Eigen::VectorXd squared_norms() const;
 
-  [[nodiscard]] Eigen::Index index(Eigen::Index k) const {
-    return of_[static_cast<std::size_t>(k)].index;
-  }
-  [[nodiscard]] double factor(Eigen::Index k) const {
-    return of_[static_cast<std::size_t>(k)].factor;
-  }
+  [[nodiscard]] Eigen::Index index(Eigen::Index k) const { return of_[as_size(k)].index; }
+  [[nodiscard]] double factor(Eigen::Index k) const { return of_[as_size(k)].factor; }
 
  private:
   struct Multiple {

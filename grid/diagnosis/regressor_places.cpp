@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/containers.hpp"
 #include "model/effects/declared_effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -57,7 +58,7 @@ std::vector<double> compared(const RegressorSystem& system, PlaceVariable variab
 /// As many as kPlaces, evenly in the rank of those that are there.
 std::vector<double> evenly_by_rank(std::vector<double> there) {
   std::vector<double> result;
-  std::sort(there.begin(), there.end());
+  sort(there);
   const auto last = static_cast<double>(there.size() - 1);
   for (int k = 0; k < kPlaces; ++k) {
     const double at = last * k / kPlaces;

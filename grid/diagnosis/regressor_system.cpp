@@ -44,7 +44,7 @@ tl::expected<RegressorSystem, observation::Unreachable> linearise(const Observat
                                                                   const Steps& steps) {
   std::vector<estimation::ObservedFrom> from;
   for (const ObservationPart& part : set.parts) {
-    const auto settings = static_cast<Eigen::Index>(set.columns_of(part).size());
+    const auto settings = std::ssize(set.columns_of(part));
     from.push_back({state.view(part), Eigen::VectorXd::Zero(settings)});
   }
   auto line = estimation::linearise(set, from, estimation::Prediction::visit_by_visit);

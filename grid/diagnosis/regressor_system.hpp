@@ -20,9 +20,10 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/constants.hpp"
-#include "grid/diagnosis/regressor_columns.hpp"
 #include "grid/diagnosis/observations.hpp"
+#include "grid/diagnosis/regressor_columns.hpp"
 #include "grid/estimation/linearised_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -103,6 +104,7 @@ struct CausePrior {
 struct RegressorSystem : estimation::LinearisedSystem {
   RegressorColumns g;  ///< n x a column a regressor
   std::vector<Regressor> regressors;
+  [[nodiscard]] const Regressor& regressor(Eigen::Index k) const { return regressors[as_size(k)]; }
   Eigen::VectorXd setting;          ///< q, value in the state
   Eigen::VectorXd expected_change;  ///< q, stated less that
   Eigen::VectorXd sigma;            ///< q, one sigma as stated

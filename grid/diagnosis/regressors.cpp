@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "grid/chain_rows.hpp"
+#include "grid/containers.hpp"
 #include "grid/diagnosis/law_curves.hpp"
 #include "grid/diagnosis/regressor_places.hpp"
 #include "grid/diagnosis/secants.hpp"
@@ -169,7 +170,7 @@ class Builder {
     const PlaceVariable variable = variable_of_place(*cause.effect, place);
     std::vector<double> there = compared_at_places(system_, variable, cause.side);
     if (there.size() < 2) return;
-    std::sort(there.begin(), there.end());
+    sort(there);
     const double from = std::max(place.lower, there.front());
     const double to = std::min(place.upper, there.back());
     if (!(from < to)) return;

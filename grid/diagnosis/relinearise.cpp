@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -59,7 +60,7 @@ class Round {
   [[nodiscard]] double size(std::size_t which) const {
     const Regressor& own = system_.regressors[which];
     const auto& bounds = own.cause.effect->parameters.front();
-    const double asked = estimate_.coefficient(static_cast<Eigen::Index>(which));
+    const double asked = estimate_.coefficient(as_index(which));
     const auto bounded = [&](double s) { return std::clamp(s, bounds.lower, bounds.upper); };
     double last = own.values.front();
     double last_length = 1.0;
@@ -119,7 +120,7 @@ class Round {
     values.front() = size;
     const auto g = signature(session_, state_, system_, system_.regressors[which].cause, values);
     if (!g) return std::nullopt;
-    const auto own = marginalised_.g.col(static_cast<Eigen::Index>(which));
+    const auto own = marginalised_.g.col(as_index(which));
     return own.dot(reduced(marginalised_, *g)) / own.squaredNorm();
   }
 
@@ -130,7 +131,7 @@ class Round {
       for (std::size_t k = 0; k < round.system_.regressors.size(); ++k) {
         if (k == which) continue;
         columns_.conservativeResize(round.marginalised_.e.size(), columns_.cols() + 1);
-        columns_.rightCols<1>() = round.marginalised_.g.col(static_cast<Eigen::Index>(k));
+        columns_.rightCols<1>() = round.marginalised_.g.col(as_index(k));
       }
       gram_.emplace(linear::gram(columns_));
       e_ = without(round.marginalised_.e);
@@ -145,7 +146,7 @@ class Round {
       const Eigen::VectorXd left = without(reduced(round_.marginalised_, *g));
       const double square = left.squaredNorm();
       const double c = left.dot(e_);
-      const double sign = round_.estimate_.coefficient(static_cast<Eigen::Index>(which_));
+      const double sign = round_.estimate_.coefficient(as_index(which_));
       return square > 1e-12 && c * sign > 0.0 ? c * c / square : 0.0;
     }
 
@@ -182,7 +183,7 @@ Relinearised relinearise(const Analysis& a) {
   std::vector<Regressor> own;
   std::vector<Reach> reaches;
   for (const int k : a.decision.regressors) {
-    own.push_back(system.regressors[static_cast<std::size_t>(k)]);
+    own.push_back(system.regressor(k));
     reaches.push_back(reach(system, own.back()));
   }
   Relinearised result{a.state, {}};
@@ -213,8 +214,7 @@ Relinearised relinearise(const Analysis& a) {
     if (converged) break;
   }
   for (std::size_t k = 0; k < own.size(); ++k) {
-    const double first =
-        system.regressors[static_cast<std::size_t>(a.decision.regressors[k])].values.front();
+    const double first = system.regressor(a.decision.regressors[k]).values.front();
     // A secant over next to nothing has no direction.
     if (own[k].fixed || !(std::abs(own[k].values.front()) > kConverged * std::abs(first))) continue;
     result.refinements.push_back({own[k].cause, own[k].values, own[k].log_prior});

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/given_discrepancies.hpp"
 #include "grid/diagnosis/ties.hpp"
 #include "grid/linear_algebra.hpp"
@@ -34,9 +35,7 @@ void add_best(const RegressorSystem& system,
   const Eigen::VectorXd square = g.colwise().squaredNorm();
   std::vector<std::pair<double, int>> scores;
   const auto take = [&] {
-    std::stable_sort(scores.begin(), scores.end(), [](const auto& x, const auto& y) {
-      return x.first > y.first;
-    });
+    stable_sort(scores, [](const auto& x, const auto& y) { return x.first > y.first; });
     for (std::size_t k = 0; k < std::min(scores.size(), of_a_cause); ++k)
       chosen.insert(scores[k].second);
     scores.clear();
@@ -44,7 +43,7 @@ void add_best(const RegressorSystem& system,
   for (std::size_t k = 0; k < system.regressors.size(); ++k) {
     const Regressor& own = system.regressors[k];
     if (k > 0 && !(own.cause == system.regressors[k - 1].cause)) take();
-    const auto at = static_cast<Eigen::Index>(k);
+    const auto at = as_index(k);
     if (!(square(at) > kLeastSquare)) continue;
     scores.emplace_back(taken_alone(own, c(at), square(at)), static_cast<int>(k));
   }
@@ -62,16 +61,16 @@ std::vector<int> best_of_each_cause(const RegressorSystem& system,
   add_best(system, all, marginalised.e, of_a_cause, chosen);
   std::vector<std::pair<double, int>> likeliest;
   for (const int k : chosen) {
-    if (system.regressors[static_cast<std::size_t>(k)].fixed) continue;
+    if (system.regressor(k).fixed) continue;
     const auto g = all.col(k);
     likeliest.emplace_back(std::abs(g.dot(marginalised.e)) / g.norm(), k);
   }
   std::sort(likeliest.rbegin(), likeliest.rend());
   std::vector<CauseId> taken;
   for (const auto& [score, k] : likeliest) {
-    const CauseId& cause = system.regressors[static_cast<std::size_t>(k)].cause;
+    const CauseId& cause = system.regressor(k).cause;
     if (taken.size() == kTakenOut) break;
-    if (std::find(taken.begin(), taken.end(), cause) != taken.end()) continue;
+    if (contains(taken, cause)) continue;
     taken.push_back(cause);
     const Eigen::VectorXd own = all.col(k).normalized();
     Eigen::MatrixXd g = all;
@@ -80,7 +79,7 @@ std::vector<int> best_of_each_cause(const RegressorSystem& system,
     add_best(system, g, marginalised.e - own * own.dot(marginalised.e), of_a_cause, chosen);
   }
   std::erase_if(chosen, [&](int k) {
-    const CauseId& cause = system.regressors[static_cast<std::size_t>(k)].cause;
+    const CauseId& cause = system.regressor(k).cause;
     return options.given_cause && !(cause == *options.given_cause);
   });
   return {chosen.begin(), chosen.end()};
@@ -120,7 +119,7 @@ class SetSearch::Search {
 
   std::vector<CandidateModel> run_given_discrepancies(const std::vector<std::size_t>& kernels,
                                                        std::vector<double>& kernel_weight) {
-    std::stable_sort(scored_.begin(), scored_.end(), heavier);
+    stable_sort(scored_, heavier);
     std::vector<std::vector<int>> likeliest;
     std::array<std::size_t, kMostCauses + 1> taken{};
     std::array<double, kMostCauses + 1> last{};
@@ -132,7 +131,7 @@ class SetSearch::Search {
       ++taken[size];
       std::vector<int> regressors;
       for (const Eigen::Index i : s.set) {
-        regressors.push_back(equations_.columns[static_cast<std::size_t>(i)]);
+        regressors.push_back(equations_.columns[as_size(i)]);
       }
       likeliest.push_back(std::move(regressors));
     }
@@ -161,14 +160,13 @@ class SetSearch::Search {
     const Eigen::VectorXd c = marginalised_.g.transpose_times(marginalised_.e);
     const Eigen::VectorXd square = marginalised_.g.squared_norms();
     for (int k = 0; k < count; ++k) {
-      const Regressor& d = system_.regressors[static_cast<std::size_t>(k)];
+      const Regressor& d = system_.regressor(k);
       if (options_.given_cause && !(d.cause == *options_.given_cause)) continue;
       if (!(square(k) > kLeastSquare)) continue;
       (d.fixed ? fixed : at_a_visit(d) ? shifts : kept).push_back(k);
     }
     const auto explained = [&](int k) { return c(k) * c(k) / square(k); };
-    std::stable_sort(
-        shifts.begin(), shifts.end(), [&](int a, int b) { return explained(a) > explained(b); });
+    stable_sort(shifts, [&](int a, int b) { return explained(a) > explained(b); });
     shifts.resize(count_with_ties(shifts, kKeptShifts, explained));
     std::vector<int> likeliest = kept;
     kept.insert(kept.end(), shifts.begin(), shifts.end());
@@ -176,8 +174,7 @@ class SetSearch::Search {
       kept.insert(kept.end(), fixed.begin(), fixed.end());
       return kept;
     }
-    std::stable_sort(
-        likeliest.begin(), likeliest.end(), [&](int a, int b) { return explained(a) > explained(b); });
+    stable_sort(likeliest, [&](int a, int b) { return explained(a) > explained(b); });
     likeliest.resize(count_with_ties(likeliest, 8, explained));
     const RegressorColumns& g = marginalised_.g;
     const Eigen::MatrixXd cross =
@@ -188,12 +185,12 @@ class SetSearch::Search {
       double best = 2.0 * c(k) - square(k);
       for (std::size_t l = 0; l < likeliest.size(); ++l) {
         const double ll = square(likeliest[l]);
-        const double x = g.factor(k) * cross(g.index(k), static_cast<Eigen::Index>(l));
+        const double x = g.factor(k) * cross(g.index(k), as_index(l));
         best = std::max(best, 2.0 * (c(k) - x * c(likeliest[l]) / ll) - (square(k) - x * x / ll));
       }
       gains.emplace_back(-best, k);
     }
-    std::sort(gains.begin(), gains.end());
+    sort(gains);
     gains.resize(count_with_ties(gains, kKeptFixed, [](const auto& gain) { return gain.first; }));
     for (const auto& [gain, k] : gains) kept.push_back(k);
     return kept;
@@ -203,7 +200,7 @@ class SetSearch::Search {
 
   void singles() {
     for (std::size_t k = 0; k < equations_.columns.size(); ++k) {
-      const auto at = static_cast<Eigen::Index>(k);
+      const auto at = as_index(k);
       const double weight = consider({at});
       scored_.push_back({weight, {at}});
     }
@@ -254,7 +251,7 @@ class SetSearch::Search {
   }
 
   void pairs() {
-    const auto count = static_cast<Eigen::Index>(equations_.columns.size());
+    const auto count = std::ssize(equations_.columns);
     std::vector<std::pair<double, std::pair<Eigen::Index, Eigen::Index>>> quick;
     double best = kMinusInfinity;
     for (Eigen::Index i = 0; i < count; ++i) {
@@ -266,8 +263,7 @@ class SetSearch::Search {
         quick.push_back({weight, {j, i}});
       }
     }
-    std::stable_sort(
-        quick.begin(), quick.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    stable_sort(quick, [](const auto& a, const auto& b) { return a.first > b.first; });
     quick.resize(
         count_with_ties(quick, kMostPairs + 1, [](const auto& pair) { return pair.first; }));
     for (std::size_t k = 0; k < quick.size(); ++k) {
@@ -283,7 +279,7 @@ class SetSearch::Search {
       for (const WeighedSet& s : scored_) {
         if (s.set.size() == size - 1 && std::isfinite(s.weight)) parents.push_back(s);
       }
-      std::stable_sort(parents.begin(), parents.end(), heavier);
+      stable_sort(parents, heavier);
       if (parents.empty() || parents.front().weight < collector_.best() - kGrowWithin) return;
       parents.resize(count_with_ties(parents, kBeam, weight_of));
       std::set<std::vector<Eigen::Index>> found;
@@ -310,21 +306,20 @@ class SetSearch::Search {
       const double gain = regressor(i).fixed ? 2.0 * left(i) - square : left(i) * left(i) / square;
       order.emplace_back(-gain - 2.0 * regressor(i).log_prior, i);
     }
-    std::sort(order.begin(), order.end());
+    sort(order);
     order.resize(
         count_with_ties(order, kChildren, [](const auto& scored) { return scored.first; }));
     for (const auto& [score, index] : order) {
       std::vector<Eigen::Index> set = parent;
       set.push_back(index);
-      std::sort(set.begin(), set.end());
+      sort(set);
       if (!found.insert(set).second) continue;
       scored_.push_back({consider(set), set});
     }
   }
 
   [[nodiscard]] const Regressor& regressor(Eigen::Index i) const {
-    return system_
-        .regressors[static_cast<std::size_t>(equations_.columns[static_cast<std::size_t>(i)])];
+    return system_.regressor(equations_.columns[as_size(i)]);
   }
 
   const RegressorSystem& system_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 
@@ -59,9 +60,7 @@ std::string refusal_words(const ObservationSet& session,
 bool may_be_refused(const Analysis& a) {
   const Verdict verdict = a.decision.verdict;
   if (verdict != Verdict::named && verdict != Verdict::several_causes) return false;
-  return std::none_of(a.decision.regressors.begin(), a.decision.regressors.end(), [&](int k) {
-    return regressor(a, k).fixed;
-  });
+  return none_of(a.decision.regressors, [&](int k) { return regressor(a, k).fixed; });
 }
 
 }  // namespace

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "grid/diagnosis/downdating.hpp"
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/downdating.hpp"
 #include "grid/parallel.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -37,8 +38,7 @@ std::vector<LeftOut> lines_along(const ObservationSet& session,
                                  double model::MarkPoint::*coordinate) {
   const auto at = [&](std::size_t u) { return mark_of(session, u).*coordinate; };
   std::vector<std::size_t> order = units_at_marks(session);
-  std::stable_sort(
-      order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
+  stable_sort(order, [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
   std::vector<LeftOut> lines;
   for (std::size_t k = 0; k < order.size(); ++k) {
     if (k == 0 || at(order[k]) - at(order[k - 1]) >= kLineGapMm)
@@ -49,15 +49,13 @@ std::vector<LeftOut> lines_along(const ObservationSet& session,
   if (lines.size() < kFewestLines || order.size() < kFewestOnLine * lines.size()) return {};
   for (LeftOut& line : lines) {
     line.at_mm /= static_cast<double>(line.units.size());
-    std::sort(line.units.begin(), line.units.end());
+    sort(line.units);
   }
   return lines;
 }
 
 void add_by_index(std::vector<LeftOut> more, std::vector<LeftOut>& groups) {
-  std::sort(more.begin(), more.end(), [](const LeftOut& a, const LeftOut& b) {
-    return a.index < b.index;
-  });
+  sort(more, [](const LeftOut& a, const LeftOut& b) { return a.index < b.index; });
   groups.insert(groups.end(), more.begin(), more.end());
 }
 
@@ -91,14 +89,11 @@ class Statement {
   [[nodiscard]] bool holds(const CandidateModel& model) const {
     const auto acts = [&](std::size_t index) {
       const CauseClass& members = a_.decision.classes[index];
-      return std::any_of(model.regressors.begin(), model.regressors.end(), [&](int k) {
-        return std::find(members.begin(), members.end(), regressor(a_, k).cause) != members.end();
-      });
+      return any_of(model.regressors,
+                    [&](int k) { return contains(members, regressor(a_, k).cause); });
     };
     const auto& listed = a_.decision.listed;
-    return a_.decision.verdict == Verdict::named_set
-               ? std::any_of(listed.begin(), listed.end(), acts)
-               : std::all_of(listed.begin(), listed.end(), acts);
+    return a_.decision.verdict == Verdict::named_set ? any_of(listed, acts) : all_of(listed, acts);
   }
 
   /// Logarithm of its odds.
@@ -155,9 +150,9 @@ std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session) {
 bool still_named(const Decision& all, const Decision& without) {
   const auto is_listed = [&](std::size_t index) {
     const CauseClass& members = all.classes[index];
-    return std::any_of(without.listed.begin(), without.listed.end(), [&](std::size_t other) {
+    return any_of(without.listed, [&](std::size_t other) {
       const CauseId& leader = without.classes[other].front();
-      return std::find(members.begin(), members.end(), leader) != members.end();
+      return contains(members, leader);
     });
   };
   const bool set_without = without.verdict == Verdict::named_set;
@@ -165,10 +160,9 @@ bool still_named(const Decision& all, const Decision& without) {
   if (set_without) {
     const CauseId& leader = without.classes[without.listed.front()].front();
     const CauseClass& members = all.classes[all.listed.front()];
-    return all.listed.size() == 1 &&
-           std::find(members.begin(), members.end(), leader) != members.end();
+    return all.listed.size() == 1 && contains(members, leader);
   }
-  return std::all_of(all.listed.begin(), all.listed.end(), is_listed);
+  return all_of(all.listed, is_listed);
 }
 
 std::optional<Stability> examine_stability(const Analysis& a) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 
@@ -147,9 +148,7 @@ std::string influence_in_words(const Diagnosis& diagnosis) {
     auto changes = of_kind(*diagnosis.stability, kind.what, true);
     // A line is worth a word where it is not one point of it alone.
     std::erase_if(changes, [&](const Removal* removal) {
-      return std::any_of(points.begin(), points.end(), [&](std::size_t point) {
-        return lies_on(diagnosis, *removal, point);
-      });
+      return any_of(points, [&](std::size_t point) { return lies_on(diagnosis, *removal, point); });
     });
     if (changes.empty()) continue;
     text += fmt::format(" {} rests on {}{}: without {} {}.",

@@ -2,11 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/uncalibrated.hpp"
+#include "grid/containers.hpp"
+#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
-#include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
+#include "grid/diagnosis/uncalibrated.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/linear_algebra.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 class Placed {
  public:
   explicit Placed(const RegressorSystem& system) : sheet_(system) {
-    const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
+    const auto machine = std::ssize(model::kMachineSettings);
     const Eigen::Index sheet = system.setting.size() - machine;
     sheet_.by_setting = system.by_setting.rightCols(sheet).eval();
     sheet_.setting = Eigen::VectorXd::Zero(sheet);
@@ -46,17 +47,17 @@ Eigen::VectorXd left_of(const Analysis& a,
                         const ObservationSet& to,
                         const State& state,
                         const RegressorSystem& system) {
-  const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
+  const auto machine = std::ssize(model::kMachineSettings);
   Eigen::VectorXd left =
       system.e - linear::product(system.by_setting.leftCols(machine), model.setting_change.head(machine));
   for (std::size_t k = 0; k < model.regressors.size(); ++k) {
-    const Regressor& d = a.system.regressors[static_cast<std::size_t>(model.regressors[k])];
+    const Regressor& d = a.system.regressor(model.regressors[k]);
     // A drift, a skip or a miscount belongs to its session; play belongs to the machine, but shows
     // only where the order of the visits is known.
     if (d.cause.effect->misread != nullptr) continue;
     if (d.cause.effect->needs == model::effects::DataNeed::order && !to.ordered()) continue;
     const auto g = signature(to, state, system, d.cause, d.values);
-    if (g) left -= *g * model.coefficient(static_cast<Eigen::Index>(k));
+    if (g) left -= *g * model.coefficient(as_index(k));
   }
   if (model.discrepancy_weights.size() > 0) {
     for (const SystemUnit& unit : system.units) {

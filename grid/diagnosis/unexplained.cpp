@@ -5,8 +5,9 @@
 #include <map>
 #include <numbers>
 
-#include "grid/diagnosis/findings.hpp"
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
+#include "grid/diagnosis/findings.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -24,10 +25,9 @@ constexpr double kMost = 0.5;
 
 Enters entry_of(const DiscrepancyKernel& kernel) {
   const DiscrepancyField& field = kernel.fields.front();
-  const bool one_way = std::all_of(
-      kernel.fields.begin(), kernel.fields.end(), [&](const DiscrepancyField& other) {
-        return other.direction_rad == field.direction_rad;
-      });
+  const bool one_way = all_of(kernel.fields, [&](const DiscrepancyField& other) {
+    return other.direction_rad == field.direction_rad;
+  });
   if (!one_way || !field.direction_rad) return Enters::mixed;
   // The nearest of the four directions of a half turn; those between two are mixed.
   const double eighths = *field.direction_rad / (0.25 * std::numbers::pi);
@@ -37,14 +37,13 @@ Enters entry_of(const DiscrepancyKernel& kernel) {
     return nearest % 2 != 0 ? Enters::mixed : nearest % 4 == 0 ? Enters::x : Enters::y;
   }
   constexpr std::array kOfChains = {Enters::left, Enters::equal, Enters::right, Enters::opposite};
-  return kOfChains[static_cast<std::size_t>(nearest % 4)];
+  return kOfChains[as_size(nearest % 4)];
 }
 
 FieldOf argument_of(const DiscrepancyKernel& kernel) {
   const FieldOf first = kernel.fields.front().of;
-  const bool of_one = std::all_of(kernel.fields.begin(),
-                                  kernel.fields.end(),
-                                  [&](const DiscrepancyField& f) { return f.of == first; });
+  const bool of_one =
+      all_of(kernel.fields, [&](const DiscrepancyField& f) { return f.of == first; });
   return of_one ? first : FieldOf::place;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <string_view>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/law_words.hpp"
 #include "grid/diagnosis/laws.hpp"
@@ -48,8 +49,7 @@ std::string improvement_words(const Diagnosis& d) {
 }
 
 std::string assumed_words(const Diagnosis& d) {
-  const bool assumed =
-      std::any_of(d.causes.begin(), d.causes.end(), [](const Cause& c) { return c.order_assumed; });
+  const bool assumed = any_of(d.causes, [](const Cause& c) { return c.order_assumed; });
   return assumed ? " This assumes the order of the visits." : "";
 }
 
@@ -245,7 +245,7 @@ std::string sentence(const Diagnosis& d, std::size_t units) {
 void say_what_to_read_again(Diagnosis& d) {
   const std::vector<std::size_t> points = influential_points(d);
   if (points.size() != 1) return;
-  const bool is_bad = std::any_of(d.outliers.begin(), d.outliers.end(), [&](const Outlier& b) {
+  const bool is_bad = any_of(d.outliers, [&](const Outlier& b) {
     return b.of == Observations::points && b.index == points.front();
   });
   if (is_bad) return;

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <span>
 
+#include "grid/containers.hpp"
 #include "model/belts/effects/belt_effect.hpp"
 #include "model/plotter/effects/plotter_effect.hpp"
 
@@ -103,7 +104,7 @@ namespace {
 
 bool is_of_cords(const model::effects::Effect& effect) {
   const auto cords = model::plotter::described_plotter_effects();
-  return std::find(cords.begin(), cords.end(), &effect) != cords.end();
+  return contains(cords, &effect);
 }
 
 std::string worded(const Unit& unit, const ParameterEstimate& estimate) {
@@ -219,7 +220,7 @@ std::vector<std::string> remedies(const std::vector<Cause>& causes) {
   std::vector<std::string_view> said;
   for (const Cause& cause : causes) {
     const std::string_view remedy = cause.cause.effect->remedy;
-    if (std::find(said.begin(), said.end(), remedy) != said.end()) continue;
+    if (contains(said, remedy)) continue;
     said.push_back(remedy);
     std::vector<std::string> sides;
     for (const Cause& other : causes) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/estimator.hpp"
 #include "grid/estimation/left_out.hpp"
 #include "grid/estimation/unknowns.hpp"
@@ -81,15 +82,15 @@ std::optional<std::size_t> Estimator::worst_alone() const {
   std::optional<std::size_t> worst;
   std::size_t candidates = 0;
   for (std::size_t u = 0; u < problem_->units().size(); ++u) {
-    const auto at = static_cast<Eigen::Index>(u);
+    const auto at = as_index(u);
     if (weights_[at] == 0.0 || !rule_of(problem_->units()[u].rows).worst_first) continue;
     ++candidates;
     if (distances_[at] <= kSuspect) continue;
-    if (!worst || distances_[at] > distances_[static_cast<Eigen::Index>(*worst)]) worst = u;
+    if (!worst || distances_[at] > distances_[as_index(*worst)]) worst = u;
   }
   if (!worst || candidates <= kFewestSingleRows) return std::nullopt;
   Eigen::VectorXd without = weights_;
-  without[static_cast<Eigen::Index>(*worst)] = 0.0;
+  without[as_index(*worst)] = 0.0;
   const Fit fit = solve(without, Smoothing::choose, false);
   if (!fit) return std::nullopt;
   const bool bad = LeftOut(*problem_, *fit, without).distance(*worst) > rule_of(1).rejected_beyond;
@@ -102,12 +103,12 @@ bool Estimator::update_weights(int pass) {
   LeftOut left_out(*problem_, fit_, weights_);
   left_out.prepare_units();
   for (Eigen::Index u = 0; u < distances_.size(); ++u)
-    distances_[u] = left_out.distance(static_cast<std::size_t>(u));
+    distances_[u] = left_out.distance(as_size(u));
   double change = 0.0;
   Eigen::VectorXd next = weights_;
   for (std::size_t u = 0; u < problem_->units().size(); ++u) {
     const UnitRule rule = rule_of(problem_->units()[u].rows);
-    const auto at = static_cast<Eigen::Index>(u);
+    const auto at = as_index(u);
     if (rule.worst_first && weights_[at] == 0.0) continue;
     const bool bad =
         !rule.worst_first && pass >= kSoftRounds && distances_[at] > rule.rejected_beyond;
@@ -117,7 +118,7 @@ bool Estimator::update_weights(int pass) {
   weights_ = std::move(next);
   if (pass >= kSoftRounds) {
     if (const auto worst = worst_alone()) {
-      weights_[static_cast<Eigen::Index>(*worst)] = 0.0;
+      weights_[as_index(*worst)] = 0.0;
       return true;
     }
   }
@@ -126,7 +127,7 @@ bool Estimator::update_weights(int pass) {
 
 void Estimator::begin_weights() {
   if (weights_.size() > 0) return;
-  const auto units = static_cast<Eigen::Index>(problem_->units().size());
+  const auto units = std::ssize(problem_->units());
   weights_ = input_.fixed_weights.value_or(Eigen::VectorXd::Ones(units));
   distances_ = Eigen::VectorXd::Zero(units);
 }
@@ -270,8 +271,7 @@ ParameterKnowledge stated_knowledge(const model::Machine& machine) {
                                Eigen::MatrixXd::Zero(kMachineUnknowns, kMachineUnknowns)};
   for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) {
     const double sigma =
-        std::max(model::stated_sigma(machine, model::kMachineSettings[static_cast<std::size_t>(i)]),
-                 kKnownSigma);
+        std::max(model::stated_sigma(machine, model::kMachineSettings[as_size(i)]), kKnownSigma);
     knowledge.covariance(i, i) = sigma * sigma;
   }
   knowledge.covariance(kMachineSettingCount, kMachineSettingCount) = knowledge.covariance(

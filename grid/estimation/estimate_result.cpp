@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/estimator.hpp"
 #include "grid/estimation/left_out.hpp"
 #include "grid/estimation/unknowns.hpp"
@@ -23,7 +24,7 @@ void Estimator::fill_units(Estimate& estimate) const {
   if (!input_.held_out_together.empty()) left_out.prepare_all();
   for (std::size_t u = 0; u < problem_->units().size(); ++u) {
     const SystemUnit& unit = problem_->units()[u];
-    const auto at = static_cast<Eigen::Index>(u);
+    const auto at = as_index(u);
     const auto back = unit.whitening.inverse();
     const Eigen::MatrixXd rows = problem_->design().middleRows(unit.first_row, unit.rows);
     const double distance = input_.fixed_weights ? left_out.distance(u) : distances_[at];
@@ -136,7 +137,7 @@ std::string words_of(const std::array<SessionZero, 2>& zeros) {
   constexpr double kSpokenOf = 4.0;
   std::string words;
   for (const Side side : model::kSides) {
-    const SessionZero& zero = zeros[static_cast<std::size_t>(row_of(side))];
+    const SessionZero& zero = zeros[as_size(row_of(side))];
     if (!(std::abs(zero.mm) > kSpokenOf * zero.sigma_mm)) continue;
     words += fmt::format("{}{} chain {:.1f} +- {:.1f} mm {}",
                          words.empty() ? "" : ", ",

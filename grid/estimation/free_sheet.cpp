@@ -2,6 +2,7 @@
 /// Notation as in the header.
 #include "grid/estimation/free_sheet.hpp"
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 
 
@@ -12,14 +13,14 @@ using model::MarkPoint;
 
 /// M
 Eigen::MatrixXd whole_motion(const std::vector<MarkPoint>& commanded) {
-  const auto count = static_cast<Eigen::Index>(commanded.size());
+  const auto count = std::ssize(commanded);
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const MarkPoint& c : commanded)
     middle += Eigen::Vector2d(c.x_mm, c.y_mm) / static_cast<double>(count);
   Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, 2 * count);
   double squares = 0.0;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const MarkPoint c = commanded[static_cast<std::size_t>(i)];
+    const MarkPoint c = commanded[as_size(i)];
     const double x = c.x_mm - middle.x();
     const double y = c.y_mm - middle.y();
     motion(0, 2 * i) = motion(1, 2 * i + 1) = 1.0 / static_cast<double>(count);
@@ -33,9 +34,9 @@ Eigen::MatrixXd whole_motion(const std::vector<MarkPoint>& commanded) {
 
 /// m - c
 Eigen::VectorXd alongside(const PlacesOnSheet& places) {
-  Eigen::VectorXd all(2 * static_cast<Eigen::Index>(places.marks.size()));
+  Eigen::VectorXd all(2 * std::ssize(places.marks));
   for (std::size_t i = 0; i < places.marks.size(); ++i) {
-    const auto at = 2 * static_cast<Eigen::Index>(i);
+    const auto at = 2 * as_index(i);
     all[at] = places.marks[i].x_mm - places.commanded[i].x_mm;
     all[at + 1] = places.marks[i].y_mm - places.commanded[i].y_mm;
   }
@@ -69,7 +70,7 @@ std::vector<MarkPoint> placed_as_a_whole(const PlacesOnSheet& places) {
   const Eigen::VectorXd shift = -linear::product(
       by_free, linear::product(inverse, linear::product(motion, alongside(places))));
   for (std::size_t i = 0; i < marks.size(); ++i) {
-    const auto at = 2 * static_cast<Eigen::Index>(i);
+    const auto at = 2 * as_index(i);
     marks[i].x_mm += shift[at];
     marks[i].y_mm += shift[at + 1];
   }

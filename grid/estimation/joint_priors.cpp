@@ -2,6 +2,7 @@
 /// The problem that a fit is asked: weighted rows, and what is known beforehand.
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/joint_problem.hpp"
 #include "grid/estimation/unknowns.hpp"
 #include "grid/linear_algebra.hpp"
@@ -22,7 +23,7 @@ void JointProblem::add_rows(interp::PenalisedProblem& problem,
   Eigen::VectorXd response(design_.rows());
   Eigen::Index rows = 0;
   for (std::size_t u = 0; u < units_.size(); ++u) {
-    const double weight = weights[static_cast<Eigen::Index>(u)];
+    const double weight = weights[as_index(u)];
     if (weight == 0.0) continue;
     const double root = std::sqrt(weight);
     const SystemUnit& unit = units_[u];
@@ -107,9 +108,9 @@ void JointProblem::add_surface_prior(interp::PenalisedProblem& problem,
   problem.ridge = {unknowns_->first_penalised_of(Side::left), 2 * surface.penalised};
   // Where the splines' own penalty would weigh as much as the data.
   for (std::size_t u = 0; u < units_.size(); ++u) {
-    const double weight = weights[static_cast<Eigen::Index>(u)];
+    const double weight = weights[as_index(u)];
     for (const observation::PlaceColumns& place : units_[u].places) {
-      const double square = observed_->squares()[static_cast<Eigen::Index>(place.place)];
+      const double square = observed_->squares()[as_index(place.place)];
       problem.ridge.balance +=
           weight * square * place.by_chain.squaredNorm() / (2.0 * observed_->penalty_trace());
     }

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "grid/chain_rows.hpp"
+#include "grid/containers.hpp"
 #include "grid/estimation/surface_correction.hpp"
 #include "grid/estimation/unknowns.hpp"
 #include "grid/precondition.hpp"
@@ -184,7 +185,7 @@ void JointProblem::fill_design(const LinearisedSystem& system, const State& stat
   };
   units_ = system.units;
   for (SystemUnit& unit : units_) {
-    const auto first = static_cast<Eigen::Index>(rows.size());
+    const auto first = std::ssize(rows);
     take(unit, rows);
     unit.first_row = first;
   }
@@ -209,7 +210,7 @@ void JointProblem::add_chain_columns(const LinearisedSystem& system,
       const Eigen::VectorXd by_chain = place.by_chain.col(row_of(side));
       own.col(unknowns_->scale(side)) += by_chain * length_of(at.state.reading.lengths, side);
       if (!has_surface_) continue;
-      const auto row = static_cast<Eigen::Index>(place.place);
+      const auto row = as_index(place.place);
       own.middleCols(unknowns_->polynomial(side), observed_->polynomials()) +=
           by_chain * observed_->polynomial_rows().row(row);
       own.middleCols(unknowns_->first_penalised_of(side), observed_->penalised()) +=
@@ -227,8 +228,8 @@ Eigen::MatrixXd JointProblem::lengths_by_unknown(std::size_t place,
                                                  const observation::View& view) const {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, unknowns_->total());
   for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) {
-    rows.col(i) = at.state.by_length.cwiseProduct(view.chains().sensitivity(
-        at.state.reading, model::kMachineSettings[static_cast<std::size_t>(i)]));
+    rows.col(i) = at.state.by_length.cwiseProduct(
+        view.chains().sensitivity(at.state.reading, model::kMachineSettings[as_size(i)]));
   }
   if (const Eigen::Index sheet = unknowns_->sheet(at.observation); sheet >= 0) {
     rows.middleCols<3>(sheet) =
@@ -239,7 +240,7 @@ Eigen::MatrixXd JointProblem::lengths_by_unknown(std::size_t place,
     const Eigen::Index row = row_of(side);
     rows(row, unknowns_->scale(side)) = length_of(at.state.reading.lengths, side);
     if (!has_surface_) continue;
-    const auto own = static_cast<Eigen::Index>(place);
+    const auto own = as_index(place);
     rows.row(row).segment(unknowns_->polynomial(side), observed_->polynomials()) =
         observed_->polynomial_rows().row(own);
     rows.row(row).segment(unknowns_->first_penalised_of(side), observed_->penalised()) =
@@ -258,10 +259,10 @@ void JointProblem::eliminate_free_directions(const LinearisedSystem& system,
     PlacesOnSheet places;
     for (std::size_t i = 0; observation.sheet() && i < model::kSheetSettings.size(); ++i) {
       if (observation.sheet()->knows(model::kSheetSettings[i])) continue;
-      places.free_rows.push_back(static_cast<Eigen::Index>(i));
-      places.free_columns.push_back(unknowns_->sheet(k) + static_cast<Eigen::Index>(i));
+      places.free_rows.push_back(as_index(i));
+      places.free_columns.push_back(unknowns_->sheet(k) + as_index(i));
     }
-    const Eigen::Index rows = 2 * static_cast<Eigen::Index>(observation.places().size());
+    const Eigen::Index rows = 2 * std::ssize(observation.places());
     places.by_unknown = Eigen::MatrixXd::Zero(rows, unknowns_->total());
     places.moved = Eigen::VectorXd::Zero(rows);
     for (std::size_t p = 0; p < system.places.size(); ++p) {
@@ -271,7 +272,7 @@ void JointProblem::eliminate_free_directions(const LinearisedSystem& system,
       places.marks.push_back(at.state.mark);
       if (places.free_columns.empty()) continue;
       const Eigen::Matrix2d to_mark = -at.state.by_mark.inverse();
-      const auto row = 2 * static_cast<Eigen::Index>(at.place);
+      const auto row = 2 * as_index(at.place);
       const Eigen::MatrixXd lengths = lengths_by_unknown(p, at, from[k].view);
       places.by_unknown.middleRows<2>(row) = to_mark * lengths;
       Eigen::VectorXd now = Eigen::VectorXd::Zero(unknowns_->total());

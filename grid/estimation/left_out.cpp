@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -75,13 +76,13 @@ Eigen::VectorXd LeftOut::residual_of(std::size_t unit) const {
 
 std::optional<interp::PenalisedFit> LeftOut::fit_without(const UnitGroup& group) const {
   Eigen::VectorXd without = weights_;
-  for (const std::size_t unit : group) without[static_cast<Eigen::Index>(unit)] = 0.0;
+  for (const std::size_t unit : group) without[as_index(unit)] = 0.0;
   auto rest = interp::fit_with_smoothing(problem_.weighted(without), fit_.lambda, fit_.sigma2);
   return rest ? std::optional(*std::move(rest)) : std::nullopt;
 }
 
 LeftOut::Conditioned LeftOut::conditioned(std::size_t unit) const {
-  const auto at = static_cast<Eigen::Index>(unit);
+  const auto at = as_index(unit);
   const bool by_formula =
       weights_[at] == 0.0 ||
       interp::held_out_residual(residual_of(unit), weights_[at] * spread_of(unit), fit_.sigma2);
@@ -98,7 +99,7 @@ LeftOut::Conditioned LeftOut::conditioned(std::size_t unit) const {
 }
 
 Eigen::VectorXd LeftOut::residual(std::size_t unit) const {
-  const double weight = weights_[static_cast<Eigen::Index>(unit)];
+  const double weight = weights_[as_index(unit)];
   Eigen::VectorXd residual = residual_of(unit);
   if (weight == 0.0) return residual;
   const auto held = interp::held_out_residual(residual, weight * spread_of(unit), fit_.sigma2);
@@ -110,7 +111,7 @@ std::vector<Eigen::VectorXd> LeftOut::residuals(const UnitGroup& group) const {
   std::vector<Eigen::Index> rows;
   std::vector<double> roots;
   for (const std::size_t unit : group) {
-    const double weight = weights_[static_cast<Eigen::Index>(unit)];
+    const double weight = weights_[as_index(unit)];
     if (weight == 0.0) continue;
     const SystemUnit& own = problem_.units()[unit];
     for (Eigen::Index i = 0; i < own.rows; ++i) {
@@ -123,11 +124,11 @@ std::vector<Eigen::VectorXd> LeftOut::residuals(const UnitGroup& group) const {
     for (const std::size_t unit : group) residuals.push_back(residual_of(unit));
     return residuals;
   }
-  const auto count = static_cast<Eigen::Index>(rows.size());
+  const auto count = std::ssize(rows);
   const Eigen::Map<const Eigen::VectorXd> root(roots.data(), count);
   Eigen::VectorXd residual(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Index row = rows[static_cast<std::size_t>(i)];
+    const Eigen::Index row = rows[as_size(i)];
     residual[i] =
         root[i] * (problem_.response()[row] - problem_.design().row(row).dot(fit_.coefficients));
   }
@@ -142,7 +143,7 @@ std::vector<Eigen::VectorXd> LeftOut::residuals(const UnitGroup& group) const {
   }
   Eigen::Index at = 0;
   for (const std::size_t unit : group) {
-    const double weight = weights_[static_cast<Eigen::Index>(unit)];
+    const double weight = weights_[as_index(unit)];
     if (held && weight > 0.0) {
       const Eigen::Index own = problem_.units()[unit].rows;
       residuals.emplace_back(held->segment(at, own) / std::sqrt(weight));
@@ -155,7 +156,7 @@ std::vector<Eigen::VectorXd> LeftOut::residuals(const UnitGroup& group) const {
 }
 
 Eigen::MatrixXd LeftOut::covariance(std::size_t unit) const {
-  const double weight = weights_[static_cast<Eigen::Index>(unit)];
+  const double weight = weights_[as_index(unit)];
   Eigen::MatrixXd spread = spread_of(unit);
   const Eigen::MatrixXd noise =
       fit_.sigma2 * Eigen::MatrixXd::Identity(spread.rows(), spread.rows());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/linearised_system.hpp"
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::estimation {
 namespace {
 
@@ -15,7 +17,7 @@ class Assembly {
     system_.response.resize(set.rows);
     system_.by_setting = Eigen::MatrixXd::Zero(set.rows, columns);
     system_.nuisances = set.nuisances();
-    system_.unit_of_row.assign(static_cast<std::size_t>(set.rows), -1);
+    system_.unit_of_row.assign(as_size(set.rows), -1);
   }
 
   /// `predicted` is f.
@@ -79,8 +81,7 @@ class Assembly {
       return;
     }
     for (Eigen::Index k = 0; k < unit.rows; ++k) {
-      system_.unit_of_row[static_cast<std::size_t>(unit.first_row + k)] =
-          static_cast<int>(system_.units.size());
+      system_.unit_of_row[as_size(unit.first_row + k)] = static_cast<int>(system_.units.size());
     }
     system_.units.push_back(std::move(unit));
   }
@@ -144,11 +145,11 @@ std::vector<std::pair<Eigen::Index, std::size_t>> units_in(const LinearisedSyste
                                                            const std::vector<Eigen::Index>& kept) {
   std::vector<std::pair<Eigen::Index, std::size_t>> result;
   for (std::size_t a = 0; a < kept.size(); ++a) {
-    const int unit = system.unit_of_row[static_cast<std::size_t>(kept[a])];
+    const int unit = system.unit_of_row[as_size(kept[a])];
     if (unit < 0) continue;
-    const auto number = static_cast<std::size_t>(unit);
+    const auto number = as_size(unit);
     if (system.units[number].first_row == kept[a]) {
-      result.emplace_back(static_cast<Eigen::Index>(a), number);
+      result.emplace_back(as_index(a), number);
     }
   }
   return result;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -15,7 +16,7 @@ LocalDesign::LocalDesign(const Eigen::MatrixXd& design,
                          const ObservedSubspace& observed,
                          const interp::BsplineBasis& basis,
                          const std::vector<model::MarkPoint>& marks)
-    : units_(units), rows_(static_cast<std::size_t>(design.rows())) {
+    : units_(units), rows_(as_size(design.rows())) {
   const Eigen::Index penalised = observed.penalised();
   const Eigen::Index first_bend = unknowns.first_penalised_of(Side::left);
   const Eigen::Index plain = unknowns.total() - 2 * penalised;
@@ -24,7 +25,7 @@ LocalDesign::LocalDesign(const Eigen::MatrixXd& design,
   std::vector<Eigen::Index> columns;
   for (Eigen::Index k = 0; k < unknowns.total(); ++k) {
     if (k >= first_bend && k < first_bend + 2 * penalised) continue;
-    to_unknowns_(static_cast<Eigen::Index>(columns.size()), k) = 1.0;
+    to_unknowns_(std::ssize(columns), k) = 1.0;
     columns.push_back(k);
   }
   for (const Side side : model::kSides) {
@@ -32,16 +33,16 @@ LocalDesign::LocalDesign(const Eigen::MatrixXd& design,
         observed.penalised_basis();
   }
   for (Eigen::Index k = 0; k < plain; ++k) {
-    const auto column = design.col(columns[static_cast<std::size_t>(k)]);
+    const auto column = design.col(columns[as_size(k)]);
     for (Eigen::Index row = 0; row < design.rows(); ++row) {
-      if (column[row] != 0.0) rows_[static_cast<std::size_t>(row)].emplace_back(k, column[row]);
+      if (column[row] != 0.0) rows_[as_size(row)].emplace_back(k, column[row]);
     }
   }
   for (const SystemUnit& unit : units) {
     for (const observation::PlaceColumns& place : unit.places) {
       const interp::BasisSupport at = basis.at(marks[place.place].x_mm, marks[place.place].y_mm);
       for (Eigen::Index i = 0; i < unit.rows; ++i) {
-        auto& row = rows_[static_cast<std::size_t>(unit.first_row + i)];
+        auto& row = rows_[as_size(unit.first_row + i)];
         for (const Side side : model::kSides) {
           const double by_chain = place.by_chain(i, row_of(side));
           for (std::size_t k = 0; by_chain != 0.0 && k < at.index.size(); ++k)
@@ -59,11 +60,11 @@ void LocalDesign::add_rows(const Eigen::VectorXd& response,
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXd moment = Eigen::VectorXd::Zero(size);
   for (std::size_t u = 0; u < units_.size(); ++u) {
-    const double weight = weights[static_cast<Eigen::Index>(u)];
+    const double weight = weights[as_index(u)];
     if (weight == 0.0) continue;
     for (Eigen::Index i = 0; i < units_[u].rows; ++i) {
       const Eigen::Index at = units_[u].first_row + i;
-      const auto& row = rows_[static_cast<std::size_t>(at)];
+      const auto& row = rows_[as_size(at)];
       // Columns rise along a row but where two places meet: what is above the diagonal is added
       // below it.
       for (std::size_t a = 0; a < row.size(); ++a) {
@@ -96,9 +97,9 @@ std::vector<Eigen::MatrixXd> LocalDesign::spreads(const Eigen::MatrixXd& covaria
     for (Eigen::Index i = 0; i < unit.rows; ++i) {
       for (Eigen::Index j = 0; j <= i; ++j) {
         double sum = 0.0;
-        for (const auto& [a, left] : rows_[static_cast<std::size_t>(unit.first_row + j)]) {
+        for (const auto& [a, left] : rows_[as_size(unit.first_row + j)]) {
           double part = 0.0;
-          for (const auto& [b, right] : rows_[static_cast<std::size_t>(unit.first_row + i)])
+          for (const auto& [b, right] : rows_[as_size(unit.first_row + i)])
             part += local(b, a) * right;
           sum += left * part;
         }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "grid/precondition.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/chains/chain_mechanism.hpp"
@@ -35,7 +36,7 @@ void append(ObservationPart part, ObservationSet& set) {
 /// The columns of zeros and nuisances, and what is stated of all columns.
 void add_columns(ObservationSet& set) {
   const Eigen::Index parameters = set.parameters();
-  Eigen::Index columns = parameters + 3 * static_cast<Eigen::Index>(set.sheets);
+  Eigen::Index columns = parameters + 3 * as_index(set.sheets);
   bool is_first = true;
   for (ObservationPart& part : set.parts) {
     // Nothing is said of the zeros of a mechanism that is not two chains.
@@ -56,16 +57,14 @@ void add_columns(ObservationSet& set) {
   set.stated_sigma = Eigen::VectorXd::Zero(columns);
   set.stated_value.head(parameters) = set.mechanism->values();
   for (Eigen::Index k = 0; k < parameters; ++k) {
-    set.stated_sigma(k) =
-        set.mechanism->parameters()[static_cast<std::size_t>(k)].prior_sigma.value_or(
-            std::numeric_limits<double>::infinity());
+    set.stated_sigma(k) = set.mechanism->parameters()[as_size(k)].prior_sigma.value_or(
+        std::numeric_limits<double>::infinity());
   }
   for (const ObservationPart& part : set.parts) {
     for (const Eigen::Index column : part.zero_columns)
       set.stated_sigma(column) = kSessionZeroSigmaMm;
     for (std::size_t q = 0; q < part.nuisance_columns.size(); ++q) {
-      set.stated_sigma(part.nuisance_columns[q]) =
-          part.observation->nuisance_sigma()(static_cast<Eigen::Index>(q));
+      set.stated_sigma(part.nuisance_columns[q]) = part.observation->nuisance_sigma()(as_index(q));
     }
     if (!part.sheet) continue;
     const observation::SheetPrior& prior = *part.observation->sheet();
@@ -116,10 +115,10 @@ ObservationSet with_observations(const ObservationSet& set, std::vector<FollowUp
     part.zero_columns = set.parts[one.in_place_of].zero_columns;
     part.nuisance_columns = set.parts[one.in_place_of].nuisance_columns;
     const Eigen::VectorXd& sigma = one.observation->nuisance_sigma();
-    const auto known = static_cast<Eigen::Index>(part.nuisance_columns.size());
+    const auto known = std::ssize(part.nuisance_columns);
     const Eigen::Index more = std::max<Eigen::Index>(sigma.size() - known, 0);
     const Eigen::Index columns = other.stated_sigma.size();
-    part.nuisance_columns.resize(static_cast<std::size_t>(std::min(known, sigma.size())));
+    part.nuisance_columns.resize(as_size(std::min(known, sigma.size())));
     for (Eigen::Index q = 0; q < more; ++q) part.nuisance_columns.push_back(columns + q);
     other.stated_value.conservativeResizeLike(Eigen::VectorXd::Zero(columns + more));
     other.stated_sigma.conservativeResize(columns + more);
@@ -131,7 +130,7 @@ ObservationSet with_observations(const ObservationSet& set, std::vector<FollowUp
 }
 
 Eigen::Index ObservationSet::sheet_column(std::size_t sheet) {
-  return kMachineSettingCount + static_cast<Eigen::Index>(model::kSheetSettings.size() * sheet);
+  return kMachineSettingCount + as_index(model::kSheetSettings.size() * sheet);
 }
 
 std::vector<Eigen::Index> ObservationSet::columns_of(const ObservationPart& part) const {
@@ -140,13 +139,12 @@ std::vector<Eigen::Index> ObservationSet::columns_of(const ObservationPart& part
   // What was read to follow up may stand in the frame of a sheet that it does not depend on.
   const bool has_sheet = part.sheet && part.observation->sheet();
   for (std::size_t k = 0; has_sheet && k < model::kSheetSettings.size(); ++k)
-    columns.push_back(sheet_column(*part.sheet) + static_cast<Eigen::Index>(k));
+    columns.push_back(sheet_column(*part.sheet) + as_index(k));
   return columns;
 }
 
 bool ObservationSet::reads_chains() const {
-  return std::any_of(
-      parts.begin(), parts.end(), [](const ObservationPart& part) { return part.reads_chains(); });
+  return any_of(parts, [](const ObservationPart& part) { return part.reads_chains(); });
 }
 
 bool ObservationSet::has_distances() const {
@@ -154,7 +152,7 @@ bool ObservationSet::has_distances() const {
 }
 
 bool ObservationSet::ordered() const {
-  return std::any_of(parts.begin(), parts.end(), [](const ObservationPart& part) {
+  return any_of(parts, [](const ObservationPart& part) {
     return part.reads_chains() && part.observation->ordered();
   });
 }
@@ -167,7 +165,7 @@ const std::vector<ExtraReading>& ObservationSet::readings() const {
 
 bool ObservationSet::knows(std::size_t column) const {
   if (column >= settings.size() || !model::is_of_sheet(settings[column])) return true;
-  return std::any_of(parts.begin(), parts.end(), [&](const ObservationPart& part) {
+  return any_of(parts, [&](const ObservationPart& part) {
     return part.sheet && part.observation->sheet() &&
            (column - model::kMachineSettings.size()) / 3 == *part.sheet &&
            part.observation->sheet()->knows(settings[column]);
@@ -198,7 +196,7 @@ Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& st
     return values;
   }
   for (Eigen::Index k = 0; k < kMachineSettingCount; ++k) {
-    values(k) = model::stated_value(state.machine, set.settings[static_cast<std::size_t>(k)]);
+    values(k) = model::stated_value(state.machine, set.settings[as_size(k)]);
   }
   for (std::size_t i = 0; i < set.sheets; ++i) {
     const model::SheetPlacement& sheet = state.sheets[i];
@@ -216,8 +214,8 @@ MachineState with_settings(const ObservationSet& set,
     return state;
   }
   for (Eigen::Index k = 0; k < kMachineSettingCount; ++k) {
-    state.machine = model::with_setting(
-        std::move(state.machine), set.settings[static_cast<std::size_t>(k)], values(k));
+    state.machine =
+        model::with_setting(std::move(state.machine), set.settings[as_size(k)], values(k));
   }
   for (std::size_t i = 0; i < set.sheets; ++i) {
     const Eigen::Index at = ObservationSet::sheet_column(i);

@@ -23,6 +23,7 @@
 #include <optional>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/single_readings.hpp"
 #include "grid/observation/tape_distances.hpp"
@@ -38,8 +39,7 @@ inline constexpr double kKnownSigma = 1e-7;
 inline constexpr double kSessionZeroSigmaMm = 3.0;
 
 /// Settings of the machine: the first columns.
-inline constexpr auto kMachineSettingCount =
-    static_cast<Eigen::Index>(model::kMachineSettings.size());
+inline constexpr auto kMachineSettingCount = std::ssize(model::kMachineSettings);
 
 /// An observation's share of the rows, places, units and columns.
 struct ObservationPart {
@@ -95,11 +95,9 @@ struct ObservationSet {
   /// Of the mechanism: the first columns.
   [[nodiscard]] Eigen::Index parameters() const { return mechanism->values().size(); }
   /// Of the mechanism's parameters and the sheets: the first columns.
-  [[nodiscard]] Eigen::Index setting_columns() const {
-    return parameters() + 3 * static_cast<Eigen::Index>(sheets);
-  }
+  [[nodiscard]] Eigen::Index setting_columns() const { return parameters() + 3 * as_index(sheets); }
   [[nodiscard]] Eigen::Index nuisances() const {
-    return stated_value.size() - setting_columns() - 2 * static_cast<Eigen::Index>(own_zeros);
+    return stated_value.size() - setting_columns() - 2 * as_index(own_zeros);
   }
   /// Whether two chains hang, of which `stated` says all.
   [[nodiscard]] bool is_of_chains() const { return !settings.empty(); }

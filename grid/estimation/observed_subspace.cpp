@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/observed_subspace.hpp"
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 
 
@@ -27,7 +28,7 @@ ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis,
                                    int bending_order,
                                    const std::vector<model::MarkPoint>& marks)
     : polynomials_(basis.polynomial_coefficients(bending_order - 1)) {
-  const auto points = static_cast<Eigen::Index>(marks.size());
+  const auto points = std::ssize(marks);
   const Eigen::Index size = basis.size();
   const Eigen::MatrixXd penalty = basis.bending_penalty(bending_order);
   penalty_trace_ = penalty.trace();
@@ -36,7 +37,7 @@ ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis,
   polynomial_rows_ = Eigen::MatrixXd::Zero(points, polynomials_.cols());
   squares_ = Eigen::VectorXd::Zero(points);
   for (Eigen::Index i = 0; i < points; ++i) {
-    const model::MarkPoint mark = marks[static_cast<std::size_t>(i)];
+    const model::MarkPoint mark = marks[as_size(i)];
     const interp::BasisSupport support = basis.at(mark.x_mm, mark.y_mm);
     for (std::size_t k = 0; k < support.index.size(); ++k) {
       bend_rows_.row(i) += support.value[k] * root.row(support.index[k]);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/estimator.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -17,7 +18,7 @@ std::optional<Estimator::Shift> Estimator::worst_reading() const {
     const SystemUnit& unit = problem_->units()[u];
     const std::vector<Eigen::Index>& rejected = problem_->rejected(u);
     for (Eigen::Index i = 0; i < unit.by_reading.cols(); ++i) {
-      if (std::find(rejected.begin(), rejected.end(), i) != rejected.end()) continue;
+      if (contains(rejected, i)) continue;
       const double sigmas = shift_of(rows, unit, rejected, i).sigmas;
       // Readings that share one check are out by the same: the first of them.
       constexpr double kSame = 1e-6;

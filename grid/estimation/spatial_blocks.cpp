@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid {
 namespace {
 
@@ -32,12 +34,12 @@ std::vector<std::vector<std::size_t>> spatial_blocks(const std::vector<LengthPoi
   const auto by_y = [&](std::size_t i) {
     return std::tuple(points[i].mark.y_mm, points[i].mark.x_mm, points[i].lengths.left_mm);
   };
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return by_x(a) < by_x(b); });
+  sort(order, [&](auto a, auto b) { return by_x(a) < by_x(b); });
   std::vector<std::vector<std::size_t>> blocks;
   for (auto& column : cut(order, 4)) {
-    std::sort(column.begin(), column.end(), [&](auto a, auto b) { return by_y(a) < by_y(b); });
+    sort(column, [&](auto a, auto b) { return by_y(a) < by_y(b); });
     for (auto& block : cut(column, 2)) {
-      std::sort(block.begin(), block.end());
+      sort(block);
       blocks.push_back(std::move(block));
     }
   }

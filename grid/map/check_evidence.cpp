@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid {
@@ -28,11 +29,10 @@ struct Proposal {
 /// What a unit of a quantity adds to the residuals.
 Eigen::VectorXd column_of(const CheckReadings& readings, const model::ChangedQuantity& quantity) {
   if (quantity.kind == QuantityKind::parameter)
-    return readings.by_parameter.col(static_cast<Eigen::Index>(quantity.parameter));
+    return readings.by_parameter.col(as_index(quantity.parameter));
   Eigen::VectorXd added = Eigen::VectorXd::Zero(readings.lengths_mm.size());
   for (const std::size_t length : quantity.lengths) {
-    for (auto i = static_cast<Eigen::Index>(length); i < added.size();
-         i += static_cast<Eigen::Index>(readings.lengths))
+    for (auto i = as_index(length); i < added.size(); i += as_index(readings.lengths))
       added[i] = quantity.kind == QuantityKind::elongation ? -readings.lengths_mm[i] : 1.0;
   }
   return readings.by_length * added;
@@ -104,7 +104,7 @@ ReadingCovariance with_unknown(const CheckReadings& readings) {
   for (std::size_t u = 0; u < k.own.size(); ++u) {
     first_row.push_back(row);
     row += k.own[u].rows();
-    unit_of.resize(static_cast<std::size_t>(row), u);
+    unit_of.resize(as_size(row), u);
   }
   std::vector<Eigen::Triplet<double>> shared;
   Eigen::Index columns = 0;
@@ -113,8 +113,8 @@ ReadingCovariance with_unknown(const CheckReadings& readings) {
     for (Eigen::SparseMatrix<double>::InnerIterator at(readings.by_length, length); at; ++at)
       conditioned.emplace_back(at.row(), kUnknownSigmaMm * at.value());
     if (conditioned.empty()) continue;
-    const std::size_t unit = unit_of[static_cast<std::size_t>(conditioned.front().first)];
-    if (unit == unit_of[static_cast<std::size_t>(conditioned.back().first)]) {
+    const std::size_t unit = unit_of[as_size(conditioned.front().first)];
+    if (unit == unit_of[as_size(conditioned.back().first)]) {
       for (const auto& [i, by_i] : conditioned) {
         for (const auto& [j, by_j] : conditioned)
           k.own[unit](i - first_row[unit], j - first_row[unit]) += by_i * by_j;
@@ -212,7 +212,7 @@ class Evidence {
                                const Eigen::MatrixXd& covariance) {
     double added = 0.0;
     for (std::size_t k = 0; k < proposal.quantity_of_q.size(); ++k) {
-      const auto at = static_cast<Eigen::Index>(k);
+      const auto at = as_index(k);
       QuantityFound& found = proposal.hypothesis.found[proposal.quantity_of_q[k]];
       found.value += q[at];
       found.sigma = std::sqrt(covariance(at, at));

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/placement_fit.hpp"
 #include "grid/map/corrected_data.hpp"
 #include "grid/observation/chain_lengths.hpp"
@@ -163,9 +164,8 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
   }
   part.distances = *std::move(distances);
   // Edges are those of a sheet of its own; distances between holes do not move with it.
-  if (std::any_of(set.distances.begin(), set.distances.end(), [](const HoleDistance& distance) {
-        return distance.edge.has_value();
-      })) {
+  if (any_of(set.distances,
+             [](const HoleDistance& distance) { return distance.edge.has_value(); })) {
     part.sheet = observation::SheetPrior{observation::kSheetShiftMm, observation::kSheetTurnRad};
   }
   return part;

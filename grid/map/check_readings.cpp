@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/map/check_parts.hpp"
 #include "grid/map/map_at.hpp"
 #include "grid/observation/chain_lengths.hpp"
@@ -37,8 +38,8 @@ class Gathered {
 
   [[nodiscard]] CheckReadings readings() const {
     CheckReadings readings;
-    const auto rows = static_cast<Eigen::Index>(residual_mm_.size());
-    const auto places = static_cast<Eigen::Index>(at_.lengths.size());
+    const auto rows = std::ssize(residual_mm_);
+    const auto places = std::ssize(at_.lengths);
     readings.residual_mm = Eigen::Map<const Eigen::VectorXd>(residual_mm_.data(), rows);
     readings.by_length.resize(rows, 2 * places);
     readings.by_length.setFromTriplets(by_length_.begin(), by_length_.end());
@@ -50,14 +51,14 @@ class Gathered {
     readings.by_parameter = readings.by_length * at_.by_parameter;
     readings.lengths_mm.resize(2 * places);
     for (Eigen::Index i = 0; i < places; ++i) {
-      const ChainLengths& lengths = at_.lengths[static_cast<std::size_t>(i)];
+      const ChainLengths& lengths = at_.lengths[as_size(i)];
       readings.lengths_mm.segment<2>(2 * i) << lengths.left_mm, lengths.right_mm;
     }
     return readings;
   }
 
  private:
-  [[nodiscard]] Eigen::Index row() const { return static_cast<Eigen::Index>(residual_mm_.size()); }
+  [[nodiscard]] Eigen::Index row() const { return std::ssize(residual_mm_); }
 
   void add_points(const CheckedPart& part, std::size_t first) {
     const Eigen::Vector3d laid(
@@ -72,7 +73,7 @@ class Gathered {
       own.diagonal().array() += kLeastVarianceMm2;
       if (!at_.covariance.empty()) own += at_.covariance[first + i];
       own_.push_back(std::move(own));
-      const auto chain = 2 * static_cast<Eigen::Index>(first + i);
+      const auto chain = 2 * as_index(first + i);
       for (Eigen::Index side = 0; side < 2; ++side)
         by_length_.emplace_back(row() + side, chain + side, 1.0);
       Eigen::Vector2d residual(read.left_mm - mapped.left_mm, read.right_mm - mapped.right_mm);
@@ -108,25 +109,23 @@ class Gathered {
     const Eigen::VectorXd residual = part.distances->measured() - geometry.predicted_mm;
     const Eigen::Index before = row();
     for (Eigen::Index k = 0; k < residual.size(); ++k) {
-      const HoleDistance& distance = set.distances[static_cast<std::size_t>(k)];
+      const HoleDistance& distance = set.distances[as_size(k)];
       residual_mm_.push_back(residual[k]);
       own_.push_back(Eigen::MatrixXd::Constant(1, 1, std::pow(sigma_of(set, distance), 2)));
       add_hole(geometry, set, before + k, k, first, distance.from);
       if (!distance.edge) add_hole(geometry, set, before + k, k, first, distance.to);
     }
-    shared_columns_ +=
-        (at_.covariance.empty() ? 2 : 4) * static_cast<Eigen::Index>(set.holes.size());
+    shared_columns_ += (at_.covariance.empty() ? 2 : 4) * std::ssize(set.holes);
     add_size_and_tape_zero(set, geometry, before);
     if (!part.sheet) return;
     // A hole's mark on a sheet that moved goes the other way; edges see it, a turn to first order.
     Eigen::Matrix<double, Eigen::Dynamic, 3> by_sheet =
         Eigen::Matrix<double, Eigen::Dynamic, 3>::Zero(residual.size(), 3);
     for (Eigen::Index k = 0; k < residual.size(); ++k) {
-      const HoleDistance& distance = set.distances[static_cast<std::size_t>(k)];
+      const HoleDistance& distance = set.distances[as_size(k)];
       if (!distance.edge) continue;
-      by_sheet.row(k) =
-          -geometry.by_mark.block<1, 2>(k, 2 * static_cast<Eigen::Index>(distance.from)) *
-          model::SheetPlacement{}.sensitivity(part.marks[distance.from]);
+      by_sheet.row(k) = -geometry.by_mark.block<1, 2>(k, 2 * as_index(distance.from)) *
+                        model::SheetPlacement{}.sensitivity(part.marks[distance.from]);
     }
     add_sheet(*part.sheet, by_sheet, before);
     shared_columns_ += 3;
@@ -139,13 +138,12 @@ class Gathered {
                 Eigen::Index distance,
                 std::size_t first,
                 std::size_t hole) {
-    const auto column = 2 * static_cast<Eigen::Index>(hole);
+    const auto column = 2 * as_index(hole);
     const Eigen::RowVector2d by_mark = geometry.by_mark.block<1, 2>(distance, column);
     // More read on a chain than the map says for the same place: the tool is nearer to that motor.
     const Eigen::RowVector2d by_length = -by_mark * at_.by_mark[first + hole].inverse();
     for (Eigen::Index axis = 0; axis < 2; ++axis) {
-      by_length_.emplace_back(
-          at_row, 2 * static_cast<Eigen::Index>(first) + column + axis, by_length[axis]);
+      by_length_.emplace_back(at_row, 2 * as_index(first) + column + axis, by_length[axis]);
       shared_.emplace_back(
           at_row, shared_columns_ + column + axis, set.hole_sigma_mm * by_mark[axis]);
     }
@@ -153,7 +151,7 @@ class Gathered {
     // The map's own doubt at the hole, which all of its distances share.
     const Eigen::Matrix2d root = Eigen::LLT<Eigen::Matrix2d>(at_.covariance[first + hole]).matrixL();
     const Eigen::RowVector2d found = by_length * root;
-    const auto holes = 2 * static_cast<Eigen::Index>(set.holes.size());
+    const auto holes = 2 * std::ssize(set.holes);
     for (Eigen::Index axis = 0; axis < 2; ++axis)
       shared_.emplace_back(at_row, shared_columns_ + holes + column + axis, found[axis]);
   }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid {
 namespace {
 
@@ -15,9 +17,8 @@ using Quantity = model::ChangedQuantity;
 void decide(Check& check) {
   for (const CheckHypothesis& h : check.hypotheses)
     check.probability[static_cast<std::size_t>(h.verdict)] += h.probability;
-  std::stable_sort(check.hypotheses.begin(),
-                   check.hypotheses.end(),
-                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  stable_sort(check.hypotheses,
+              [](const auto& a, const auto& b) { return a.probability > b.probability; });
   const auto best = std::max_element(check.probability.begin(), check.probability.end());
   check.verdict = static_cast<CheckVerdict>(best - check.probability.begin());
   check.decided = *best >= kDecided;
@@ -105,8 +106,7 @@ std::string_view name(CheckVerdict verdict) {
 QuantityFound CheckHypothesis::added(std::size_t length) const {
   for (const QuantityFound& one : found) {
     const auto& of = one.of.lengths;
-    if (one.of.kind == Quantity::Kind::added && std::find(of.begin(), of.end(), length) != of.end())
-      return one;
+    if (one.of.kind == Quantity::Kind::added && contains(of, length)) return one;
   }
   return {};
 }
@@ -114,9 +114,7 @@ QuantityFound CheckHypothesis::added(std::size_t length) const {
 QuantityFound CheckHypothesis::elongation(std::size_t length) const {
   for (const QuantityFound& one : found) {
     const auto& of = one.of.lengths;
-    if (one.of.kind == Quantity::Kind::elongation &&
-        std::find(of.begin(), of.end(), length) != of.end())
-      return one;
+    if (one.of.kind == Quantity::Kind::elongation && contains(of, length)) return one;
   }
   return {};
 }
@@ -164,14 +162,11 @@ Check judged(const CheckReadings& readings, const CheckWords& words) {
     check.new_zero_mm.push_back(readings.zero_mm[i] + check.hypotheses.front().added(i).value);
   const Eigen::VectorXd variance = readings.covariance.diagonal();
   for (Eigen::Index k = 0; k < readings.residual_mm.size(); ++k) {
-    check.residuals.push_back({readings.names[static_cast<std::size_t>(k)],
-                               readings.residual_mm[k],
-                               std::sqrt(variance[k])});
+    check.residuals.push_back(
+        {readings.names[as_size(k)], readings.residual_mm[k], std::sqrt(variance[k])});
   }
   check.units = readings.units;
-  std::stable_sort(check.units.begin(), check.units.end(), [](const auto& a, const auto& b) {
-    return a.index < b.index;
-  });
+  stable_sort(check.units, [](const auto& a, const auto& b) { return a.index < b.index; });
   check.sentence = sentence_of(check, words);
   check.not_separable = not_separable_of(check, words);
   check.notes = readings.notes;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "grid/map/map_field.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/chains/chain_mechanism.hpp"
@@ -65,9 +66,9 @@ Eigen::VectorXd end_slope(const std::array<double, 3>& t,
 Eigen::VectorXd slopes_at_end(const std::vector<double>& nodes,
                               const Eigen::MatrixXd& values,
                               bool last) {
-  const auto count = static_cast<Eigen::Index>(nodes.size());
+  const auto count = std::ssize(nodes);
   const auto at = [&](Eigen::Index i) { return last ? count - 1 - i : i; };
-  const auto node = [&](Eigen::Index i) { return nodes[static_cast<std::size_t>(at(i))]; };
+  const auto node = [&](Eigen::Index i) { return nodes[as_size(at(i))]; };
   if (count == 2) return (values.col(at(1)) - values.col(at(0))) / (node(1) - node(0));
   return end_slope(
       {node(0), node(1), node(2)}, values.col(at(0)), values.col(at(1)), values.col(at(2)));

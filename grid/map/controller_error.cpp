@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "grid/containers.hpp"
 #include "grid/map/largest_error.hpp"
 #include "model/controllers/payout.hpp"
 
@@ -111,7 +112,7 @@ std::optional<Eigen::VectorXd> controller_errors(const PaidOut& paid_out,
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto lengths = paid_out(places[i].commanded);
     if (!lengths) return std::nullopt;
-    errors.segment<2>(2 * static_cast<Eigen::Index>(i)) =
+    errors.segment<2>(2 * as_index(i)) =
         places[i].to_tool * Eigen::Vector2d(lengths->left_mm - places[i].lengths.left_mm,
                                             lengths->right_mm - places[i].lengths.right_mm);
   }
@@ -124,7 +125,7 @@ ErrorSummary summary_of_errors(const std::vector<MeasuredPlace>& places,
   double squares_mm2 = 0.0;
   int within = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const Eigen::Vector2d expected_mm = errors_mm.segment<2>(2 * static_cast<Eigen::Index>(i));
+    const Eigen::Vector2d expected_mm = errors_mm.segment<2>(2 * as_index(i));
     largest.add(expected_mm, places[i].spread_mm);
     if (places[i].is_on_edge) continue;
     squares_mm2 += expected_mm.squaredNorm() + places[i].spread_mm.squaredNorm();
@@ -139,9 +140,8 @@ namespace {
 /// commands went by.
 bool is_what_the_controller_believes(const model::Machine& machine) {
   return machine.controller.kind != model::ControllerKind::ideal ||
-         std::none_of(machine.effects.begin(), machine.effects.end(), [](const auto& effect) {
-           return effect.probability.has_value();
-         });
+         none_of(machine.effects,
+                 [](const auto& effect) { return effect.probability.has_value(); });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "model/effects/catalogue.hpp"
@@ -100,9 +101,7 @@ tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid)
   }
   if (!visit.effects.empty()) {
     const bool has_order =
-        std::all_of(grid.points.begin(), grid.points.end(), [](const MeasuredPoint& point) {
-          return point.order.has_value();
-        });
+        all_of(grid.points, [](const MeasuredPoint& point) { return point.order.has_value(); });
     if (has_order) {
       Machine both = rest;
       both.effects.insert(both.effects.end(), visit.effects.begin(), visit.effects.end());

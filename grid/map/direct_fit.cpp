@@ -6,9 +6,10 @@
 #include <cmath>
 #include <functional>
 
+#include "grid/containers.hpp"
+#include "grid/map/controller_error.hpp"
 #include "grid/map/direct_fit.hpp"
 #include "grid/map/lattice_lines.hpp"
-#include "grid/map/controller_error.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "grid/observation/length_points.hpp"
 
@@ -34,8 +35,8 @@ Lattice lattice_of(const std::vector<LengthPoint>& points) {
     y.push_back(point.mark.y_mm);
   }
   Lattice lattice{lines_of(std::move(x)), lines_of(std::move(y)), {}, {}};
-  const auto nx = static_cast<Eigen::Index>(lattice.x_nodes_mm.size());
-  const auto ny = static_cast<Eigen::Index>(lattice.y_nodes_mm.size());
+  const auto nx = std::ssize(lattice.x_nodes_mm);
+  const auto ny = std::ssize(lattice.y_nodes_mm);
   lattice.visits = Eigen::MatrixXi::Zero(nx, ny);
   for (Side side : model::kSides) lattice.lengths_mm[side] = Eigen::MatrixXd::Zero(nx, ny);
   for (const LengthPoint& point : points) {
@@ -73,10 +74,9 @@ LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& end
         columns ? without(lines, line) : lattice.x_nodes_mm,
         columns ? lattice.y_nodes_mm : without(lines, line),
         ends);
-    const auto at = static_cast<Eigen::Index>(line);
+    const auto at = as_index(line);
     const auto kept = [&](const Eigen::MatrixXd& all) {
-      Eigen::MatrixXd values(static_cast<Eigen::Index>(axes->x.size()),
-                             static_cast<Eigen::Index>(axes->y.size()));
+      Eigen::MatrixXd values(std::ssize(axes->x), std::ssize(axes->y));
       if (columns) {
         values << all.topRows(at), all.bottomRows(all.rows() - at - 1);
       } else {
@@ -98,8 +98,8 @@ LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& end
       const std::size_t iy = columns ? node : line;
       const auto l = left.at(lattice.x_nodes_mm[ix], lattice.y_nodes_mm[iy]);
       const auto r = right.at(lattice.x_nodes_mm[ix], lattice.y_nodes_mm[iy]);
-      const auto i = static_cast<Eigen::Index>(ix);
-      const auto j = static_cast<Eigen::Index>(iy);
+      const auto i = as_index(ix);
+      const auto j = as_index(iy);
       HeldOutResidual residual;
       residual.chain_mm = {lattice.lengths_mm.left(i, j) - l.value,
                            lattice.lengths_mm.right(i, j) - r.value};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "grid/containers.hpp"
 #include "grid/observation/tape_zero.hpp"
 
 namespace chaintrue::grid {
@@ -84,7 +85,7 @@ FittedDistances fitted_distances(const observation::TapeDistances& distances,
   fit.file = observation;
   for (const estimation::UnitEstimate& unit : estimate.units) {
     if (unit.observation != observation) continue;
-    const auto at = static_cast<Eigen::Index>(unit.unit);
+    const auto at = as_index(unit.unit);
     fit.distances.push_back({distances.measured()[at],
                              commanded_mm(set, set.distances[unit.unit]),
                              own.predicted[at],
@@ -92,11 +93,11 @@ FittedDistances fitted_distances(const observation::TapeDistances& distances,
                              std::sqrt(unit.left_out_covariance(0, 0)),
                              unit.is_rejected()});
   }
-  const auto holes = static_cast<Eigen::Index>(set.holes.size());
+  const auto holes = std::ssize(set.holes);
   const Eigen::VectorXd shift = own.nuisance.tail(2 * holes);
   for (Eigen::Index i = 0; i < holes; ++i) {
-    const estimation::PlaceEstimate& place = own.places[static_cast<std::size_t>(i)];
-    fit.holes.push_back({distances.places()[static_cast<std::size_t>(i)].lengths,
+    const estimation::PlaceEstimate& place = own.places[as_size(i)];
+    fit.holes.push_back({distances.places()[as_size(i)].lengths,
                          place.as_stated,
                          place.mark,
                          {place.mark.x_mm + shift[2 * i], place.mark.y_mm + shift[2 * i + 1]}});

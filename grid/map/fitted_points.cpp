@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/placement_fit.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "model/calibration/setting.hpp"
@@ -42,7 +43,7 @@ model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points
     const auto line = readings.linearise({stated, sheet}, {.sheet = true});
     if (!line) return false;
     for (std::size_t i = 0; i < good.size(); ++i) {
-      const auto row = 2 * static_cast<Eigen::Index>(i);
+      const auto row = 2 * as_index(i);
       const auto& commanded = good[i].commanded;
       const Eigen::Vector2d residual =
           commanded ? -line->places[i].by_mark * landed_minus_sent(*commanded, sheet, good[i].mark)

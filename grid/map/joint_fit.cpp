@@ -9,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "grid/map/corrected_data.hpp"
 #include "grid/map/fit_part.hpp"
 #include "grid/map/larger_error.hpp"
@@ -59,8 +60,8 @@ tl::expected<void, FitFailure> check_one_machine(const std::vector<MeasuredFile>
 tl::expected<Parts, FitFailure> parts_of(const std::vector<MeasuredFile>& files,
                                          const Progress& progress) {
   if (auto one = check_one_machine(files); !one) return tl::unexpected(one.error());
-  const bool with_grids = std::any_of(
-      files.begin(), files.end(), [](const MeasuredFile& file) { return file.grid() != nullptr; });
+  const bool with_grids =
+      any_of(files, [](const MeasuredFile& file) { return file.grid() != nullptr; });
   Parts parts;
   for (const MeasuredFile& file : files) {
     if (files.size() > 1) tell(progress, {"each file by itself", 1, 3});

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid {
 
 std::vector<double> lines_of(std::vector<double> coordinates_mm) {
-  std::sort(coordinates_mm.begin(), coordinates_mm.end());
+  sort(coordinates_mm);
   const auto same = [](double a, double b) { return b - a <= kOnLineMm; };
   coordinates_mm.erase(std::unique(coordinates_mm.begin(), coordinates_mm.end(), same),
                        coordinates_mm.end());

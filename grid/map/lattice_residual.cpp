@@ -48,8 +48,7 @@ std::optional<Places> places_of(const PointsFit& fit) {
     return std::nullopt;
   if (fit.points.size() > nodes) return std::nullopt;
   Eigen::MatrixXi visits =
-      Eigen::MatrixXi::Zero(static_cast<Eigen::Index>(places.x_nodes_mm.size()),
-                            static_cast<Eigen::Index>(places.y_nodes_mm.size()));
+      Eigen::MatrixXi::Zero(std::ssize(places.x_nodes_mm), std::ssize(places.y_nodes_mm));
   std::size_t good = 0;
   for (const FittedPoint& point : fit.points) {
     const Eigen::Index ix = line_of(places.x_nodes_mm, point.point.mark.x_mm);
@@ -64,8 +63,8 @@ std::optional<Places> places_of(const PointsFit& fit) {
 
 /// Measured minus the calibrated machine with its chains' scales, at every node; empty ones NaN.
 model::PerSide<Eigen::MatrixXd> left_by_machine(const PointsFit& fit, const Places& places) {
-  const auto nx = static_cast<Eigen::Index>(places.x_nodes_mm.size());
-  const auto ny = static_cast<Eigen::Index>(places.y_nodes_mm.size());
+  const auto nx = std::ssize(places.x_nodes_mm);
+  const auto ny = std::ssize(places.y_nodes_mm);
   model::PerSide<Eigen::MatrixXd> values{Eigen::MatrixXd::Constant(nx, ny, kEmpty),
                                          Eigen::MatrixXd::Constant(nx, ny, kEmpty)};
   const model::ReadingModel model(fit.estimate.machine);

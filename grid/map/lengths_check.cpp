@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 
 
@@ -16,7 +17,7 @@ void name_rows(const observation::BeltLengthReadings& observed,
     const observation::Unit& unit = observed.units()[u];
     const std::string name = observed.name_of(u);
     const observation::LengthsAtPlace& place = observed.readings()[observed.place_of(u)];
-    const auto rows = static_cast<std::size_t>(unit.rows);
+    const auto rows = as_size(unit.rows);
     readings.units.push_back({name, unit.index, readings.names.size(), rows});
     for (std::size_t i = 0, row = 0; row < rows; ++i) {
       if (place.known && !place.counting.empty() && !place.counting[i]) continue;
@@ -30,11 +31,11 @@ void name_rows(const observation::BeltLengthReadings& observed,
 
 tl::expected<CheckReadings, CheckFailure> readings_of(
     const FittedMechanism& fitted, const observation::BeltLengthReadings& observed) {
-  const auto lengths = static_cast<Eigen::Index>(fitted.mechanism->lengths().size());
-  const auto units = static_cast<Eigen::Index>(observed.units().size());
+  const auto lengths = std::ssize(fitted.mechanism->lengths());
+  const auto units = std::ssize(observed.units());
   CheckReadings readings;
   readings.noise_dof = fitted.noise_dof;
-  readings.lengths = static_cast<std::size_t>(lengths);
+  readings.lengths = as_size(lengths);
   readings.residual_mm.resize(observed.rows());
   readings.lengths_mm.resize(lengths * units);
   readings.by_parameter.resize(observed.rows(), fitted.mechanism->values().size());
@@ -42,13 +43,12 @@ tl::expected<CheckReadings, CheckFailure> readings_of(
   const observation::View view(fitted.mechanism);
   std::vector<Eigen::Triplet<double>> by_length;
   for (Eigen::Index u = 0; u < units; ++u) {
-    const observation::Unit& unit = observed.units()[static_cast<std::size_t>(u)];
-    auto line = observed.line_of(view, static_cast<std::size_t>(u), true);
+    const observation::Unit& unit = observed.units()[as_size(u)];
+    auto line = observed.line_of(view, as_size(u), true);
     if (!line) {
       return tl::unexpected(CheckFailure{
           CheckFailure::Reason::unreachable,
-          fmt::format(
-              "{}: {}", observed.name_of(static_cast<std::size_t>(u)), line.error().sentence())});
+          fmt::format("{}: {}", observed.name_of(as_size(u)), line.error().sentence())});
     }
     readings.residual_mm.segment(unit.first_row, unit.rows) =
         observed.measured().segment(unit.first_row, unit.rows) - line->predicted;

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/observation/observation.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -41,19 +42,19 @@ std::optional<Eigen::MatrixXd> design_at(const ModelSurface& surface,
 tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
                                          const std::vector<model::MarkPoint>& marks,
                                          const Progress& progress) {
-  const auto count = static_cast<Eigen::Index>(marks.size());
+  const auto count = std::ssize(marks);
   MapAt at;
   const auto* surface = std::get_if<ModelSurface>(&map.contents().surface);
   // A lattice's doubt is no linear function of the unknowns: its points stand for themselves.
   const bool is_joint = surface != nullptr && !surface->lattice;
-  at.by_parameter.resize(2 * count, surface != nullptr ? static_cast<Eigen::Index>(kOfMachine.size()) : 0);
+  at.by_parameter.resize(2 * count, surface != nullptr ? std::ssize(kOfMachine) : 0);
   Eigen::MatrixXd design(2 * count, is_joint ? surface->columns.total() : 0);
   std::optional<model::ReadingModel> model;
   if (surface != nullptr) model.emplace(surface->machine);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(count);
     tell(progress, {"the map at the new points", 1, 2, share});
-    const model::MarkPoint mark = marks[static_cast<std::size_t>(i)];
+    const model::MarkPoint mark = marks[as_size(i)];
     const auto refused = [&mark](const MapFailure& failure) {
       return no_answer(
           fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, failure.sentence()));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid/chain_rows.hpp"
+#include "grid/containers.hpp"
 #include "interp/spline_pair.hpp"
 #include "model/chains/chain_mechanism.hpp"
 
@@ -83,7 +84,7 @@ class ModelField final : public MapField {
         reading.position_jacobian * surface_.sheet.sensitivity(mark);
     Eigen::MatrixX2d spread = Eigen::MatrixX2d::Zero(factor_.rows(), 2);
     for (std::size_t i = 0; i < surface_.settings.size(); ++i) {
-      const auto column = static_cast<Eigen::Index>(i);
+      const auto column = as_index(i);
       const Setting setting = surface_.settings[i];
       const auto in_sheet =
           static_cast<Eigen::Index>(setting) - static_cast<Eigen::Index>(Setting::sheet_x_mm);

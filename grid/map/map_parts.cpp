@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/map/controller_error.hpp"
 #include "model/calibration/setting.hpp"
@@ -42,7 +43,7 @@ std::vector<SettingResult> setting_results(const model::Machine& stated,
   const double placement[] = {placed.x_mm, placed.y_mm, placed.rotation_rad};
   std::vector<SettingResult> results;
   for (std::size_t i = 0; i < estimate.settings.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
+    const auto at = as_index(i);
     SettingResult result{
         estimate.settings[i], 0.0, 0.0, std::sqrt(estimate.covariance(at, at)), false};
     if (i < model::kMachineSettings.size()) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 
 namespace chaintrue::grid {
@@ -97,11 +98,11 @@ model::ChainLengths MechanismMap::sigma(model::BedPoint point) const {
 }
 
 Eigen::Matrix2Xd MechanismMap::tool_spread(model::BedPoint point) const {
-  const auto others = static_cast<Eigen::Index>(spread_.others.size());
+  const auto others = std::ssize(spread_.others);
   Eigen::Matrix2Xd spread = Eigen::Matrix2Xd::Zero(2, others + 2);
   if (const auto paid_out = lengths_of(spread_.centre, point)) {
     for (Eigen::Index i = 0; i < others; ++i) {
-      const PlacedMechanism& other = spread_.others[static_cast<std::size_t>(i)];
+      const PlacedMechanism& other = spread_.others[as_size(i)];
       const auto there = other.mechanism->locate_by_first(*paid_out);
       if (!there) continue;
       const model::BedPoint tool = other.sheet->on_sheet(*there);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "grid/containers.hpp"
 #include "grid/observation/length_points.hpp"
 
 namespace chaintrue::grid {
@@ -17,7 +18,7 @@ constexpr std::size_t kFewestReadings = 4;
 constexpr double kChosenPlacesMm = 5.0;
 
 bool are_multiples(const std::vector<double>& values, double step) {
-  return std::all_of(values.begin(), values.end(), [step](double value) {
+  return all_of(values, [step](double value) {
     const double steps = value / step;
     return std::abs(steps - std::round(steps)) < kShareOfStep;
   });
@@ -33,7 +34,7 @@ double rounding_sigma_mm(const std::vector<double>& readings_mm) {
   for (int decade = 0; decade < kDecades; ++decade) {
     for (const double digit : {1.0, 0.5, 0.2}) steps.push_back(digit * std::pow(10.0, -decade));
   }
-  std::sort(steps.begin(), steps.end(), std::greater<>());
+  sort(steps, std::greater<>());
   const auto step = std::find_if(
       steps.begin(), steps.end(), [&](double one) { return are_multiples(readings_mm, one); });
   return step == steps.end() ? 0.0 : *step / std::sqrt(12.0);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/map/corrected_data.hpp"
 #include "grid/map/fit_part.hpp"
@@ -66,8 +67,8 @@ void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual
       notes.push_back(
           fmt::format("No reading at ({:.0f}, {:.0f}) was used: the map there comes from the row "
                       "or column through it, good to about {:.2g} mm.",
-                      lattice.x_nodes_mm[static_cast<std::size_t>(ix)],
-                      lattice.y_nodes_mm[static_cast<std::size_t>(iy)],
+                      lattice.x_nodes_mm[as_size(ix)],
+                      lattice.y_nodes_mm[as_size(iy)],
                       lattice.doubt_mm(ix, iy)));
     }
   }
@@ -220,9 +221,9 @@ class PointsPart final : public FitPart {
     input.surface = estimation::SurfaceUse::none;
     input.held_out_together.clear();
     const std::vector<FittedPoint> points = fitted_points(points_, fit.estimate, 0);
-    Eigen::VectorXd weights(static_cast<Eigen::Index>(points.size()));
+    Eigen::VectorXd weights(std::ssize(points));
     for (std::size_t i = 0; i < points.size(); ++i)
-      weights[static_cast<Eigen::Index>(i)] = points[i].bad ? 0.0 : 1.0;
+      weights[as_index(i)] = points[i].bad ? 0.0 : 1.0;
     input.fixed_weights = weights;
     const auto plain = estimation::estimate(input);
     if (!plain || !plain->converged) return fit;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/mechanism_map.hpp"
@@ -94,11 +95,11 @@ std::optional<ControllerSettings> improved(const Machine& machine,
                                            double weight) {
   const auto errors = errors_with(machine, now, places);
   if (!errors) return std::nullopt;
-  const auto unknowns = static_cast<Eigen::Index>(free.size());
+  const auto unknowns = std::ssize(free);
   Eigen::MatrixXd by_setting(errors->size(), unknowns);
   Eigen::VectorXd prior_pull(unknowns);  // of the settings in force, in sigmas
   for (Eigen::Index k = 0; k < unknowns; ++k) {
-    const FreeSetting& setting = free[static_cast<std::size_t>(k)];
+    const FreeSetting& setting = free[as_size(k)];
     ControllerSettings more = now;
     ControllerSettings less = now;
     *(more.*setting.value) += setting.step;
@@ -117,7 +118,7 @@ std::optional<ControllerSettings> improved(const Machine& machine,
   const Eigen::VectorXd step = linear::Cholesky(std::move(normal)).solve(right);
   ControllerSettings better = now;
   for (Eigen::Index k = 0; k < unknowns; ++k) {
-    const FreeSetting& setting = free[static_cast<std::size_t>(k)];
+    const FreeSetting& setting = free[as_size(k)];
     *(better.*setting.value) += setting.sigma * step[k];
   }
   return better;
@@ -153,7 +154,7 @@ double rms_of(const std::vector<MeasuredPlace>& places, const Eigen::VectorXd& e
   int within = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (places[i].is_on_edge) continue;
-    squares_mm2 += errors.segment<2>(2 * static_cast<Eigen::Index>(i)).squaredNorm();
+    squares_mm2 += errors.segment<2>(2 * as_index(i)).squaredNorm();
     ++within;
   }
   return std::sqrt(squares_mm2 / std::max(within, 1));
@@ -291,7 +292,7 @@ tl::expected<SettingsToType, SettingsFailure> settings_to_type(const Compensatio
   };
   truth.sigma_mm = map.contents().accuracy.expected_tool.rms_mm;
   const auto& points = map.contents().points;
-  truth.points = static_cast<std::size_t>(
+  truth.points = as_size(
       std::count_if(points.begin(), points.end(), [](const MapPoint& p) { return !p.bad; }));
   return settings_for(truth);
 }

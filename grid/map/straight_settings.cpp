@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "grid/chain_rows.hpp"
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/map/controller_error.hpp"
 
@@ -60,7 +61,7 @@ Eigen::VectorXd errors_with(const std::vector<MeasuredPlace>& places,
   if (by_unknown != nullptr) by_unknown->resize(errors.size(), 2 * kOfChain);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Misfit misfit = misfit_at(places[i], at_origin, unknowns);
-    const auto row = 2 * static_cast<Eigen::Index>(i);
+    const auto row = 2 * as_index(i);
     errors.segment<2>(row) = places[i].to_tool * misfit.residual_mm;
     if (by_unknown != nullptr)
       by_unknown->middleRows<2>(row) = places[i].to_tool * misfit.by_unknown;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 
@@ -20,7 +21,7 @@ namespace {
 constexpr Eigen::Index kBlockUnitRows = 2;
 
 std::vector<LengthsAtPlace> sorted_readings(std::vector<LengthsAtPlace> places) {
-  std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) {
+  stable_sort(places, [](const auto& a, const auto& b) {
     if (a.visit.order != b.visit.order) return a.visit.order < b.visit.order;
     return std::lexicographical_compare(
         a.lengths_mm.begin(), a.lengths_mm.end(), b.lengths_mm.begin(), b.lengths_mm.end());
@@ -62,8 +63,7 @@ BeltLengthReadings::BeltLengthReadings(std::vector<LengthsAtPlace> places,
   join_places();
   std::vector<double> measured;
   for (const Block& block : blocks_) number_rows(block, measured);
-  measured_ = Eigen::Map<const Eigen::VectorXd>(measured.data(),
-                                                static_cast<Eigen::Index>(measured.size()));
+  measured_ = Eigen::Map<const Eigen::VectorXd>(measured.data(), std::ssize(measured));
 }
 
 /// Blocks: places with the distances between them, joined until no distance leads out of one.
@@ -134,11 +134,11 @@ void BeltLengthReadings::number_rows(const Block& block, std::vector<double>& me
     rows += counting_lengths(own) - (own.known ? 0 : 2);
   }
   if (block.places.size() == 1 && block.distances.empty()) most = std::max<Eigen::Index>(rows, 1);
-  rows += static_cast<Eigen::Index>(block.distances.size());
+  rows += std::ssize(block.distances);
   const std::size_t place = block.places.empty() ? readings_.size() : block.places.front();
   const bool is_known = !block.places.empty() && readings_[place].known.has_value();
   for (Eigen::Index row = 0; row < rows; row += most) {
-    units_.push_back({static_cast<Eigen::Index>(measured.size()),
+    units_.push_back({std::ssize(measured),
                       std::min(most, rows - row),
                       place < readings_.size() ? readings_[place].index : block.distances.front()});
     place_of_unit_.push_back(place);
@@ -148,7 +148,7 @@ void BeltLengthReadings::number_rows(const Block& block, std::vector<double>& me
         if (own.counts(i)) measured.push_back(own.lengths_mm[i]);
       }
     } else {
-      measured.insert(measured.end(), static_cast<std::size_t>(units_.back().rows), 0.0);
+      measured.insert(measured.end(), as_size(units_.back().rows), 0.0);
     }
   }
 }
@@ -178,7 +178,7 @@ tl::expected<BeltLengthReadings::BlockRows, Unreachable> BeltLengthReadings::row
   for (Eigen::Index i = 0; i < line->weight.size(); ++i) {
     if (line->weight[i] > 0.0) rows.push_back(i);
   }
-  const auto count = static_cast<Eigen::Index>(rows.size());
+  const auto count = std::ssize(rows);
   const double variance = noise_.length_mm * noise_.length_mm;
   const Eigen::VectorXd root = line->weight(rows).cwiseSqrt();
   const Eigen::MatrixXd by_position = root.asDiagonal() * line->by_position(rows, Eigen::all);
@@ -281,8 +281,7 @@ std::shared_ptr<const Observation> BeltLengthReadings::about_others(
   for (LengthsAtPlace& place : other->readings_) place.rejected.clear();
   for (const UnitReading& one : rejected) {
     LengthsAtPlace& place = other->readings_.at(place_of_unit_.at(one.unit));
-    if (place.rejected.empty())
-      place.rejected.assign(static_cast<std::size_t>(place.lengths_mm.size()), false);
+    if (place.rejected.empty()) place.rejected.assign(as_size(place.lengths_mm.size()), false);
     place.rejected.at(static_cast<std::size_t>(one.reading)) = true;
   }
   return other;

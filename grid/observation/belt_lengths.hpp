@@ -40,6 +40,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/observation/taped_ends.hpp"
 
@@ -60,7 +61,7 @@ struct LengthsAtPlace {
   std::optional<model::ToolPosition> about = std::nullopt;
 
   [[nodiscard]] bool counts(Eigen::Index length) const {
-    return counting.empty() || counting.at(static_cast<std::size_t>(length));
+    return counting.empty() || counting.at(as_size(length));
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/observation/belt_lengths.hpp"
 
@@ -12,7 +13,7 @@ std::vector<bool> deciding_lengths(const LengthsAtPlace& place) {
   if (place.rejected.empty()) return place.counting;
   std::vector<bool> deciding;
   for (Eigen::Index i = 0; i < place.lengths_mm.size(); ++i)
-    deciding.push_back(place.counts(i) && !place.rejected.at(static_cast<std::size_t>(i)));
+    deciding.push_back(place.counts(i) && !place.rejected.at(as_size(i)));
   return deciding;
 }
 
@@ -30,7 +31,7 @@ std::array<std::optional<std::size_t>, 2> BeltLengthReadings::slots_of(const Blo
     const auto* place = std::get_if<AtPlace>(&end);
     if (place == nullptr) return std::nullopt;
     const auto at = std::lower_bound(block.places.begin(), block.places.end(), place->index);
-    return static_cast<std::size_t>(at - block.places.begin());
+    return as_size(at - block.places.begin());
   };
   return {slot_of(distances_[distance].from), slot_of(distances_[distance].to)};
 }
@@ -42,9 +43,9 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
     bool with_parameters) const {
   const auto wanted = with_parameters ? model::Derivatives::by_position_and_parameter
                                       : model::Derivatives::by_position;
-  const auto lengths = static_cast<Eigen::Index>(view.mechanism->lengths().size());
-  const auto places = static_cast<Eigen::Index>(block.places.size());
-  const Eigen::Index rows = lengths * places + static_cast<Eigen::Index>(block.distances.size());
+  const auto lengths = std::ssize(view.mechanism->lengths());
+  const auto places = std::ssize(block.places);
+  const Eigen::Index rows = lengths * places + std::ssize(block.distances);
   const Eigen::Index parameters = with_parameters ? view.mechanism->values().size() : 0;
   BlockLine line{std::move(positions),
                  Eigen::VectorXd(rows),
@@ -52,10 +53,9 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
                  Eigen::MatrixXd::Zero(rows, parameters),
                  Eigen::VectorXd(rows)};
   for (Eigen::Index p = 0; p < places; ++p) {
-    const std::size_t place = block.places[static_cast<std::size_t>(p)];
+    const std::size_t place = block.places[as_size(p)];
     const LengthsAtPlace& own = readings_[place];
-    const auto at =
-        view.mechanism->predict(line.positions[static_cast<std::size_t>(p)], own.visit, wanted);
+    const auto at = view.mechanism->predict(line.positions[as_size(p)], own.visit, wanted);
     if (!at) return tl::unexpected(at.error().at(place));
     const auto here = Eigen::seqN(lengths * p, lengths);
     line.residual_mm(here) = own.lengths_mm - at->lengths_mm;
@@ -77,9 +77,7 @@ tl::expected<BlockLine, Unreachable> BeltLengthReadings::line_at(
     }
     line.residual_mm[row] = distances_[k].distance_mm - own->predicted_mm;
     for (std::size_t e = 0; e < 2; ++e) {
-      if (slots[e])
-        line.by_position.block<1, 2>(row, 2 * static_cast<Eigen::Index>(*slots[e])) +=
-            own->by_end[e];
+      if (slots[e]) line.by_position.block<1, 2>(row, 2 * as_index(*slots[e])) += own->by_end[e];
     }
     if (with_parameters) line.by_parameter.row(row) = own->by_parameter;
     line.weight[row++] = distance_weight(k);
@@ -102,8 +100,8 @@ tl::expected<void, Unreachable> BeltLengthReadings::find_positions(const View& v
     if (!move.allFinite()) break;
     std::vector<model::ToolPosition> next = line.positions;
     for (std::size_t p = 0; p < next.size(); ++p) {
-      next[p].x_mm += move[2 * static_cast<Eigen::Index>(p)];
-      next[p].y_mm += move[2 * static_cast<Eigen::Index>(p) + 1];
+      next[p].x_mm += move[2 * as_index(p)];
+      next[p].y_mm += move[2 * as_index(p) + 1];
     }
     auto there = line_at(view, block, std::move(next), line.by_parameter.cols() > 0);
     if (!there) return tl::unexpected(there.error());
@@ -152,7 +150,7 @@ tl::expected<model::ToolPosition, model::MechanismFailure> BeltLengthReadings::p
   const auto line = block_line(view, block, false);
   if (!line) return tl::unexpected(line.error().reason);
   const auto at = std::find(block.places.begin(), block.places.end(), place);
-  return line->positions[static_cast<std::size_t>(at - block.places.begin())];
+  return line->positions[as_size(at - block.places.begin())];
 }
 
 }  // namespace chaintrue::grid::observation

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "grid/containers.hpp"
 #include "model/chains/chain_mechanism.hpp"
 
 namespace chaintrue::grid::observation {
@@ -16,7 +17,7 @@ const Kind chain_lengths{"chain_lengths", "point", "points", "point", true};
 namespace {
 
 std::vector<Place> sorted(std::vector<Place> places) {
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+  sort(places, [](const Place& a, const Place& b) {
     return std::tie(a.order, a.mark.x_mm, a.mark.y_mm, a.lengths.left_mm, a.lengths.right_mm) <
            std::tie(b.order, b.mark.x_mm, b.mark.y_mm, b.lengths.left_mm, b.lengths.right_mm);
   });
@@ -47,9 +48,9 @@ ChainLengthReadings::ChainLengthReadings(GivenOrder,
     : ordered_(ordered), noise_(noise), noise_dof_(noise_dof) {
   places_ = std::move(places);
   sheet_ = sheet;
-  measured_.resize(2 * static_cast<Eigen::Index>(places_.size()));
+  measured_.resize(2 * std::ssize(places_));
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const auto row = 2 * static_cast<Eigen::Index>(i);
+    const auto row = 2 * as_index(i);
     measured_(row) = places_[i].lengths.left_mm;
     measured_(row + 1) = places_[i].lengths.right_mm;
     units_.push_back({row, 2, places_[i].index});
@@ -81,7 +82,7 @@ tl::expected<Eigen::VectorXd, Unreachable> ChainLengthReadings::predicted(const 
     if (view.correction != nullptr) {
       own = view.correction->at(places_[i].mark, own, Eigen::Matrix2d::Zero()).lengths;
     }
-    const auto row = 2 * static_cast<Eigen::Index>(i);
+    const auto row = 2 * as_index(i);
     all(row) = own.left_mm;
     all(row + 1) = own.right_mm;
   }
@@ -94,7 +95,7 @@ tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
   const model::MarkFrame frame(view.chains().machine());
   Linearisation line;
   line.predicted.resize(rows());
-  line.by_setting.resize(rows(), static_cast<Eigen::Index>(settings.size()));
+  line.by_setting.resize(rows(), std::ssize(settings));
   line.by_nuisance.resize(rows(), 0);
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const model::MarkPoint place = frame.place(places_[i].mark);
@@ -108,7 +109,7 @@ tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
       state.by_mark = corrected.by_mark;
       state.by_length = corrected.by_length;
     }
-    const auto row = 2 * static_cast<Eigen::Index>(i);
+    const auto row = 2 * as_index(i);
     line.predicted(row) = lengths.left_mm;
     line.predicted(row + 1) = lengths.right_mm;
     line.by_setting.middleRows<2>(row) =

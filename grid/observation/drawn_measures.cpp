@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "grid/containers.hpp"
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid::observation {
@@ -31,14 +32,14 @@ DrawnMeasures::DrawnMeasures(std::vector<DrawnPoint> points,
     const DrawnMeasure& m = measures[i];
     return std::tie(m.kind, points_[m.from].name, points_[m.to].name, m.value_mm, m.sigma_mm);
   };
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
+  sort(order, [&](auto a, auto b) { return key(a) < key(b); });
   for (std::size_t i = 0; i < points_.size(); ++i)
     places_.push_back({i, points_[i].name, points_[i].commanded, points_[i].paid_out});
-  measured_.resize(static_cast<Eigen::Index>(order.size()));
+  measured_.resize(std::ssize(order));
   for (std::size_t k = 0; k < order.size(); ++k) {
     measures_.push_back(measures[order[k]]);
-    measured_[static_cast<Eigen::Index>(k)] = measures_.back().value_mm;
-    units_.push_back({static_cast<Eigen::Index>(k), 1, order[k]});
+    measured_[as_index(k)] = measures_.back().value_mm;
+    units_.push_back({as_index(k), 1, order[k]});
   }
 }
 
@@ -99,7 +100,7 @@ tl::expected<Eigen::VectorXd, Unreachable> DrawnMeasures::predicted(const View& 
   Eigen::VectorXd all(rows());
   for (std::size_t k = 0; k < measures_.size(); ++k) {
     const DrawnMeasure& m = measures_[k];
-    all[static_cast<Eigen::Index>(k)] =
+    all[as_index(k)] =
         measured_between(m.kind, (*at)[m.from].at, (*at)[m.to].at, (*at)[m.middle].at);
   }
   return all;
@@ -115,7 +116,7 @@ tl::expected<Linearisation, Unreachable> DrawnMeasures::linearise(const View& vi
   line.by_setting = Eigen::MatrixXd::Zero(rows(), p + (columns.sheet ? 3 : 0));
   line.by_nuisance.resize(rows(), 0);
   for (std::size_t k = 0; k < measures_.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
+    const auto row = as_index(k);
     const DrawnMeasure& m = measures_[k];
     const Located &from = (*at)[m.from], &to = (*at)[m.to], &middle = (*at)[m.middle];
     const MeasureRow own = measure_row(m.kind, from.at, to.at, middle.at);

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "grid/containers.hpp"
 #include "model/controllers/payout.hpp"
 
 namespace chaintrue::grid {
@@ -66,9 +67,8 @@ tl::unexpected<NoLengths> no_lengths(std::size_t index, const std::string& why) 
 }  // namespace
 
 tl::expected<std::vector<LengthPoint>, NoLengths> length_points(const MeasuredGrid& grid) {
-  const bool commands = std::any_of(grid.points.begin(),
-                                    grid.points.end(),
-                                    [](const MeasuredPoint& point) { return !point.lengths; });
+  const bool commands =
+      any_of(grid.points, [](const MeasuredPoint& point) { return !point.lengths; });
   std::unique_ptr<const model::ControllerKinematics> controller;
   if (commands && grid.machine) controller = model::make_controller_kinematics(*grid.machine);
   std::vector<LengthPoint> points;

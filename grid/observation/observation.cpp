@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "model/chains/chain_mechanism.hpp"
 
 namespace chaintrue::grid::observation {
@@ -77,9 +78,9 @@ Eigen::Matrix2Xd lengths_by_setting(const View& view,
                                     const std::vector<model::Setting>& settings) {
   const Eigen::Matrix<double, 2, 3> by_sheet =
       reading.position_jacobian * view.sheet.sensitivity(place);
-  Eigen::Matrix2Xd columns(2, static_cast<Eigen::Index>(settings.size()));
+  Eigen::Matrix2Xd columns(2, std::ssize(settings));
   for (std::size_t s = 0; s < settings.size(); ++s) {
-    const auto column = static_cast<Eigen::Index>(s);
+    const auto column = as_index(s);
     if (model::is_of_sheet(settings[s])) {
       columns.col(column) = by_sheet.col(model::sheet_column(settings[s]));
     } else {

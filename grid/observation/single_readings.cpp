@@ -11,6 +11,7 @@
 #include <tuple>
 #include <variant>
 
+#include "grid/containers.hpp"
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid::observation {
@@ -78,18 +79,18 @@ double predicted_reading(const Machine& machine, const ExtraReading& reading) {
 
 SingleReadings::SingleReadings(std::vector<ExtraReading> readings)
     : readings_(std::move(readings)) {
-  std::sort(readings_.begin(), readings_.end(), [](const ExtraReading& a, const ExtraReading& b) {
+  sort(readings_, [](const ExtraReading& a, const ExtraReading& b) {
     return std::tie(a.what, a.side, a.value, a.sigma) < std::tie(b.what, b.side, b.value, b.sigma);
   });
-  measured_.resize(static_cast<Eigen::Index>(readings_.size()));
+  measured_.resize(std::ssize(readings_));
   for (std::size_t k = 0; k < readings_.size(); ++k) {
     if (!(readings_[k].sigma > 0.0)) {
       throw precondition("a reading of {} with sigma {}; it must be positive",
                          name(readings_[k].what),
                          readings_[k].sigma);
     }
-    measured_(static_cast<Eigen::Index>(k)) = readings_[k].value;
-    units_.push_back({static_cast<Eigen::Index>(k), 1, k});
+    measured_(as_index(k)) = readings_[k].value;
+    units_.push_back({as_index(k), 1, k});
   }
 }
 
@@ -98,7 +99,7 @@ double SingleReadings::noise_dof() const { return std::numeric_limits<double>::i
 tl::expected<Eigen::VectorXd, Unreachable> SingleReadings::predicted(const View& view) const {
   Eigen::VectorXd all(rows());
   for (std::size_t k = 0; k < readings_.size(); ++k) {
-    all(static_cast<Eigen::Index>(k)) = predicted_reading(view.chains().machine(), readings_[k]);
+    all(as_index(k)) = predicted_reading(view.chains().machine(), readings_[k]);
   }
   return all;
 }
@@ -109,14 +110,14 @@ tl::expected<Linearisation, Unreachable> SingleReadings::linearise(const View& v
   const Machine& machine = view.chains().machine();
   Linearisation line;
   line.predicted = *predicted(view);
-  line.by_setting = Eigen::MatrixXd::Zero(rows(), static_cast<Eigen::Index>(settings.size()));
+  line.by_setting = Eigen::MatrixXd::Zero(rows(), std::ssize(settings));
   line.by_nuisance.resize(rows(), 0);
   for (std::size_t s = 0; s < settings.size(); ++s) {
     if (model::is_of_sheet(settings[s])) continue;
     const Machine moved =
         model::with_setting(machine, settings[s], model::stated_value(machine, settings[s]) + 1.0);
     for (std::size_t k = 0; k < readings_.size(); ++k) {
-      line.by_setting(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(s)) =
+      line.by_setting(as_index(k), as_index(s)) =
           predicted_reading(moved, readings_[k]) - predicted_reading(machine, readings_[k]);
     }
   }

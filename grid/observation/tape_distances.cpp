@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "grid/containers.hpp"
 #include "grid/observation/tape_zero.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/chains/chain_mechanism.hpp"
@@ -46,7 +47,7 @@ EdgeRow edge_row(const MeasuredHoles& set, SheetEdge edge) {
 }
 
 Eigen::MatrixXd tape_zero_covariance(const MeasuredHoles& set) {
-  const auto count = static_cast<Eigen::Index>(set.distances.size());
+  const auto count = std::ssize(set.distances);
   return Eigen::MatrixXd::Constant(count, count, std::pow(tape_zero_sigma_mm(set.tape), 2));
 }
 
@@ -62,7 +63,7 @@ Sorted sorted_set(const MeasuredHoles& set) {
   Sorted result{set, {}, {}};
   result.hole.resize(set.holes.size());
   std::iota(result.hole.begin(), result.hole.end(), std::size_t{0});
-  std::sort(result.hole.begin(), result.hole.end(), [&](std::size_t a, std::size_t b) {
+  sort(result.hole, [&](std::size_t a, std::size_t b) {
     const Hole& x = set.holes[a];
     const Hole& y = set.holes[b];
     return std::tie(x.commanded.x_mm, x.commanded.y_mm, x.name) <
@@ -81,9 +82,7 @@ Sorted sorted_set(const MeasuredHoles& set) {
   };
   result.distance.resize(set.distances.size());
   std::iota(result.distance.begin(), result.distance.end(), std::size_t{0});
-  std::stable_sort(result.distance.begin(),
-                   result.distance.end(),
-                   [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  stable_sort(result.distance, [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   for (std::size_t k = 0; k < result.distance.size(); ++k) {
     HoleDistance own = set.distances[result.distance[k]];
     own.from = place[own.from];
@@ -114,15 +113,14 @@ model::ChainLengths own_lengths(const LengthCorrection& correction,
 const Kind tape_distances{"tape_distances", "distance", "distances", "hole", false};
 
 DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<MarkPoint>& marks) {
-  const auto count = static_cast<Eigen::Index>(set.distances.size());
-  DistanceGeometry geometry{
-      Eigen::VectorXd::Zero(count),
-      Eigen::MatrixXd::Zero(count, 2 * static_cast<Eigen::Index>(marks.size())),
-      Eigen::MatrixXd::Zero(count, 2)};
+  const auto count = std::ssize(set.distances);
+  DistanceGeometry geometry{Eigen::VectorXd::Zero(count),
+                            Eigen::MatrixXd::Zero(count, 2 * std::ssize(marks)),
+                            Eigen::MatrixXd::Zero(count, 2)};
   for (Eigen::Index k = 0; k < count; ++k) {
-    const HoleDistance& distance = set.distances[static_cast<std::size_t>(k)];
+    const HoleDistance& distance = set.distances[as_size(k)];
     const MarkPoint from = marks.at(distance.from);
-    const auto a = 2 * static_cast<Eigen::Index>(distance.from);
+    const auto a = 2 * as_index(distance.from);
     if (distance.edge) {
       const EdgeRow row = edge_row(set, *distance.edge);
       geometry.predicted_mm[k] =
@@ -133,7 +131,7 @@ DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<M
       continue;
     }
     const MarkPoint to = marks.at(distance.to);
-    const auto b = 2 * static_cast<Eigen::Index>(distance.to);
+    const auto b = 2 * as_index(distance.to);
     const Eigen::Vector2d way(from.x_mm - to.x_mm, from.y_mm - to.y_mm);
     geometry.predicted_mm[k] = way.norm();
     const Eigen::Vector2d unit = way / way.norm();
@@ -148,7 +146,7 @@ DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& g
   DistanceNoise noise;
   noise.tape_mm2.resize(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    noise.tape_mm2[k] = std::pow(sigma_of(set, set.distances[static_cast<std::size_t>(k)]), 2);
+    noise.tape_mm2[k] = std::pow(sigma_of(set, set.distances[as_size(k)]), 2);
   }
   noise.holes_mm2 =
       set.hole_sigma_mm * set.hole_sigma_mm * geometry.by_mark * geometry.by_mark.transpose();
@@ -217,9 +215,9 @@ tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::in_given_order(
         {i, hole.name, model::identity_placement(hole.commanded), *lengths, static_cast<int>(i)});
   }
   const std::size_t count = result.set_.distances.size();
-  result.measured_.resize(static_cast<Eigen::Index>(count));
+  result.measured_.resize(as_index(count));
   for (std::size_t k = 0; k < count; ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
+    const auto row = as_index(k);
     result.measured_[row] = length_of(result.set_, result.set_.distances[k]);
     result.units_.push_back({row, 1, k});
   }
@@ -239,7 +237,7 @@ tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::of(const Measur
 }
 
 void TapeDistances::state_nuisances() {
-  const Eigen::Index of_holes = 2 * static_cast<Eigen::Index>(set_.holes.size());
+  const Eigen::Index of_holes = 2 * std::ssize(set_.holes);
   nuisance_sigma_.resize(3 + of_holes);
   nuisance_sigma_.head(2).setConstant(std::max(set_.sheet.size_sigma_mm, kKnownNuisanceMm));
   nuisance_sigma_[2] = std::max(tape_zero_sigma_mm(set_.tape), kKnownNuisanceMm);
@@ -308,21 +306,20 @@ tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& vi
   const Eigen::VectorXd by_tape_zero = Eigen::VectorXd::Ones(rows());
   Linearisation line;
   line.predicted = factor * geometry.predicted_mm;
-  line.by_setting = Eigen::MatrixXd::Zero(rows(), static_cast<Eigen::Index>(settings.size()));
+  line.by_setting = Eigen::MatrixXd::Zero(rows(), std::ssize(settings));
   for (std::size_t i = 0; i < states->size(); ++i) {
     const Eigen::Matrix2Xd marks = mark_by_setting(view, (*states)[i], settings);
     for (Eigen::Index s = 0; s < marks.cols(); ++s) {
-      line.by_setting.col(s) +=
-          by_mark.middleCols<2>(2 * static_cast<Eigen::Index>(i)) * marks.col(s);
+      line.by_setting.col(s) += by_mark.middleCols<2>(2 * as_index(i)) * marks.col(s);
     }
   }
   line.by_nuisance.resize(rows(), nuisance_sigma_.size());
   line.by_nuisance << factor * geometry.by_size, by_tape_zero, by_mark;
   for (Eigen::Index k = 0; k < rows(); ++k) {
-    const double sigma = sigma_of(set_, set_.distances[static_cast<std::size_t>(k)]);
+    const double sigma = sigma_of(set_, set_.distances[as_size(k)]);
     UnitState unit{Eigen::MatrixXd::Constant(1, 1, sigma * sigma), {}};
     for (std::size_t i = 0; i < states->size(); ++i) {
-      const Eigen::RowVector2d own = by_mark.block<1, 2>(k, 2 * static_cast<Eigen::Index>(i));
+      const Eigen::RowVector2d own = by_mark.block<1, 2>(k, 2 * as_index(i));
       if (!own.isZero(0.0)) unit.places.push_back({i, -own * (*states)[i].by_mark.inverse()});
     }
     line.units.push_back(std::move(unit));

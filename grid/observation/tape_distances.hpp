@@ -92,9 +92,7 @@ class TapeDistances final : public Observation {
 
   [[nodiscard]] const Kind& kind() const override { return tape_distances; }
   /// measured() are the readings less the zero offset.
-  [[nodiscard]] Eigen::Index nuisances_of_noise() const override {
-    return 2 * static_cast<Eigen::Index>(places_.size());
-  }
+  [[nodiscard]] Eigen::Index nuisances_of_noise() const override { return 2 * std::ssize(places_); }
   [[nodiscard]] bool ordered() const override { return false; }
   [[nodiscard]] double noise_dof() const override { return set_.noise_dof; }
   [[nodiscard]] bool may_be_outlier() const override { return true; }

@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::observation {
 namespace {
 
@@ -26,7 +28,7 @@ MaybePlaced hole_at(const model::Mechanism& mechanism, const AtHole& hole) {
   // Lengths that end nowhere together have a nearest position, and no hole.
   constexpr double kTogetherMm = 1e-6;
   for (std::size_t i = 0; i < hole.deciding.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
+    const auto row = as_index(i);
     if (hole.deciding[i] &&
         !(std::abs(hole.lengths_mm[row] - there->lengths_mm[row]) < kTogetherMm))
       return tl::unexpected(kNoHole);
@@ -36,8 +38,8 @@ MaybePlaced hole_at(const model::Mechanism& mechanism, const AtHole& hole) {
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < hole.deciding.size() && row < 2; ++i) {
     if (!hole.deciding[i]) continue;
-    by_position.row(row) = there->by_position.row(static_cast<Eigen::Index>(i));
-    by_parameter.row(row++) = there->by_parameter.row(static_cast<Eigen::Index>(i));
+    by_position.row(row) = there->by_position.row(as_index(i));
+    by_parameter.row(row++) = there->by_parameter.row(as_index(i));
   }
   return PlacedEnd{{at->x_mm, at->y_mm}, -by_position.inverse() * by_parameter};
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/observation/length_points.hpp"
 
 namespace chaintrue::grid {
@@ -39,7 +40,7 @@ Visits visits_of(const std::vector<MeasuredPoint>& points, const VisitingOrder& 
   Visits visits;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const model::MarkPoint& mark = points[i].mark;
-    const bool again = std::any_of(visits.first.begin(), visits.first.end(), [&](const MarkInLine& place) {
+    const bool again = any_of(visits.first, [&](const MarkInLine& place) {
       const model::MarkPoint& other = points[place.index].mark;
       return std::hypot(other.x_mm - mark.x_mm, other.y_mm - mark.y_mm) <= kRepeatDistanceMm;
     });
@@ -68,9 +69,8 @@ double usual_spacing_mm(const std::vector<MarkInLine>& marks) {
 
 /// Sorted across; empty where the marks stand in none.
 std::vector<std::vector<MarkInLine>> lines_of(std::vector<MarkInLine> marks) {
-  std::stable_sort(marks.begin(), marks.end(), [](const MarkInLine& a, const MarkInLine& b) {
-    return a.across_mm < b.across_mm;
-  });
+  stable_sort(marks,
+              [](const MarkInLine& a, const MarkInLine& b) { return a.across_mm < b.across_mm; });
   const double gap_mm = kLineGapShare * usual_spacing_mm(marks);
   std::vector<std::vector<MarkInLine>> lines(1);
   for (const MarkInLine& mark : marks) {
@@ -78,7 +78,7 @@ std::vector<std::vector<MarkInLine>> lines_of(std::vector<MarkInLine> marks) {
       lines.emplace_back();
     lines.back().push_back(mark);
   }
-  const bool is_blurred = std::any_of(lines.begin(), lines.end(), [&](const auto& line) {
+  const bool is_blurred = any_of(lines, [&](const auto& line) {
     return line.back().across_mm - line.front().across_mm > kWidestLine * gap_mm;
   });
   if (is_blurred || lines.size() < 2 ||

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/map/check_readings.hpp"
 #include "grid/precondition.hpp"
@@ -52,10 +53,10 @@ class Separation {
       const std::vector<std::size_t>& points) const {
     std::vector<Eigen::Index> rows;
     for (const std::size_t point : points) {
-      rows.push_back(2 * static_cast<Eigen::Index>(point));
+      rows.push_back(2 * as_index(point));
       rows.push_back(rows.back() + 1);
     }
-    const auto count = static_cast<Eigen::Index>(rows.size());
+    const auto count = std::ssize(rows);
     Eigen::MatrixXd k = covariance_(rows, rows);
     for (Eigen::Index i = 0; i < count; ++i) {
       for (Eigen::Index j = i % 2; j < count; j += 2)
@@ -63,8 +64,7 @@ class Separation {
     }
     Eigen::MatrixXd grown = Eigen::MatrixXd::Zero(count, 2);
     for (Eigen::Index i = 0; i < count; ++i)
-      grown(i, i % 2) =
-          model::kPitchGrowthSigma * readings_.lengths_mm[rows[static_cast<std::size_t>(i)]];
+      grown(i, i % 2) = model::kPitchGrowthSigma * readings_.lengths_mm[rows[as_size(i)]];
     const Eigen::MatrixXd white = linear::Cholesky(std::move(k)).half_solve(grown);
     return {white.col(0).squaredNorm(), white.col(1).squaredNorm()};
   }
@@ -86,8 +86,7 @@ std::vector<std::size_t> choose(const Separation& separation, std::size_t places
   constexpr double kWorthwhile = 1e-6;
   std::vector<std::size_t> chosen;
   for (int i = 0; i < points; ++i) {
-    chosen.push_back(static_cast<std::size_t>(i) * (places - 1) /
-                     static_cast<std::size_t>(points - 1));
+    chosen.push_back(as_size(i) * (places - 1) / as_size(points - 1));
   }
   double best = separation.together(chosen);
   bool moved = true;
@@ -95,7 +94,7 @@ std::vector<std::size_t> choose(const Separation& separation, std::size_t places
     moved = false;
     for (std::size_t& one : chosen) {
       for (std::size_t other = 0; other < places; ++other) {
-        if (std::find(chosen.begin(), chosen.end(), other) != chosen.end()) continue;
+        if (contains(chosen, other)) continue;
         const std::size_t before = std::exchange(one, other);
         const double value = separation.together(chosen);
         if (value > best * (1.0 + kWorthwhile)) {
@@ -107,7 +106,7 @@ std::vector<std::size_t> choose(const Separation& separation, std::size_t places
       }
     }
   }
-  std::sort(chosen.begin(), chosen.end());
+  sort(chosen);
   return chosen;
 }
 
@@ -178,7 +177,7 @@ tl::expected<CheckPlan, PlanFailure> plan_check(const CompensationMap& map,
   check(map, request);
   if (map.machine() == nullptr) return tl::unexpected(no_machine());
   const std::vector<MarkPoint> places = places_of(map, request.margin_mm);
-  if (places.size() < static_cast<std::size_t>(request.points)) {
+  if (places.size() < as_size(request.points)) {
     return tl::unexpected(
         PlanFailure{PlanFailure::Reason::too_few_places,
                     fmt::format("the map answers at only {} of the places tried", places.size())});

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
@@ -83,9 +84,8 @@ std::vector<DetectableEffect> detectable_effects(const MeasuredHoles& set) {
     pattern.found.sigmas = pattern.white.norm();
     patterns.push_back(std::move(pattern));
   }
-  std::stable_sort(patterns.begin(), patterns.end(), [](const Pattern& a, const Pattern& b) {
-    return a.found.sigmas > b.found.sigmas;
-  });
+  stable_sort(patterns,
+              [](const Pattern& a, const Pattern& b) { return a.found.sigmas > b.found.sigmas; });
   std::vector<DetectableEffect> found;
   for (std::size_t i = 0; i < patterns.size(); ++i) {
     for (std::size_t j = 0; j < patterns.size(); ++j) {

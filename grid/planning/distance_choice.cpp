@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/observation/tape_distances.hpp"
 
@@ -72,9 +73,9 @@ DistanceChooser::Measurable DistanceChooser::measurable(const Holes& holes,
   const observation::DistanceGeometry geometry =
       observation::distance_geometry(set, marks_of(holes));
   const observation::DistanceNoise noise = observation::distance_noise(set, geometry);
-  Eigen::MatrixXd marks_by_unknown(2 * static_cast<Eigen::Index>(holes.size()), kPlanUnknowns);
+  Eigen::MatrixXd marks_by_unknown(2 * std::ssize(holes), kPlanUnknowns);
   for (std::size_t i = 0; i < holes.size(); ++i) {
-    marks_by_unknown.middleRows<2>(2 * static_cast<Eigen::Index>(i)) = holes[i]->by_unknown;
+    marks_by_unknown.middleRows<2>(2 * as_index(i)) = holes[i]->by_unknown;
   }
   Measurable all;
   all.by_unknown = geometry.by_mark * marks_by_unknown;
@@ -88,8 +89,8 @@ DistanceChooser::Measurable DistanceChooser::measurable(const Holes& holes,
 DistanceChooser::Choice DistanceChooser::greedy(const Holes& holes) const {
   Measurable all = measurable(holes, in_reach(holes));
   const double tape2 = request_.tape_sigma_mm * request_.tape_sigma_mm;
-  const auto count = static_cast<Eigen::Index>(all.distances.size());
-  const auto wanted = std::min(static_cast<Eigen::Index>(distances_of(request_)), count);
+  const auto count = std::ssize(all.distances);
+  const auto wanted = std::min(as_index(distances_of(request_)), count);
   Choice choice;
   choice.variance_mm2 = linear::carried(root_, prior_).trace();
   std::vector<bool> taken(all.distances.size(), false);
@@ -97,14 +98,14 @@ DistanceChooser::Choice DistanceChooser::greedy(const Holes& holes) const {
     Eigen::Index best = -1;
     double best_gain = 0.0;
     for (Eigen::Index k = 0; k < count; ++k) {
-      if (taken[static_cast<std::size_t>(k)]) continue;
+      if (taken[as_size(k)]) continue;
       const double gain = all.pull.col(k).squaredNorm() / (tape2 + all.known(k, k));
       if (best >= 0 && gain <= best_gain * kBetterChoice) continue;
       best_gain = gain;
       best = k;
     }
-    taken[static_cast<std::size_t>(best)] = true;
-    choice.distances.push_back(all.distances[static_cast<std::size_t>(best)]);
+    taken[as_size(best)] = true;
+    choice.distances.push_back(all.distances[as_size(best)]);
     choice.variance_mm2 -= best_gain;
     const Eigen::VectorXd with = all.known.col(best) / (tape2 + all.known(best, best));
     all.pull -= Eigen::VectorXd(all.pull.col(best)) * with.transpose();
@@ -130,7 +131,7 @@ DistanceChooser::Choice DistanceChooser::exchange(const Holes& holes, Choice cho
     const auto at = std::find_if(all.distances.begin(), all.distances.end(), [&](const auto& one) {
       return one.from == distance.from && one.to == distance.to && one.edge == distance.edge;
     });
-    return static_cast<std::size_t>(at - all.distances.begin());
+    return as_size(at - all.distances.begin());
   };
   std::vector<std::size_t> chosen;
   for (const HoleDistance& distance : choice.distances) chosen.push_back(number_of(distance));
@@ -146,7 +147,7 @@ DistanceChooser::Choice DistanceChooser::exchange(const Holes& holes, Choice cho
             done / static_cast<double>(chosen.size()),
             sweep + 1});
       for (std::size_t other = 0; other < all.distances.size(); ++other) {
-        if (std::find(chosen.begin(), chosen.end(), other) != chosen.end()) continue;
+        if (contains(chosen, other)) continue;
         const std::size_t before = std::exchange(one, other);
         const double variance = variance_mm2(all, chosen);
         if (variance < choice.variance_mm2 * (1.0 - kWorthwhile)) {

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "grid/containers.hpp"
 #include "grid/planning/detectable_effects.hpp"
 #include "grid/planning/tool_error.hpp"
 #include "grid/precondition.hpp"
@@ -122,7 +123,7 @@ MeasuredHoles set_of(const model::Machine& machine,
                      const std::vector<HoleDistance>& distances) {
   std::vector<std::size_t> order(holes.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  sort(order, [&](std::size_t a, std::size_t b) {
     const MarkPoint p = holes[a]->place;
     const MarkPoint q = holes[b]->place;
     return p.y_mm != q.y_mm ? p.y_mm > q.y_mm : p.x_mm < q.x_mm;
@@ -148,9 +149,7 @@ MeasuredHoles set_of(const model::Machine& machine,
   }
   // Edges last: the tape is held differently there.
   const auto key = [](const HoleDistance& one) { return std::tuple(one.edge, one.from, one.to); };
-  std::sort(set.distances.begin(), set.distances.end(), [&key](const auto& a, const auto& b) {
-    return key(a) < key(b);
-  });
+  sort(set.distances, [&key](const auto& a, const auto& b) { return key(a) < key(b); });
   for (HoleDistance& distance : set.distances) distance.distance_mm = commanded_mm(set, distance);
   return set;
 }
@@ -249,7 +248,7 @@ tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
                                                 const HolesPlanRequest& request) {
   check(machine, request);
   const std::vector<PlannedPlace> places = candidates(machine, request.margin_mm);
-  if (places.size() < static_cast<std::size_t>(request.holes)) {
+  if (places.size() < as_size(request.holes)) {
     return tl::unexpected(
         PlanFailure{PlanFailure::Reason::too_few_places,
                     fmt::format("the machine can cut at only {} of the places tried; a wider "
@@ -259,7 +258,7 @@ tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
   const Eigen::MatrixXd prior = prior_of(machine, request.edges);
   const ToolError error = tool_error(machine, request.edges);
   const DistanceChooser chooser(machine, request, prior, error.root);
-  Holes holes = spread(places, static_cast<std::size_t>(request.holes));
+  Holes holes = spread(places, as_size(request.holes));
   DistanceChooser::Choice choice = move_holes(
       chooser, places, least_apart_mm(machine, request.margin_mm), request.progress, holes);
   choice = chooser.exchange(holes, std::move(choice));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "grid/map/fit.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/precondition.hpp"
@@ -83,7 +84,7 @@ class Planner {
           std::trunc(
               std::clamp(bed.height_mm * ((row + 0.5) / kRasterRows - 0.5), -half_y, half_y))};
       // A point nearer than this to another one adds little information.
-      const bool taken = std::any_of(marks.begin(), marks.end(), [&](const MarkPoint& mark) {
+      const bool taken = any_of(marks, [&](const MarkPoint& mark) {
         return std::hypot(mark.x_mm - place.x_mm, mark.y_mm - place.y_mm) <=
                2.0 * kRepeatDistanceMm;
       });
@@ -115,7 +116,7 @@ void walk(std::vector<MarkPoint>& marks, const std::vector<double>& rows) {
     });
     return nearest - rows.begin();
   };
-  std::sort(marks.begin(), marks.end(), [&](const MarkPoint& a, const MarkPoint& b) {
+  sort(marks, [&](const MarkPoint& a, const MarkPoint& b) {
     const auto row_a = row_of(a);
     const auto row_b = row_of(b);
     if (row_a != row_b) return row_a < row_b;
@@ -169,7 +170,7 @@ tl::expected<MeasurementPlan, PlanFailure> plan_measurement(const model::Machine
   }
   const Planner planner(machine, request);
   auto map = planner.map_of(marks);
-  while (map && marks.size() < static_cast<std::size_t>(request.points)) {
+  while (map && marks.size() < as_size(request.points)) {
     const auto next = planner.worst_free(*map, marks);
     if (!next) break;
     marks.push_back(*next);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -17,8 +18,7 @@ std::optional<PlannedPlace> planned_place(const model::ReadingModel& model, Mark
   if (!reading) return std::nullopt;
   Eigen::Matrix<double, 2, estimation::kMachineUnknowns> lengths;
   for (std::size_t i = 0; i < model::kMachineSettings.size(); ++i) {
-    lengths.col(static_cast<Eigen::Index>(i)) =
-        model.sensitivity(*reading, model::kMachineSettings[i]);
+    lengths.col(as_index(i)) = model.sensitivity(*reading, model::kMachineSettings[i]);
   }
   lengths.rightCols<2>() =
       Eigen::Vector2d(reading->lengths.left_mm, reading->lengths.right_mm).asDiagonal();
@@ -40,7 +40,7 @@ ToolError tool_error(const model::Machine& machine, bool sheet_counts) {
       if (const auto planned = planned_place(model, place)) places.push_back(*planned);
     }
   }
-  const auto count = static_cast<Eigen::Index>(places.size());
+  const auto count = std::ssize(places);
   if (count < kPlanUnknowns) {
     return {Eigen::MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns),
             Eigen::MatrixXd::Zero(3, kPlanUnknowns)};
@@ -48,7 +48,7 @@ ToolError tool_error(const model::Machine& machine, bool sheet_counts) {
   Eigen::MatrixXd motion(2 * count, kPlanUnknowns);
   Eigen::MatrixXd rigid(2 * count, 3);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const PlannedPlace& place = places[static_cast<std::size_t>(i)];
+    const PlannedPlace& place = places[as_size(i)];
     motion.middleRows<2>(2 * i) = place.by_unknown;
     rigid.middleRows<2>(2 * i) = model::SheetPlacement{}.sensitivity(place.place);
   }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+
 namespace chaintrue::grid {
 
 using model::PlotterMachine;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::sweep {
 
 std::array<std::size_t, kFactors> level_counts(const SweepSpec& spec) {
@@ -30,7 +32,7 @@ Levels levels_of(const SweepSpec& spec, std::uint64_t combination) {
   const auto counts = level_counts(spec);
   Levels levels{};
   for (std::size_t factor = kFactors; factor-- > 0;) {
-    levels[factor] = static_cast<std::size_t>(combination % counts[factor]);
+    levels[factor] = as_size(combination % counts[factor]);
     combination /= counts[factor];
   }
   return levels;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "grid/belts/anchor_estimate.hpp"
+#include "grid/containers.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "model/effects/catalogue.hpp"
@@ -105,7 +106,7 @@ std::optional<ToolPosition> drawn_at(const SetAndActual& machine,
       plus(machine.set_origin, command), {}, model::Derivatives::by_position);
   if (!paid_out) return std::nullopt;
   const Eigen::VectorXd& lengths = paid_out->lengths_mm;
-  std::vector<bool> counting(static_cast<std::size_t>(lengths.size()), false);
+  std::vector<bool> counting(as_size(lengths.size()), false);
   counting[0] = counting[1] = true;
   const auto place =
       lengths.size() == 2
@@ -169,7 +170,7 @@ std::vector<double> sizes_of(double null, double usual, double lower, double upp
     if (size < lower || size > upper || (integer && size != std::round(size))) continue;
     sizes.push_back(size);
   }
-  std::sort(sizes.begin(), sizes.end());
+  sort(sizes);
   return sizes;
 }
 
@@ -228,11 +229,12 @@ void add_settings(const Mechanism& mechanism,
     if (!cause.empty() && cause != parameters[k].name) continue;
     const double usual = parameters[k].prior_sigma.value_or(model::kParameterShiftSigma);
     const double most = 2.0 * usual;
-    add_picture({.parameter = parameters[k].name},
-                sizes_of(0.0, usual, -most, most, false),
-                usual,
-                [&](double size) { return with_size(static_cast<Eigen::Index>(k), size); },
-                atlas);
+    add_picture(
+        {.parameter = parameters[k].name},
+        sizes_of(0.0, usual, -most, most, false),
+        usual,
+        [&](double size) { return with_size(as_index(k), size); },
+        atlas);
   }
 }
 

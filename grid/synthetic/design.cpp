@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "grid/containers.hpp"
 #include "grid/precondition.hpp"
 
 namespace chaintrue::grid::synthetic {
@@ -97,7 +98,7 @@ std::vector<MarkPoint> scattered(const Design& design,
   const auto in_corner = [&](MarkPoint p) {
     return std::abs(p.x_mm) > 0.8 * half_x && std::abs(p.y_mm) > 0.8 * half_y;
   };
-  while (result.size() < static_cast<std::size_t>(design.points)) {
+  while (result.size() < as_size(design.points)) {
     const double x = random.uniform(-half_x, half_x);
     const double y = random.uniform(-half_y, half_y);
     if (within(design.region, {x, y}) && !(design.without_corners && in_corner({x, y}))) {
@@ -140,8 +141,7 @@ void put_in_order(std::vector<Mark>& marks, VisitingOrder order, Random& random)
     const double along = by_column ? mark.place.y_mm : mark.place.x_mm;
     return std::tuple{line, turning && line % 2 == 1 ? -along : along};
   };
-  std::stable_sort(
-      marks.begin(), marks.end(), [&](const Mark& a, const Mark& b) { return key(a) < key(b); });
+  stable_sort(marks, [&](const Mark& a, const Mark& b) { return key(a) < key(b); });
 }
 
 std::optional<DesignKind> design_kind(std::string_view word) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/containers.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -73,8 +74,7 @@ std::vector<MarkPoint> session_of(const std::vector<Mark>& marks, int repeats, R
   for (std::size_t i = 0; i < marks.size(); ++i) {
     session.push_back(marks[i].place);
     unrepeated.push_back(i);
-    while (done < repeats && (i + 1) * static_cast<std::size_t>(repeats) >=
-                                 marks.size() * static_cast<std::size_t>(done + 1)) {
+    while (done < repeats && (i + 1) * as_size(repeats) >= marks.size() * as_size(done + 1)) {
       // Each mark is repeated once before any is visited a third time.
       if (unrepeated.empty()) {
         for (std::size_t k = 0; k <= i; ++k) unrepeated.push_back(k);
@@ -136,8 +136,8 @@ std::vector<MeasuredPoint> written_down(const std::vector<MarkPoint>& marks,
   std::vector<std::size_t> shuffled(marks.size());
   for (std::size_t i = 0; i < shuffled.size(); ++i) shuffled[i] = i;
   slips.shuffle(shuffled);
-  shuffled.resize(std::min(shuffled.size(), static_cast<std::size_t>(spec.bad.count)));
-  std::sort(shuffled.begin(), shuffled.end());
+  shuffled.resize(std::min(shuffled.size(), as_size(spec.bad.count)));
+  sort(shuffled);
 
   const double position_step = step_of(noise.position_rounding_mm, noise.position_mm);
   const double length_step = step_of(noise.length_rounding_mm, noise.length_mm);
@@ -267,7 +267,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   session.grid.points = written_down(written, answer.lengths, spec, answer.bad_points);
   for (const std::size_t point : miscounted(answer.machine, visits))
     answer.bad_points.push_back(point);
-  std::sort(answer.bad_points.begin(), answer.bad_points.end());
+  sort(answer.bad_points);
   answer.bad_points.erase(std::unique(answer.bad_points.begin(), answer.bad_points.end()),
                           answer.bad_points.end());
   return session;

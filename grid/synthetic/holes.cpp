@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/random.hpp"
 #include "model/calibration/setting.hpp"
@@ -77,8 +78,8 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
   Random tape_noise(spec.seed, kTapeStream);
   for (std::size_t k = 0; k < made.set.distances.size(); ++k) {
     HoleDistance& distance = made.set.distances[k];
-    double reading = tape * geometry.predicted_mm[static_cast<Eigen::Index>(k)] +
-                     design.tape.tape_zero_offset_mm + sigma_of(design, distance) * tape_noise.normal();
+    double reading = tape * geometry.predicted_mm[as_index(k)] + design.tape.tape_zero_offset_mm +
+                     sigma_of(design, distance) * tape_noise.normal();
     if (spec.rounding_mm > 0.0) reading = spec.rounding_mm * std::round(reading / spec.rounding_mm);
     distance.distance_mm = reading;
   }
@@ -91,7 +92,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
         bad.uniform() < 0.5 ? -spec.bad_size_mm : spec.bad_size_mm;
     made.bad_readings.push_back(order[k]);
   }
-  std::sort(made.bad_readings.begin(), made.bad_readings.end());
+  sort(made.bad_readings);
   return made;
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "grid/random.hpp"
 #include "model/belts/belt_readings.hpp"
 
@@ -94,7 +95,7 @@ void spoil(const BeltsSpec& spec, MeasuredBelts& belts) {
   std::vector<std::size_t> points(belts.points.size());
   std::iota(points.begin(), points.end(), std::size_t{0});
   random.shuffle(points);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(spec.bad_readings); ++i) {
+  for (std::size_t i = 0; i < as_size(spec.bad_readings); ++i) {
     const Belt belt = kBelts[random.below(kBelts.size())];
     const double sign = random.below(2) == 0 ? 1.0 : -1.0;
     belts.points[points[i]].lengths_mm[belt] += sign * spec.bad_size_mm;

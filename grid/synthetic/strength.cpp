@@ -10,6 +10,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 #include "grid/synthetic/design.hpp"
@@ -74,7 +75,7 @@ Eigen::VectorXd whitened(const std::vector<Eigen::Vector2d>& pairs,
                          Eigen::Index rows) {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(rows);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    result.segment<2>(2 * static_cast<Eigen::Index>(i)) = whitening[i] * pairs[i];
+    result.segment<2>(2 * as_index(i)) = whitening[i] * pairs[i];
   }
   return result;
 }
@@ -138,12 +139,12 @@ StrengthTable::StrengthTable(const Machine& stated,
                        noise.length_mm,
                        noise.position_mm);
   }
-  const auto count = static_cast<Eigen::Index>(visits_.size());
-  const auto settings = static_cast<Eigen::Index>(model::kMachineSettings.size());
+  const auto count = std::ssize(visits_);
+  const auto settings = std::ssize(model::kMachineSettings);
   Eigen::MatrixXd by_setting = Eigen::MatrixXd::Zero(2 * count + settings, settings);
   const model::ReadingModel model(stated);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const auto reading = model.at(visits_[static_cast<std::size_t>(i)].position);
+    const auto reading = model.at(visits_[as_size(i)].position);
     if (!reading) throw precondition("strength: visit {}: {}", i, reading.error().sentence());
     const Eigen::Matrix2d& j = reading->position_jacobian;
     const Eigen::Matrix2d covariance =
@@ -153,15 +154,13 @@ StrengthTable::StrengthTable(const Machine& stated,
     whitening_.emplace_back(Eigen::Matrix2d(Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL()).inverse());
     for (Eigen::Index k = 0; k < settings; ++k) {
       by_setting.block<2, 1>(2 * i, k) =
-          whitening_.back() *
-          model.sensitivity(*reading, model::kMachineSettings[static_cast<std::size_t>(k)]);
+          whitening_.back() * model.sensitivity(*reading, model::kMachineSettings[as_size(k)]);
     }
   }
   for (Eigen::Index k = 0; k < settings; ++k) {
     by_setting(2 * count + k, k) =
         1.0 /
-        std::max(kKnownSigma,
-                 model::stated_sigma(stated, model::kMachineSettings[static_cast<std::size_t>(k)]));
+        std::max(kKnownSigma, model::stated_sigma(stated, model::kMachineSettings[as_size(k)]));
   }
   settings_basis_ = linear::orthonormal_columns(by_setting);
   for (const Effect* effect : model::effects::effects_of(stated_)) {
@@ -227,9 +226,8 @@ EffectStrength StrengthTable::strength(const Effect& effect, EffectSide side) co
       same->collinearity = std::max(same->collinearity, collinearity);
     }
   }
-  std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) {
-    return a.collinearity > b.collinearity;
-  });
+  stable_sort(rivals,
+              [](const Rival& a, const Rival& b) { return a.collinearity > b.collinearity; });
   double needed = kDetectableSignalToNoise;
   for (const Rival& rival : rivals) {
     if (rival.collinearity >= kInseparable) {
@@ -250,7 +248,7 @@ std::vector<Eigen::Vector2d> StrengthTable::calibrated_shift_mm(
   const Eigen::VectorXd left = entry(applied).left;
   std::vector<Eigen::Vector2d> shift;
   for (std::size_t i = 0; i < visits_.size(); ++i) {
-    const Eigen::Vector2d pair = left.segment<2>(2 * static_cast<Eigen::Index>(i));
+    const Eigen::Vector2d pair = left.segment<2>(2 * as_index(i));
     shift.emplace_back(-length_by_xy_[i].inverse() * (whitening_[i].inverse() * pair));
   }
   return shift;

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Whole containers as arguments of the standard algorithms, and positions between the standard library,
+/// whose are unsigned, and Eigen, whose are signed. (std::ranges is missing in the library with which the
+/// page is built.)
+///
+/// \code
+///   if (contains(members, cause)) ...
+///   stable_sort(models, [](const auto& a, const auto& b) { return a.weight > b.weight; });
+///   design.col(as_index(k)) = columns[as_size(chosen)];
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <iterator>
+
+namespace chaintrue::grid {
+
+[[nodiscard]] constexpr std::size_t as_size(std::integral auto position) {
+  return static_cast<std::size_t>(position);
+}
+[[nodiscard]] constexpr Eigen::Index as_index(std::integral auto position) {
+  return static_cast<Eigen::Index>(position);
+}
+
+template <class Container, class Value>
+[[nodiscard]] bool contains(const Container& all, const Value& one) {
+  return std::find(std::begin(all), std::end(all), one) != std::end(all);
+}
+template <class Container, class Predicate>
+[[nodiscard]] bool any_of(const Container& all, Predicate holds) {
+  return std::any_of(std::begin(all), std::end(all), holds);
+}
+template <class Container, class Predicate>
+[[nodiscard]] bool all_of(const Container& all, Predicate holds) {
+  return std::all_of(std::begin(all), std::end(all), holds);
+}
+template <class Container, class Predicate>
+[[nodiscard]] bool none_of(const Container& all, Predicate holds) {
+  return !any_of(all, holds);
+}
+
+template <class Container, class... Less>
+void sort(Container& all, Less... less) {
+  std::sort(std::begin(all), std::end(all), less...);
+}
+template <class Container, class... Less>
+void stable_sort(Container& all, Less... less) {
+  std::stable_sort(std::begin(all), std::end(all), less...);
+}
+
+}  // namespace chaintrue::grid
