@@ -8,22 +8,12 @@
 #include "grid/diagnosis/belts_report.hpp"
 #include "grid/diagnosis/belts_system.hpp"
 #include "grid/diagnosis/constants.hpp"
-#include "grid/diagnosis/law_words.hpp"
 #include "grid/diagnosis/laws.hpp"
+#include "grid/diagnosis/verdict_words.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
-
-std::string sized_belt_cause(const CauseId& cause,
-                             const std::vector<ParameterEstimate>& parameters) {
-  std::string text = fmt::format("{}{} (", cause.effect->cause, side_words(cause));
-  for (const ParameterEstimate& own : parameters) {
-    if (&own != &parameters.front()) text += ", ";
-    text += in_workshop_units(cause, own);
-  }
-  return text + ")";
-}
 
 /// An end of a distance as a file has it: an anchor's name, a point's number, a hole's command.
 std::string end_of(const BeltEnd& end, const PointIndices& indices) {
@@ -32,26 +22,6 @@ std::string end_of(const BeltEnd& end, const PointIndices& indices) {
   if (const auto* belt = std::get_if<model::Belt>(&end)) return std::string(model::name(*belt));
   const model::BedPoint at = std::get<CutHole>(end).commanded;
   return fmt::format("({:g}, {:g})", at.x_mm, at.y_mm);
-}
-
-/// ", or the bottom right one", or nothing.
-std::string or_else(const Outlier& bad) {
-  return bad.or_belt ? fmt::format(", or the {} one", model::words(*bad.or_belt)) : "";
-}
-
-std::vector<std::string> bad_belts(const Diagnosis& d) {
-  std::vector<std::string> result;
-  for (const Outlier& bad : d.outliers) {
-    result.push_back(
-        bad.belt ? fmt::format("the {} belt at point {}{}, read {:.1f} mm too {}",
-                               model::words(*bad.belt),
-                               bad.index + 1,
-                               or_else(bad),
-                               std::abs(bad.residual_mm),
-                               bad.residual_mm > 0.0 ? "long" : "short")
-                 : fmt::format("point {}, where more than one belt disagrees", bad.index + 1));
-  }
-  return result;
 }
 
 std::string improvement_words(const BeltsFindings& found) {
@@ -66,44 +36,6 @@ std::string improvement_words(const BeltsFindings& found) {
         found.prediction->rms_mm);
   }
   return text + ".";
-}
-
-/// " Besides, 0.4 mm of each reading ..."
-std::string alongside_belts_words(const Diagnosis& d) {
-  if (const Law* law = claimed_law(d)) {
-    return fmt::format(" Besides, what no listed cause makes: {}, {}.",
-                       in_words(*law),
-                       percent(law->probability)) +
-           given_law_words(d, sized_belt_cause);
-  }
-  if (!d.unexplained || d.unexplained->probability <= kDiscrepancyLikely) return "";
-  return fmt::format(
-      " Besides, {:.2f} mm a belt follow a pattern over some {:.0f} mm of the sheet that no listed "
-      "cause makes: {}.",
-      d.unexplained->rms_mm,
-      d.unexplained->length_mm,
-      percent(d.unexplained->probability));
-}
-
-std::string named_belt_words(const Diagnosis& d) {
-  const Cause& cause = d.causes.front();
-  std::string text = fmt::format("Most likely {}: probability {}.",
-                                 sized_belt_cause(cause.cause, cause.parameters),
-                                 percent(cause.probability));
-  for (const SameCause& other : cause.same_as) {
-    text += fmt::format(" No lengths of belts can tell it from this: {}.",
-                        sized_belt_cause(other.cause, other.parameters));
-  }
-  return text;
-}
-
-std::string listed_words(const Diagnosis& d, std::string_view last) {
-  std::vector<std::string> parts;
-  for (const Cause& c : d.causes) {
-    parts.push_back(
-        fmt::format("{}, {}", sized_belt_cause(c.cause, c.parameters), percent(c.probability)));
-  }
-  return joined(parts, last);
 }
 
 /// Causes that are likely enough to be thought of, though none is named: one set.
@@ -135,30 +67,15 @@ std::string short_of_a_name(const Diagnosis& d) {
 std::string sentence(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::named:
-      return named_belt_words(d) + alongside_belts_words(d) + improvement_words(*d.belts);
     case Verdict::named_set:
-      return fmt::format("One of {} causes, which these lengths do not tell apart: {}.",
-                         d.causes.size(),
-                         listed_words(d, "or")) +
-             alongside_belts_words(d) + improvement_words(*d.belts);
     case Verdict::several_causes:
-      return fmt::format("{} causes act together: {}.", d.causes.size(), listed_words(d, "and")) +
-             alongside_belts_words(d) + improvement_words(*d.belts);
+      return causes_in_words(d) + improvement_words(*d.belts);
     case Verdict::outliers:
-      return fmt::format("Nothing is wrong but {} of the readings: {}. Without {} the frame fits.",
-                         d.outliers.size(),
-                         joined(bad_belts(d), "and"),
-                         d.outliers.size() == 1 ? "it" : "them");
+      return only_outliers_in_words(d);
     case Verdict::model_discrepancy:
-      if (const Law* law = claimed_law(d)) {
-        return fmt::format(
-                   "The lengths follow a law that no cause in the catalogue has: {}, {}. On average "
-                   "it {}.",
-                   in_words(*law),
-                   percent(law->probability),
-                   average_in_words(*law, d.observations)) +
-               (d.unexplained->causes_given_law.empty() ? short_of_a_name(d)
-                                                        : given_law_words(d, sized_belt_cause));
+      if (claimed_law(d) != nullptr) {
+        return claimed_law_in_words(d) +
+               (d.unexplained->causes_given_law.empty() ? short_of_a_name(d) : "");
       }
       return fmt::format(
                  "What is left of the lengths changes smoothly from place to place, {:.2f} mm a "
@@ -261,7 +178,7 @@ void say_what_to_do(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis
   }
   if (!d.outliers.empty()) {
     d.what_to_do.push_back(fmt::format("Do not trust {}: let the machine measure there again.",
-                                       joined(bad_belts(d), "and")));
+                                       joined(outliers_in_words(d), "and")));
   }
   if (const Law* law = claimed_law(d)) {
     d.what_to_do.push_back(
@@ -278,23 +195,6 @@ void say_what_to_do(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis
         proposed ? d.next_measurements.back().words
                  : "one long distance, between two anchors or two holes that the machine cut"));
   }
-}
-
-std::string not_proved(const Diagnosis& d) {
-  std::string text =
-      d.causes.empty()
-          ? "That the machine is perfect. Causes smaller than their bounds below would "
-            "not have shown."
-          : "Lengths show what fits, not what is: look at the part before changing it.";
-  if (!d.causes.empty() && d.causes.front().rival) {
-    const Cause& lead = d.causes.front();
-    text += fmt::format(
-        " A cause that the catalogue lacks, and that looks the same, would carry the same name. "
-        "The nearest one that it has: {}{}.",
-        lead.rival->effect->cause,
-        side_words(*lead.rival));
-  }
-  return text;
 }
 
 /// The machine's own number and ours, and why they differ.
@@ -375,7 +275,7 @@ void put_belts_into_words(const MeasuredBelts& belts,
                           Diagnosis& d) {
   d.notes.push_back(firmware_words(belts, alone, d));
   d.sentence = sentence(d);
-  d.not_proved = not_proved(d);
+  d.not_proved = not_proved_in_words(d);
   say_what_to_do(belts, next, d);
 }
 

@@ -40,19 +40,8 @@ std::string_view name(Verdict verdict) {
 }
 
 std::string_view name(Observations observations) {
-  switch (observations) {
-    case Observations::points:
-      return "points";
-    case Observations::distances:
-      return "distances";
-    case Observations::belts:
-      return "belts";
-    case Observations::drawing:
-      return "measures";
-    case Observations::both:
-      break;
-  }
-  return "readings";
+  constexpr std::string_view kNames[] = {"points", "distances", "readings", "belts", "measures"};
+  return kNames[static_cast<std::size_t>(observations)];
 }
 
 namespace {

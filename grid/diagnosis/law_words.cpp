@@ -8,6 +8,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "grid/diagnosis/workshop_units.hpp"
+
 namespace chaintrue::grid::diagnosis {
 namespace {
 
@@ -170,9 +172,7 @@ std::string in_words(const Law& law) {
                      entrance);
 }
 
-std::string given_law_words(const Diagnosis& d,
-                            std::string (*sized)(const CauseId&,
-                                                 const std::vector<ParameterEstimate>&)) {
+std::string given_law_words(const Diagnosis& d) {
   if (!d.unexplained) return "";
   std::vector<std::string> named, gone;
   double sum = 0.0;

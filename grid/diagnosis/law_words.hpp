@@ -27,10 +27,8 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] std::string average_in_words(const Law& law, Observations of);
 
 /// " With this law known, they also name a stretched left chain (...), 96 %." and what they would name without it;
-/// empty where the law changes no name. `sized` says a cause with its size.
-[[nodiscard]] std::string given_law_words(
-    const Diagnosis& diagnosis,
-    std::string (*sized)(const CauseId&, const std::vector<ParameterEstimate>&));
+/// empty where the law changes no name.
+[[nodiscard]] std::string given_law_words(const Diagnosis& d);
 
 /// What a period or a place is near to on this machine, as hints: whole sentences.
 [[nodiscard]] std::vector<std::string> hints_of(const Law& law, const model::Machine& machine);

@@ -8,22 +8,14 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/findings.hpp"
-#include "grid/diagnosis/law_words.hpp"
 #include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/stability.hpp"
+#include "grid/diagnosis/verdict_words.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/observation/measured_holes.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
-
-std::string sized(const CauseId& cause, const std::vector<ParameterEstimate>& parameters) {
-  std::string text = fmt::format("{}{}", cause.effect->cause, side_words(cause));
-  if (parameters.empty()) return text;
-  text += fmt::format(" ({}", in_workshop_units(cause, parameters.front()));
-  if (parameters.size() > 1) text += fmt::format(", {}", in_workshop_units(cause, parameters[1]));
-  return text + ")";
-}
 
 /// What is held out: distances where no chain was read at marks.
 bool speaks_of_distances(const Diagnosis& d) { return d.observations == Observations::distances; }
@@ -53,86 +45,8 @@ std::string assumed_words(const Diagnosis& d) {
   return assumed ? " This assumes the order of the visits." : "";
 }
 
-/// An outlier by its ends and by how much it is off.
-std::string distance_words(const Diagnosis& d, const Outlier& bad) {
-  return fmt::format("{} (read {:.1f} mm too {})",
-                     words_of_ends(d.distances.at(bad.index)),
-                     std::abs(bad.residual_mm),
-                     bad.residual_mm > 0.0 ? "long" : "short");
-}
-
-/// The outliers by number, or by their ends.
-std::vector<std::string> bad_ones(const Diagnosis& d) {
-  std::vector<std::string> result;
-  for (const Outlier& b : d.outliers) {
-    result.push_back(b.of == Observations::drawing          ? d.drawing->measures.at(b.index).name
-                     : b.of == Observations::distances      ? distance_words(d, b)
-                     : d.observations == Observations::both ? fmt::format("point {}", b.index + 1)
-                                                            : fmt::format("{}", b.index + 1));
-  }
-  return result;
-}
-
-/// "; besides, a pattern of 0.4 mm that follows x, which no listed cause makes".
-std::string alongside_words(const Diagnosis& d) {
-  if (const Law* law = claimed_law(d)) {
-    return fmt::format(" Also, what no listed cause makes: {}, {}.", in_words(*law), percent(law->probability)) +
-           given_law_words(d, sized);
-  }
-  if (!d.unexplained || d.unexplained->probability <= kDiscrepancyLikely) return "";
-  const Unexplained& left = *d.unexplained;
-  return fmt::format(
-      " Also, a pattern of {:.2f} mm{}, which no listed cause makes: {}.",
-      left.rms_mm,
-      left.follows.empty()
-          ? fmt::format(" that changes over some {:.0f} mm of the bed", left.length_mm)
-          : fmt::format(" that follows {}", coordinate_words(left.follows)),
-      percent(left.probability));
-}
-
-std::string named_words(const Diagnosis& d) {
-  const Cause& cause = d.causes.front();
-  std::string text = fmt::format("Most likely {}: probability {}.",
-                                 sized(cause.cause, cause.parameters),
-                                 percent(cause.probability));
-  for (const SameCause& other : cause.same_as) {
-    text += fmt::format(" These {} cannot tell it from this: {}.",
-                        name(d.observations),
-                        sized(other.cause, other.parameters));
-  }
-  return text + alongside_words(d) + assumed_words(d) + improvement_words(d);
-}
-
-std::string set_words(const Diagnosis& d) {
-  std::vector<std::string> parts;
-  for (const Cause& c : d.causes) {
-    parts.push_back(fmt::format("{}, {}", sized(c.cause, c.parameters), percent(c.probability)));
-  }
-  return fmt::format("One of {} causes, which these {} do not tell apart: {}.",
-                     d.causes.size(),
-                     name(d.observations),
-                     joined(parts, "or")) +
-         alongside_words(d) + assumed_words(d) + improvement_words(d);
-}
-
-std::string several_words(const Diagnosis& d) {
-  std::vector<std::string> parts;
-  for (const Cause& c : d.causes) {
-    parts.push_back(fmt::format("{}, {}", sized(c.cause, c.parameters), percent(c.probability)));
-  }
-  return fmt::format("{} causes act together: {}.", d.causes.size(), joined(parts, "and")) +
-         alongside_words(d) + assumed_words(d) + improvement_words(d);
-}
-
 std::string unknown_words(const Diagnosis& d) {
-  if (const Law* law = claimed_law(d)) {
-    return fmt::format("The {} follow a law that no cause in the catalogue has: {}, {}. On average it {}.",
-                       name(d.observations),
-                       in_words(*law),
-                       percent(law->probability),
-                       average_in_words(*law, d.observations)) +
-           given_law_words(d, sized);
-  }
+  if (claimed_law(d) != nullptr) return claimed_law_in_words(d);
   std::string text =
       !speaks_of_distances(d)
           ? fmt::format(
@@ -167,22 +81,15 @@ std::vector<std::string> settings_off(const Diagnosis& d) {
 }
 
 std::string bad_words(const Diagnosis& d) {
-  const std::vector<std::string> bad = bad_ones(d);
-  if (const std::vector<std::string> off = settings_off(d); !off.empty()) {
-    return fmt::format("{} of the {} fit nothing: {}. Without {} {} off: {}.",
-                       bad.size(),
-                       name(d.observations),
-                       joined(bad, "and"),
-                       bad.size() == 1 ? "it" : "them",
-                       off.size() == 1 ? "a setting is" : "settings are",
-                       joined(off, "and"));
-  }
-  return fmt::format("Nothing is wrong but {} of the {}: {}{}. Without {} the machine fits.",
-                     bad.size(),
+  const std::vector<std::string> off = settings_off(d);
+  if (off.empty()) return only_outliers_in_words(d);
+  return fmt::format("{} of the {} fit nothing: {}. Without {} {} off: {}.",
+                     d.outliers.size(),
                      name(d.observations),
-                     d.observations == Observations::points ? "number " : "",
-                     joined(bad, "and"),
-                     bad.size() == 1 ? "it" : "them");
+                     joined(outliers_in_words(d), "and"),
+                     d.outliers.size() == 1 ? "it" : "them",
+                     off.size() == 1 ? "a setting is" : "settings are",
+                     joined(off, "and"));
 }
 
 std::string nothing_words(const Diagnosis& d, std::size_t units) {
@@ -213,11 +120,9 @@ std::string nothing_words(const Diagnosis& d, std::size_t units) {
 std::string sentence(const Diagnosis& d, std::size_t units) {
   switch (d.verdict) {
     case Verdict::named:
-      return named_words(d);
     case Verdict::named_set:
-      return set_words(d);
     case Verdict::several_causes:
-      return several_words(d);
+      return causes_in_words(d) + assumed_words(d) + improvement_words(d);
     case Verdict::model_discrepancy:
       return unknown_words(d);
     case Verdict::noise_larger_than_stated:
@@ -290,7 +195,7 @@ void say_what_to_do(Diagnosis& d) {
                                        d.observations == Observations::points      ? "point "
                                        : d.observations == Observations::distances ? "the distance "
                                                                                    : "",
-                                       joined(bad_ones(d), "and")));
+                                       joined(outliers_in_words(d), "and")));
   }
   for (const CalibratedSetting& s : d.settings) {
     if (!s.off || d.what_to_do.size() >= 3) continue;
@@ -326,30 +231,7 @@ void say_what_to_do(Diagnosis& d) {
 }
 
 std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
-  std::string text;
-  if (!d.causes.empty()) {
-    const Cause& lead = d.causes.front();
-    text = fmt::format("{} show what fits, not what is: look at the part before changing it.",
-                       d.observations == Observations::points      ? "Points"
-                       : d.observations == Observations::distances ? "Distances"
-                                                                   : "Readings");
-    if (lead.rival) {
-      text += fmt::format(
-          " An unlisted cause that looks the same would get the same name. The most similar listed "
-          "one: {}{}.",
-          lead.rival->effect->cause,
-          side_words(*lead.rival));
-    }
-  } else if (d.verdict == Verdict::model_discrepancy) {
-    text = claimed_law(d) != nullptr
-               ? "A law says what the error is a function of, not what makes it; other causes may act as well."
-               : "No cause in the catalogue explains it, but one may still act as well.";
-  } else {
-    text =
-        "That the machine is perfect. Causes smaller than their bounds below would "
-        "not have shown.";
-  }
-  text += influence_in_words(d);
+  std::string text = not_proved_in_words(d) + influence_in_words(d);
   if (speaks_of_distances(d)) {
     text +=
         " Distances do not show in which order the holes were cut, nor where the machine stands as "

@@ -154,6 +154,26 @@ std::string in_workshop_units(const CauseId& cause, const ParameterEstimate& est
   return in_workshop_units(estimate);
 }
 
+std::string sizes_in_words(const CauseId& cause, const std::vector<ParameterEstimate>& parameters) {
+  std::string text;
+  for (const ParameterEstimate& estimate : parameters) {
+    if (!text.empty()) text += ", ";
+    text += in_workshop_units(cause, estimate);
+  }
+  return text;
+}
+
+std::string sized(const CauseId& cause, const std::vector<ParameterEstimate>& parameters) {
+  const std::string name = fmt::format("{}{}", cause.effect->cause, side_words(cause));
+  return parameters.empty() ? name
+                            : fmt::format("{} ({})", name, sizes_in_words(cause, parameters));
+}
+
+std::string off_in_words(double residual_mm) {
+  return fmt::format(
+      "{:.1f} mm too {}", std::abs(residual_mm), residual_mm > 0.0 ? "long" : "short");
+}
+
 std::string coordinate_words(std::string_view coordinate) {
   struct Words {
     std::string_view name;

@@ -24,6 +24,15 @@ struct NameAndUnit {
 [[nodiscard]] std::string in_workshop_units(const CauseId& cause,
                                             const ParameterEstimate& estimate);
 
+/// Of all its parameters, parted by commas.
+[[nodiscard]] std::string sizes_in_words(const CauseId& cause,
+                                         const std::vector<ParameterEstimate>& parameters);
+/// A cause with its side, and its sizes in brackets where it has any.
+[[nodiscard]] std::string sized(const CauseId& cause,
+                                const std::vector<ParameterEstimate>& parameters);
+/// "1.2 mm too short"
+[[nodiscard]] std::string off_in_words(double residual_mm);
+
 /// "the angle of the left chain" for angle_left.
 [[nodiscard]] std::string coordinate_words(std::string_view coordinate);
 

@@ -22,20 +22,14 @@ using report::Section;
 using report::Table;
 
 std::string_view where_it_goes(const Diagnosis& found) {
-  switch (found.observations) {
-    case grid::diagnosis::Observations::points:
-      return "Points go into the grid's file, readings into its \"readings\"";
-    case grid::diagnosis::Observations::distances:
-      return "Holes and distances go into the holes' file, readings into its \"readings\"";
-    case grid::diagnosis::Observations::belts:
-      return "Points and distances go into the belts' file";
-    case grid::diagnosis::Observations::drawing:
-      return "Measures go into the drawing's file";
-    case grid::diagnosis::Observations::both:
-      break;
-  }
-  return "Points go into the grid's file, holes and distances into the holes' file, readings into "
-         "the \"readings\" of either";
+  constexpr std::string_view kGoes[] = {
+      "Points go into the grid's file, readings into its \"readings\"",
+      "Holes and distances go into the holes' file, readings into its \"readings\"",
+      "Points go into the grid's file, holes and distances into the holes' file, readings into the "
+      "\"readings\" of either",
+      "Points and distances go into the belts' file",
+      "Measures go into the drawing's file"};  // by Observations
+  return kGoes[static_cast<std::size_t>(found.observations)];
 }
 
 std::string noise_in_words(const Diagnosis& found) {
@@ -61,17 +55,13 @@ std::string noise_in_words(const Diagnosis& found) {
 
 std::string outlier_in_words(const Diagnosis& found, const grid::diagnosis::Outlier& bad) {
   if (bad.of == grid::diagnosis::Observations::belts) return capitalised(bad_belt_in_words(bad));
-  if (bad.of == grid::diagnosis::Observations::drawing) {
-    return fmt::format("{}: read {} ({:.1f} sigmas)",
-                       found.drawing->measures.at(bad.index).name,
-                       off_in_words(bad.residual_mm),
-                       bad.distance);
-  }
-  if (is_distance(found, bad)) {
-    return fmt::format("{}: read {} ({:.1f} sigmas)",
-                       distance_name(found, bad.index),
-                       off_in_words(bad.residual_mm),
-                       bad.distance);
+  const bool is_drawn = bad.of == grid::diagnosis::Observations::drawing;
+  if (is_drawn || is_distance(found, bad)) {
+    return fmt::format(
+        "{}: read {} ({:.1f} sigmas)",
+        is_drawn ? found.drawing->measures.at(bad.index).name : distance_name(found, bad.index),
+        off_in_words(bad.residual_mm),
+        bad.distance);
   }
   return fmt::format(
       "{}: fits only with the tool {} mm right and {} mm up of its mark ({:.1f} sigmas)",

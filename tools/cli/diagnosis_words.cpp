@@ -116,19 +116,9 @@ bool is_of_distances(const grid::diagnosis::Diagnosis& found) {
 }
 
 std::string_view files_in_words(const grid::diagnosis::Diagnosis& found) {
-  switch (found.observations) {
-    case grid::diagnosis::Observations::points:
-      return "GRID";
-    case grid::diagnosis::Observations::distances:
-      return "HOLES";
-    case grid::diagnosis::Observations::belts:
-      return "BELTS";
-    case grid::diagnosis::Observations::drawing:
-      return "DRAWING";
-    case grid::diagnosis::Observations::both:
-      break;
-  }
-  return "GRID --with HOLES";
+  constexpr std::string_view kFiles[] = {
+      "GRID", "HOLES", "GRID --with HOLES", "BELTS", "DRAWING"};  // by Observations
+  return kFiles[static_cast<std::size_t>(found.observations)];
 }
 
 std::string readings_counted(const grid::diagnosis::Diagnosis& found) {
@@ -160,25 +150,10 @@ std::string distance_name(const grid::diagnosis::Diagnosis& found, std::size_t i
   return fmt::format("distance {}", index + 1);
 }
 
-std::string off_in_words(double residual_mm) {
-  return fmt::format(
-      "{:.1f} mm too {}", std::abs(residual_mm), residual_mm > 0.0 ? "long" : "short");
-}
-
 std::string bound_in_words(const grid::diagnosis::Bound& bound) {
   if (bound.parameter == "links" && bound.upper_95 == 0.0) return "not one link";
   if (bound.parameter == "teeth" && bound.upper_95 == 0.0) return "not one tooth";
   return grid::diagnosis::in_workshop_units(bound.cause, {bound.parameter, bound.upper_95, 0.0});
-}
-
-std::string sizes_in_words(const grid::diagnosis::CauseId& cause,
-                           const std::vector<ParameterEstimate>& parameters) {
-  std::string text;
-  for (const ParameterEstimate& estimate : parameters) {
-    if (!text.empty()) text += ", ";
-    text += grid::diagnosis::in_workshop_units(cause, estimate);
-  }
-  return text;
 }
 
 bool is_surprising(const grid::diagnosis::LeftOver& left_over) {
@@ -248,11 +223,10 @@ std::vector<FollowUpPlace> follow_up_places(const grid::diagnosis::Diagnosis& di
 std::string bad_belt_in_words(const grid::diagnosis::Outlier& bad) {
   if (!bad.belt)
     return fmt::format("point {} as a whole: more than one of its belts disagrees", bad.index + 1);
-  std::string text = fmt::format("the {} belt at point {}: read {:.1f} mm too {} ({:.1f} sigmas)",
+  std::string text = fmt::format("the {} belt at point {}: read {} ({:.1f} sigmas)",
                                  model::words(*bad.belt),
                                  bad.index + 1,
-                                 std::abs(bad.residual_mm),
-                                 bad.residual_mm > 0.0 ? "long" : "short",
+                                 off_in_words(bad.residual_mm),
                                  bad.distance);
   if (bad.or_belt) {
     text += fmt::format("; or the {} one, which looks the same at this place",

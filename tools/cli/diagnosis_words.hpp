@@ -26,16 +26,8 @@ namespace chaintrue::cli {
 [[nodiscard]] std::string distance_name(const grid::diagnosis::Diagnosis& found, std::size_t index);
 /// Whether distances between holes were measured in place of points.
 [[nodiscard]] bool is_of_distances(const grid::diagnosis::Diagnosis& found);
-/// "1.2 mm too short"
-[[nodiscard]] std::string off_in_words(double residual_mm);
-
 /// A bound in a workshop unit.
 [[nodiscard]] std::string bound_in_words(const grid::diagnosis::Bound& bound);
-/// All parameters, parted by commas.
-[[nodiscard]] std::string sizes_in_words(
-    const grid::diagnosis::CauseId& cause,
-    const std::vector<grid::diagnosis::ParameterEstimate>& parameters);
-
 /// Noise alone leaves as much in less than one of a hundred cases.
 [[nodiscard]] bool is_surprising(const grid::diagnosis::LeftOver& left_over);
 /// What is left over once the causes named are in the model, in a sentence.
@@ -65,7 +57,9 @@ struct FollowUpPlace {
 [[nodiscard]] std::vector<FollowUpPlace> follow_up_places(
     const grid::diagnosis::Diagnosis& diagnosis);
 
+using grid::diagnosis::off_in_words;
 using grid::diagnosis::percent;
+using grid::diagnosis::sizes_in_words;
 /// "the top left belt at point 17: read 80.2 mm too long (31.0 sigmas)"
 [[nodiscard]] std::string bad_belt_in_words(const grid::diagnosis::Outlier& bad);
 using report::capitalised;
