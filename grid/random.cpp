@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/random.hpp"
 
-#include <fmt/format.h>
-
 #include <bit>
 #include <cmath>
 #include <stdexcept>

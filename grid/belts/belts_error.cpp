@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/belts/belts_error.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "grid/belts/belt_map.hpp"

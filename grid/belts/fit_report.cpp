@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/belts/fit_report.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -12,7 +12,6 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/downdating.hpp"
 #include "grid/parallel.hpp"
-#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/causes_given_law.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "grid/containers.hpp"

@@ -12,7 +12,6 @@
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/naming.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
-#include "grid/diagnosis/order_search.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/joint_fit.hpp"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
 
 #include "grid/diagnosis/belts_report.hpp"
 #include "grid/diagnosis/causes_given_law.hpp"

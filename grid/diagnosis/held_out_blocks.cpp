@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/held_out_blocks.hpp"
 
-#include <algorithm>
-
 #include "grid/containers.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 

@@ -2,7 +2,6 @@
 #include "grid/diagnosis/law_system.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <set>

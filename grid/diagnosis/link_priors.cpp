@@ -3,7 +3,6 @@
 #include "grid/containers.hpp"
 #include "grid/statistics.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace chaintrue::grid::diagnosis {

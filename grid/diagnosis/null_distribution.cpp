@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"

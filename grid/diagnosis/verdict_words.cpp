@@ -26,16 +26,51 @@ struct Vocabulary {
 constexpr std::string_view kRivalOfMarks =
     "An unlisted cause that looks the same would get the same name. The most similar listed one";
 constexpr std::string_view kRivalOfBelts =
-    "A cause that the catalogue lacks, and that looks the same, would carry the same name. The nearest one "
+    "A cause that the catalogue lacks, and that looks the same, would carry the same name. The "
+    "nearest one "
     "that it has";
 
 /// By Observations.
-constexpr Vocabulary kVocabularies[] = {
-    {"points", "points", "number ", "Points", "These points cannot", "Also", "machine", kRivalOfMarks},
-    {"distances", "distances", "", "Distances", "These distances cannot", "Also", "machine", kRivalOfMarks},
-    {"readings", "readings", "", "Readings", "These readings cannot", "Also", "machine", kRivalOfMarks},
-    {"lengths", "readings", "", "Lengths", "No lengths of belts can", "Besides", "frame", kRivalOfBelts},
-    {"measures", "measures", "", "Readings", "These measures cannot", "Also", "machine", kRivalOfMarks}};
+constexpr Vocabulary kVocabularies[] = {{"points",
+                                         "points",
+                                         "number ",
+                                         "Points",
+                                         "These points cannot",
+                                         "Also",
+                                         "machine",
+                                         kRivalOfMarks},
+                                        {"distances",
+                                         "distances",
+                                         "",
+                                         "Distances",
+                                         "These distances cannot",
+                                         "Also",
+                                         "machine",
+                                         kRivalOfMarks},
+                                        {"readings",
+                                         "readings",
+                                         "",
+                                         "Readings",
+                                         "These readings cannot",
+                                         "Also",
+                                         "machine",
+                                         kRivalOfMarks},
+                                        {"lengths",
+                                         "readings",
+                                         "",
+                                         "Lengths",
+                                         "No lengths of belts can",
+                                         "Besides",
+                                         "frame",
+                                         kRivalOfBelts},
+                                        {"measures",
+                                         "measures",
+                                         "",
+                                         "Readings",
+                                         "These measures cannot",
+                                         "Also",
+                                         "machine",
+                                         kRivalOfMarks}};
 
 const Vocabulary& vocabulary_of(const Diagnosis& d) {
   return kVocabularies[static_cast<std::size_t>(d.observations)];
@@ -56,7 +91,8 @@ std::string alongside_words(const Diagnosis& d) {
   const std::string probability = percent(left.probability);
   if (d.belts) {
     return fmt::format(
-        " {}, {:.2f} mm a belt follow a pattern over some {:.0f} mm of the sheet that no listed cause "
+        " {}, {:.2f} mm a belt follow a pattern over some {:.0f} mm of the sheet that no listed "
+        "cause "
         "makes: {}.",
         besides,
         left.rms_mm,
@@ -78,9 +114,8 @@ std::string outlier_words(const Diagnosis& d, const Outlier& bad) {
     case Observations::drawing:
       return d.drawing->measures.at(bad.index).name;
     case Observations::distances:
-      return fmt::format("{} (read {})",
-                         words_of_ends(d.distances.at(bad.index)),
-                         off_in_words(bad.residual_mm));
+      return fmt::format(
+          "{} (read {})", words_of_ends(d.distances.at(bad.index)), off_in_words(bad.residual_mm));
     case Observations::belts:
       if (!bad.belt)
         return fmt::format("point {}, where more than one belt disagrees", bad.index + 1);
@@ -129,11 +164,12 @@ std::string causes_in_words(const Diagnosis& d) {
 std::string claimed_law_in_words(const Diagnosis& d) {
   const Law* law = claimed_law(d);
   if (law == nullptr) return "";
-  return fmt::format("The {} follow a law that no cause in the catalogue has: {}, {}. On average it {}.",
-                     vocabulary_of(d).readings,
-                     in_words(*law),
-                     percent(law->probability),
-                     average_in_words(*law, d.observations)) +
+  return fmt::format(
+             "The {} follow a law that no cause in the catalogue has: {}, {}. On average it {}.",
+             vocabulary_of(d).readings,
+             in_words(*law),
+             percent(law->probability),
+             average_in_words(*law, d.observations)) +
          given_law_words(d);
 }
 
@@ -163,10 +199,12 @@ std::string not_proved_in_words(const Diagnosis& d) {
                        rival ? fmt::format(" {}: {}.", words.rival, sized(*rival, {})) : "");
   }
   if (d.verdict != Verdict::model_discrepancy || d.belts) {
-    return "That the machine is perfect. Causes smaller than their bounds below would not have shown.";
+    return "That the machine is perfect. Causes smaller than their bounds below would not have "
+           "shown.";
   }
   return claimed_law(d) != nullptr
-             ? "A law says what the error is a function of, not what makes it; other causes may act as well."
+             ? "A law says what the error is a function of, not what makes it; other causes may "
+               "act as well."
              : "No cause in the catalogue explains it, but one may still act as well.";
 }
 

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <string_view>
-
 #include "grid/containers.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/laws.hpp"

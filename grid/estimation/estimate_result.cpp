@@ -3,7 +3,6 @@
 /// What the last pass of an estimate tells: units, observations, covariances.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

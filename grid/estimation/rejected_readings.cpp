@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Single readings that the others contradict, left out one at a time, the worst first.
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

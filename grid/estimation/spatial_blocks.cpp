@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/spatial_blocks.hpp"
 
-#include <algorithm>
 #include <numeric>
 #include <tuple>
 

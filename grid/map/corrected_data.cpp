@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "grid/containers.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/observation/tape_distances.hpp"

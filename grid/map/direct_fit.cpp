@@ -2,9 +2,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "grid/containers.hpp"
 #include "grid/map/controller_error.hpp"

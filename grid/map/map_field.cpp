@@ -3,7 +3,6 @@
 
 #include <Eigen/Dense>
 #include <array>
-#include <cmath>
 
 #include "grid/chain_rows.hpp"
 #include "grid/containers.hpp"

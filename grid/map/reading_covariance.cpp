@@ -2,11 +2,8 @@
 /// Notation as in the header.
 #include "grid/map/reading_covariance.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "grid/precondition.hpp"
 

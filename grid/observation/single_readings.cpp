@@ -3,11 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <stdexcept>
 #include <tuple>
 #include <variant>
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <initializer_list>
 #include <optional>
-#include <stdexcept>
 #include <tuple>
 
 #include "grid/containers.hpp"

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "grid/containers.hpp"
 #include "grid/map/fit.hpp"

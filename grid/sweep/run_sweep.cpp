@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/sweep/run_sweep.hpp"
 
-#include <functional>
 #include <mutex>
 
 #include "grid/parallel.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/synthetic/effect_picture.hpp"
 
-#include <cmath>
-
 namespace chaintrue::grid::synthetic {
 namespace {
 
