@@ -208,28 +208,34 @@ void offer(const std::vector<Cause>& causes, OfferedCause::Reason reason, Causes
 
 tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
                                                     const CausesFitOptions& options) {
-  auto plain = joint_fit(measured, options.fit);
-  if (!plain) return tl::unexpected(plain.error());
-  CausesFit result{*std::move(plain), {}, {}, std::nullopt, 0.0, {}};
-  if (const std::size_t count = readings_of(measured); count > kMostWeighed) {
-    result.not_weighed = fmt::format("{} readings are more than are weighed ({})", count, kMostWeighed);
-    return noted(std::move(result));
-  }
+  const auto without_causes = [&](std::string why) -> tl::expected<CausesFit, FitFailure> {
+    auto plain = joint_fit(measured, options.fit);
+    if (!plain) return tl::unexpected(plain.error());
+    return noted({*std::move(plain), {}, {}, std::nullopt, 0.0, std::move(why)});
+  };
+  if (const std::size_t count = readings_of(measured); count > kMostWeighed)
+    return without_causes(fmt::format("{} readings are more than are weighed ({})", count, kMostWeighed));
   DiagnosisOptions weighed;
   weighed.seed = options.seed;
   weighed.accept_class = options.accept_class;
   weighed.progress = options.fit.progress;
   const auto found = name_causes(measured, weighed, NamingFor::causes);
-  if (!found) {
-    result.not_weighed = found.error().sentence();
-    return noted(std::move(result));
-  }
+  if (!found) return without_causes(found.error().sentence());
+  return fit_on_causes(measured, *found, options);
+}
+
+tl::expected<CausesFit, FitFailure> fit_on_causes(const Measured& measured,
+                                                  const Naming& naming,
+                                                  const CausesFitOptions& options) {
+  auto plain = joint_fit(measured, options.fit);
+  if (!plain) return tl::unexpected(plain.error());
+  CausesFit result{*std::move(plain), {}, {}, std::nullopt, 0.0, {}};
   // What depends on the visit is taken out in the order that was found.
   const Measured ordered =
-      found->order ? visited_in(measured, found->order->order).value_or(measured) : measured;
+      naming.order ? visited_in(measured, naming.order->order).value_or(measured) : measured;
   const bool decided = options.accept_class || scale_was_read(measured);
   std::vector<Cause> sure;
-  for (const Cause& cause : causes_found(found->analysis)) {
+  for (const Cause& cause : causes_found(naming.analysis)) {
     if (const auto reason = refusal(cause, decided))
       result.offered.push_back({cause, *reason});
     else
@@ -248,7 +254,7 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
   }
   const std::vector<HeldOutSquare> squares = held_out_squares(result.fit, *with_causes);
   result.held_out = error_of(squares);
-  if (!falls_beyond_its_error(squares) || !naming_improves_the_map(found->analysis)) {
+  if (!falls_beyond_its_error(squares) || !naming_improves_the_map(naming.analysis)) {
     offer(sure, OfferedCause::Reason::gains_nothing, result);
     return with_open();
   }

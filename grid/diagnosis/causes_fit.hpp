@@ -48,6 +48,8 @@
 
 namespace chaintrue::grid::diagnosis {
 
+struct Naming;
+
 /// Probability from which on a cause may enter a map.
 inline constexpr double kSureOfCause = 0.9;
 
@@ -90,6 +92,10 @@ struct CausesFit {
 /// Fails where joint_fit() fails on the machine as stated.
 [[nodiscard]] tl::expected<CausesFit, FitFailure> fit_with_causes(
     const Measured& measured, const CausesFitOptions& options = {});
+/// The same with the causes that are known of these readings.
+[[nodiscard]] tl::expected<CausesFit, FitFailure> fit_on_causes(const Measured& measured,
+                                                                const Naming& naming,
+                                                                const CausesFitOptions& options);
 
 /// What the map was built on and what is offered, whole sentences for its owner.
 [[nodiscard]] std::vector<std::string> in_words(const CausesFit& fit);

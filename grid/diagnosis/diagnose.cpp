@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/declared_answers.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
@@ -14,7 +15,6 @@
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/controller_error.hpp"
-#include "grid/map/joint_fit.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -100,9 +100,13 @@ void state_input(const Measured& measured, Diagnosis& d) {
 }
 
 /// By the map that `fit` makes of the same readings.
-std::optional<ErrorSummary> tool_today(const Measured& measured) {
-  const auto plain = joint_fit(measured);
-  return plain ? error_in_use(plain->map) : std::nullopt;
+std::optional<ErrorSummary> tool_today(const Measured& measured,
+                                       const Naming& naming,
+                                       const DiagnosisOptions& options) {
+  CausesFitOptions fit;
+  fit.accept_class = options.accept_class;
+  const auto own = fit_on_causes(measured, naming, fit);
+  return own ? error_in_use(own->fit.map) : std::nullopt;
 }
 
 /// A map holds nothing that is shorter than the way between two marks: of a law that is claimed the tool
@@ -146,7 +150,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   d.bed_parts = bed_part_findings(a);
   d.sessions = session_findings(a, sessions);
   if (options.improvement) {
-    d.tool_today = tool_today(measured);
+    d.tool_today = tool_today(measured, *naming, options);
     count_law(d);
     d.improvement = measure_improvement(a);
   }
