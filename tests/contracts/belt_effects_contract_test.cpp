@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Equations of the effects of four belts, by hand; their laws are those of every mechanism's effects
-// (mechanism_contract_test.cpp).
+// (mechanism_effects_contract_test.cpp).
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Laws of every effect of the catalogue, on every side, and of declared ones, beside those of the
-/// effects of every mechanism (mechanism_contract_test.cpp). An effect is included by its line in
+/// effects of every mechanism (mechanism_effects_contract_test.cpp). An effect is included by its line in
 /// effects.def.
 #include <gtest/gtest.h>
 
