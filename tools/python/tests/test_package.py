@@ -129,7 +129,7 @@ def test_the_wheel_is_whole_and_can_be_imported(tmp_path):
     assert {name for name in names if name.startswith("chaintrue/")} == {
         f"chaintrue/{path.name}" for path in PACKAGE.iterdir() if path.is_file()
     }
-    assert "Requires-Dist: numpy" in metadata and "Requires-External: libalglib" in metadata
+    assert "Requires-Dist: numpy" in metadata and "Requires-External: libtbb" in metadata
     code = "import chaintrue; print(chaintrue.__file__, chaintrue.Machine.from_dict)"
     there = f"import sys; sys.path.insert(0, {str(tmp_path / 'site')!r}); "
     shown = subprocess.run(
