@@ -147,7 +147,7 @@ std::string diagnosis_of_a_worn_chain() {
 }
 
 /// As they are drawn, on a screen whose y counts down: shafts of the first chart that point down and hardly
-/// aside, and what those of the first two charts have in common, shaft by shaft.
+/// aside, and what those of the first chart and of the errors before (third from the end) have in common, shaft by shaft.
 constexpr const char* kShaftsProbe = R"(
       const charts = [...document.querySelectorAll('[data-spec="bed_arrows"]')].map((figure) =>
           [...figure.querySelectorAll(".shafts line")].map((line) =>
@@ -155,7 +155,8 @@ constexpr const char* kShaftsProbe = R"(
       const page = document.documentElement;
       page.dataset.down = charts[0].filter(([x, y]) => y > 5 && Math.abs(x) < 0.1 * y).length;
       page.dataset.shafts = charts[0].length;
-      page.dataset.common = Math.sign(charts[0].reduce((sum, [x, y], i) => sum + x * charts[1][i][0] + y * charts[1][i][1], 0));
+      const before = charts.at(-3);
+      page.dataset.common = Math.sign(charts[0].reduce((sum, [x, y], i) => sum + x * before[i][0] + y * before[i][1], 0));
       )";
 
 int number_after(const std::string& text, const std::string& words) {
