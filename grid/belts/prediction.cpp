@@ -62,7 +62,7 @@ std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts,
   untaped.distances.clear();
   const std::vector<std::size_t> order = in_order(belts);
   std::vector<double> residual_mm;
-  for (const std::size_t half : {0, 1}) {
+  for (const std::size_t half : {0UL, 1UL}) {
     Counting counting = frame.counting;
     for (std::size_t i = half; i < order.size(); i += 2) {
       counting[order[i]] = {false, false, false, false};

@@ -39,11 +39,11 @@ std::optional<belts::AnchorFit> fitted_frame(const MeasuredBelts& belts, std::si
   return fitted && fitted->is_sound ? std::optional(*std::move(fitted)) : std::nullopt;
 }
 
-/// What both parts contradict themselves by at most, mm; infinite where one is no frame, or where both have
+/// What the points before `end` and those from `begin` on contradict themselves by at most, mm; infinite where one is no frame, or where both have
 /// their anchors at the same places: belts that slip and anchors that give are for a diagnosis to name.
-double apart_mm(const MeasuredBelts& belts, std::size_t at) {
-  const auto before = fitted_frame(belts, 0, at);
-  const auto after = fitted_frame(belts, at, belts.points.size());
+double apart_mm(const MeasuredBelts& belts, std::size_t end, std::size_t begin) {
+  const auto before = fitted_frame(belts, 0, end);
+  const auto after = fitted_frame(belts, begin, belts.points.size());
   if (!before || !after) return std::numeric_limits<double>::infinity();
   // tl x and y, tr x and y, br x
   const belts::AnchorVector moved = (after->state.anchors - before->state.anchors).cwiseAbs();
@@ -65,20 +65,24 @@ std::optional<std::size_t> second_frame_begins(const MeasuredBelts& belts) {
   const std::size_t last = count - kFewestBeltPoints;
   std::size_t best = 0;
   double least_mm = std::min(kMostOfAFrameMm, together_mm / kBetterApart);
-  const auto try_at = [&](std::size_t at) {
-    const double own_mm = apart_mm(belts, at);
+  const auto before = [](std::size_t at, std::size_t gap) {
+    return at > kFewestBeltPoints + gap ? at - gap : kFewestBeltPoints;
+  };
+  const auto try_at = [&](std::size_t at, std::size_t gap) {
+    const double own_mm = apart_mm(belts, before(at, gap), std::min(at + gap, last));
     if (!(own_mm < least_mm)) return;
     least_mm = own_mm;
     best = at;
   };
-  // Coarsely, then about the best: each place that is on the wrong side spoils its part.
+  // Coarsely, with a gap, since a place on the wrong side spoils its part; then about the best.
   constexpr std::size_t kSplits = 32;
-  const std::size_t step = std::max<std::size_t>(1, (last - kFewestBeltPoints) / kSplits);
-  for (std::size_t at = kFewestBeltPoints; at <= last; at += step) try_at(at);
+  const std::size_t step = 1 + (last - kFewestBeltPoints) / kSplits;
+  for (std::size_t at = kFewestBeltPoints; at <= last; at += step) try_at(at, step - 1);
+  if (best == 0) return std::nullopt;
   const std::size_t coarse = best;
-  if (coarse == 0) return std::nullopt;
-  for (std::size_t at = coarse > step ? coarse - step + 1 : 1; step > 1 && at < coarse + step; ++at)
-    if (at >= kFewestBeltPoints && at <= last) try_at(at);
+  least_mm = kMostOfAFrameMm;
+  for (std::size_t at = before(coarse, step - 1); at < coarse + step && at <= last; ++at)
+    try_at(at, 0);
   return best;
 }
 

@@ -203,8 +203,8 @@ void check_machine(const Cursor& at, Machine& machine) {
   if (!at.has("uncertainty") || at.child("uncertainty").json().is_null()) {
     const Uncertainty& assumed = machine.uncertainty;
     at.child("uncertainty")
-        .warn(fmt::format("not given; assumed are motor positions to {} mm, chain zeros to {} mm "
-                          "and the ring's radius to {} mm (1 sigma)",
+        .warn(fmt::format("not given; assuming motor positions within {} mm, chain zeros within {} mm "
+                          "and the ring's radius within {} mm (1 sigma)",
                           assumed.motor_position_mm,
                           assumed.chain_zero_mm,
                           assumed.ring_radius_mm));

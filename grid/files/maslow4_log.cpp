@@ -333,8 +333,7 @@ Maslow4Import parse_maslow4(const std::string& text,
   }
   if (log.first_passed_over) {
     problems.warn(fmt::format("line {}", *log.first_passed_over),
-                  "passed over, for nothing of it is a reading, a place, a pull or a fit: this line and "
-                  "others like it");
+                  "ignored: this line and others like it hold no reading, place, pull or fit");
   }
   check_all(belts, places.lines, result, problems);
   if (is_last && log.stopped) result.stopped = words_of(*log.stopped, belts);

@@ -111,7 +111,7 @@ void SettingReader::warn_of_others(std::string_view says_what) {
   const std::size_t more = names.size() - std::min(names.size(), kMostNamed);
   names.resize(names.size() - more);
   problems_.warn("",
-                 fmt::format("passed over, for nothing of it {}: {}{}",
+                 fmt::format("ignored, because none of it {}: {}{}",
                              says_what,
                              fmt::join(names, ", "),
                              more == 0 ? "" : fmt::format(" and {} more", more)));

@@ -45,7 +45,7 @@ class SettingReader {
                                        const std::vector<std::string>& words);
   /// Of a text in which nothing else can stand: the others are reported.
   void refuse_others();
-  /// Names what was not asked for: "passed over, for nothing of it `says_what`: ...". A folder of which
+  /// Names what was not asked for: "ignored, because none of it `says_what`: ...". A folder of which
   /// nothing was asked for is named alone.
   void warn_of_others(std::string_view says_what);
 

@@ -97,13 +97,13 @@ class DistancesPart final : public FitPart {
     std::string free;
     for (const auto& [is_measured, word] : {std::pair(measured.knows_x, "sideways"),
                                             std::pair(measured.knows_y, "up and down"),
-                                            std::pair(measured.knows_rotation, "in its turn")}) {
+                                            std::pair(measured.knows_rotation, "rotation")}) {
       if (!is_measured) free += fmt::format("{}{}", free.empty() ? "" : ", ", word);
     }
     if (free.empty()) return;
     notes.push_back(
-        fmt::format("No edge gives the sheet's place {}: there it is laid so that the holes as a "
-                    "whole lie where they were commanded.",
+        fmt::format("No edges were measured that fix where the sheet lay ({}). The map assumes that the "
+                    "holes as a whole lie where they were commanded.",
                     free));
   }
 

@@ -228,9 +228,9 @@ std::vector<FoundNumber> numbers_of(const std::string& text) {
   return found;
 }
 
-/// What was passed over is named by its key, or by a folder that it lies in.
+/// What was ignored is named by its key, or by a folder that it lies in.
 bool is_named(const std::string& said, const FoundNumber& number) {
-  const std::size_t passed = said.find("passed over");
+  const std::size_t passed = said.find("ignored, because");
   const std::string names = in_lower_case(passed == std::string::npos ? "" : said.substr(passed));
   for (std::size_t end = number.folder.find('/'); end != std::string::npos; end = number.folder.find('/', end + 1)) {
     if (names.find("all of " + number.folder.substr(0, end)) != std::string::npos) return true;

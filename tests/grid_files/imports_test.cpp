@@ -191,7 +191,7 @@ TEST(GroundcontrolSettings, OfARealMachineBecomeMachineAndController) {
   for (std::size_t i = 1; i < 6; ++i) EXPECT_THAT(read.warnings[i].sentence, HasSubstr("assumed"));
   // Chain and sled of the default machine make 6.1; 28.97 took up other errors.
   EXPECT_THAT(read.warnings[6].sentence, HasSubstr("chainsagcorrection 28.9698: the weights of chain and sled make 6.1"));
-  EXPECT_THAT(read.warnings[7].sentence, HasSubstr("passed over"));
+  EXPECT_THAT(read.warnings[7].sentence, HasSubstr("ignored, because"));
   // The tolerances are the pitch that the owner measured for each chain.
   EXPECT_THAT(read.warnings.front().sentence,
               HasSubstr("0.123725 % longer (left) and 0.16832 % longer (right) than new, each number good to 0.1 %"));

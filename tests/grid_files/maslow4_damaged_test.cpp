@@ -74,7 +74,7 @@ TEST(DamagedLog, WhatOnePrintOfAListLostTheOtherHas) {
   EXPECT_THAT(read.runs, SizeIs(1));
   ASSERT_THAT(read.belts.points, SizeIs(31));
   EXPECT_EQ(read.belts.points[2].lengths_mm.tr, 1578.24);
-  EXPECT_THAT(said(read), ::testing::ElementsAre(HasSubstr("line 1: passed over")));
+  EXPECT_THAT(said(read), ::testing::ElementsAre(HasSubstr("line 1: ignored")));
   ASSERT_TRUE(read.belts.points[8].commanded);
 }
 

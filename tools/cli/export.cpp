@@ -141,8 +141,8 @@ std::string map_after_in_words(const ExportCommand& command) {
     return "The rest is corrected by gcode compensate with the map. Once the numbers are typed in, this "
            "map is out of date; --map-after writes the one to use then.\n";
   return fmt::format(
-      "Type them in, measure five marks and check them with {0}. Cut as the programs are, or truer, "
-      "compensated with {0}: not with {1} any more.\n",
+      "Type them in, measure five marks and check them with {0}. From then on run programs unchanged or, "
+      "for better accuracy, compensate them with {0}. Do not use {1} again.\n",
       command.map_after,
       command.input);
 }
