@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/declared_answers.hpp"
 #include "grid/diagnosis/findings.hpp"
@@ -15,6 +16,7 @@
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/controller_error.hpp"
+#include "grid/map/joint_fit.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -99,14 +101,21 @@ void state_input(const Measured& measured, Diagnosis& d) {
   d.stated_tape = StatedTape{set.tape.sigma_mm, set.hole_sigma_mm, set.noise_dof};
 }
 
-/// By the map that `fit` makes of the same readings.
+/// By the map that `fit` makes of the same readings; by the plain one where something happened during the
+/// session, which `fit` takes out of the readings and the machine still has.
 std::optional<ErrorSummary> tool_today(const Measured& measured,
                                        const Naming& naming,
                                        const DiagnosisOptions& options) {
   CausesFitOptions fit;
   fit.accept_class = options.accept_class;
   const auto own = fit_on_causes(measured, naming, fit);
-  return own ? error_in_use(own->fit.map) : std::nullopt;
+  if (!own) return std::nullopt;
+  const bool still_has = any_of(own->built_on, [](const Cause& cause) {
+    return depends_on_visit(*cause.cause.effect);
+  });
+  if (!still_has) return error_in_use(own->fit.map);
+  const auto plain = joint_fit(measured);
+  return plain ? error_in_use(plain->map) : std::nullopt;
 }
 
 /// A map holds nothing that is shorter than the way between two marks: of a law that is claimed the tool

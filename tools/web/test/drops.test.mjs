@@ -43,7 +43,7 @@ for (const browser of browsers) {
         await forget(visit);
         await drop(visit, "bracket.nc", bracket);
         await visit.report(BRACKET);
-        await visit.text(".said", "the tool stays within 0.0440 mm");
+        await visit.text(".said", "the tool stays within 0.0439 mm");
       }
       assert.equal((await visit.page.$$("#step-cut iframe.report")).length, 1);
     });
@@ -55,7 +55,7 @@ for (const browser of browsers) {
       await visit.report(BRACKET);
       await visit.page.waitForFunction(() => document.querySelector(".busy").hidden);
       assert.deepEqual(await visit.page.$$eval("#step-cut h3", (titles) => titles.map((title) => title.textContent)), ["Cut a part true", "bracket.nc"]);
-      await visit.text(".said", "the tool stays within 0.0440 mm");
+      await visit.text(".said", "the tool stays within 0.0439 mm");
     });
 
     test("one that was stopped says so, and the next is shown", async () => {

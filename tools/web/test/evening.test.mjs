@@ -127,10 +127,10 @@ async function slipAndMend(visit) {
 async function cutAPart(visit) {
   await visit.click("Cut");
   await visit.upload("#program", fixture("gcode/bracket.nc"));
-  await visit.text(".said", "the tool stays within 0.0440 mm of the path");
+  await visit.text(".said", "the tool stays within 0.0439 mm of the path");
   await visit.report("bracket.nc before and after");
   await visit.click("Verify it once more");
-  await visit.text(".said", "holds: the tool strays at most 0.0440 mm");
+  await visit.text(".said", "holds: the tool strays at most 0.0439 mm");
   await visit.click("Download bracket.true.nc");
   visit.program = await visit.downloaded("bracket.true.nc");
 }
