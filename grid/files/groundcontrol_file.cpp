@@ -202,7 +202,7 @@ void weigh(const SettingValues& numbers, Machine& machine, Problems& problems) {
                   "(/frame/tilt_from_vertical_deg)",
                   machine.frame.tilt_from_vertical_deg));
   assume(
-      fmt::format("how accurately the machine was measured; assuming motor positions within {} mm, chain "
+      fmt::format("how accurately the machine was measured; assumed: motor positions within {} mm, chain "
                   "zeros within {} mm and the ring's radius within {} mm, 1 sigma (/uncertainty)",
                   machine.uncertainty.motor_position_mm,
                   machine.uncertainty.chain_zero_mm,

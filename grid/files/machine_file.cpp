@@ -203,7 +203,7 @@ void check_machine(const Cursor& at, Machine& machine) {
   if (!at.has("uncertainty") || at.child("uncertainty").json().is_null()) {
     const Uncertainty& assumed = machine.uncertainty;
     at.child("uncertainty")
-        .warn(fmt::format("not given; assuming motor positions within {} mm, chain zeros within {} mm "
+        .warn(fmt::format("not given; assumed: motor positions within {} mm, chain zeros within {} mm "
                           "and the ring's radius within {} mm (1 sigma)",
                           assumed.motor_position_mm,
                           assumed.chain_zero_mm,

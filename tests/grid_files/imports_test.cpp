@@ -188,7 +188,7 @@ TEST(GroundcontrolSettings, OfARealMachineBecomeMachineAndController) {
   EXPECT_EQ(machine.chain.compliance_per_n, 5.1685e-6);
   EXPECT_EQ(machine.frame.tilt_from_vertical_deg, 15.0);
   ASSERT_EQ(read.warnings.size(), 8U);
-  for (std::size_t i = 1; i < 6; ++i) EXPECT_THAT(read.warnings[i].sentence, HasSubstr("assum"));
+  for (std::size_t i = 1; i < 6; ++i) EXPECT_THAT(read.warnings[i].sentence, HasSubstr("assumed"));
   // Chain and sled of the default machine make 6.1; 28.97 took up other errors.
   EXPECT_THAT(read.warnings[6].sentence, HasSubstr("chainsagcorrection 28.9698: the weights of chain and sled make 6.1"));
   EXPECT_THAT(read.warnings[7].sentence, HasSubstr("ignored, because"));

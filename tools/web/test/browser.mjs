@@ -105,9 +105,18 @@ export class Visit {
 
   /** Clicks the visible button of this text. */
   async click(text) {
-    const button = await this.page.waitForFunction((wanted) =>
-      [...document.querySelectorAll("button")].find((one) => one.textContent === wanted && one.checkVisibility()), {}, text);
-    await button.asElement().click();
+    for (let trial = 1; ; ++trial) {
+      const button = await this.page.waitForFunction((wanted) =>
+        [...document.querySelectorAll("button")].find((one) => one.textContent === wanted && one.checkVisibility()), {}, text);
+      try {
+        await button.asElement().click();
+        return;
+      } catch (error) {
+        // A part that is drawn anew at that moment has its button elsewhere.
+        if (trial === 5 || !/not clickable|detached/.test(error.message)) throw error;
+        await new Promise((done) => setTimeout(done, 300));
+      }
+    }
   }
 
   /** Opens a settings file, and goes on from what was assumed to measuring. */
