@@ -39,8 +39,9 @@ std::optional<belts::AnchorFit> fitted_frame(const MeasuredBelts& belts, std::si
   return fitted && fitted->is_sound ? std::optional(*std::move(fitted)) : std::nullopt;
 }
 
-/// What the points before `end` and those from `begin` on contradict themselves by at most, mm; infinite where one is no frame, or where both have
-/// their anchors at the same places: belts that slip and anchors that give are for a diagnosis to name.
+/// The larger residual [mm] of two fits: to the points before `end`, and to those from `begin` on. Infinite if
+/// either fit is unsound, or if both place the anchors alike: slipping belts and yielding anchors are left to
+/// the diagnosis.
 double apart_mm(const MeasuredBelts& belts, std::size_t end, std::size_t begin) {
   const auto before = fitted_frame(belts, 0, end);
   const auto after = fitted_frame(belts, begin, belts.points.size());
@@ -74,7 +75,7 @@ std::optional<std::size_t> second_frame_begins(const MeasuredBelts& belts) {
     least_mm = own_mm;
     best = at;
   };
-  // Coarsely, with a gap, since a place on the wrong side spoils its part; then about the best.
+  // First coarsely, leaving a gap so that neither part contains points of the other frame; then exactly.
   constexpr std::size_t kSplits = 32;
   const std::size_t step = 1 + (last - kFewestBeltPoints) / kSplits;
   for (std::size_t at = kFewestBeltPoints; at <= last; at += step) try_at(at, step - 1);

@@ -92,7 +92,7 @@ struct CausesFit {
 /// Fails where joint_fit() fails on the machine as stated.
 [[nodiscard]] tl::expected<CausesFit, FitFailure> fit_with_causes(
     const Measured& measured, const CausesFitOptions& options = {});
-/// The same with the causes that are known of these readings.
+/// The same, with causes that were named already.
 [[nodiscard]] tl::expected<CausesFit, FitFailure> fit_on_causes(const Measured& measured,
                                                                 const Naming& naming,
                                                                 const CausesFitOptions& options);

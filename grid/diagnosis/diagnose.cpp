@@ -101,8 +101,8 @@ void state_input(const Measured& measured, Diagnosis& d) {
   d.stated_tape = StatedTape{set.tape.sigma_mm, set.hole_sigma_mm, set.noise_dof};
 }
 
-/// By the map that `fit` makes of the same readings; by the plain one where something happened during the
-/// session, which `fit` takes out of the readings and the machine still has.
+/// Uses the map that `fit` makes from the same readings. If something changed during the session, `fit`
+/// removes it from the readings although the machine still has it, so the plain map is used.
 std::optional<ErrorSummary> tool_today(const Measured& measured,
                                        const Naming& naming,
                                        const DiagnosisOptions& options) {

@@ -67,8 +67,8 @@
 
 namespace chaintrue::grid::files {
 
-/// How a field reaches its member, at an offset from its object. Not a type for each member, since
-/// that dominated the compile time of grid/files.
+/// Reads and writes one field. A field finds its member by an offset from the object: a class for each
+/// member type dominated the compile time of grid/files.
 class Member {
  public:
   virtual ~Member() = default;
@@ -78,7 +78,7 @@ class Member {
   [[nodiscard]] virtual std::optional<Json> write(const void* member) const = 0;
 };
 
-/// What a table does with a member whose type it does not know; null functions for a plain one.
+/// Access to a std::optional whose value type the table does not know.
 struct OptionalAccess {
   void* (*emplace)(void* member);
   void (*reset)(void* member);
@@ -93,7 +93,7 @@ inline constexpr OptionalAccess kOptionalAccess = {
       return own ? &*own : nullptr;
     }};
 
-/// What is written of a plain member that is empty; a null function where it cannot be.
+/// How an empty member is written. `is_empty` is null for a type that cannot be empty.
 struct IfEmpty {
   enum As { absent, null };
   bool (*is_empty)(const void* member) = nullptr;
@@ -165,7 +165,7 @@ class RecordTable {
   void add_rule(Json rule) { rules_.push_back(std::move(rule)); }
 
   friend class ObjectCodec;
-  /// `reset`, where it is not null, makes the object a default one once it is known to be an object.
+  /// Calls `reset`, unless it is null, as soon as the value is known to be an object.
   bool read_fields(const Cursor& at, void* object, bool is_root, void (*reset)(void*) = nullptr) const;
   [[nodiscard]] Json write_fields(const void* object) const;
 

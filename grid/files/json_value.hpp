@@ -80,8 +80,8 @@ struct Expected {
   std::function<Json()> schema = [] { return Json::object(); };
 };
 
-/// How values of one type are read into memory and written from it. The tables of a format hold these,
-/// so that their code is compiled once and not for each type of value.
+/// Reads values of one type into memory and writes them from it. Tables of formats hold codecs, so that
+/// their own code is compiled once and not once for each type.
 class Codec {
  public:
   explicit Codec(Expected expected) : expected_(std::move(expected)) {}
@@ -120,7 +120,7 @@ class FunctionCodec : public Codec {
   Write write_;
 };
 
-/// The codec of values of this type, and what is expected of them; `expected` may be replaced.
+/// A codec with its type. `expected` may be replaced for a custom field.
 template <class V>
 struct Value {
   explicit Value(std::shared_ptr<const Codec> own) : codec(std::move(own)), expected(codec->expected()) {}
@@ -149,7 +149,7 @@ struct Value {
 [[nodiscard]] Value<std::string> text();
 [[nodiscard]] Value<std::string> one_of(const std::vector<std::string>& names);
 
-/// Names of values of a type of up to eight bytes that is copied as bytes are.
+/// A named value of a trivially copyable type of at most eight bytes.
 struct NamedBytes {
   std::string name;
   std::array<std::byte, 8> value{};
@@ -165,7 +165,7 @@ template <class E>
   return Value<E>(choice_codec(std::move(all), sizeof(E)));
 }
 
-/// What a codec does with a list whose type it does not know.
+/// Access to a std::vector whose element type the codec does not know.
 struct ListAccess {
   void (*clear)(void* list);
   void* (*append)(void* list);
