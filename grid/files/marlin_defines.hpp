@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The numbers that Marlin's Configuration.h defines, as its compiler sees them: names stand for what
-/// they are defined as, and sums are evaluated. Private to grid/files.
+/// The numbers that Marlin's Configuration.h defines, as its compiler sees them: without comments, names
+/// replaced by what they are defined as, sums evaluated. Private to grid/files.
 ///
+///   #define POLARGRAPH
 ///   #define X_BED_SIZE 1150
 ///   #define X_MIN_POS (-X_BED_SIZE/2)                  // -575
 ///   #define DEFAULT_AXIS_STEPS_PER_UNIT { 80, 80, 400 }
+///   #if ENABLED(POLARGRAPH)                            // also DISABLED, ANY, ALL, NONE, defined
+///     #define POLARGRAPH_MAX_BELT_LEN sqrt(sq(800.0) + sq(600.0))
+///   #endif
 ///
-/// Conditions (#if) are not evaluated: of a name that is defined in two ways nothing is known.
+/// A condition of another kind may hold or not: of a name that is then defined in two ways nothing is
+/// known. A definition whose #if does not hold counts where there is no other.
 ///
 /// \code
 ///   const SettingTexts texts = marlin_texts(text, {"X_MIN_POS", "DEFAULT_AXIS_STEPS_PER_UNIT"}, problems);
@@ -17,6 +22,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "grid/files/setting_reader.hpp"
@@ -27,5 +33,8 @@ namespace chaintrue::grid::files {
 [[nodiscard]] SettingTexts marlin_texts(const std::string& text,
                                         const std::vector<std::string>& names,
                                         Problems& problems);
+
+/// The same lines without what stands behind // and between /* and */.
+[[nodiscard]] std::string without_comments(std::string_view text);
 
 }  // namespace chaintrue::grid::files

@@ -241,10 +241,12 @@ void place_marlin_home(const MarlinArea& area, double belt, SetPlotter& set, Pro
 
 SetPlotter of_marlin(const std::string& text, Problems& problems) {
   SettingTexts texts;
-  add_code(text, "M665", texts);
+  // The comments of a Configuration.h name M665.
+  const std::string code = without_comments(text);
+  add_code(code, "M665", texts);
   const bool is_log = !texts.empty();
   if (is_log) {
-    add_code(text, "M92", texts);
+    add_code(code, "M92", texts);
   } else {
     texts = marlin_texts(text, kMarlinNames, problems);
     problems.throw_if_any();
