@@ -100,6 +100,12 @@ class Search {
            std::vector<Candidate>& candidates) const {
     Candidate candidate{own.kind, part.words + own.sentence, account_of(trend)};
     candidate.account.log_likelihood -= part.penalty + own.penalty;
+    // Of the same rows another transformation may change the same numbers.
+    const bool is_told = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
+      return other.kind == candidate.kind && other.from_row == part.from_row &&
+             other.account.log_likelihood == candidate.account.log_likelihood;
+    });
+    if (is_told) return;
     candidate.from_row = part.from_row;
     candidate.is_doubtful = own.is_doubtful;
     candidates.push_back(std::move(candidate));

@@ -65,9 +65,9 @@ std::vector<Transformation> drawing_transformations(
     const auto sentence = [&, unit = unit, mm = mm](const char* what) {
       return fmt::format("{} look like {}: write millimetres ({} times {:g})", what, unit, unit, mm);
     };
-    scale(ProblemKind::other_unit, sentence("the lengths and the bows"), all, mm);
     scale(ProblemKind::other_unit, sentence("the lengths"), lengths, mm);
     scale(ProblemKind::other_unit, sentence("the bows"), bows, mm);
+    scale(ProblemKind::other_unit, sentence("the lengths and the bows"), all, mm);
   }
   scale(ProblemKind::minus_signs,
         "the bows look turned round: a bow counts as the sheet says, and has a minus to the other side",
