@@ -119,16 +119,14 @@ double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
 }
 
 /// By the tape, with the causes taken out: a stretch makes the belts' millimetres longer as a scale does, and counted
-/// in both it would be taken out twice.
-std::optional<BeltScale> scale_given_causes(const MeasuredBelts& belts,
-                                            const Explained& explained,
-                                            const std::optional<BeltScale>& alone) {
+/// in both it would be taken out twice. Not known where no frame holds the tape once they are.
+std::optional<BeltScale> scale_given_causes(const MeasuredBelts& belts, const Explained& explained) {
   if (belts.distances.empty()) return std::nullopt;
   MeasuredBelts taped = explained.without_causes;
   taped.distances = belts.distances;
   const belts::AnchorFit& given = explained.given.frame;
   const auto fitted = belts::fit_anchors_from(taped, given.state, given.counting);
-  if (!fitted) return alone;
+  if (!fitted) return std::nullopt;
   const belts::FitDiagnostics view(taped, *fitted);
   return belts::fit_report(taped, view, view.covariance()).scale;
 }
@@ -206,7 +204,7 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
   found.prediction_before = alone.half_left_out;
   found.prediction = prediction_by_halves(a.belts, explained);
   found.tool = tool_error(explained, belts, alone, found.machine, covariance);
-  found.scale = scale_given_causes(belts, explained, alone.scale);
+  found.scale = scale_given_causes(belts, explained);
   if (found.scale) found.tool.scale_mm_per_m = 1000.0 * found.scale->sigma;
   found.firmware_fit = belts.firmware_fit;
   return found;

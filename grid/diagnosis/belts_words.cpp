@@ -187,7 +187,11 @@ void say_what_to_do(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis
                     model::words(belt_of(law->enters).value())));
   }
   say_what_to_measure(next, d);
-  if (!d.belts->scale) {
+  if (!d.belts->scale && !belts.distances.empty()) {
+    d.what_to_do.emplace_back(
+        "Tape the distances again: once the causes are counted they fit no frame, so nothing is known of "
+        "the scale.");
+  } else if (!d.belts->scale) {
     const bool proposed = !d.next_measurements.empty() &&
                           d.next_measurements.back().kind == MeasurementKind::distance;
     d.what_to_do.push_back(fmt::format(

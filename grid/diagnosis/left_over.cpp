@@ -121,6 +121,7 @@ double share_along(const Analysis& a, const Coordinate& coordinate) {
     t.push_back(coordinate.value(a.system.places[unit.places.front().place]));
     chain.push_back(unit.unwhitened(a.estimate.left));
   }
+  if (t.empty()) return 0.0;
   const auto [low, high] = std::minmax_element(t.begin(), t.end());
   if (!(*high > *low)) return 0.0;
   const auto n = std::ssize(t);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string_view>
 
 #include "grid/files/anchors_file.hpp"
 #include "grid/precondition.hpp"
@@ -43,11 +44,12 @@ void add_line(Maslow4Settings& settings,
 
 void add_scale(const BeltMachine& machine,
                const std::optional<BeltScale>& found,
+               std::string_view why_unknown,
                Maslow4Settings& settings) {
   if (!found) {
-    settings.remarks.emplace_back(
-        "Maslow_Scale_X and Maslow_Scale_Y stay as they are: no distance was taped, so nothing is "
-        "known of the scale.");
+    settings.remarks.push_back(fmt::format("Maslow_Scale_X and Maslow_Scale_Y stay as they are: {}, so "
+                                           "nothing is known of the scale.",
+                                           why_unknown));
     return;
   }
   const double scale = scale_of(*found);
@@ -96,7 +98,7 @@ BeltMachine machine_as_pasted(const BeltsFit& fit) {
 
 Maslow4Settings write_maslow4_settings(const BeltsFit& fit) {
   Maslow4Settings settings = anchors_of(fit.machine);
-  add_scale(fit.machine, fit.scale, settings);
+  add_scale(fit.machine, fit.scale, "no distance was taped", settings);
   return settings;
 }
 
@@ -111,7 +113,7 @@ Maslow4Settings write_maslow4_settings(const Diagnosis& found) {
         "Which of several causes acts is not decided; the anchors are those with the likeliest. "
         "Decide it first: the diagnosis says what would.");
   }
-  add_scale(machine, found.belts->scale, settings);
+  add_scale(machine, found.belts->scale, "no distance was taped, or none goes with the causes", settings);
   return settings;
 }
 
