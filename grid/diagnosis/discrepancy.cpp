@@ -12,32 +12,25 @@ constexpr double kSledMm = 230.0;
 /// A unit with the places of its system, or with its own lengths.
 struct PlacedUnit {
   const SystemUnit& unit;
-  const std::vector<DiscrepancyPlace>& places;
+  const std::vector<SystemPlace>& places;
   const LengthEntry* entry = nullptr;
 };
 
-PlacedUnit placed(const RegressorSystem& system,
-                  const std::vector<DiscrepancyPlace>& places,
-                  std::size_t unit) {
-  return {system.units[unit], places, system.entries.empty() ? nullptr : &system.entries[unit]};
+PlacedUnit placed(const RegressorSystem& system, std::size_t unit) {
+  return {
+      system.units[unit], system.places, system.entries.empty() ? nullptr : &system.entries[unit]};
 }
 
 /// k of each length at two places.
 double between_lengths(const DiscrepancyKernel& kernel, const LengthEntry& a, const LengthEntry& b) {
   double sum = 0.0;
   for (const DiscrepancyField& field : kernel.fields) {
-    const bool of_place = field.of == FieldOf::place;
+    const bool of_place = field.of == Coordinate::place;
     const FieldArgument at = of_place ? FieldArgument{a.x_mm, a.y_mm} : FieldArgument{a.visit};
     const FieldArgument there = of_place ? FieldArgument{b.x_mm, b.y_mm} : FieldArgument{b.visit};
     sum += field_covariance(field, at, there);
   }
   return sum / static_cast<double>(kernel.fields.size());
-}
-
-std::vector<DiscrepancyPlace> places_of(const RegressorSystem& system) {
-  std::vector<DiscrepancyPlace> places;
-  for (const SystemPlace& place : system.places) places.push_back(discrepancy_place(place));
-  return places;
 }
 
 Eigen::Matrix2d between_units(const DiscrepancyKernel& kernel,
@@ -66,38 +59,20 @@ Eigen::Matrix2d between_units(const DiscrepancyKernel& kernel,
 
 }  // namespace
 
-DiscrepancyPlace discrepancy_place(const SystemPlace& place) {
-  const model::Pose& pose = place.state.reading.pose;
-  return {{place.mark.x_mm,
-           place.mark.y_mm,
-           pose.lengths.left_mm,
-           pose.lengths.right_mm,
-           pose.chains.left.angle_rad,
-           pose.chains.right.angle_rad,
-           pose.chains.left.tension_at_sprocket_n,
-           pose.chains.right.tension_at_sprocket_n},
-          place.state.by_mark,
-          place.bed};
-}
-
 FieldArgument field_argument(const DiscrepancyField& field,
-                             const DiscrepancyPlace& place,
+                             const SystemPlace& place,
                              Eigen::Index component) {
-  const double x = place.at[static_cast<std::size_t>(FieldOf::x)];
-  const double y = place.at[static_cast<std::size_t>(FieldOf::y)];
   switch (field.of) {
-    case FieldOf::place:
-      return {x, y};
-    case FieldOf::across:
-      return {x * std::cos(field.across_rad) + y * std::sin(field.across_rad)};
-    case FieldOf::border: {
-      const double from_middle = component == 0 ? x : y;
+    case Coordinate::place:
+      return {place.mark.x_mm, place.mark.y_mm};
+    case Coordinate::border: {
+      const double from_middle = component == 0 ? place.mark.x_mm : place.mark.y_mm;
       const double half = 0.5 * (component == 0 ? place.bed.width_mm : place.bed.height_mm);
       const double beyond = std::abs(from_middle) - half;
       return {beyond, 0.0, std::copysign(std::exp(beyond / kSledMm), from_middle)};
     }
     default:
-      return {place.at[static_cast<std::size_t>(field.of)]};
+      return {value_at(place, field.of, field.across_rad)};
   }
 }
 
@@ -109,24 +84,24 @@ double field_covariance(const DiscrepancyField& field,
 }
 
 std::optional<Eigen::Vector2d> entry_direction(const DiscrepancyField& field) {
-  if (field.of == FieldOf::border) return Eigen::Vector2d::Ones();
+  if (field.of == Coordinate::border) return Eigen::Vector2d::Ones();
   if (!field.direction_rad) return std::nullopt;
   return Eigen::Vector2d(std::cos(*field.direction_rad), std::sin(*field.direction_rad));
 }
 
-Eigen::Matrix2d field_entry(const DiscrepancyField& field, const DiscrepancyPlace& place) {
+Eigen::Matrix2d field_entry(const DiscrepancyField& field, const SystemPlace& place) {
   return field.entry == FieldEntry::chains ? Eigen::Matrix2d(Eigen::Matrix2d::Identity())
-                                           : place.by_mark;
+                                           : place.state.by_mark;
 }
 
 Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
-                                  const DiscrepancyPlace& a,
-                                  const DiscrepancyPlace& b) {
+                                  const SystemPlace& a,
+                                  const SystemPlace& b) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   for (const DiscrepancyField& field : kernel.fields) {
     Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
     if (const auto d = entry_direction(field)) covariance = *d * d->transpose();
-    if (field.of == FieldOf::border) {
+    if (field.of == Coordinate::border) {
       for (Eigen::Index i = 0; i < 2; ++i) {
         for (Eigen::Index j = 0; j < 2; ++j) {
           covariance(i, j) *= field_covariance(
@@ -146,14 +121,12 @@ Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to,
                                        const RegressorSystem& from,
                                        const KeptRows& kept,
                                        const DiscrepancyKernel& kernel) {
-  const std::vector<DiscrepancyPlace> there = places_of(to);
-  const std::vector<DiscrepancyPlace> here = places_of(from);
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(to.e.size(), kept.size());
   for (const KeptRows::Unit& kept_unit : kept.units()) {
-    const PlacedUnit other = placed(from, here, kept_unit.unit);
+    const PlacedUnit other = placed(from, kept_unit.unit);
     for (std::size_t u = 0; u < to.units.size(); ++u) {
       const SystemUnit& own = to.units[u];
-      const Eigen::Matrix2d block = between_units(kernel, placed(to, there, u), other);
+      const Eigen::Matrix2d block = between_units(kernel, placed(to, u), other);
       const auto columns = block.topLeftCorner(own.rows, other.unit.rows);
       auto to_fill = c.block(own.first_row, kept_unit.at, own.rows, kept_unit.rows);
       if (kept_unit.across) {
@@ -169,13 +142,12 @@ Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to,
 Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system,
                                        const KeptRows& kept,
                                        const DiscrepancyKernel& kernel) {
-  const std::vector<DiscrepancyPlace> places = places_of(system);
   const std::vector<KeptRows::Unit>& units = kept.units();
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(kept.size(), kept.size());
   for (std::size_t a = 0; a < units.size(); ++a) {
-    const PlacedUnit own = placed(system, places, units[a].unit);
+    const PlacedUnit own = placed(system, units[a].unit);
     for (std::size_t b = 0; b <= a; ++b) {
-      const PlacedUnit other = placed(system, places, units[b].unit);
+      const PlacedUnit other = placed(system, units[b].unit);
       const Eigen::Matrix2d whole = between_units(kernel, own, other);
       const auto put = [&](const auto& block) {
         c.block(units[a].at, units[b].at, units[a].rows, units[b].rows) = block;

@@ -21,40 +21,17 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/constants.hpp"
+#include "grid/diagnosis/coordinate.hpp"
 #include "grid/diagnosis/kept_rows.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
-
-/// What a field is a function of; the place is both of x and y.
-enum class FieldOf {
-  x,              ///< mm
-  y,              ///< mm
-  length_left,    ///< mm
-  length_right,   ///< mm
-  angle_left,     ///< rad
-  angle_right,    ///< rad
-  tension_left,   ///< N, at the sprocket
-  tension_right,  ///< N
-  place,
-  across,  ///< mm, over the bed in a direction of its own
-  /// mm, from the border of the bed: what drops over it moves the tool outwards, by one function of
-  /// the distance from the side for x and from the top or bottom for y.
-  border,
-  visit,  ///< number of the visit
-};
-/// Coordinates that a place has by itself.
-inline constexpr std::size_t kFieldCoordinates = static_cast<std::size_t>(FieldOf::place);
-/// As `follows` has it: x, y, length_left, ...; of the place nothing.
-[[nodiscard]] std::string_view name(FieldOf of);
 
 enum class FieldEntry {
   chains,
@@ -63,11 +40,13 @@ enum class FieldEntry {
 };
 
 struct DiscrepancyField {
-  FieldOf of = FieldOf::place;
+  /// Of the border: what drops over it moves the tool outwards, by one function of the distance from
+  /// the side for x and from the top or bottom for y.
+  Coordinate of = Coordinate::place;
   double length = 0.0;  ///< in the unit of what it is a function of
   FieldEntry entry = FieldEntry::chains;
   std::optional<double> direction_rad{};  ///< of entry: of (left, right), or of (x, y)
-  double across_rad = 0.0;                ///< from x, of FieldOf::across
+  double across_rad = 0.0;                ///< from x, of Coordinate::across
   /// Of FieldEntry::lengths the one length that it disturbs; absent: each of them.
   std::optional<Eigen::Index> alone{};
   bool operator==(const DiscrepancyField&) const = default;
@@ -116,13 +95,6 @@ struct Discrepancy {
   double sigma_mm = 0.0;  ///< s
 };
 
-struct DiscrepancyPlace {
-  std::array<double, kFieldCoordinates> at{};  ///< by FieldOf
-  Eigen::Matrix2d by_mark;                     ///< J
-  model::Bed bed;
-};
-[[nodiscard]] DiscrepancyPlace discrepancy_place(const SystemPlace& place);
-
 /// What a field is a function of at a place, for either component of what it enters; equal but for
 /// the border's.
 struct FieldArgument {
@@ -131,7 +103,7 @@ struct FieldArgument {
   double weight = 1.0;  ///< of the field there, with its sign
 };
 [[nodiscard]] FieldArgument field_argument(const DiscrepancyField& field,
-                                           const DiscrepancyPlace& place,
+                                           const SystemPlace& place,
                                            Eigen::Index component);
 
 /// Of the field's values at two arguments.
@@ -144,13 +116,12 @@ struct FieldArgument {
 [[nodiscard]] std::optional<Eigen::Vector2d> entry_direction(const DiscrepancyField& field);
 
 /// T at a place.
-[[nodiscard]] Eigen::Matrix2d field_entry(const DiscrepancyField& field,
-                                          const DiscrepancyPlace& place);
+[[nodiscard]] Eigen::Matrix2d field_entry(const DiscrepancyField& field, const SystemPlace& place);
 
 /// Covariance of the two chains at two places, for s = 1.
 [[nodiscard]] Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
-                                                const DiscrepancyPlace& a,
-                                                const DiscrepancyPlace& b);
+                                                const SystemPlace& a,
+                                                const SystemPlace& b);
 
 /// Covariance of all whitened rows of `to` with these of `from`, for s = 1: rows(to) x kept. Rows
 /// that see no place stay 0.

@@ -64,11 +64,11 @@ Eigen::MatrixXd low_rank_lengths(const RegressorSystem& system,
 
 /// Of every place, first component first; only of the border the second has arguments of its own.
 std::vector<FieldArgument> arguments_of(const DiscrepancyField& field,
-                                        const std::vector<DiscrepancyPlace>& places) {
+                                        const std::vector<SystemPlace>& places) {
   std::vector<FieldArgument> result;
-  const Eigen::Index components = field.of == FieldOf::border ? 2 : 1;
+  const Eigen::Index components = field.of == Coordinate::border ? 2 : 1;
   for (Eigen::Index component = 0; component < components; ++component) {
-    for (const DiscrepancyPlace& place : places) {
+    for (const SystemPlace& place : places) {
       result.push_back(field_argument(field, place, component));
     }
   }
@@ -83,7 +83,7 @@ struct Components {
 Components components_of(const RegressorSystem& system,
                          const MarginalisedSystem& marginalised,
                          const DiscrepancyField& field,
-                         const std::vector<DiscrepancyPlace>& places) {
+                         const std::vector<SystemPlace>& places) {
   const Eigen::MatrixXd factor = low_rank_field(field, arguments_of(field, places));
   // Where the second component's arguments begin.
   const Eigen::Index second = factor.rows() - std::ssize(places);
@@ -139,9 +139,7 @@ Eigen::MatrixXd gram(const Block& a, const Block& b) {
 class DiscrepancyBasis::Fields {
  public:
   Fields(const RegressorSystem& system, const MarginalisedSystem& marginalised)
-      : system_(system), marginalised_(marginalised) {
-    for (const SystemPlace& place : system.places) places_.push_back(discrepancy_place(place));
-  }
+      : system_(system), marginalised_(marginalised) {}
 
   Products& of(const DiscrepancyKernel& kernel) {
     Products& p = all_.emplace_back();
@@ -161,7 +159,7 @@ class DiscrepancyBasis::Fields {
     if (known != all_.end()) return *known;
     Products& p = all_.emplace_back();
     p.field = field;
-    p.parts = components_of(system_, marginalised_, field, places_);
+    p.parts = components_of(system_, marginalised_, field, system_.places);
     p.gram11 = linear::gram(p.parts.first);
     p.gram12 = linear::product(linear::transposed(p.parts.first), p.parts.second);
     p.gram22 = linear::gram(p.parts.second);
@@ -201,7 +199,6 @@ class DiscrepancyBasis::Fields {
 
   const RegressorSystem& system_;
   const MarginalisedSystem& marginalised_;
-  std::vector<DiscrepancyPlace> places_;
   std::deque<Products> all_;  ///< blocks point into it
 };
 

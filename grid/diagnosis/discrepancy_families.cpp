@@ -26,35 +26,36 @@ class Kernels {
     // One field over the bed, at any ratio of the chains: dents and waves of a fifth of the bed's
     // height up to the whole.
     std::vector<DiscrepancyField> group;
-    for (const double mm : {140.0, 250.0, 450.0}) at_any_ratio({FieldOf::place, mm}, group);
+    for (const double mm : {140.0, 250.0, 450.0}) at_any_ratio({Coordinate::place, mm}, group);
     take(group, 0.35);
     // Each chain by itself.
-    for (const double mm : {250.0, 450.0, 800.0}) group.push_back({FieldOf::place, mm});
+    for (const double mm : {250.0, 450.0, 800.0}) group.push_back({Coordinate::place, mm});
     take(group, 0.15);
     // The tool moved along x and along y by functions of x alone and of y alone, as edges, boards
     // and folds do it. These have a trend over the whole bed, which must not pass for a scale.
-    all_.push_back({{{FieldOf::x, 180.0, FieldEntry::tool},
-                     {FieldOf::y, 180.0, FieldEntry::tool},
-                     {FieldOf::x, kTrendMm, FieldEntry::tool},
-                     {FieldOf::y, kTrendMm, FieldEntry::tool}},
+    all_.push_back({{{Coordinate::x, 180.0, FieldEntry::tool},
+                     {Coordinate::y, 180.0, FieldEntry::tool},
+                     {Coordinate::x, kTrendMm, FieldEntry::tool},
+                     {Coordinate::y, kTrendMm, FieldEntry::tool}},
                     0.10});
     // The tool moved where the sled hangs over the border, equally on all sides.
-    all_.push_back({{{FieldOf::border, 180.0, FieldEntry::tool}}, 0.05});
+    all_.push_back({{{Coordinate::border, 180.0, FieldEntry::tool}}, 0.05});
     // The tool moved along one axis of the sheet.
-    for (const FieldOf of : {FieldOf::place, FieldOf::x, FieldOf::y}) {
+    for (const Coordinate of : {Coordinate::place, Coordinate::x, Coordinate::y}) {
       for (const double mm : {250.0, 450.0}) along_an_axis({of, mm}, group);
     }
     // The tool moved the way it goes across something: a board's wave, a fold.
-    oblique({FieldOf::across, 200.0}, group);
+    oblique({Coordinate::across, 200.0}, group);
     take(group, 0.20);
     // A function of one coordinate: a strip of the banner, a beam, a chain, its angle, its pull.
-    for (const FieldOf of : {FieldOf::x, FieldOf::y, FieldOf::length_left, FieldOf::length_right}) {
+    for (const Coordinate of :
+         {Coordinate::x, Coordinate::y, Coordinate::length_left, Coordinate::length_right}) {
       for (const double mm : {150.0, 400.0}) at_any_ratio({of, mm}, group);
     }
-    for (const FieldOf of : {FieldOf::angle_left, FieldOf::angle_right}) {
+    for (const Coordinate of : {Coordinate::angle_left, Coordinate::angle_right}) {
       for (const double rad : {0.1, 0.25}) at_any_ratio({of, rad}, group);
     }
-    for (const FieldOf of : {FieldOf::tension_left, FieldOf::tension_right}) {
+    for (const Coordinate of : {Coordinate::tension_left, Coordinate::tension_right}) {
       at_any_ratio({of, 15.0}, group);
     }
     take(group, 0.15);
@@ -94,7 +95,7 @@ class Kernels {
   void take(std::vector<DiscrepancyField>& group, double prior) {
     for (const DiscrepancyField& field : group) {
       const double share = prior / static_cast<double>(group.size());
-      if (field.entry == FieldEntry::tool && field.of != FieldOf::place) {
+      if (field.entry == FieldEntry::tool && field.of != Coordinate::place) {
         all_.push_back({{field, trend_of(field)}, share});
       } else {
         all_.push_back({{field}, share});
@@ -107,22 +108,6 @@ class Kernels {
 
 }  // namespace
 
-std::string_view name(FieldOf of) {
-  constexpr std::string_view kNames[] = {"x",
-                                         "y",
-                                         "length_left",
-                                         "length_right",
-                                         "angle_left",
-                                         "angle_right",
-                                         "tension_left",
-                                         "tension_right",
-                                         "",
-                                         "",
-                                         "",
-                                         "visit"};
-  return kNames[static_cast<std::size_t>(of)];
-}
-
 const DiscrepancyFamily& chain_discrepancies() {
   static const DiscrepancyFamily kFamily{Kernels().all(), kDiscrepancyStrengths};
   return kFamily;
@@ -133,8 +118,8 @@ const DiscrepancyFamily& length_discrepancies(bool ordered) {
   static constexpr std::array kStrengths = {6.0, 12.0, 24.0, 48.0};
   // From twice the usual distance of two places to a quarter of a frame; over the visits of a row.
   static const auto kernel = [](double place_mm, double visits, double prior) {
-    DiscrepancyKernel own{{{FieldOf::place, place_mm, FieldEntry::lengths}}, prior};
-    if (visits > 0.0) own.fields.push_back({FieldOf::visit, visits, FieldEntry::lengths});
+    DiscrepancyKernel own{{{Coordinate::place, place_mm, FieldEntry::lengths}}, prior};
+    if (visits > 0.0) own.fields.push_back({Coordinate::visit, visits, FieldEntry::lengths});
     return own;
   };
   static const DiscrepancyFamily kOrdered{{kernel(150.0, 0.0, 0.2),
@@ -156,7 +141,7 @@ const DiscrepancyFamily& length_discrepancies_of_laws(bool ordered) {
     for (DiscrepancyKernel& own : family.kernels) own.prior *= kHalf;
     for (const double place_mm : kPlaceMm) {
       for (Eigen::Index length = 0; length < kLengths; ++length) {
-        DiscrepancyField field{FieldOf::place, place_mm, FieldEntry::lengths};
+        DiscrepancyField field{Coordinate::place, place_mm, FieldEntry::lengths};
         field.alone = length;
         family.kernels.push_back({{field}, kHalf / static_cast<double>(kPlaceMm.size() * kLengths)});
       }

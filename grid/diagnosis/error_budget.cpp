@@ -180,9 +180,7 @@ class Budget {
       for (const SystemUnit& unit : there.system.units) {
         const SystemPlace& place = there.system.places[unit.places.front().place];
         whitened.segment<2>(unit.first_row) =
-            unit.whitening *
-            discrepancy_at(
-                a_.system, marginalised_system(a_), a_.estimate, discrepancy_place(place));
+            unit.whitening * discrepancy_at(a_.system, marginalised_system(a_), a_.estimate, place);
       }
       return std::optional<Eigen::VectorXd>(std::move(whitened));
     });

@@ -56,7 +56,7 @@ void take_discrepancy_out(const RegressorSystem& system,
     if (!marginalised.outliers[u]) continue;
     const SystemUnit& unit = system.units[u];
     for (const observation::PlaceColumns& place_columns : unit.places) {
-      const DiscrepancyPlace place = discrepancy_place(system.places[place_columns.place]);
+      const SystemPlace& place = system.places[place_columns.place];
       estimate.left_given_discrepancy.segment(unit.first_row, unit.rows) -=
           place_columns.by_chain * discrepancy_at(system, marginalised, estimate, place);
     }
@@ -185,16 +185,15 @@ Estimate estimate(const RegressorSystem& system,
 Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
                                const MarginalisedSystem& marginalised,
                                const Estimate& estimate,
-                               const DiscrepancyPlace& place) {
+                               const SystemPlace& place) {
   Eigen::Vector2d mm = Eigen::Vector2d::Zero();
   if (estimate.discrepancy_weights.size() == 0) return mm;
   for (const KeptRows::Unit& kept : marginalised.kept.units()) {
     const SystemUnit& unit = system.units[kept.unit];
     const auto weights = estimate.discrepancy_weights.segment(kept.at, unit.rows);
     for (const observation::PlaceColumns& place_columns : unit.places) {
-      mm += discrepancy_block(estimate.discrepancy.kernel,
-                              place,
-                              discrepancy_place(system.places[place_columns.place])) *
+      mm += discrepancy_block(
+                estimate.discrepancy.kernel, place, system.places[place_columns.place]) *
             place_columns.by_chain.transpose() * weights;
     }
   }

@@ -56,7 +56,7 @@ struct DiscrepancyNoise {
 [[nodiscard]] Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
                                              const MarginalisedSystem& marginalised,
                                              const Estimate& estimate,
-                                             const DiscrepancyPlace& place);
+                                             const SystemPlace& place);
 
 /// `left` with what the nuisances took put back: what the machine leaves. For points `left` itself.
 [[nodiscard]] Eigen::VectorXd left_of_machine(const RegressorSystem& system,

@@ -9,65 +9,12 @@
 
 namespace chaintrue::grid::diagnosis {
 
-std::string_view name(LawOf of) {
-  constexpr std::string_view kNames[] = {"x",
-                                         "y",
-                                         "across",
-                                         "border",
-                                         "length_left",
-                                         "length_right",
-                                         "angle_left",
-                                         "angle_right",
-                                         "tension_left",
-                                         "tension_right",
-                                         "visit",
-                                         "length_tl",
-                                         "length_tr",
-                                         "length_bl",
-                                         "length_br",
-                                         "angle_tl",
-                                         "angle_tr",
-                                         "angle_bl",
-                                         "angle_br"};
-  return kNames[static_cast<std::size_t>(of)];
-}
-
-std::optional<model::Belt> belt_of(LawOf of) {
-  for (const model::Belt belt : model::kBelts) {
-    const auto at = static_cast<int>(belt);
-    if (of == static_cast<LawOf>(static_cast<int>(LawOf::length_tl) + at) ||
-        of == static_cast<LawOf>(static_cast<int>(LawOf::angle_tl) + at)) {
-      return belt;
-    }
-  }
-  return std::nullopt;
-}
-
 std::optional<model::Belt> belt_of(Enters enters) {
   for (const model::Belt belt : model::kBelts) {
     if (enters == static_cast<Enters>(static_cast<int>(Enters::tl) + static_cast<int>(belt)))
       return belt;
   }
   return std::nullopt;
-}
-
-std::string_view unit_of(LawOf of) {
-  switch (of) {
-    case LawOf::angle_left:
-    case LawOf::angle_right:
-    case LawOf::angle_tl:
-    case LawOf::angle_tr:
-    case LawOf::angle_bl:
-    case LawOf::angle_br:
-      return "rad";
-    case LawOf::tension_left:
-    case LawOf::tension_right:
-      return "n";
-    case LawOf::visit:
-      return "visit";
-    default:
-      return "mm";
-  }
 }
 
 std::string_view name(LawShape shape) {

@@ -24,6 +24,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grid/diagnosis/coordinate.hpp"
 #include "model/belts/belt.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -34,34 +35,8 @@ namespace chaintrue::grid::diagnosis {
 enum class Enters { left, right, equal, opposite, x, y, mixed, along, outwards, tl, tr, bl, br };
 [[nodiscard]] std::string_view name(Enters enters);
 
-/// What a law is a function of.
-enum class LawOf {
-  x,              ///< mm
-  y,              ///< mm
-  across,         ///< mm, over the bed in a direction of its own
-  border,         ///< mm, from the nearest border of the bed inwards
-  length_left,    ///< mm
-  length_right,   ///< mm
-  angle_left,     ///< rad
-  angle_right,    ///< rad
-  tension_left,   ///< N, at the sprocket
-  tension_right,  ///< N
-  visit,          ///< number of the visit
-  length_tl,      ///< mm, of a belt
-  length_tr,      ///< mm
-  length_bl,      ///< mm
-  length_br,      ///< mm
-  angle_tl,       ///< rad, of a belt against the horizontal, at its anchor
-  angle_tr,       ///< rad
-  angle_bl,       ///< rad
-  angle_br,       ///< rad
-};
-[[nodiscard]] std::string_view name(LawOf of);
-/// Of belts that enter or that a law is a function of; null of all else.
+/// Of a law that enters a belt; null of all else.
 [[nodiscard]] std::optional<model::Belt> belt_of(Enters enters);
-[[nodiscard]] std::optional<model::Belt> belt_of(LawOf of);
-/// "mm", "rad", "n", "visit": what a parameter's name ends in.
-[[nodiscard]] std::string_view unit_of(LawOf of);
 
 enum class LawShape { linear, square, step, kink, exponential, wave, harmonics };
 [[nodiscard]] std::string_view name(LawShape shape);
@@ -100,13 +75,13 @@ struct LawHeldOut {
 };
 
 struct Law {
-  LawOf of = LawOf::x;
+  Coordinate of = Coordinate::x;  ///< anything but Coordinate::place
   LawShape shape = LawShape::linear;
   Enters enters = Enters::mixed;
   /// That what is unexplained is a function of this and enters there, whatever its shape.
   double probability = 0.0;
   double shape_probability = 0.0;  ///< of this shape, given that
-  double direction_deg = 0.0;      ///< of LawOf::across, from x towards y
+  double direction_deg = 0.0;      ///< of Coordinate::across, from x towards y
   int towards = 0;                 ///< of a kink or an exponential: 1, -1; else 0
   double from = 0.0;
   double to = 0.0;

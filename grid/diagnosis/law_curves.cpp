@@ -28,7 +28,7 @@ class CurveList {
  public:
   explicit CurveList(const RegressorSystem& system) : system_(system) {}
 
-  void add_all(LawOf of, double direction_rad, double weight) {
+  void add_all(Coordinate of, double direction_rad, double weight) {
     values_ = values_of_variable(system_, of, direction_rad);
     constexpr std::size_t kFewest = 8;  // places: fewer show no shape
     if (values_.size() < kFewest) return;
@@ -55,8 +55,8 @@ class CurveList {
  private:
   /// Half the weight for each parameter more.
   void add_shapes(double weight) {
-    const bool of_border = start_.of == LawOf::border;
-    const bool of_visit = start_.of == LawOf::visit;
+    const bool of_border = start_.of == Coordinate::border;
+    const bool of_visit = start_.of == Coordinate::visit;
     // Drift and a zero that moves are in the catalogue.
     if (!of_border && !of_visit) {
       add(LawShape::linear, 0, weight, {0.0});
@@ -209,11 +209,12 @@ double density_at(const LawCurve& curve, double at) {
 
 std::vector<LawCurve> law_curves(const RegressorSystem& system) {
   CurveList list(system);
-  for (const LawOf of : law_variables(system)) list.add_all(of, 0.0, 1.0);
+  for (const Coordinate of : law_variables(system)) list.add_all(of, 0.0, 1.0);
   for (int k = 1; k < kLawDirections; ++k) {
     if (2 * k == kLawDirections) continue;
     // A direction is a parameter more.
-    list.add_all(LawOf::across, std::numbers::pi * k / kLawDirections, 0.5 / (kLawDirections - 2));
+    list.add_all(
+        Coordinate::across, std::numbers::pi * k / kLawDirections, 0.5 / (kLawDirections - 2));
   }
   std::vector<LawCurve> curves = list.take();
   share_out(curves);

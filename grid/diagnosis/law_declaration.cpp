@@ -21,27 +21,21 @@ using model::effects::EffectSide;
 using model::effects::ParameterRole;
 
 std::string variable_of(const Law& law, const model::Bed& bed) {
+  if (chain_of(law.of)) {
+    const std::string_view unit = unit_of(law.of);
+    return unit == "mm" ? "L0" : unit == "rad" ? "phi" : "T";
+  }
   switch (law.of) {
-    case LawOf::x:
+    case Coordinate::x:
       return "x";
-    case LawOf::y:
+    case Coordinate::y:
       return "y";
-    case LawOf::across: {
+    case Coordinate::across: {
       const double direction = law.direction_deg * std::numbers::pi / 180.0;
       return fmt::format("({:.6f} * x + {:.6f} * y)", std::cos(direction), std::sin(direction));
     }
-    case LawOf::border:
-      return fmt::format(
-          "min({} - abs(x), {} - abs(y))", 0.5 * bed.width_mm, 0.5 * bed.height_mm);
-    case LawOf::length_left:
-    case LawOf::length_right:
-      return "L0";
-    case LawOf::angle_left:
-    case LawOf::angle_right:
-      return "phi";
-    case LawOf::tension_left:
-    case LawOf::tension_right:
-      return "T";
+    case Coordinate::border:
+      return fmt::format("min({} - abs(x), {} - abs(y))", 0.5 * bed.width_mm, 0.5 * bed.height_mm);
     default:
       break;
   }
@@ -50,11 +44,8 @@ std::string variable_of(const Law& law, const model::Bed& bed) {
 
 /// The chain whose own value a law is a function of.
 bool is_of_other_chain(const Law& law) {
-  const bool left = law.of == LawOf::length_left || law.of == LawOf::angle_left ||
-                    law.of == LawOf::tension_left;
-  const bool right = law.of == LawOf::length_right || law.of == LawOf::angle_right ||
-                     law.of == LawOf::tension_right;
-  return (left && law.enters != Enters::left) || (right && law.enters != Enters::right);
+  const auto chain = chain_of(law.of);
+  return chain && law.enters != (*chain == model::Side::left ? Enters::left : Enters::right);
 }
 
 /// A number with the variable's unit.
@@ -185,7 +176,7 @@ tl::expected<Declaration, std::string> declaration_of(const Law& law, const mode
   }
   Declaration own;
   own.id = fmt::format("{}_of_{}", name(law.shape), name(law.of));
-  own.acts_on = law.of == LawOf::visit ? ActsOn::reading : ActsOn::chain;
+  own.acts_on = law.of == Coordinate::visit ? ActsOn::reading : ActsOn::chain;
   own.sides = {law.enters == Enters::left    ? EffectSide::left
                : law.enters == Enters::right ? EffectSide::right
                                              : EffectSide::both};

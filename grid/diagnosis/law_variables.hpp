@@ -5,7 +5,7 @@
 /// is not known there, so that nothing shows what moves it).
 ///
 /// \code
-///   for (const LawRows& own : law_rows(system, unit, {LawOf::x, Enters::left, 0.0}))
+///   for (const LawRows& own : law_rows(system, unit, {Coordinate::x, Enters::left, 0.0}))
 ///     rows += own.rows * f(own.v);
 /// \endcode
 #pragma once
@@ -20,31 +20,30 @@ namespace chaintrue::grid::diagnosis {
 
 /// What a law is a function of, and where it enters.
 struct LawTerm {
-  LawOf of = LawOf::x;
+  Coordinate of = Coordinate::x;
   Enters enters = Enters::left;
-  double direction_rad = 0.0;  ///< of LawOf::across and Enters::along
+  double direction_rad = 0.0;  ///< of Coordinate::across and Enters::along
 };
 
-/// Those of the system's mechanism, but for LawOf::across.
-[[nodiscard]] std::vector<LawOf> law_variables(const RegressorSystem& system);
+/// Those of the system's mechanism, but for Coordinate::across.
+[[nodiscard]] std::vector<Coordinate> law_variables(const RegressorSystem& system);
 
 struct LawEntrance {
   Enters enters = Enters::left;
   double weight = 0.0;  ///< of all entrances of a variable, in all one
 };
 /// A law of a chain or a belt mostly acts on that chain or belt.
-[[nodiscard]] std::vector<LawEntrance> law_entrances(const RegressorSystem& system, LawOf of);
+[[nodiscard]] std::vector<LawEntrance> law_entrances(const RegressorSystem& system, Coordinate of);
 
 /// Where waves end: shorter ones are not of such a thing, or no marks show them.
-[[nodiscard]] double shortest_wave(LawOf of, Enters enters, double span);
+[[nodiscard]] double shortest_wave(Coordinate of, Enters enters, double span);
 /// Something turns there, or is built of equal parts.
-[[nodiscard]] bool may_repeat(LawOf of, Enters enters);
+[[nodiscard]] bool may_repeat(Coordinate of, Enters enters);
 
 /// Values of what a law is a function of, at all places of a system that have one.
 [[nodiscard]] std::vector<double> values_of_variable(const RegressorSystem& system,
-                                                     LawOf of,
+                                                     Coordinate of,
                                                      double direction_rad);
-[[nodiscard]] double variable_at(const SystemPlace& place, LawOf of, double direction_rad);
 
 /// A value of what a law is a function of, and what one millimetre of the law adds to the rows of a unit
 /// there, whitened.

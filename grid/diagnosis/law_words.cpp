@@ -76,36 +76,29 @@ std::string slope_words(const Law& law, const ParameterEstimate& size) {
 std::string variable_in_words(const Law& law) {
   const bool of_belts = belt_of(law.enters).has_value();
   switch (law.of) {
-    case LawOf::x:
+    case Coordinate::x:
       return of_belts ? "x from the bottom left anchor" : "x";
-    case LawOf::y:
+    case Coordinate::y:
       return of_belts ? "y from the bottom left anchor" : "y";
-    case LawOf::across:
+    case Coordinate::across:
       return fmt::format("the way{} in the direction {:.0f} degrees from x towards y",
                          of_belts ? " from the bottom left anchor" : "",
                          law.direction_deg);
-    case LawOf::border:
+    case Coordinate::border:
       return "the distance from the border";
-    case LawOf::length_left:
-      return "the left chain's length";
-    case LawOf::length_right:
-      return "the right chain's length";
-    case LawOf::angle_left:
-      return "the left chain's angle below the horizontal";
-    case LawOf::angle_right:
-      return "the right chain's angle below the horizontal";
-    case LawOf::tension_left:
-      return "the pull in the left chain";
-    case LawOf::tension_right:
-      return "the pull in the right chain";
-    case LawOf::visit:
+    case Coordinate::visit:
       return "the number of the visit";
     default:
       break;
   }
-  const std::string_view belt = model::words(belt_of(law.of).value());
-  return law.of >= LawOf::angle_tl ? fmt::format("the {} belt's angle against the horizontal", belt)
-                                   : fmt::format("the {} belt's length", belt);
+  const auto belt = belt_of(law.of);
+  const std::string owner =
+      belt ? fmt::format("the {} belt", model::words(*belt))
+           : fmt::format("the {} chain", chain_of(law.of) == model::Side::left ? "left" : "right");
+  const std::string_view unit = unit_of(law.of);
+  if (unit == "n") return "the pull in " + owner;
+  if (unit == "mm") return owner + "'s length";
+  return owner + (belt ? "'s angle against the horizontal" : "'s angle below the horizontal");
 }
 
 std::string average_in_words(const Law& law, Observations of) {
@@ -213,7 +206,7 @@ std::vector<std::string> hints_of(const Law& law, const model::BeltMachine& mach
 
 std::vector<std::string> hints_of(const Law& law, const model::Machine& machine) {
   std::vector<std::string> hints;
-  const bool of_length = law.of == LawOf::length_left || law.of == LawOf::length_right;
+  const bool of_length = chain_of(law.of) && unit_of(law.of) == "mm";
   const auto near = [&](double value, double least) {
     const ParameterEstimate& own = law.parameters[1];
     return std::abs(own.value - value) < std::max(2.0 * own.sigma, least);
@@ -237,14 +230,14 @@ std::vector<std::string> hints_of(const Law& law, const model::Machine& machine)
   }
   constexpr double kNearMm = 30.0;  // a hand's breadth to either side is no place of its own
   const bool has_place = law.shape == LawShape::step || law.shape == LawShape::kink;
-  if (law.of == LawOf::x && has_place && near(0.0, kNearMm))
+  if (law.of == Coordinate::x && has_place && near(0.0, kNearMm))
     hints.emplace_back("Its place is near the middle of the beam: is something joined there?");
   for (const auto& [name, motor] : {std::pair{"left", machine.motors.left},
                                     std::pair{"right", machine.motors.right}}) {
-    if (law.of == LawOf::x && has_place && near(motor.x_mm, kNearMm))
+    if (law.of == Coordinate::x && has_place && near(motor.x_mm, kNearMm))
       hints.push_back(fmt::format("Its place is near the {} motor.", name));
   }
-  if (law.of == LawOf::tension_left || law.of == LawOf::tension_right)
+  if (unit_of(law.of) == "n")
     hints.emplace_back("It follows a chain's pull: something gives under load.");
   return hints;
 }

@@ -255,7 +255,7 @@ LawsFound laws_of(const Analysis& a, std::vector<LawEvidence> evidence) {
   LawsFound found{{}, std::move(evidence), {}};
   if (probability_of_any(found.evidence) < kLawLikely) return found;
   const double log_all = log_total(found.evidence);
-  std::map<std::tuple<LawOf, Enters>, std::vector<FoundPoint>> answers;
+  std::map<std::tuple<Coordinate, Enters>, std::vector<FoundPoint>> answers;
   for (const LawEvidence& own : found.evidence) {
     for (const WeighedLaw& law : own.laws) {
       const LawCurve& curve = own.curves[law.curve];
@@ -292,8 +292,8 @@ LawsFound laws_found(const Analysis& a) {
   // Numbers on several sheets are of several frames; chains know one.
   if (a.session.sheets > 1) {
     std::erase_if(curves, [](const LawCurve& curve) {
-      return curve.of == LawOf::x || curve.of == LawOf::y || curve.of == LawOf::across ||
-             curve.of == LawOf::border;
+      return curve.of == Coordinate::x || curve.of == Coordinate::y ||
+             curve.of == Coordinate::across || curve.of == Coordinate::border;
     });
   }
   if (curves.empty()) return {};

@@ -75,7 +75,8 @@ double p_of_structure(const Analysis& a) {
   e.col(0) = kept(left_of_machine(a.system, a.estimate, a.estimate.left));
   constexpr std::uint64_t kStream = 63;
   e.rightCols(kLeftOverDraws) = left_of_noise(a, kLeftOverDraws, kStream);
-  Eigen::MatrixXd k = discrepancy_covariance(a.system, kept, {{{FieldOf::place, kSmoothMm}}, 1.0});
+  Eigen::MatrixXd k =
+      discrepancy_covariance(a.system, kept, {{{Coordinate::place, kSmoothMm}}, 1.0});
   if (a.system.nuisances > 0) {
     const linear::Cholesky noise = nuisance_noise(a.system, kept);
     noise.half_solve_in_place(e);
@@ -90,35 +91,27 @@ double p_of_structure(const Analysis& a) {
   return (static_cast<double>(above) + 1.0) / (kLeftOverDraws + 1.0);
 }
 
-struct Coordinate {
-  const char* name;
-  double (*value)(const SystemPlace&);
-};
-
-constexpr Coordinate kCoordinates[] = {
-    {"angle_left", [](const SystemPlace& s) { return s.state.reading.pose.chains.left.angle_rad; }},
-    {"angle_right", [](const SystemPlace& s) { return s.state.reading.pose.chains.right.angle_rad; }},
-    {"length_left", [](const SystemPlace& s) { return s.state.reading.pose.lengths.left_mm; }},
-    {"length_right", [](const SystemPlace& s) { return s.state.reading.pose.lengths.right_mm; }},
-    {"tension_left",
-     [](const SystemPlace& s) { return s.state.reading.pose.chains.left.tension_at_sprocket_n; }},
-    {"tension_right",
-     [](const SystemPlace& s) { return s.state.reading.pose.chains.right.tension_at_sprocket_n; }},
-    {"x", [](const SystemPlace& p) { return p.mark.x_mm; }},
-    {"y", [](const SystemPlace& p) { return p.mark.y_mm; }},
-    {"order", [](const SystemPlace& p) { return static_cast<double>(p.order); }},
-};
+/// Of coordinates that explain the same the first is named.
+constexpr Coordinate kAlong[] = {Coordinate::angle_left,
+                                 Coordinate::angle_right,
+                                 Coordinate::length_left,
+                                 Coordinate::length_right,
+                                 Coordinate::tension_left,
+                                 Coordinate::tension_right,
+                                 Coordinate::x,
+                                 Coordinate::y,
+                                 Coordinate::visit};
 
 /// Share of the square of what is left that a quartic along the coordinate takes in either chain,
 /// less what as many terms take of noise.
-double share_along(const Analysis& a, const Coordinate& coordinate) {
+double share_along(const Analysis& a, Coordinate coordinate) {
   const std::vector<bool>& outliers = marginalised_system(a).outliers;
   std::vector<double> t;
   std::vector<Eigen::Vector2d> chain;
   for (std::size_t u = 0; u < a.system.units.size(); ++u) {
     const SystemUnit& unit = a.system.units[u];
     if (outliers[u] || !unit.reads_chains) continue;
-    t.push_back(coordinate.value(a.system.places[unit.places.front().place]));
+    t.push_back(value_at(a.system.places[unit.places.front().place], coordinate));
     chain.push_back(unit.unwhitened(a.estimate.left));
   }
   if (t.empty()) return 0.0;
@@ -155,16 +148,16 @@ LeftOver left_over(const Analysis& a) {
   }
   // A distance joins two places and follows neither.
   if (result.p_value >= kFalseAlarm || !a.session.reads_chains()) return result;
-  for (const Coordinate& coordinate : kCoordinates) {
-    if (coordinate.name == std::string_view("order") && !a.session.ordered()) continue;
+  for (const Coordinate coordinate : kAlong) {
+    const bool of_order = coordinate == Coordinate::visit;
+    if (of_order && !a.session.ordered()) continue;
     const double share = share_along(a, coordinate);
     // Where the bed was visited in order, time and place run together: place is the simpler guess.
-    const double needed = coordinate.name == std::string_view("order")
-                              ? result.share + kTimeOverPlace * (1.0 - result.share)
-                              : result.share;
+    const double needed =
+        of_order ? result.share + kTimeOverPlace * (1.0 - result.share) : result.share;
     if (share > needed) {
       result.share = share;
-      result.follows = coordinate.name;
+      result.follows = of_order ? "order" : name(coordinate);
     }
   }
   if (result.share < kFollowsShare) result.follows.clear();

@@ -62,8 +62,7 @@ Eigen::VectorXd left_of(const Analysis& a,
     for (const SystemUnit& unit : system.units) {
       const SystemPlace& place = system.places[unit.places.front().place];
       left.segment<2>(unit.first_row) -=
-          unit.whitening *
-          discrepancy_at(a.system, marginalised_system(a), model, discrepancy_place(place));
+          unit.whitening * discrepancy_at(a.system, marginalised_system(a), model, place);
     }
   }
   return left;

@@ -40,21 +40,20 @@ Enters entry_of(const DiscrepancyKernel& kernel) {
   return kOfChains[as_size(nearest % 4)];
 }
 
-FieldOf argument_of(const DiscrepancyKernel& kernel) {
-  const FieldOf first = kernel.fields.front().of;
+Coordinate argument_of(const DiscrepancyKernel& kernel) {
+  const Coordinate first = kernel.fields.front().of;
   const bool of_one =
       all_of(kernel.fields, [&](const DiscrepancyField& f) { return f.of == first; });
-  return of_one ? first : FieldOf::place;
+  return of_one ? first : Coordinate::place;
 }
 
 /// Length of a field on the bed: of an angle or a pull by how much of it the bed holds.
 double length_on_bed_mm(const Analysis& a, const DiscrepancyField& field) {
-  if (field.of >= FieldOf::place || field.of < FieldOf::angle_left) return field.length;
+  if (unit_of(field.of) == "mm" || field.of == Coordinate::visit) return field.length;
   std::vector<double> values;
   std::vector<double> x;
-  const auto k = static_cast<std::size_t>(field.of);
   for (const SystemPlace& place : a.system.places) {
-    values.push_back(discrepancy_place(place).at[k]);
+    values.push_back(value_at(place, field.of));
     x.push_back(place.mark.x_mm);
   }
   const auto range = [](const std::vector<double>& all) {
@@ -66,7 +65,7 @@ double length_on_bed_mm(const Analysis& a, const DiscrepancyField& field) {
 
 /// What the weight of all models with a discrepancy says of it.
 struct Said {
-  std::map<FieldOf, double> of;
+  std::map<Coordinate, double> of;
   std::map<Enters, double> enters;
   double log_length = 0.0;
   double weight = 0.0;
@@ -124,7 +123,8 @@ Unexplained unexplained(const Analysis& a) {
   const double all = mean_square_mm2(a, left_of_machine(a.system, plain, plain.left));
   result.share = all > 0.0 ? std::min(own / all, 1.0) : 0.0;
   const Said said = said_of(a);
-  result.follows = name(most_of(said.of, said.weight, FieldOf::place));
+  const Coordinate of = most_of(said.of, said.weight, Coordinate::place);
+  if (chain_of(of) || of == Coordinate::x || of == Coordinate::y) result.follows = name(of);
   result.enters = most_of(said.enters, said.weight, Enters::mixed);
   result.length_mm = said.weight > 0.0 ? std::exp(said.log_length / said.weight) : 0.0;
   return result;

@@ -11,14 +11,14 @@ namespace chaintrue::grid::files {
 namespace {
 
 using diagnosis::BudgetLine;
+using diagnosis::CauseGivenLaw;
 using diagnosis::CauseId;
+using diagnosis::Coordinate;
 using diagnosis::Enters;
 using diagnosis::ErrorBudget;
-using diagnosis::CauseGivenLaw;
 using diagnosis::Law;
 using diagnosis::LawHeldOut;
 using diagnosis::LawResidual;
-using diagnosis::LawOf;
 using diagnosis::LawShape;
 using diagnosis::ParameterEstimate;
 using diagnosis::Unexplained;
@@ -95,25 +95,25 @@ const Record<Law>& law_record() {
       Record<Law>("a law")
           .required("of",
                     &Law::of,
-                    words(std::array{LawOf::x,
-                                     LawOf::y,
-                                     LawOf::across,
-                                     LawOf::border,
-                                     LawOf::length_left,
-                                     LawOf::length_right,
-                                     LawOf::angle_left,
-                                     LawOf::angle_right,
-                                     LawOf::tension_left,
-                                     LawOf::tension_right,
-                                     LawOf::visit,
-                                     LawOf::length_tl,
-                                     LawOf::length_tr,
-                                     LawOf::length_bl,
-                                     LawOf::length_br,
-                                     LawOf::angle_tl,
-                                     LawOf::angle_tr,
-                                     LawOf::angle_bl,
-                                     LawOf::angle_br}))
+                    words(std::array{Coordinate::x,
+                                     Coordinate::y,
+                                     Coordinate::across,
+                                     Coordinate::border,
+                                     Coordinate::length_left,
+                                     Coordinate::length_right,
+                                     Coordinate::angle_left,
+                                     Coordinate::angle_right,
+                                     Coordinate::tension_left,
+                                     Coordinate::tension_right,
+                                     Coordinate::visit,
+                                     Coordinate::length_tl,
+                                     Coordinate::length_tr,
+                                     Coordinate::length_bl,
+                                     Coordinate::length_br,
+                                     Coordinate::angle_tl,
+                                     Coordinate::angle_tr,
+                                     Coordinate::angle_bl,
+                                     Coordinate::angle_br}))
           .required("shape",
                     &Law::shape,
                     words(std::array{LawShape::linear,

@@ -46,7 +46,7 @@ TEST(LawsOfBelts, AWaveOfOneTurnIsFoundBesideTheStretch) {
   ASSERT_TRUE(found.unexplained);
   ASSERT_FALSE(found.unexplained->laws.empty());
   const Law& law = found.unexplained->laws.front();
-  EXPECT_EQ(law.of, LawOf::length_tl) << in_words(law);
+  EXPECT_EQ(law.of, Coordinate::length_tl) << in_words(law);
   EXPECT_EQ(law.shape, LawShape::wave);
   EXPECT_EQ(law.enters, Enters::tl);
   EXPECT_GE(law.probability, kLawClaimed);

@@ -35,22 +35,22 @@ using testing::IsEmpty;
 using testing_support::session_of;
 
 /// A law with plain numbers.
-Law law_of(LawOf of, LawShape shape, Enters enters) {
+Law law_of(Coordinate of, LawShape shape, Enters enters) {
   Law law;
   law.of = of;
   law.shape = shape;
   law.enters = enters;
   law.probability = 0.95;
   law.shape_probability = 0.9;
-  law.direction_deg = of == LawOf::across ? 30.0 : 0.0;
+  law.direction_deg = of == Coordinate::across ? 30.0 : 0.0;
   const bool is_angle = unit_of(of) == "rad";
   law.from = is_angle ? 0.2 : unit_of(of) == "n" ? 20.0 : 500.0;
   law.to = is_angle ? 1.2 : unit_of(of) == "n" ? 90.0 : 2500.0;
-  if (of == LawOf::x || of == LawOf::y || of == LawOf::across) {
+  if (of == Coordinate::x || of == Coordinate::y || of == Coordinate::across) {
     law.from = -600.0;
     law.to = 600.0;
   }
-  if (of == LawOf::border) {
+  if (of == Coordinate::border) {
     law.from = 0.0;
     law.to = 600.0;
   }
@@ -105,7 +105,7 @@ LawCurve curve_of(const Law& law, Eigen::VectorXd& amplitude, double& at) {
 }
 
 struct Written {
-  LawOf of;
+  Coordinate of;
   LawShape shape;
   Enters enters;
 };
@@ -145,7 +145,7 @@ TEST_P(EveryLaw, IsTheSameAsAFileAsColumnsAndAsAFunction) {
   const double tolerance = moves_tool ? 0.05 : 1e-4;
   EXPECT_LT((as_columns - *as_effect).norm(), tolerance * as_columns.norm());
   const SystemPlace& place = a.system.places.front();
-  const double v = variable_at(place, law.of, curve.direction_rad);
+  const double v = value_at(place, law.of, curve.direction_rad);
   if (law.enters == Enters::left) {
     const auto& unit = a.system.units.front();
     const Eigen::VectorXd rows = unit.places.front().by_chain.col(0) * value_of(law, v);
@@ -156,34 +156,34 @@ TEST_P(EveryLaw, IsTheSameAsAFileAsColumnsAndAsAFunction) {
 INSTANTIATE_TEST_SUITE_P(
     Laws,
     EveryLaw,
-    testing::Values(Written{LawOf::x, LawShape::step, Enters::left},
-                    Written{LawOf::x, LawShape::kink, Enters::right},
-                    Written{LawOf::x, LawShape::wave, Enters::y},
-                    Written{LawOf::x, LawShape::step, Enters::x},
-                    Written{LawOf::across, LawShape::wave, Enters::along},
-                    Written{LawOf::y, LawShape::square, Enters::left},
-                    Written{LawOf::y, LawShape::exponential, Enters::y},
-                    Written{LawOf::across, LawShape::linear, Enters::left},
-                    Written{LawOf::across, LawShape::kink, Enters::y},
-                    Written{LawOf::border, LawShape::exponential, Enters::left},
-                    Written{LawOf::length_left, LawShape::wave, Enters::left},
-                    Written{LawOf::length_left, LawShape::harmonics, Enters::left},
-                    Written{LawOf::y, LawShape::harmonics, Enters::y},
-                    Written{LawOf::length_right, LawShape::linear, Enters::right},
-                    Written{LawOf::angle_left, LawShape::wave, Enters::left},
-                    Written{LawOf::angle_right, LawShape::kink, Enters::right},
-                    Written{LawOf::tension_left, LawShape::square, Enters::left}));
+    testing::Values(Written{Coordinate::x, LawShape::step, Enters::left},
+                    Written{Coordinate::x, LawShape::kink, Enters::right},
+                    Written{Coordinate::x, LawShape::wave, Enters::y},
+                    Written{Coordinate::x, LawShape::step, Enters::x},
+                    Written{Coordinate::across, LawShape::wave, Enters::along},
+                    Written{Coordinate::y, LawShape::square, Enters::left},
+                    Written{Coordinate::y, LawShape::exponential, Enters::y},
+                    Written{Coordinate::across, LawShape::linear, Enters::left},
+                    Written{Coordinate::across, LawShape::kink, Enters::y},
+                    Written{Coordinate::border, LawShape::exponential, Enters::left},
+                    Written{Coordinate::length_left, LawShape::wave, Enters::left},
+                    Written{Coordinate::length_left, LawShape::harmonics, Enters::left},
+                    Written{Coordinate::y, LawShape::harmonics, Enters::y},
+                    Written{Coordinate::length_right, LawShape::linear, Enters::right},
+                    Written{Coordinate::angle_left, LawShape::wave, Enters::left},
+                    Written{Coordinate::angle_right, LawShape::kink, Enters::right},
+                    Written{Coordinate::tension_left, LawShape::square, Enters::left}));
 
 TEST(LawFiles, WhatNoFormulaCanSayIsRefused) {
   const model::Bed bed;
-  for (const Law& law : {law_of(LawOf::border, LawShape::exponential, Enters::outwards),
-                         law_of(LawOf::length_left, LawShape::wave, Enters::right),
-                         law_of(LawOf::angle_right, LawShape::kink, Enters::x)}) {
+  for (const Law& law : {law_of(Coordinate::border, LawShape::exponential, Enters::outwards),
+                         law_of(Coordinate::length_left, LawShape::wave, Enters::right),
+                         law_of(Coordinate::angle_right, LawShape::kink, Enters::x)}) {
     const auto written = declaration_of(law, bed);
     ASSERT_FALSE(written);
     EXPECT_THAT(written.error(), HasSubstr("No file is made of the law found"));
   }
-  Law unsure = law_of(LawOf::x, LawShape::step, Enters::left);
+  Law unsure = law_of(Coordinate::x, LawShape::step, Enters::left);
   unsure.probability = 0.89;
   const auto written = declaration_of(std::vector<Law>{unsure}, bed);
   ASSERT_FALSE(written);
@@ -238,15 +238,16 @@ TEST(LawFiles, AreConfirmedByASecondSessionOfTheMachineAndDeniedByAnother) {
 
 // A step over what one chain does stands between two values of that chain, whatever the other's are.
 TEST(LawFiles, AStepOfOneChainsLengthHasTheGapOfThatChain) {
-  const auto written = declaration_of(law_of(LawOf::length_left, LawShape::step, Enters::left), model::Bed{});
+  const auto written =
+      declaration_of(law_of(Coordinate::length_left, LawShape::step, Enters::left), model::Bed{});
   ASSERT_TRUE(written) << written.error();
   const model::effects::Effect& effect = declared_effect(*written);
   const Analysis a = analysed(session_of({}, 21));
   std::vector<double> left;
   std::vector<double> right;
   for (const SystemPlace& place : a.system.places) {
-    left.push_back(variable_at(place, LawOf::length_left, 0.0));
-    right.push_back(variable_at(place, LawOf::length_right, 0.0));
+    left.push_back(value_at(place, Coordinate::length_left, 0.0));
+    right.push_back(value_at(place, Coordinate::length_right, 0.0));
   }
   std::sort(left.begin(), left.end());
   int others = 0;

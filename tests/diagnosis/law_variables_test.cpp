@@ -36,7 +36,7 @@ TEST(BeltLaws, ColumnsAreWhatReadingsWithTheLawDifferBy) {
   constexpr double kSigmaMm = 0.4;
   const RegressorSystem system = system_of(plain, state, {}, kSigmaMm);
   int compared = 0;
-  for (const LawOf of : law_variables(system)) {
+  for (const Coordinate of : law_variables(system)) {
     for (const LawEntrance& entrance : law_entrances(system, of)) {
       const Belt belt = belt_of(entrance.enters).value();
       MeasuredBelts with = plain;
@@ -60,7 +60,7 @@ TEST(BeltLaws, ColumnsAreWhatReadingsWithTheLawDifferBy) {
 TEST(BeltLaws, EntrancesOfAVariableAreSharedOutAndOfABeltMostlyItsOwn) {
   const MeasuredBelts belts = frame();
   const RegressorSystem system = system_of(belts, {belts::fit_anchors_robustly(belts).value(), {}}, {}, 0.4);
-  for (const LawOf of : law_variables(system)) {
+  for (const Coordinate of : law_variables(system)) {
     double sum = 0.0;
     const LawEntrance* most = nullptr;
     const std::vector<LawEntrance> entrances = law_entrances(system, of);
@@ -76,7 +76,7 @@ TEST(BeltLaws, EntrancesOfAVariableAreSharedOutAndOfABeltMostlyItsOwn) {
 }
 
 /// Waves over the span of the shortest that is weighed.
-double most_waves(const RegressorSystem& system, LawOf of, LawShape shape) {
+double most_waves(const RegressorSystem& system, Coordinate of, LawShape shape) {
   double most = 0.0;
   for (const LawCurve& curve : law_curves(system)) {
     if (curve.of == of && curve.shape == shape) most = std::max(most, curve.grid.back());
@@ -90,10 +90,10 @@ TEST(WavesOverEvenlySpacedMarks, AreNoShorterThanTwoColumns) {
   MeasuredGrid grid = testing_support::session_of({}, 5, 9, 6);
   const RegressorSystem even = laws::analysed(grid).system;
   // Half a quarter of a wave: the grid of waves; marks are within a few millimetres of their columns.
-  EXPECT_NEAR(most_waves(even, LawOf::x, LawShape::wave), 4.0, 0.26);
-  EXPECT_NEAR(most_waves(even, LawOf::x, LawShape::harmonics), 2.0, 0.13);
-  EXPECT_NEAR(most_waves(even, LawOf::y, LawShape::wave), 2.5, 0.26);
-  EXPECT_GT(most_waves(even, LawOf::length_left, LawShape::wave), 40.0);
+  EXPECT_NEAR(most_waves(even, Coordinate::x, LawShape::wave), 4.0, 0.26);
+  EXPECT_NEAR(most_waves(even, Coordinate::x, LawShape::harmonics), 2.0, 0.13);
+  EXPECT_NEAR(most_waves(even, Coordinate::y, LawShape::wave), 2.5, 0.26);
+  EXPECT_GT(most_waves(even, Coordinate::length_left, LawShape::wave), 40.0);
   // Marks that stand anywhere tell short waves too.
   constexpr std::uint64_t kSeed = 7;
   Random random(kSeed);
@@ -102,7 +102,7 @@ TEST(WavesOverEvenlySpacedMarks, AreNoShorterThanTwoColumns) {
     point.mark.y_mm += 90.0 * (random.uniform() - 0.5);
   }
   const RegressorSystem anywhere = laws::analysed(grid).system;
-  EXPECT_GT(most_waves(anywhere, LawOf::x, LawShape::wave), 8.0) << "seed " << kSeed;
+  EXPECT_GT(most_waves(anywhere, Coordinate::x, LawShape::wave), 8.0) << "seed " << kSeed;
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ TEST(Laws, AWaveOfHalfATurnIsFoundWithItsPeriodAndSize) {
   const std::vector<Law> laws = laws_found(analysed(with_half_turns(11))).laws;
   ASSERT_FALSE(laws.empty());
   const Law& law = laws.front();
-  EXPECT_EQ(law.of, LawOf::length_left) << in_words(law);
+  EXPECT_EQ(law.of, Coordinate::length_left) << in_words(law);
   EXPECT_EQ(law.shape, LawShape::wave);
   EXPECT_EQ(law.enters, Enters::left);
   EXPECT_GT(law.probability, kLawClaimed);
@@ -49,7 +49,7 @@ TEST(Laws, AWaveAndItsSecondHarmonicAreOneLaw) {
   const std::vector<Law> laws = laws_found(analysed(with_two_harmonics(14))).laws;
   ASSERT_FALSE(laws.empty());
   const Law& law = laws.front();
-  EXPECT_EQ(law.of, LawOf::length_left) << in_words(law);
+  EXPECT_EQ(law.of, Coordinate::length_left) << in_words(law);
   EXPECT_EQ(law.shape, LawShape::harmonics);
   EXPECT_EQ(law.enters, Enters::left);
   EXPECT_GT(law.probability, kLawClaimed);
@@ -86,7 +86,7 @@ TEST(Laws, AStepIsFoundWithItsPlace) {
   const std::vector<Law> laws = laws_found(analysed(with_step_along_x(12))).laws;
   ASSERT_FALSE(laws.empty());
   const Law& law = laws.front();
-  EXPECT_EQ(law.of, LawOf::x) << in_words(law);
+  EXPECT_EQ(law.of, Coordinate::x) << in_words(law);
   EXPECT_EQ(law.shape, LawShape::step);
   EXPECT_EQ(law.enters, Enters::left);
   EXPECT_NEAR(law.parameters[0].value, 1.0, 3.0 * law.parameters[0].sigma);
@@ -169,10 +169,11 @@ TEST(Laws, MoreParametersAndDirectionsHaveLess) {
   double across = 0.0;
   double of_x = 0.0;
   for (const LawCurve& curve : law_curves(a.system)) {
-    if (curve.of == LawOf::x && curve.enters == Enters::left) along_x[curve.shape] += curve.share;
+    if (curve.of == Coordinate::x && curve.enters == Enters::left)
+      along_x[curve.shape] += curve.share;
     // No direction has a wave with its second harmonic.
-    if (curve.of == LawOf::x && curve.shape != LawShape::harmonics) of_x += curve.share;
-    if (curve.of == LawOf::across) across += curve.share;
+    if (curve.of == Coordinate::x && curve.shape != LawShape::harmonics) of_x += curve.share;
+    if (curve.of == Coordinate::across) across += curve.share;
   }
   EXPECT_DOUBLE_EQ(along_x[LawShape::step], 0.5 * along_x[LawShape::linear]);
   EXPECT_DOUBLE_EQ(along_x[LawShape::wave], 0.5 * along_x[LawShape::step]);

@@ -39,7 +39,7 @@ grid::diagnosis::Diagnosis diagnosis_with_laws() {
   using grid::diagnosis::Law;
   auto found = grid::testing::sample_diagnosis();
   Law wave;
-  wave.of = grid::diagnosis::LawOf::length_left;
+  wave.of = grid::diagnosis::Coordinate::length_left;
   wave.shape = grid::diagnosis::LawShape::wave;
   wave.enters = grid::diagnosis::Enters::left;
   wave.probability = 0.95;
@@ -50,7 +50,7 @@ grid::diagnosis::Diagnosis diagnosis_with_laws() {
   for (const auto& point : found.points)
     wave.points.push_back({point.index, point.lengths.left_mm, 0.1, 0.05, -0.05});
   Law step = wave;
-  step.of = grid::diagnosis::LawOf::x;
+  step.of = grid::diagnosis::Coordinate::x;
   step.shape = grid::diagnosis::LawShape::step;
   step.probability = 0.04;
   step.from = -1200.0;

@@ -112,7 +112,8 @@ TEST(PlaceSigma, IsTheScatterOfThePlace) {
 
 double probability_of_step(const std::vector<Law>& laws) {
   double p = 0.0;
-  for (const Law& law : laws) p += law.of == LawOf::x && law.enters == Enters::left ? law.probability : 0.0;
+  for (const Law& law : laws)
+    p += law.of == Coordinate::x && law.enters == Enters::left ? law.probability : 0.0;
   return p;
 }
 

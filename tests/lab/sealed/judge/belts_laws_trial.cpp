@@ -13,9 +13,9 @@ namespace {
 
 using generator::BeltLaw;
 using generator::BeltLawFamily;
+using grid::diagnosis::Coordinate;
 using grid::diagnosis::Enters;
 using grid::diagnosis::Law;
-using grid::diagnosis::LawOf;
 using grid::diagnosis::LawShape;
 
 generator::BeltRecipe belt_recipe_of(std::string_view kind, std::uint64_t seed) {
@@ -34,13 +34,13 @@ bool is_right(const BeltLaw& law, const Law& found) {
     case BeltLawFamily::step_along_x:
     case BeltLawFamily::slope_from_x:
     case BeltLawFamily::ripple_along_x:
-      return found.of == LawOf::x;
+      return found.of == Coordinate::x;
     case BeltLawFamily::slope_from_y:
-      return found.of == LawOf::y;
+      return found.of == Coordinate::y;
     case BeltLawFamily::ripple_of_length:
-      return found.of == static_cast<LawOf>(static_cast<int>(LawOf::length_tl) + belt);
+      return found.of == static_cast<Coordinate>(static_cast<int>(Coordinate::length_tl) + belt);
     case BeltLawFamily::ripple_of_angle:
-      return found.of == static_cast<LawOf>(static_cast<int>(LawOf::angle_tl) + belt);
+      return found.of == static_cast<Coordinate>(static_cast<int>(Coordinate::angle_tl) + belt);
     default:
       return false;
   }

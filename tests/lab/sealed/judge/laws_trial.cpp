@@ -21,9 +21,9 @@ namespace {
 
 using generator::HiddenLaw;
 using generator::LawFamily;
+using grid::diagnosis::Coordinate;
 using grid::diagnosis::Enters;
 using grid::diagnosis::Law;
-using grid::diagnosis::LawOf;
 using grid::diagnosis::LawShape;
 
 generator::Recipe recipe_of(std::string_view kind, std::uint64_t seed) {
@@ -46,21 +46,22 @@ bool is_variable_of(const HiddenLaw& law, const Law& found) {
     case LawFamily::step_along_x:
     case LawFamily::slope_from_x:
     case LawFamily::ripple_along_x:
-      return found.of == LawOf::x;
+      return found.of == Coordinate::x;
     case LawFamily::step_along_y:
     case LawFamily::slope_from_y:
-      return found.of == LawOf::y;
+      return found.of == Coordinate::y;
     case LawFamily::slope_oblique: {
       const double off = std::remainder(
           found.direction_deg - law.direction_rad * 180.0 / std::numbers::pi, 180.0);
-      return found.of == LawOf::across && std::abs(off) < 12.0;
+      return found.of == Coordinate::across && std::abs(off) < 12.0;
     }
     case LawFamily::ripple_of_length:
-      return found.of == (law.chain == 0 ? LawOf::length_left : LawOf::length_right);
+      return found.of == (law.chain == 0 ? Coordinate::length_left : Coordinate::length_right);
     case LawFamily::ripple_of_angle:
-      return found.of == (law.chain == 0 ? LawOf::angle_left : LawOf::angle_right);
+      return found.of == (law.chain == 0 ? Coordinate::angle_left : Coordinate::angle_right);
     case LawFamily::drop_at_edge:
-      return found.of == (law.chain == 0 ? LawOf::x : LawOf::y) || found.of == LawOf::border;
+      return found.of == (law.chain == 0 ? Coordinate::x : Coordinate::y) ||
+             found.of == Coordinate::border;
     default:
       return false;
   }
@@ -101,7 +102,8 @@ std::optional<double> worst_of(const HiddenLaw& law, const Law& found) {
       return std::max(in_sigmas(p[0].value - std::abs(law.size_mm), p[0].sigma),
                       in_sigmas(p[1].value - law.extent, p[1].sigma));
     case LawFamily::drop_at_edge:
-      if (found.shape != LawShape::exponential || found.of == LawOf::border) return std::nullopt;
+      if (found.shape != LawShape::exponential || found.of == Coordinate::border)
+        return std::nullopt;
       return in_sigmas(p[1].value - law.extent, p[1].sigma);
     default:
       return std::nullopt;
@@ -279,7 +281,7 @@ std::string line_of(std::string_view kind, const LawsTrial& trial) {
   for (const Law& law : trial.laws) {
     text += fmt::format("| {} {} {} {:.2f}/{:.2f}", name(law.of), name(law.shape), name(law.enters),
                         law.probability, law.shape_probability);
-    if (law.of == LawOf::across) text += fmt::format(" dir {:.0f}", law.direction_deg);
+    if (law.of == Coordinate::across) text += fmt::format(" dir {:.0f}", law.direction_deg);
     for (const auto& p : law.parameters)
       text += fmt::format(" {}={:.2f}+-{:.2f}", p.parameter, p.value, p.sigma);
     if (law.held_out) {
