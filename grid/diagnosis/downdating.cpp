@@ -77,17 +77,6 @@ void clear_unobserved_columns(const NormalEquations& before, NormalEquations& eq
   }
 }
 
-/// Rows of these units in a marginalised system.
-std::vector<Eigen::Index> rows_of(const MarginalisedSystem& marginalised,
-                                  const std::vector<std::size_t>& units) {
-  std::vector<Eigen::Index> result;
-  for (const KeptRows::Unit& kept : marginalised.kept.units()) {
-    if (!contains(units, kept.unit)) continue;
-    for (Eigen::Index k = 0; k < kept.rows; ++k) result.push_back(kept.at + k);
-  }
-  return result;
-}
-
 /// The outlier groups with all of these units set to `rejected`.
 std::vector<bool> with_units(const RegressorSystem& system,
                              std::vector<bool> groups,
@@ -216,7 +205,7 @@ Downdating::Without Downdating::without(const std::vector<std::size_t>& units) c
   std::vector<std::pair<double, std::size_t>> strongest;  // score, by marginalised system
   for (const Factorisation& factorised : factorisations_) {
     const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.marginalised];
-    const auto out = rows_of(whole, units);
+    const auto out = whole.kept.positions(units);
     const NormalEquations equations = downdated_equations(factorised, out);
     const Eigen::Index rows = factorised.inverse.rows() - std::ssize(out);
     const NoiseDensity noise(dof_, rows);
@@ -265,7 +254,7 @@ std::vector<double> Downdating::probabilities_without(const std::vector<std::siz
   std::vector<std::pair<Same*, double>> of_model;
   for (const Factorisation& factorised : factorisations_) {
     const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.marginalised];
-    const auto out = rows_of(whole, units);
+    const auto out = whole.kept.positions(units);
     const NormalEquations equations = downdated_equations(factorised, out);
     const Eigen::Index all = factorised.inverse.rows();
     const Eigen::Index rows = all - std::ssize(out);

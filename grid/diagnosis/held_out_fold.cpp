@@ -68,18 +68,25 @@ class FoldErrors {
 
 }  // namespace
 
+DecidedWithout decided_without(const Analysis& a,
+                               const Downdating& downdating,
+                               const std::vector<std::size_t>& units) {
+  DecidedWithout result{downdating.without(units), {}};
+  std::vector<bool> excluded(a.session.units.size(), false);
+  for (const std::size_t u : units) excluded[u] = true;
+  const bool detected =
+      a.options.given_cause.has_value() || a.null.p_value(result.models.score) < kFalseAlarm;
+  result.decision =
+      decide(a.system, result.models.comparison, excluded, detected, a.decision.classes);
+  return result;
+}
+
 HeldOutFolds::HeldOutFolds(const Analysis& analysis)
     : analysis_(analysis), downdating_(analysis.system, analysis.comparison, noise_dof(analysis)) {}
 
 Fold HeldOutFolds::without(const std::vector<std::size_t>& units) const {
   const Analysis& a = analysis_;
-  const Downdating::Without without = downdating_.without(units);
-  std::vector<bool> excluded(a.session.units.size(), false);
-  for (const std::size_t u : units) excluded[u] = true;
-  const bool detected =
-      a.options.given_cause.has_value() || a.null.p_value(without.score) < kFalseAlarm;
-  const Decision decision =
-      decide(a.system, without.comparison, excluded, detected, a.decision.classes);
+  const auto [without, decision] = decided_without(a, downdating_, units);
   // A reading wrong at its own visit alone says nothing of any other.
   std::vector<bool> out = marginalised_system(a).outliers;
   reject_slips(a, out);

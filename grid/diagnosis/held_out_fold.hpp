@@ -18,6 +18,16 @@
 
 namespace chaintrue::grid::diagnosis {
 
+/// The models without some units, positions in the session, and what is decided on by them: with the gate for all
+/// units, and the classes of these.
+struct DecidedWithout {
+  Downdating::Without models;
+  Decision decision;
+};
+[[nodiscard]] DecidedWithout decided_without(const Analysis& analysis,
+                                             const Downdating& downdating,
+                                             const std::vector<std::size_t>& units);
+
 /// Errors of the tool in mm, for every way of modelling.
 struct Errors {
   std::vector<Eigen::Vector2d> calibrated, surface_only;

@@ -43,6 +43,9 @@ class KeptRows {
   /// Numbers in the system, ascending; of a row across a direction that of its unit's first.
   [[nodiscard]] const std::vector<Eigen::Index>& rows() const { return rows_; }
   [[nodiscard]] const std::vector<Unit>& units() const { return units_; }
+  /// Positions of the rows that belong to these units, or else of all others.
+  [[nodiscard]] std::vector<Eigen::Index> positions(const std::vector<std::size_t>& units,
+                                                    bool among = true) const;
 
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& all) const;
   [[nodiscard]] Eigen::MatrixXd of(const linear::MatrixArgument& all) const;

@@ -69,13 +69,13 @@ class Predictor {
   Predictor(const Analysis& a, const LawEvidence& evidence, const WeighedLaw& law)
       : system_(a.system),
         marginalised_(a.comparison.marginalised_systems[evidence.marginalised]),
-        without_(a, marginalised_, evidence.sets[evidence.without_set], evidence.without_discrepancy) {
+        without_(model_with(a, evidence, nullptr)) {
     for (const WeighedLaw& own : evidence.laws) {
       if (own.curve != law.curve || with_.size() == kMostValues) continue;
-      with_.emplace_back(a, marginalised_, evidence.sets[law.set], law.discrepancy);
-      const Eigen::MatrixXd columns = LawColumns(a.system).of(evidence.curves[own.curve], own.at);
-      for (Eigen::Index k = 0; k < columns.cols(); ++k)
-        with_.back().add(Eigen::VectorXd(columns.col(k)));
+      WeighedLaw other = own;
+      other.set = law.set;
+      other.discrepancy = law.discrepancy;
+      with_.push_back(model_with(a, evidence, &other));
     }
   }
 
@@ -85,11 +85,8 @@ class Predictor {
     double with = 0.0;
     double count = 0.0;
     for (const Units& left_out : parts) {
-      Rows kept, out;
-      for (const KeptRows::Unit& unit : marginalised_.kept.units()) {
-        Rows& rows = has(left_out, unit.unit) ? out : kept;
-        for (Eigen::Index k = 0; k < unit.rows; ++k) rows.push_back(unit.at + k);
-      }
+      const Rows kept = marginalised_.kept.positions(left_out, false);
+      const Rows out = marginalised_.kept.positions(left_out);
       // Of a part that was rejected, or that is all there is, nothing is predicted.
       if (out.empty() || kept.empty()) continue;
       without += square_mm2(without_, kept, out, left_out);

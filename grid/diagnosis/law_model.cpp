@@ -112,4 +112,15 @@ LawModel::Expected LawModel::expected_of(const RegressorSystem& next,
   return expected;
 }
 
+LawModel model_with(const Analysis& a, const LawEvidence& evidence, const WeighedLaw* law) {
+  LawModel model(a,
+                 a.comparison.marginalised_systems[evidence.marginalised],
+                 evidence.sets[law != nullptr ? law->set : evidence.without_set],
+                 law != nullptr ? law->discrepancy : evidence.without_discrepancy);
+  if (law == nullptr) return model;
+  const Eigen::MatrixXd columns = LawColumns(a.system).of(evidence.curves[law->curve], law->at);
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) model.add(Eigen::VectorXd(columns.col(k)));
+  return model;
+}
+
 }  // namespace chaintrue::grid::diagnosis

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/law_evidence.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -70,5 +71,10 @@ class LawModel {
   Eigen::MatrixXd discrepancy_;  ///< s^2 K; empty without one
   Eigen::VectorXd e_;
 };
+
+/// An explanation with the amplitudes of a law at one place; null: the likeliest without one.
+[[nodiscard]] LawModel model_with(const Analysis& analysis,
+                                  const LawEvidence& evidence,
+                                  const WeighedLaw* law);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -36,21 +36,12 @@ Alternative expected_with(const Analysis& a,
                           const Next& next,
                           const LawEvidence& evidence,
                           const WeighedLaw* law) {
+  Eigen::MatrixXd there(next.system.e.size(), 0);
+  if (law != nullptr) there = LawColumns(next.system).of(evidence.curves[law->curve], law->at);
   const std::vector<int>& regressors =
       evidence.sets[law != nullptr ? law->set : evidence.without_set];
-  LawModel model(a,
-                 a.comparison.marginalised_systems[evidence.marginalised],
-                 regressors,
-                 law != nullptr ? law->discrepancy : evidence.without_discrepancy);
-  Eigen::MatrixXd there(next.system.e.size(), 0);
-  if (law != nullptr) {
-    const LawCurve& curve = evidence.curves[law->curve];
-    const Eigen::MatrixXd here = LawColumns(a.system).of(curve, law->at);
-    for (Eigen::Index k = 0; k < here.cols(); ++k) model.add(Eigen::VectorXd(here.col(k)));
-    there = LawColumns(next.system).of(curve, law->at);
-  }
   LawModel::Expected expected =
-      model.expected_of(next.system, columns_of(a, next, regressors, there));
+      model_with(a, evidence, law).expected_of(next.system, columns_of(a, next, regressors, there));
   Alternative one;
   one.mean = std::move(expected.mean);
   one.spread = std::move(expected.spread);

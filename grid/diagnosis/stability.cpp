@@ -7,7 +7,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
-#include "grid/diagnosis/downdating.hpp"
+#include "grid/diagnosis/held_out_fold.hpp"
 #include "grid/parallel.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -178,13 +178,7 @@ std::optional<Stability> examine_stability(const Analysis& a) {
   result.removals.resize(groups.size());
   for_each_index(groups.size(), [&](std::size_t k) {
     const LeftOut& group = groups[k];
-    const auto without = downdating.without(group.units);
-    std::vector<bool> excluded(a.session.units.size(), false);
-    for (const std::size_t u : group.units) excluded[u] = true;
-    const bool detected =
-        a.null.p_value(without.score) < kFalseAlarm || a.options.given_cause.has_value();
-    const Decision decision =
-        decide(a.system, without.comparison, excluded, detected, a.decision.classes);
+    const auto [without, decision] = decided_without(a, downdating, group.units);
     const double log_odds = statement.log_odds(without.comparison);
     Removal& removal = result.removals[k];
     removal.what = group.what;
