@@ -6,7 +6,7 @@
 ///
 /// \code
 ///   if (contains(members, cause)) ...
-///   stable_sort(models, [](const auto& a, const auto& b) { return a.weight > b.weight; });
+///   stable_sort(models, descending(&CandidateModel::log_weight));
 ///   design.col(as_index(k)) = columns[as_size(chosen)];
 /// \endcode
 #pragma once
@@ -50,6 +50,27 @@ void sort(Container& all, Less... less) {
 template <class Container, class... Less>
 void stable_sort(Container& all, Less... less) {
   std::stable_sort(std::begin(all), std::end(all), less...);
+}
+
+/// Orders for sort() by a member: stable_sort(models, descending(&CandidateModel::log_weight)).
+template <class Member>
+[[nodiscard]] auto ascending(Member member) {
+  return [member](const auto& a, const auto& b) { return a.*member < b.*member; };
+}
+template <class Member>
+[[nodiscard]] auto descending(Member member) {
+  return [member](const auto& a, const auto& b) { return a.*member > b.*member; };
+}
+
+/// Each value once, in ascending order.
+template <class Container>
+void sort_unique(Container& all) {
+  sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+}
+template <class Container, class Other>
+void append_all(Container& all, const Other& more) {
+  all.insert(all.end(), std::begin(more), std::end(more));
 }
 
 }  // namespace chaintrue::grid

@@ -21,8 +21,9 @@ namespace chaintrue::grid {
 /// Of the vectors' lengths; 0 for no values.
 [[nodiscard]] double rms_length(const std::vector<Eigen::Vector2d>& values);
 
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// log(0).
-inline constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
+inline constexpr double kMinusInfinity = -kInfinity;
 
 /// log(exp(a) + exp(b)), without overflow; minus infinity is log(0).
 [[nodiscard]] double log_sum(double a, double b);

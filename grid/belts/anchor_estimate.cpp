@@ -9,6 +9,7 @@
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/first_frames.hpp"
 #include "grid/map/noise_from_repeats.hpp"
+#include "grid/statistics.hpp"
 #include "model/belts/belt_mechanism.hpp"
 
 namespace chaintrue::grid::belts {
@@ -320,7 +321,7 @@ std::optional<AnchorFit> fit_anchors_robustly(const MeasuredBelts& belts) {
   auto fit = first_fit(untaped, Readings::those_that_fit);
   if (!fit || is_plausible(*fit)) return with_tape(belts, std::move(fit));
   // Gross readings make a frame implausible; where single ones do not, whole points may.
-  constexpr double kAny = std::numeric_limits<double>::infinity();
+  constexpr double kAny = kInfinity;
   const auto robust = [&untaped](const AnchorFit& from) {
     if (!from.is_sound) return from;
     return fit_alone(untaped, from.state.anchors, from.counting, Readings::those_that_fit, kAny)

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -83,7 +82,7 @@ MeasuredBelts swapped(MeasuredBelts belts, const BeltPairs& pairs) {
 }
 
 struct Frame {
-  double residual_sigma_mm = std::numeric_limits<double>::infinity();
+  double residual_sigma_mm = kInfinity;
   /// From what the file states of anchors, or of commands; 0 where it states neither.
   double far_mm = 0.0;
   double far_from_commands_mm = 0.0;
@@ -281,8 +280,7 @@ double sigma_of(const MeasuredBelts& belts,
                 const belts::FitDiagnostics& view,
                 const BeltDistance& distance) {
   const auto expected = view.expected(belts, distance);
-  return expected && expected->variance_mm2 > 0.0 ? std::sqrt(expected->variance_mm2)
-                                                  : std::numeric_limits<double>::infinity();
+  return expected && expected->variance_mm2 > 0.0 ? std::sqrt(expected->variance_mm2) : kInfinity;
 }
 
 /// The question that explains a distance best.
@@ -296,7 +294,7 @@ std::string question_of(double distance_mm, double by_belts_mm) {
   for (input_checks::NumberError& slip : input_checks::number_errors(d, false))
     slips.push_back(std::move(slip));
   std::string question = "was it misread?";
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const input_checks::NumberError& slip : slips) {
     const double off = std::abs(slip.value / by_belts_mm - 1.0);
     const double cost = slip.penalty + off / kNear;

@@ -8,6 +8,7 @@
 #include "grid/containers.hpp"
 #include "grid/estimation/reading_shifts.hpp"
 #include "grid/linear_algebra.hpp"
+#include "grid/statistics.hpp"
 #include "model/belts/belt_kinematics.hpp"
 
 namespace chaintrue::grid::belts {
@@ -83,7 +84,7 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
     const auto at = distance_at(belts, *mechanism_, frame_.state, belts.distances[i]);
     equations_.distance_residual[as_index(i)] =
         at ? (belts.distances[i].distance_mm - at->predicted_mm) / belts.distances[i].sigma_mm
-           : std::numeric_limits<double>::infinity();
+           : kInfinity;
   }
 }
 

@@ -63,7 +63,7 @@ void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFi
     if (bad.size() > 1) {
       fit.bad_points.push_back(k);
     } else {
-      fit.bad.insert(fit.bad.end(), bad.begin(), bad.end());
+      append_all(fit.bad, bad);
     }
     fit.places.push_back(std::move(place));
   }

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "grid/belts/fit_diagnostics.hpp"
 #include "grid/containers.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -72,14 +72,14 @@ double sigma_with(const MeasuredBelts& belts,
                   const belts::FitDiagnostics& view,
                   BeltDistance& distance) {
   const auto expected = view.expected(belts, distance);
-  if (!expected || !(expected->mm > 0.0)) return std::numeric_limits<double>::infinity();
+  if (!expected || !(expected->mm > 0.0)) return kInfinity;
   distance.distance_mm = expected->mm;
   const double noise = distance.sigma_mm * distance.sigma_mm + expected->variance_mm2;
   // The first distance tells the scale alone.
   if (!view.has_scale()) return std::sqrt(noise) / expected->mm;
   const double known = view.covariance()(belts::kAnchorUnknowns, belts::kAnchorUnknowns);
   const double left = known - expected->with_scale * expected->with_scale / noise;
-  return left > 0.0 ? std::sqrt(left) : std::numeric_limits<double>::infinity();
+  return left > 0.0 ? std::sqrt(left) : kInfinity;
 }
 
 }  // namespace

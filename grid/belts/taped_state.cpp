@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "grid/containers.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/linear_algebra.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::belts {
 
@@ -56,7 +56,7 @@ double extent_mm(const std::vector<model::MarkPoint>& marks) {
 /// The likeliest noise on the grid, and what it is worth summed over the grid.
 struct Chosen {
   TapedNoise noise;
-  double best = -std::numeric_limits<double>::infinity();
+  double best = kMinusInfinity;
   std::vector<double> all;
 
   void see(const TapedNoise& candidate, double log_posterior) {

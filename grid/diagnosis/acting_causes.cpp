@@ -81,7 +81,7 @@ Measured with_effects(const Measured& measured, const std::vector<ActingCause>& 
           auto& effects = own.machine->effects;
           for (const ActingCause& acting : causes) {
             if (has_visits || !model::effects::depends_on_visit(*acting.cause.cause.effect))
-              effects.insert(effects.end(), acting.effects.begin(), acting.effects.end());
+              append_all(effects, acting.effects);
           }
         },
         file.measured);

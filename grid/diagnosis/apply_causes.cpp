@@ -43,8 +43,7 @@ void apply_causes(const Analysis& a, Diagnosis& diagnosis) {
                               : estimate_with(a, taken);
   const Eigen::VectorXd values = a.system.setting + fitted.setting_change;
   diagnosis.extended_machine = with_settings(session, stated_state(session), values).machine;
-  diagnosis.extended_machine.effects.insert(
-      diagnosis.extended_machine.effects.end(), into_machine.begin(), into_machine.end());
+  append_all(diagnosis.extended_machine.effects, into_machine);
 }
 
 }  // namespace chaintrue::grid::diagnosis

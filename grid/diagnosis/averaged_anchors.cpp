@@ -250,8 +250,7 @@ class Averaging {
     total_ += weight;
     std::vector<Key> causes;
     for (const int index : model.regressors) causes.push_back(key_of(system_.regressor(index)));
-    sort(causes);
-    causes.erase(std::unique(causes.begin(), causes.end()), causes.end());
+    sort_unique(causes);
     parts_.push_back({weight,
                       std::move(causes),
                       found.setting_change.head<belts::kAnchorUnknowns>(),

@@ -2,7 +2,6 @@
 #include "grid/diagnosis/belts_analysis.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
@@ -75,7 +74,7 @@ double spoken_for(const Analysis& a, const CauseClass& members) {
     beforehand = log_prior(a.system, model.regressors, true) - log_prior(a.system, {}, true);
   }
   if (with.empty()) return 0.0;
-  if (without.empty()) return std::numeric_limits<double>::infinity();
+  if (without.empty()) return kInfinity;
   return std::exp(log_sum(with) - log_sum(without) - beforehand);
 }
 

@@ -117,9 +117,8 @@ class Columns {
     std::vector<int> visits = thinned(visits_);
     if (found != nullptr) {
       const std::vector<int> near = about(visits_, static_cast<int>(values.back()));
-      visits.insert(visits.end(), near.begin(), near.end());
-      sort(visits);
-      visits.erase(std::unique(visits.begin(), visits.end()), visits.end());
+      append_all(visits, near);
+      sort_unique(visits);
     }
     const double share = side / static_cast<double>(visits.size());
     for (const int visit : visits) {

@@ -76,9 +76,7 @@ std::optional<FreeModel> model_with(const RegressorSystem& system,
       if (found.free >= 0) found.regressors.push_back(found.free);
     }
     if (found.free < 0) continue;
-    sort(found.regressors);
-    found.regressors.erase(std::unique(found.regressors.begin(), found.regressors.end()),
-                           found.regressors.end());
+    sort_unique(found.regressors);
     return found;
   }
   return std::nullopt;

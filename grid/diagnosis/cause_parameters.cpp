@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/regressor_places.hpp"
 #include "grid/linear_algebra.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -65,7 +65,7 @@ Eigen::MatrixXd slope_by_settings(const Analysis& a, const Regressor& own) {
 
 /// From a continuous place to the nearest other one that was tried.
 double step_of_places(const Analysis& a, const Regressor& own, std::size_t which) {
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const Regressor& other : a.system.regressors) {
     if (!(other.cause == own.cause)) continue;
     const double step = std::abs(other.values[which] - own.values[which]);

@@ -54,9 +54,7 @@ std::vector<CauseGivenLaw> causes_that_change(const Analysis& without_law, const
                        std::move(cause.parameters)});
     for (SameCause& same : cause.same_as) changed.back().same_as.push_back(same.cause);
   }
-  stable_sort(changed, [](const CauseGivenLaw& x, const CauseGivenLaw& y) {
-    return x.probability > y.probability;
-  });
+  stable_sort(changed, descending(&CauseGivenLaw::probability));
   for (const std::size_t index : without_law.decision.listed) {
     const CauseId& cause = without_law.decision.classes[index].front();
     if (holds(given_law, cause)) continue;
@@ -91,9 +89,7 @@ void take_names_back(const Analysis& given_law, Analysis& a) {
     const CauseId& cause = a.decision.classes[one.index].front();
     if (contains(lost, cause)) one.probability = probability_of(given_law, cause);
   }
-  stable_sort(a.decision.marginal, [](const ClassProbability& x, const ClassProbability& y) {
-    return x.probability > y.probability;
-  });
+  stable_sort(a.decision.marginal, descending(&ClassProbability::probability));
 }
 
 }  // namespace chaintrue::grid::diagnosis

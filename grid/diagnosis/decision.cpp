@@ -110,8 +110,7 @@ class Decider {
       }
     }
     for (std::size_t k = 0; k < p.size(); ++k) result_.marginal.push_back({k, std::min(p[k], 1.0)});
-    stable_sort(result_.marginal,
-                [](const auto& a, const auto& b) { return a.probability > b.probability; });
+    stable_sort(result_.marginal, descending(&ClassProbability::probability));
   }
 
   /// The number of causes is decided first, then which.
@@ -258,7 +257,7 @@ class Decider {
       alone.push_back({key.front(), grouped.probability});
       all += grouped.probability;
     }
-    stable_sort(alone, [](const auto& a, const auto& b) { return a.probability > b.probability; });
+    stable_sort(alone, descending(&ClassProbability::probability));
     double sum = 0.0;
     for (const ClassProbability& one : alone) {
       result_.listed.push_back(one.index);

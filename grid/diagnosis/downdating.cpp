@@ -130,10 +130,9 @@ void Downdating::add_factorisation(std::size_t number,
   factorised.discrepancy = discrepancy;
   std::vector<int> columns;
   for (const CandidateModel& model : models) {
-    columns.insert(columns.end(), model.regressors.begin(), model.regressors.end());
+    append_all(columns, model.regressors);
   }
-  sort(columns);
-  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  sort_unique(columns);
   const Eigen::Index n = marginalised.kept.size();
   factorised.inverse = marginalised.root.inverse();
   Eigen::MatrixXd e(n, std::ssize(columns) + 1);

@@ -191,9 +191,7 @@ class Budget {
     const double whole = budget.uncalibrated_mm * budget.uncalibrated_mm;
     double sum = 0.0;
     for (const BudgetLine& line : budget.lines) sum += line.mean_square_mm2;
-    stable_sort(budget.lines, [](const BudgetLine& x, const BudgetLine& y) {
-      return x.mean_square_mm2 > y.mean_square_mm2;
-    });
+    stable_sort(budget.lines, descending(&BudgetLine::mean_square_mm2));
     budget.lines.push_back({.what = BudgetLine::What::inseparable,
                             .mean_square_mm2 = whole - sum,
                             .changes_with = BudgetLine::ChangesWith::nothing});

@@ -176,7 +176,7 @@ std::vector<Alternative> alternatives_of_best(const Analysis& a) {
   double all = 0.0;
   for (const Group& group : groups) all += group.probability;
   std::erase_if(groups, [&](const Group& g) { return g.probability < kLeastProbability * all; });
-  stable_sort(groups, [](const Group& x, const Group& y) { return x.probability > y.probability; });
+  stable_sort(groups, descending(&Group::probability));
   if (groups.size() > kMostGroups) groups.resize(kMostGroups);
   std::vector<Alternative> result;
   for (std::size_t number = 0; number < groups.size(); ++number) {

@@ -75,7 +75,7 @@ std::vector<CauseId> listed_causes(const Analysis& a) {
   std::vector<CauseId> result;
   for (const std::size_t index : a.decision.listed) {
     const CauseClass& members = a.decision.classes[index];
-    result.insert(result.end(), members.begin(), members.end());
+    append_all(result, members);
   }
   return result;
 }
@@ -104,9 +104,7 @@ std::vector<Hypothesis> hypotheses(const Analysis& a) {
   result.push_back({"unknown", "", a.decision.discrepancy});
   result.push_back({"noise", "", a.decision.noise});
   result.push_back({"bad_points", "", a.decision.outliers});
-  stable_sort(result, [](const Hypothesis& x, const Hypothesis& y) {
-    return x.probability > y.probability;
-  });
+  stable_sort(result, descending(&Hypothesis::probability));
   return result;
 }
 

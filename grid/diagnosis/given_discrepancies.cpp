@@ -223,15 +223,14 @@ std::vector<int> columns_to_scout(const RegressorSystem& system,
   for (const auto& [gain, k] : order) {
     if (places.takes(k, gain)) result.push_back(k);
   }
-  for (const auto& set : best_models) result.insert(result.end(), set.begin(), set.end());
-  sort(result);
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  for (const auto& set : best_models) append_all(result, set);
+  sort_unique(result);
   return result;
 }
 
 /// Those that hold a share of the weight, best first.
 std::vector<int> worth_searching(std::vector<Scouted> scouted) {
-  stable_sort(scouted, [](const Scouted& a, const Scouted& b) { return a.weight > b.weight; });
+  stable_sort(scouted, descending(&Scouted::weight));
   scouted.resize(count_with_ties(
       scouted, kMostDiscrepanciesSearched, [](const Scouted& own) { return own.weight; }));
   std::vector<int> result;
@@ -304,9 +303,8 @@ std::vector<double> search_given_discrepancies(const RegressorSystem& system,
         options.given_cause ? plain.columns
                      : worth_trying(system, closer_look.look_at(given, discrepancy));
     std::vector<int> used = singles;
-    for (const auto& set : best_models) used.insert(used.end(), set.begin(), set.end());
-    sort(used);
-    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (const auto& set : best_models) append_all(used, set);
+    sort_unique(used);
     GivenDiscrepancySearch(system,
                  given.equations(family.strength_of(discrepancy), used),
                  discrepancy,

@@ -78,15 +78,12 @@ BeforeCalibration before_calibration(const Analysis& a, const std::vector<std::s
 }
 
 void append(const Errors& fold, Errors& all) {
-  const auto join = [](auto& to, const auto& from) {
-    to.insert(to.end(), from.begin(), from.end());
-  };
-  join(all.calibrated, fold.calibrated);
-  join(all.surface_only, fold.surface_only);
-  join(all.extended, fold.extended);
-  join(all.extended_and_surface, fold.extended_and_surface);
-  join(all.fixed_naming, fold.fixed_naming);
-  join(all.fixed_naming_and_surface, fold.fixed_naming_and_surface);
+  append_all(all.calibrated, fold.calibrated);
+  append_all(all.surface_only, fold.surface_only);
+  append_all(all.extended, fold.extended);
+  append_all(all.extended_and_surface, fold.extended_and_surface);
+  append_all(all.fixed_naming, fold.fixed_naming);
+  append_all(all.fixed_naming_and_surface, fold.fixed_naming_and_surface);
 }
 
 /// Which errors speak of the extension: an extension that does not help on points that it was not fitted to
@@ -128,7 +125,7 @@ AllFolds hold_out_each(const Analysis& a, const HeldOutBlocks& blocks) {
   for (std::size_t b = 0; b < folds.size(); ++b) {
     const Fold& fold = folds[b];
     all.agree += names_agree(fold, a) ? 1 : 0;
-    all.units.insert(all.units.end(), fold.units.begin(), fold.units.end());
+    append_all(all.units, fold.units);
     all.number.insert(all.number.end(), fold.units.size(), b);
     append(fold.errors, all.errors);
   }

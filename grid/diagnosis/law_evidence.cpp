@@ -202,8 +202,8 @@ class LawSearch {
       }
       if (finer.empty()) return;
       const std::vector<LawPoint> more = weighed(curve, finer);
-      points.insert(points.end(), more.begin(), more.end());
-      sort(points, [](const LawPoint& a, const LawPoint& b) { return a.at < b.at; });
+      append_all(points, more);
+      sort(points, ascending(&LawPoint::at));
     }
     curve.grid.clear();
     for (const LawPoint& point : points) curve.grid.push_back(point.at);
@@ -244,8 +244,7 @@ class LawSearch {
           chosen.push_back({c, k, {}, prior, prior + points_[c][k].weight});
       }
     }
-    stable_sort(chosen,
-                [](const Chosen& a, const Chosen& b) { return a.first_weight > b.first_weight; });
+    stable_sort(chosen, descending(&Chosen::first_weight));
     constexpr std::size_t kMostPoints = 240;
     std::size_t count = 0;
     while (count < std::min(chosen.size(), kMostPoints) &&

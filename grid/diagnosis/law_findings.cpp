@@ -19,9 +19,7 @@ void take_laws(std::vector<Law> laws, Diagnosis& d) {
       one.probability *= 1.0 - some_law;
   }
   d.hypotheses.push_back({"law", "", some_law});
-  stable_sort(d.hypotheses, [](const Hypothesis& x, const Hypothesis& y) {
-    return x.probability > y.probability;
-  });
+  stable_sort(d.hypotheses, descending(&Hypothesis::probability));
   if (claimed_law(d) != nullptr && d.causes.empty()) d.verdict = Verdict::model_discrepancy;
 }
 

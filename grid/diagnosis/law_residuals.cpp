@@ -41,7 +41,7 @@ std::vector<LawResidual> residuals_about(const Analysis& a,
       points.push_back(point);
     }
   }
-  stable_sort(points, [](const LawResidual& x, const LawResidual& y) { return x.index < y.index; });
+  stable_sort(points, ascending(&LawResidual::index));
   return points;
 }
 

@@ -2,12 +2,12 @@
 #include "grid/diagnosis/law_system.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <set>
 
 #include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -50,8 +50,8 @@ void LawSystem::take(const Eigen::MatrixXd& laws) {
   g << causes_, laws;
   marginalised_.g = RegressorColumns(std::move(g));
   Regressor law;
-  law.lowest = -std::numeric_limits<double>::infinity();
-  law.highest = std::numeric_limits<double>::infinity();
+  law.lowest = kMinusInfinity;
+  law.highest = kInfinity;
   own_.regressors = cause_regressors_;
   own_.regressors.resize(cause_regressors_.size() + as_size(laws.cols()), law);
   std::vector<int> all(own_.regressors.size());

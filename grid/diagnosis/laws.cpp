@@ -86,8 +86,8 @@ PointParameters parameters_of(const LawCurve& curve, const WeighedLaw& law) {
                           {first.variance[0], 0.0, first.variance[1]}};
       if (curve.shape == LawShape::harmonics) {
         const PointParameters second = size_and_phase(a.tail<2>(), c.bottomRightCorner<2, 2>());
-        own.value.insert(own.value.end(), second.value.begin(), second.value.end());
-        own.variance.insert(own.variance.end(), second.variance.begin(), second.variance.end());
+        append_all(own.value, second.value);
+        append_all(own.variance, second.variance);
       }
       return own;
     }

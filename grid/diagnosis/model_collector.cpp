@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
 #include "grid/containers.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -51,15 +51,14 @@ ModelCollector::ModelCollector(const RegressorSystem& system,
       marginalised_(marginalised),
       number_(number),
       options_(options),
-      noise_(options.steps.anchor_noise ? system.noise_dof : 1e-3,
-             marginalised.kept.size()),
-      best_(-std::numeric_limits<double>::infinity()) {}
+      noise_(options.steps.anchor_noise ? system.noise_dof : 1e-3, marginalised.kept.size()),
+      best_(kMinusInfinity) {}
 
 double ModelCollector::consider(const ColumnSet& set,
                                 int discrepancy,
                                 const NormalEquations& equations) {
   const SetEvidence evidence = set_evidence(equations, system_.regressors, set, noise_);
-  if (!std::isfinite(evidence.log_evidence)) return -std::numeric_limits<double>::infinity();
+  if (!std::isfinite(evidence.log_evidence)) return kMinusInfinity;
   CandidateModel model;
   for (const Eigen::Index i : set) {
     model.regressors.push_back(equations.columns[as_size(i)]);

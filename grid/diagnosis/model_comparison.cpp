@@ -38,7 +38,7 @@ std::vector<std::vector<int>> first_hypotheses(const RegressorSystem& system,
     if (options.given_cause && !(scores.causes[k] == *options.given_cause)) continue;
     if (scores.best_regressor[k] >= 0) hypotheses.push_back({scores.best_regressor[k]});
   }
-  hypotheses.insert(hypotheses.end(), options.hypotheses.begin(), options.hypotheses.end());
+  append_all(hypotheses, options.hypotheses);
   return hypotheses;
 }
 
@@ -58,9 +58,7 @@ double ModelComparison::probability(const CandidateModel& model) const {
 }
 
 void sort_by_weight(ModelComparison& comparison) {
-  stable_sort(comparison.models, [](const CandidateModel& a, const CandidateModel& b) {
-    return a.log_weight > b.log_weight;
-  });
+  stable_sort(comparison.models, descending(&CandidateModel::log_weight));
   std::vector<double> weights;
   for (const CandidateModel& model : comparison.models) weights.push_back(model.log_weight);
   comparison.log_total = log_sum(weights);

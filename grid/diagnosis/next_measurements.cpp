@@ -67,7 +67,7 @@ std::vector<NextMeasurement> most_telling(const std::vector<Alternative>& altern
     for (std::size_t c = 0; c < options.size(); ++c) {
       if (options[c].times == 0) continue;
       std::vector<Eigen::Index> more = chosen;
-      more.insert(more.end(), options[c].rows.begin(), options[c].rows.end());
+      append_all(more, options[c].rows);
       const ExpectedDiscrimination tried = expected_discrimination(alternatives, more);
       if (tried.confusion < then.confusion) {
         then = tried;
@@ -76,7 +76,7 @@ std::vector<NextMeasurement> most_telling(const std::vector<Alternative>& altern
     }
     if (best == options.size() || now.confusion - then.confusion < kPays * now.confusion) break;
     options[best].times -= 1;
-    chosen.insert(chosen.end(), options[best].rows.begin(), options[best].rows.end());
+    append_all(chosen, options[best].rows);
     // The Gaussian approximation may dip where the first points only raise doubts; more data never
     // make the right name less likely in the mean.
     reached = std::max(reached, then.named_alone);

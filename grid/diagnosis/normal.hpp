@@ -4,8 +4,9 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -32,7 +33,7 @@ namespace chaintrue::grid::diagnosis {
   }
   const double a = log_normal_upper(low);
   const double b = log_normal_upper(high);
-  return b >= a ? -std::numeric_limits<double>::infinity() : a + std::log1p(-std::exp(b - a));
+  return b >= a ? kMinusInfinity : a + std::log1p(-std::exp(b - a));
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -234,7 +234,7 @@ tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& m
   std::vector<ExtraReading> readings;
   const auto take = [&](const std::vector<ExtraReading>& of_file) {
     const auto own = predictable(of_file, stated);
-    readings.insert(readings.end(), own.begin(), own.end());
+    append_all(readings, own);
   };
   for (const MeasuredGrid* grid : measured.grids()) take(grid->readings);
   for (const MeasuredHoles* set : measured.holes()) take(set->readings);

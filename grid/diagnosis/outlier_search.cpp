@@ -9,6 +9,7 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
 #include "grid/linear_algebra.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -217,7 +218,7 @@ struct Worst {
 /// None where nothing can be rejected.
 std::optional<Worst> worst_of(const MeanShifts& shifts, const std::vector<FreeGroup>& free) {
   std::optional<Worst> worst;
-  double most = -std::numeric_limits<double>::infinity();
+  double most = kMinusInfinity;
   for (std::size_t k = 0; k < free.size(); ++k) {
     if (!shifts.is_checked(free[k])) continue;
     const double drop = shifts.drop_without(free[k]);
@@ -325,8 +326,7 @@ std::vector<std::vector<bool>> outlier_sets(const RegressorSystem& system,
       same->log_weight = std::max(same->log_weight, one.log_weight);
     }
   }
-  stable_sort(found,
-              [](const FoundSet& a, const FoundSet& b) { return a.log_weight > b.log_weight; });
+  stable_sort(found, descending(&FoundSet::log_weight));
   std::vector<std::vector<bool>> sets;
   for (const FoundSet& one : found) {
     if (sets.size() == kMostFoundSets ||

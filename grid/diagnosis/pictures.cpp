@@ -96,7 +96,7 @@ DistancePicture picture_of(const Analysis& a,
 
 template <class Picture>
 void in_order_of_files(std::vector<Picture>& pictures) {
-  sort(pictures, [](const Picture& x, const Picture& y) { return x.index < y.index; });
+  sort(pictures, ascending(&Picture::index));
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ std::vector<double> compared_at_places(const RegressorSystem& system,
   if (side != EffectSide::right) there = compared(system, variable, model::Side::left);
   if (side == EffectSide::left) return there;
   const std::vector<double> right = compared(system, variable, model::Side::right);
-  there.insert(there.end(), right.begin(), right.end());
+  append_all(there, right);
   return there;
 }
 

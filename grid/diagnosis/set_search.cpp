@@ -168,9 +168,9 @@ class SetSearch::Search {
     stable_sort(shifts, [&](int a, int b) { return explained(a) > explained(b); });
     shifts.resize(count_with_ties(shifts, kKeptShifts, explained));
     std::vector<int> likeliest = kept;
-    kept.insert(kept.end(), shifts.begin(), shifts.end());
+    append_all(kept, shifts);
     if (fixed.size() <= kKeptFixed) {
-      kept.insert(kept.end(), fixed.begin(), fixed.end());
+      append_all(kept, fixed);
       return kept;
     }
     stable_sort(likeliest, [&](int a, int b) { return explained(a) > explained(b); });

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/held_out_fold.hpp"
 #include "grid/parallel.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -55,8 +55,8 @@ std::vector<LeftOut> lines_along(const ObservationSet& session,
 }
 
 void add_by_index(std::vector<LeftOut> more, std::vector<LeftOut>& groups) {
-  sort(more, [](const LeftOut& a, const LeftOut& b) { return a.index < b.index; });
-  groups.insert(groups.end(), more.begin(), more.end());
+  sort(more, ascending(&LeftOut::index));
+  append_all(groups, more);
 }
 
 /// Each distance, and each hole with all distances that end there.
@@ -102,7 +102,7 @@ class Statement {
     double against = 0.0;
     const double best = comparison.best().log_weight;
     // Of what holds and of what does not the larger one first: neither may vanish next to the other.
-    double best_with = -std::numeric_limits<double>::infinity();
+    double best_with = kMinusInfinity;
     double best_against = best_with;
     for (const CandidateModel& model : comparison.models) {
       double& highest = holds(model) ? best_with : best_against;
@@ -138,7 +138,7 @@ std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session) {
   for (const auto& [what, coordinate] : {std::pair(Removal::What::column, &model::MarkPoint::x_mm),
                                          std::pair(Removal::What::row, &model::MarkPoint::y_mm)}) {
     const auto lines = lines_along(session, what, coordinate);
-    groups.insert(groups.end(), lines.begin(), lines.end());
+    append_all(groups, lines);
   }
   add_distances_and_holes(session, groups);
   std::erase_if(groups, [&](const LeftOut& group) {

@@ -40,7 +40,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,9 +49,10 @@
 #include "grid/estimation/residual_surface.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/progress.hpp"
-#include "model/failure.hpp"
+#include "grid/statistics.hpp"
 #include "interp/reml.hpp"
 #include "model/calibration/sheet_placement.hpp"
+#include "model/failure.hpp"
 
 namespace chaintrue::grid::estimation {
 
@@ -99,7 +99,7 @@ struct ReadingLimits {
   double rejected_beyond = 4.5;  ///< normal deviate
   double most_share = 0.12;      ///< of all readings: beyond it the rest does not judge itself
   /// None is rejected where the noise found is larger: the fit is none.
-  double most_noise = std::numeric_limits<double>::infinity();
+  double most_noise = kInfinity;
 };
 
 struct EstimationInput {

@@ -54,7 +54,7 @@ void add_free_directions(const PlacesOnSheet& places, FreeDirections& free) {
   following(Eigen::all, places.free_columns).setZero();
   const Eigen::Index before = free.constant.size();
   const Eigen::Index more = following.rows();
-  free.columns.insert(free.columns.end(), places.free_columns.begin(), places.free_columns.end());
+  append_all(free.columns, places.free_columns);
   free.constant.conservativeResize(before + more);
   free.constant.tail(more) = -linear::product(inverse, linear::product(motion, alongside(places) - places.moved));
   free.following.conservativeResize(before + more, following.cols());

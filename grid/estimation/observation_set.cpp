@@ -2,11 +2,11 @@
 #include "grid/estimation/observation_set.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 #include "grid/containers.hpp"
 #include "grid/precondition.hpp"
+#include "grid/statistics.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/chains/chain_mechanism.hpp"
 
@@ -57,8 +57,7 @@ void add_columns(ObservationSet& set) {
   set.stated_sigma = Eigen::VectorXd::Zero(columns);
   set.stated_value.head(parameters) = set.mechanism->values();
   for (Eigen::Index k = 0; k < parameters; ++k) {
-    set.stated_sigma(k) = set.mechanism->parameters()[as_size(k)].prior_sigma.value_or(
-        std::numeric_limits<double>::infinity());
+    set.stated_sigma(k) = set.mechanism->parameters()[as_size(k)].prior_sigma.value_or(kInfinity);
   }
   for (const ObservationPart& part : set.parts) {
     for (const Eigen::Index column : part.zero_columns)
@@ -96,7 +95,7 @@ ObservationSet observation_set(model::Machine stated,
     append(std::move(part), set);
   }
   add_columns(set);
-  set.noise_dof = std::numeric_limits<double>::infinity();
+  set.noise_dof = kInfinity;
   for (const ObservationPart& part : set.parts) {
     set.noise_dof = std::min(set.noise_dof, part.observation->noise_dof());
   }

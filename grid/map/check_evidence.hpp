@@ -25,12 +25,12 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "grid/map/check.hpp"
 #include "grid/map/reading_covariance.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid {
 
@@ -39,7 +39,7 @@ struct CheckReadings {
   Eigen::VectorXd residual_mm;   ///< n
   ReadingCovariance covariance;  ///< K
   /// nu; infinite: the noise is known.
-  double noise_dof = std::numeric_limits<double>::infinity();
+  double noise_dof = kInfinity;
   /// n x m N: by a change of the readings of each length at each place.
   Eigen::SparseMatrix<double> by_length;
   std::size_t lengths = 2;       ///< m

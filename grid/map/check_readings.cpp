@@ -213,7 +213,7 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
           part.error().reason,
           (files.size() > 1 ? file.name + ": " : std::string{}) + part.error().sentence()});
     }
-    marks.insert(marks.end(), part->marks.begin(), part->marks.end());
+    append_all(marks, part->marks);
     parts.push_back(*std::move(part));
   }
   const auto at = map_at(map, marks, progress);

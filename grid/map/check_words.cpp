@@ -17,8 +17,7 @@ using Quantity = model::ChangedQuantity;
 void decide(Check& check) {
   for (const CheckHypothesis& h : check.hypotheses)
     check.probability[static_cast<std::size_t>(h.verdict)] += h.probability;
-  stable_sort(check.hypotheses,
-              [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  stable_sort(check.hypotheses, descending(&CheckHypothesis::probability));
   const auto best = std::max_element(check.probability.begin(), check.probability.end());
   check.verdict = static_cast<CheckVerdict>(best - check.probability.begin());
   check.decided = *best >= kDecided;
@@ -166,7 +165,7 @@ Check judged(const CheckReadings& readings, const CheckWords& words) {
         {readings.names[as_size(k)], readings.residual_mm[k], std::sqrt(variance[k])});
   }
   check.units = readings.units;
-  stable_sort(check.units, [](const auto& a, const auto& b) { return a.index < b.index; });
+  stable_sort(check.units, ascending(&CheckUnit::index));
   check.sentence = sentence_of(check, words);
   check.not_separable = not_separable_of(check, words);
   check.notes = readings.notes;

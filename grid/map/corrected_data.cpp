@@ -102,7 +102,7 @@ tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid)
         all_of(grid.points, [](const MeasuredPoint& point) { return point.order.has_value(); });
     if (has_order) {
       Machine both = rest;
-      both.effects.insert(both.effects.end(), visit.effects.begin(), visit.effects.end());
+      append_all(both.effects, visit.effects);
       if (auto done = correct_readings(corrected.grid, both, rest); !done)
         return tl::unexpected(done.error());
       corrected.notes.push_back(

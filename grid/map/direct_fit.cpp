@@ -158,7 +158,7 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
                grid.noise ? NoiseSource::stated : NoiseSource::assumed,
                1.0};
   std::vector<HeldOutResidual> lines = columns.residuals;
-  lines.insert(lines.end(), rows.residuals.begin(), rows.residuals.end());
+  append_all(lines, rows.residuals);
   map.accuracy.leave_one_out = summarise(lines);
   const HeldOutError by_columns = summarise(columns.residuals);
   const HeldOutError by_rows = summarise(rows.residuals);

@@ -101,7 +101,7 @@ estimation::EstimationInput estimation_input(const Parts& parts) {
       for (std::size_t& unit : group) unit += units;
       input.held_out_together.push_back(std::move(group));
     }
-    readings.insert(readings.end(), part->readings.begin(), part->readings.end());
+    append_all(readings, part->readings);
     units += part->observation->units().size();
   }
   input.machine = with_readings(parts.front()->machine, readings);
@@ -199,9 +199,7 @@ std::vector<std::string> notes_of(const Parts& parts,
                                   const MapDraft& draft,
                                   const std::vector<SettingResult>& settings) {
   std::vector<std::string> notes;
-  const auto append = [&notes](const std::vector<std::string>& more) {
-    notes.insert(notes.end(), more.begin(), more.end());
-  };
+  const auto append = [&notes](const std::vector<std::string>& more) { append_all(notes, more); };
   for (const auto& part : parts) append(part->corrections);
   if (parts.size() > 1) {
     notes.push_back(
@@ -288,8 +286,7 @@ CompensationMap map_of(const std::vector<MeasuredFile>& files,
   map.settings = setting_results(fitting.input.machine, fitting.estimate, parts.front()->sheet);
   if (draft.points.empty()) {
     std::vector<FittedDistance> all;
-    for (const FittedDistances& one : draft.distances)
-      all.insert(all.end(), one.distances.begin(), one.distances.end());
+    for (const FittedDistances& one : draft.distances) append_all(all, one.distances);
     map.distances = distances_used(all, draft.tape_sigma_mm);
     map.accuracy.leave_one_out.tool = map.accuracy.leave_one_out.chain =
         map.distances->left_out_good;

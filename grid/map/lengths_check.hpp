@@ -14,13 +14,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <memory>
 #include <tl/expected.hpp>
 #include <vector>
 
 #include "grid/map/check_words.hpp"
 #include "grid/observation/belt_lengths.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid {
 
@@ -30,7 +30,7 @@ struct FittedMechanism {
   Eigen::MatrixXd covariance;  ///< of its parameters
   double length_mm = 0.0;      ///< one sigma of a length that is read
   /// Of the fit that found the noise; infinite: it is known.
-  double noise_dof = std::numeric_limits<double>::infinity();
+  double noise_dof = kInfinity;
   double position_mm = 0.0;  ///< one sigma of a known position, on each axis
 };
 

@@ -158,7 +158,7 @@ class PointsPart final : public FitPart {
       if (!point.bad) draft.good.push_back(point.mark);
       draft.map.points.push_back(point);
     }
-    draft.points.insert(draft.points.end(), points.begin(), points.end());
+    append_all(draft.points, points);
     draft.sources.push_back(
         fmt::format("{} points of {}{}",
                     points.size(),

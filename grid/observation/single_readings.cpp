@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <map>
 #include <tuple>
 #include <variant>
 
 #include "grid/containers.hpp"
 #include "grid/precondition.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::observation {
 namespace {
@@ -91,7 +91,7 @@ SingleReadings::SingleReadings(std::vector<ExtraReading> readings)
   }
 }
 
-double SingleReadings::noise_dof() const { return std::numeric_limits<double>::infinity(); }
+double SingleReadings::noise_dof() const { return kInfinity; }
 
 tl::expected<Eigen::VectorXd, Unreachable> SingleReadings::predicted(const View& view) const {
   Eigen::VectorXd all(rows());

@@ -69,8 +69,7 @@ double usual_spacing_mm(const std::vector<MarkInLine>& marks) {
 
 /// Sorted across; empty where the marks stand in none.
 std::vector<std::vector<MarkInLine>> lines_of(std::vector<MarkInLine> marks) {
-  stable_sort(marks,
-              [](const MarkInLine& a, const MarkInLine& b) { return a.across_mm < b.across_mm; });
+  stable_sort(marks, ascending(&MarkInLine::across_mm));
   const double gap_mm = kLineGapShare * usual_spacing_mm(marks);
   std::vector<std::vector<MarkInLine>> lines(1);
   for (const MarkInLine& mark : marks) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/sweep/sweep_spec.hpp"
 
 namespace chaintrue::grid::sweep {
@@ -56,7 +57,7 @@ model::Machine used_machine(const SweepSpec& spec,
                             SyntheticSpec session) {
   const UseLevel& use = spec.uses[at[2]];
   if (use.another_of_the_build) session.seed = seed_of(spec, kOtherMachineStream, repetition);
-  session.hidden.insert(session.hidden.end(), use.effects.begin(), use.effects.end());
+  append_all(session.hidden, use.effects);
   return truth_of(spec.machines[at[0]].truth, session).machine;
 }
 

@@ -200,7 +200,7 @@ void offset_setting(Machine& machine, model::SheetPlacement& sheet, const Settin
 
 Machine with_effects(const Machine& stated, const std::vector<model::AppliedEffect>& hidden) {
   Machine machine = stated;
-  machine.effects.insert(machine.effects.end(), hidden.begin(), hidden.end());
+  append_all(machine.effects, hidden);
   return machine;
 }
 
@@ -267,9 +267,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   session.grid.points = written_down(written, answer.lengths, spec, answer.bad_points);
   for (const std::size_t point : miscounted(answer.machine, visits))
     answer.bad_points.push_back(point);
-  sort(answer.bad_points);
-  answer.bad_points.erase(std::unique(answer.bad_points.begin(), answer.bad_points.end()),
-                          answer.bad_points.end());
+  sort_unique(answer.bad_points);
   return session;
 }
 

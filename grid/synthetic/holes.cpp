@@ -39,7 +39,7 @@ model::Machine hidden_truth(const model::Machine& stated, const HolesSpec& spec)
           {"chain_pitch_error", side, {{"elongation", spec.scale_sigma * random.normal()}}});
     }
   }
-  truth.effects.insert(truth.effects.end(), spec.hidden.begin(), spec.hidden.end());
+  append_all(truth.effects, spec.hidden);
   return truth;
 }
 

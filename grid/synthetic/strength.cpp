@@ -61,7 +61,7 @@ std::vector<std::vector<double>> place_choices(const Effect& effect, std::size_t
         more.push_back(other);
       }
     }
-    choices.insert(choices.end(), more.begin(), more.end());
+    append_all(choices, more);
   }
   return choices;
 }
@@ -103,7 +103,7 @@ SessionSignature signature(const Machine& stated,
                            const std::vector<AppliedEffect>& effects,
                            const std::vector<Visit>& visits) {
   Machine true_machine = stated;
-  true_machine.effects.insert(true_machine.effects.end(), effects.begin(), effects.end());
+  append_all(true_machine.effects, effects);
   const model::ReadingModel plain(stated);
   const model::MarkFrame mark_frame(true_machine);
   const model::MarkFrame stated_mark_frame(stated);
@@ -223,8 +223,7 @@ EffectStrength StrengthTable::strength(const Effect& effect, EffectSide side) co
       same->collinearity = std::max(same->collinearity, collinearity);
     }
   }
-  stable_sort(rivals,
-              [](const Rival& a, const Rival& b) { return a.collinearity > b.collinearity; });
+  stable_sort(rivals, descending(&Rival::collinearity));
   double needed = kDetectableSignalToNoise;
   for (const Rival& rival : rivals) {
     if (rival.collinearity >= kInseparable) {

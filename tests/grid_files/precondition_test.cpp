@@ -15,13 +15,13 @@
 #include "grid/planning/holes_plan.hpp"
 #include "grid/planning/measurement_plan.hpp"
 #include "grid/random.hpp"
+#include "grid/statistics.hpp"
 #include "grid/synthetic/strength.hpp"
 
 namespace chaintrue::grid {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::string words_of(const std::function<void()>& call) {
   try {
