@@ -60,8 +60,10 @@ std::optional<std::vector<double>> numbers(const Cursor& at,
                                            const Range& range) {
   auto found = list(number(range)).read(at);
   if (found && found->size() != count) {
-    at.problems().add(
-        at.pointer(), fmt::format("{} of them", found->size()), fmt::format("{} numbers", count));
+    at.problems().add(at.pointer(),
+                      fmt::format("{} of them", found->size()),
+                      fmt::format("{} numbers", count),
+                      ProblemKind::wrong_count);
     return std::nullopt;
   }
   return found;
@@ -106,7 +108,10 @@ void read_coordinates(const Cursor& at, BeltsFit& fit) {
   const auto found = list(object(fitted_coordinate_record())).read(at);
   if (!found) return;
   if (found->size() != fit.coordinates.size()) {
-    at.problems().add(at.pointer(), fmt::format("{} of them", found->size()), "five coordinates");
+    at.problems().add(at.pointer(),
+                      fmt::format("{} of them", found->size()),
+                      "five coordinates",
+                      ProblemKind::wrong_count);
     return;
   }
   std::copy(found->begin(), found->end(), fit.coordinates.begin());
@@ -153,7 +158,7 @@ const Record<StatedBeltPrediction>& both_predictions_record() {
 void check_cause(const Cursor& at, CauseInAnchorFit& cause) {
   const std::vector<model::AppliedEffect> applied = {{cause.effect, cause.side, cause.parameters}};
   for (const model::MachineProblem& problem : model::belts::problems_of(applied))
-    at.problems().add(at.pointer() + problem.parameter.substr(2), problem.value, problem.expected);
+    at.problems().add(at.pointer() + problem.parameter.substr(2), problem);
 }
 
 const Record<CauseInAnchorFit>& cause_in_fit_record() {

@@ -67,14 +67,16 @@ void check_orders(const MeasuredBelts& belts, const BeltPlaces& places, Problems
       problems.add(
           places.point(i, "order"),
           "",
-          fmt::format("an order for every point or for none; {} points have one", with_order));
+          fmt::format("an order for every point or for none; {} points have one", with_order),
+          ProblemKind::missing);
       continue;
     }
     const auto [other, is_new] = first_with.emplace(*order, i);
     if (!is_new) {
       problems.add(places.point(i, "order"),
                    fmt::format("{}", *order),
-                   fmt::format("another number than that of {}", places.point(other->second, "")));
+                   fmt::format("another number than that of {}", places.point(other->second, "")),
+                   ProblemKind::repeated_value);
     }
   }
 }
@@ -100,7 +102,8 @@ void check_twice(const MeasuredBelts& belts, const BeltPlaces& places, Problems&
         lengths_in_words(belts.points[i]),
         fmt::format("a reading of its own: {} has the same four lengths to the last digit; "
                     "leave one of the two out",
-                    same));
+                    same),
+        ProblemKind::repeated_value);
   }
 }
 
@@ -113,7 +116,8 @@ void check_pulled(const MeasuredBelts& belts, const BeltPlaces& places, Problems
       problems.add(places.point(i, "pulled"),
                    std::string(name(belt)),
                    "bl and br alone: on an upright frame tl and tr hold the sled and are never "
-                   "pulled; if the frame lies flat, say \"orientation\": \"flat\"");
+                   "pulled; if the frame lies flat, say \"orientation\": \"flat\"",
+                   ProblemKind::contradiction);
     }
   }
 }
@@ -127,7 +131,8 @@ void check_pulls(const MeasuredBelts& belts, const BeltPlaces& places, Problems&
                  own ? words_of(*own) : "no pull",
                  fmt::format("a pull as point 1 has it ({}): all points say how hard belts were "
                              "pulled, in one unit (pull_n, pull_ma or pull), or none does",
-                             first ? words_of(*first) : "none"));
+                             first ? words_of(*first) : "none"),
+                 ProblemKind::contradiction);
     return;
   }
 }
@@ -155,7 +160,8 @@ void check_swap(const MeasuredBelts& belts, const BeltPlaces& places, Problems& 
               ? std::string("make a mirror image of the frame")
               : fmt::format("contradict each other by {}{:.0f} mm",
                             swap->as_stated_mm > kMostReported ? "more than " : "",
-                            std::min(swap->as_stated_mm, kMostReported))));
+                            std::min(swap->as_stated_mm, kMostReported))),
+      ProblemKind::sides_swapped);
 }
 
 void check_settings(const MeasuredBelts& belts,
@@ -177,7 +183,8 @@ void check_settings(const MeasuredBelts& belts,
               ? fmt::format(", and where the machine was sent its upper belts read {:.0f} mm "
                             "off what these anchors have",
                             other->upper_mm)
-              : ""));
+              : ""),
+      ProblemKind::contradiction);
 }
 
 void check_readings(const MeasuredBelts& belts,
@@ -192,7 +199,8 @@ void check_readings(const MeasuredBelts& belts,
                  fmt::format("{:.10g}", belts.distances[asked.distance].distance_mm),
                  fmt::format("about {:.0f}, as the lengths of the belts have it; {}",
                              asked.by_belts_mm,
-                             asked.question));
+                             asked.question),
+                 ProblemKind::contradiction);
   }
 }
 
@@ -206,7 +214,8 @@ void check_nowhere(const MeasuredBelts& belts,
                  fmt::format("four lengths that end at one place; with the anchors that the other "
                              "points make, the best place is off by {:.0f} mm: is a digit lost, or "
                              "is it of another frame? Correct it or leave the point out",
-                             nowhere.residual_mm));
+                             nowhere.residual_mm),
+                 ProblemKind::contradiction);
   }
 }
 
@@ -234,20 +243,25 @@ void check_belt_distances(const MeasuredBelts& belts,
         problems.add(
             place(key),
             fmt::format("{}", *index),
-            fmt::format("a point of this file, counted from 0: 0 to {}", belts.points.size() - 1));
+            fmt::format("a point of this file, counted from 0: 0 to {}", belts.points.size() - 1),
+            ProblemKind::out_of_range);
       }
       if (std::holds_alternative<CutHole>(end) && !belts.machine.anchors_known) {
         problems.add(
             place(key),
             words_of(end),
             "a point or an anchor; where a hole is follows from the anchors in force when it "
-            "was cut, and the machine states no x_mm and y_mm of them");
+            "was cut, and the machine states no x_mm and y_mm of them",
+            ProblemKind::unknown_word);
       }
     };
     check(distance.from, "from");
     check(distance.to, "to");
     if (words_of(distance.from) == words_of(distance.to)) {
-      problems.add(place("to"), words_of(distance.to), "another end than the one it starts at");
+      problems.add(place("to"),
+                   words_of(distance.to),
+                   "another end than the one it starts at",
+                   ProblemKind::repeated_value);
     }
   }
 }
@@ -296,17 +310,20 @@ bool check_belts_together(const MeasuredBelts& belts,
                  found,
                  fmt::format("at least {}, of which {} checks of the anchors are left over",
                              kFewestBeltPoints,
-                             2 * kFewestBeltPoints - 5));
+                             2 * kFewestBeltPoints - 5),
+                 ProblemKind::too_few);
   } else if (reason == Reason::not_determined) {
     problems.add(
         places.points,
         found + " on a line",
         "places spread over the sheet's width and height: on a line, or in one spot, they do "
-        "not tell where the anchors are");
+        "not tell where the anchors are",
+        ProblemKind::on_a_line);
   } else {
     problems.add(places.points,
                  found + " of no frame",
-                 fmt::format("lengths of one frame; {}", fit.error().sentence()));
+                 fmt::format("lengths of one frame; {}", fit.error().sentence()),
+                 ProblemKind::contradiction);
   }
   return false;
 }

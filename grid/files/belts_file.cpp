@@ -39,7 +39,8 @@ void move_ends(const std::vector<std::optional<std::size_t>>& kept,
             fmt::format("/distances/{}", i),
             words_of(*end),
             "a point that counts: it is left out by --without; leave the distance out of the "
-            "file, or the point in");
+            "file, or the point in",
+            ProblemKind::contradiction);
         return;
       }
       *index = *kept[*index];
@@ -52,7 +53,8 @@ void leave_out(const std::vector<std::size_t>& without, MeasuredBelts& belts, Pr
     if (number <= belts.points.size()) continue;
     problems.add("--without",
                  fmt::format("{}", number),
-                 fmt::format("points of this file, counted from 1: 1 to {}", belts.points.size()));
+                 fmt::format("points of this file, counted from 1: 1 to {}", belts.points.size()),
+                 ProblemKind::out_of_range);
   }
   problems.throw_if_any();
   const auto kept = places_kept(belts.points.size(), without);

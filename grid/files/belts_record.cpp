@@ -60,7 +60,8 @@ void read_anchors(const Cursor& at, BeltMachine& machine) {
   if (known != 0 && known != 8 && at.clean()) {
     at.problems().add(at.pointer(),
                       fmt::format("{} of eight coordinates", known),
-                      "x_mm and y_mm of all four anchors, or of none where they are not known yet");
+                      "x_mm and y_mm of all four anchors, or of none where they are not known yet",
+                      ProblemKind::missing);
   }
 }
 
@@ -90,8 +91,7 @@ void check_machine(const Cursor& at, BeltMachine& machine) {
   for (const model::MachineProblem& problem : model::problems_of(machine)) {
     const std::string place = at.pointer() + problem.parameter;
     // A field that could not be read keeps its default, which needs no check.
-    if (!at.problems().at_or_below(place))
-      at.problems().add(place, problem.value, problem.expected);
+    if (!at.problems().at_or_below(place)) at.problems().add(place, problem);
   }
 }
 

@@ -146,20 +146,25 @@ std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& p
     if (line.size() > kLongestLine) {
       problems.add(line_and_column(number, 1),
                    "a longer line",
-                   fmt::format("lines of at most {} characters", kLongestLine));
+                   fmt::format("lines of at most {} characters", kLongestLine),
+                   ProblemKind::too_many);
       problems.throw_if_any();
     }
     bool quote_left_open = false;
     CsvRow row = csv_cells_of(line, separator, quote_left_open);
     for (CsvCell& cell : row) cell.line = number;
     if (quote_left_open) {
-      problems.add(line_and_column(number, 1), line, "a closing quote on the same line");
+      problems.add(line_and_column(number, 1),
+                   line,
+                   "a closing quote on the same line",
+                   ProblemKind::bad_syntax);
     }
     cells += row.size();
     if (cells > kMostCells) {
       problems.add(line_and_column(number, 1),
                    "more cells",
-                   fmt::format("a table of at most {} cells", kMostCells));
+                   fmt::format("a table of at most {} cells", kMostCells),
+                   ProblemKind::too_many);
       problems.throw_if_any();
     }
     rows.push_back(std::move(row));

@@ -153,8 +153,10 @@ std::vector<std::optional<double>> read_row(const CsvRow& row,
     if (!cells[c].text.empty()) {
       values[c] = number_in_unit(cells[c], index[c].factor, column.name, column.range, problems);
     } else if (column.is_required && !column.may_be_blank) {
-      problems.add(
-          cells[c].place(), "", fmt::format("{} ({})", column.range.expected(), column.name));
+      problems.add(cells[c].place(),
+                   "",
+                   fmt::format("{} ({})", column.range.expected(), column.name),
+                   ProblemKind::left_blank);
     }
   }
   return values;

@@ -2,6 +2,8 @@
 // The results from belts in a chaintrue_diagnosis file.
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/record_values.hpp"
@@ -82,7 +84,10 @@ void read_diagnosed_coordinates(const Cursor& at, BeltsFindings& found) {
   const auto read = list(object(diagnosed_coordinate_record())).read(at);
   if (!read) return;
   if (read->size() != found.coordinates.size()) {
-    at.problems().add(at.pointer(), fmt::format("{} of them", read->size()), "five coordinates");
+    at.problems().add(at.pointer(),
+                      fmt::format("{} of them", read->size()),
+                      "five coordinates",
+                      ProblemKind::wrong_count);
     return;
   }
   std::copy(read->begin(), read->end(), found.coordinates.begin());

@@ -211,7 +211,8 @@ void check_diagnosis(const Cursor& at, Diagnosis& object) {
     at.problems().add(
         at.child("causes").pointer(),
         "none",
-        fmt::format("at least one cause with the verdict \"{}\"", diagnosis::name(object.verdict)));
+        fmt::format("at least one cause with the verdict \"{}\"", diagnosis::name(object.verdict)),
+        ProblemKind::missing);
   }
 }
 

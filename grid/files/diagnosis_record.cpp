@@ -170,7 +170,8 @@ void parameter_keys(Record<T>& record) {
         at.problems().add(
             at.child("parameters").pointer() + "/" + pointer_token(estimate.parameter),
             estimate.parameter,
-            fmt::format("a parameter of {}: {}", object.cause.effect->id, joined(names)));
+            fmt::format("a parameter of {}: {}", object.cause.effect->id, joined(names)),
+            ProblemKind::unknown_word);
       }
     }
   });

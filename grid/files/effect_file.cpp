@@ -64,7 +64,7 @@ void add_problems(const std::string& text,
       if (const auto begin = text_of_key(text, problem.place.substr(1)))
         place = line_and_column_of(text, in_file(text, *begin, *problem.offset));
     }
-    problems.add(std::move(place), problem.value, problem.expected);
+    problems.add(std::move(place), problem.value, problem.expected, ProblemKind::bad_declaration);
   }
 }
 
@@ -82,7 +82,10 @@ void declare(const EffectText& source, model::Machine& machine, Problems& proble
   // The same once more is no other.
   if (known != machine.declared.end() && *known == &effect) return;
   if (known != machine.declared.end()) {
-    problems.add("/id", effect.id, "a name that no other effect has: two of one name are declared");
+    problems.add("/id",
+                 effect.id,
+                 "a name that no other effect has: two of one name are declared",
+                 ProblemKind::repeated_value);
     return;
   }
   const std::string& instead_of = declaration_of(effect)->instead_of;
@@ -91,8 +94,10 @@ void declare(const EffectText& source, model::Machine& machine, Problems& proble
         return !instead_of.empty() && declaration_of(*other)->instead_of == instead_of;
       });
   if (taken) {
-    problems.add(
-        "/instead_of", instead_of, "an effect of the catalogue that no other effect replaces");
+    problems.add("/instead_of",
+                 instead_of,
+                 "an effect of the catalogue that no other effect replaces",
+                 ProblemKind::repeated_value);
     return;
   }
   add_problems(source.text, problems_on_bed(*declaration_of(effect), machine), problems);

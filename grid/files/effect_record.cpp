@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/effect_record.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -101,7 +103,7 @@ void add_problems(const Cursor& at, const std::vector<DeclarationProblem>& found
   for (const DeclarationProblem& problem : found) {
     std::string place = at.pointer() + problem.place;
     if (problem.offset) place += fmt::format(", column {} of the formula", *problem.offset + 1);
-    at.problems().add(std::move(place), problem.value, problem.expected);
+    at.problems().add(std::move(place), problem.value, problem.expected, ProblemKind::bad_declaration);
   }
 }
 

@@ -21,8 +21,10 @@ bool is_fluidnc(const std::string& text) {
 ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
   Problems problems(file);
   if (!is_fluidnc(text)) {
-    problems.add(
-        "", "no WallPlotter", "kinematics: WallPlotter: with its anchors, as FluidNC has it");
+    problems.add("",
+                 "no WallPlotter",
+                 "kinematics: WallPlotter: with its anchors, as FluidNC has it",
+                 ProblemKind::missing);
     problems.throw_if_any();
   }
   SettingReader settings(yaml_texts(text), problems);

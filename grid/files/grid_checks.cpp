@@ -28,20 +28,24 @@ void check_parts(const StatedPoint& point, const std::string& place, Problems& p
   if (any_length && any_command) {
     problems.add(place,
                  "both lengths and a command",
-                 "either left_mm and right_mm, or commanded_x_mm and commanded_y_mm");
+                 "either left_mm and right_mm, or commanded_x_mm and commanded_y_mm",
+                 ProblemKind::contradiction);
   } else if (any_length && !lengths) {
     problems.add(place,
                  point.left_mm ? "left_mm without right_mm" : "right_mm without left_mm",
-                 "both lengths");
+                 "both lengths",
+                 ProblemKind::missing);
   } else if (any_command && !command) {
     problems.add(place,
                  point.commanded_x_mm ? "commanded_x_mm without commanded_y_mm"
                                       : "commanded_y_mm without commanded_x_mm",
-                 "both coordinates of the command");
+                 "both coordinates of the command",
+                 ProblemKind::missing);
   } else if (!any_length && !any_command) {
     problems.add(place,
                  "neither lengths nor a command",
-                 "left_mm and right_mm, or commanded_x_mm and commanded_y_mm");
+                 "left_mm and right_mm, or commanded_x_mm and commanded_y_mm",
+                 ProblemKind::missing);
   }
 }
 
@@ -62,7 +66,8 @@ void check_orders(const std::vector<StatedPoint>& points,
           "",
           fmt::format(
               "the number of the visit, as {} other points have it; all points have it or none",
-              with_order));
+              with_order),
+          ProblemKind::missing);
       continue;
     }
     const auto [other, is_new] = first_with.emplace(*points[i].order, i);
@@ -70,7 +75,8 @@ void check_orders(const std::vector<StatedPoint>& points,
       problems.add(places.of(i, "order"),
                    fmt::format("{}", *points[i].order),
                    fmt::format("a number of its own for each visit; {} has the same",
-                               places.of(other->second, "")));
+                               places.of(other->second, "")),
+                   ProblemKind::repeated_value);
     }
   }
 }
@@ -346,7 +352,8 @@ void check_points_together(const MeasuredGrid& grid,
     problems.add(places.all,
                  "commanded positions, but no machine",
                  "a machine with the controller that was commanded (\"machine\", \"machine_file\" "
-                 "or --machine)");
+                 "or --machine)",
+                 ProblemKind::missing);
   }
   if (count == 0 || check_entries(grid, places, problems)) return;
   const bool is_tiny = count >= kSpanFrom && warn_of_a_tiny_area(grid, places, problems);
@@ -355,7 +362,8 @@ void check_points_together(const MeasuredGrid& grid,
     problems.add(places.all,
                  fmt::format("points within {:.3g} mm of one line", width),
                  std::string("points that span an area, as a map of the bed needs") +
-                     (is_tiny ? "; are they in inches?" : ""));
+                     (is_tiny ? "; are they in inches?" : ""),
+                 ProblemKind::on_a_line);
   }
 }
 

@@ -211,7 +211,8 @@ void take_blanks(
   const Range& range = commanded ? kCoordinate : kLength;
   problems.add(table.cells[i][missing].place(),
                "",
-               fmt::format("{} ({}), or both left blank", range.expected(), kNames[missing]));
+               fmt::format("{} ({}), or both left blank", range.expected(), kNames[missing]),
+               ProblemKind::left_blank);
 }
 
 ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Problems& problems) {
@@ -248,14 +249,17 @@ ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Pro
       } else {
         point.is_spoilt = true;
         const CsvCell& cell = table.cells[i][kOrder];
-        problems.add(cell.place(), cell.text, "a whole number (order)");
+        problems.add(cell.place(), cell.text, "a whole number (order)", ProblemKind::not_a_number);
       }
     }
     stated.points.push_back(point);
   }
   if (table.rows.empty()) {
     if (!problems.any())
-      problems.add("", "a header line only", "at least one line of numbers below it");
+      problems.add("",
+                   "a header line only",
+                   "at least one line of numbers below it",
+                   ProblemKind::empty_file);
     problems.throw_if_any();
   }
   const PointPlaces places{"the points",

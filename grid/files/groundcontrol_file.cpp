@@ -337,7 +337,8 @@ ReadMachine machine_of_settings(SettingTexts texts, Tolerances tolerances, Probl
   if (const auto teeth = numbers.at("gearteeth"); teeth && *teeth != std::floor(*teeth)) {
     problems.add(settings.look("gearteeth")->place,
                  fmt::format("{}", *teeth),
-                 "a whole number (gearteeth)");
+                 "a whole number (gearteeth)",
+                 ProblemKind::out_of_range);
   }
   const double more_by_encoder_turn = more_by_encoder(settings, problems);
   const auto chain_mm = settings.find("chainlength", {"mm", 100.0, 40000.0});

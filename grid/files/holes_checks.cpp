@@ -97,7 +97,8 @@ void check_apart(const MeasuredHoles& set, const HolesPlaces& places, Problems& 
                              "as hole {}: is a minus missing at one of them?",
                              kLeastMm,
                              set.holes[distance.from].name,
-                             set.holes[distance.to].name));
+                             set.holes[distance.to].name),
+                 ProblemKind::out_of_range);
   }
 }
 
@@ -148,7 +149,8 @@ void check_triangles(const MeasuredHoles& set,
                       set.distances[sides[1]].distance_mm,
                       words_of(set, set.distances[sides[2]]),
                       set.distances[sides[2]].distance_mm,
-                      question));
+                      question),
+          ProblemKind::contradiction);
     }
   }
 }
@@ -207,7 +209,8 @@ void check_enough(const MeasuredHoles& set,
                                   2 * ((fewest + 4) / 2) - 3);
   problems.add(places.distances,
                fmt::format("{} independent distance{}", independent, independent == 1 ? "" : "s"),
-               expected);
+               expected,
+               ProblemKind::too_few);
 }
 
 /// Without the offset the map would be distorted by the same amount.
@@ -241,7 +244,8 @@ void check_tape_zero(const MeasuredHoles& set,
                found,
                fmt::format("the tape's hook offset, since the short ones are off like the long "
                            "ones: {}; 0 if they are right as they are",
-                           state));
+                           state),
+               ProblemKind::constant_offset);
 }
 
 }  // namespace
@@ -314,14 +318,16 @@ void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& 
     if (holes[i].name.empty()) holes[i].name = fmt::format("{}", i);
     const std::string& name = holes[i].name;
     if (edge_of(name)) {
-      problems.add(places.hole(i), name, "a name that is no edge of the sheet");
+      problems.add(
+          places.hole(i), name, "a name that is no edge of the sheet", ProblemKind::repeated_value);
     }
     const auto [other, is_new] = first.emplace(name, i);
     if (!is_new) {
       problems.add(places.hole(i),
                    name,
                    fmt::format("a name of its own for each hole; {} has the same",
-                               places.hole(other->second)));
+                               places.hole(other->second)),
+                   ProblemKind::repeated_value);
     }
   }
 }
@@ -343,17 +349,22 @@ std::vector<HoleDistance> resolved_distances(const std::vector<StatedDistance>& 
       if (!start) {
         problems.add(places.distance(i, "from"),
                      from.from,
-                     fmt::format("a hole that was cut: {}", names_of(holes)));
+                     fmt::format("a hole that was cut: {}", names_of(holes)),
+                     ProblemKind::unknown_word);
       }
       if (!end && !distance.edge) {
         problems.add(places.distance(i, "to"),
                      from.to,
                      fmt::format("a hole that was cut ({}) or an edge of the sheet (left, right, "
                                  "top, bottom)",
-                                 names_of(holes)));
+                                 names_of(holes)),
+                     ProblemKind::unknown_word);
       }
       if (start && end && *start == *end) {
-        problems.add(places.distance(i, "to"), from.to, "another hole than the distance starts at");
+        problems.add(places.distance(i, "to"),
+                     from.to,
+                     "another hole than the distance starts at",
+                     ProblemKind::repeated_value);
       }
       distance.from = start.value_or(0);
       distance.to = distance.edge ? distance.from : end.value_or(0);

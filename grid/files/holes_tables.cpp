@@ -42,7 +42,8 @@ void check_header(const CsvRow& row,
                joined(found),
                fmt::format("the columns {}; {}",
                            fmt::join(std::begin(names), std::end(names), ","),
-                           kLengthsBetween));
+                           kLengthsBetween),
+               ProblemKind::bad_table);
 }
 
 /// Cells beyond the row's end read as empty, at the row's first cell.
@@ -58,7 +59,8 @@ double required_number(const CsvCell& cell,
                        const Range& range,
                        Problems& problems) {
   if (cell.text.empty()) {
-    problems.add(cell.place(), "", fmt::format("{} ({})", range.expected(), name));
+    problems.add(
+        cell.place(), "", fmt::format("{} ({})", range.expected(), name), ProblemKind::left_blank);
     return 0.0;
   }
   return checked_number(cell.text, cell.place(), name, range, problems).value_or(0.0);
@@ -160,7 +162,8 @@ HolesTables read_holes_tables(const std::string& text, double tape_unit, Problem
       problems.add(row.front().place(),
                    row.front().text,
                    "a header line first: hole,x_mm,y_mm for the holes, or "
-                   "from,to,distance_mm,sigma_mm for the distances");
+                   "from,to,distance_mm,sigma_mm for the distances",
+                   ProblemKind::bad_table);
       break;
     }
   }
@@ -169,7 +172,8 @@ HolesTables read_holes_tables(const std::string& text, double tape_unit, Problem
                  stated.holes.empty() ? "no holes" : "no distances",
                  fmt::format("two tables: lines below hole,x_mm,y_mm, and lines below "
                              "from,to,distance_mm,sigma_mm; {}",
-                             kLengthsBetween));
+                             kLengthsBetween),
+                 ProblemKind::missing);
   }
   problems.throw_if_any();
   HolesPlaces places{

@@ -224,7 +224,10 @@ class Builder : public nlohmann::json_sax<Json> {
 
   [[nodiscard]] bool has_room() {
     if (++values_ <= kMostValues) return true;
-    problems_.add(pointer(), "more values", fmt::format("at most {} values", kMostValues));
+    problems_.add(pointer(),
+                  "more values",
+                  fmt::format("at most {} values", kMostValues),
+                  ProblemKind::too_many);
     return false;
   }
 
@@ -237,7 +240,10 @@ class Builder : public nlohmann::json_sax<Json> {
   bool open(Json&& value) {
     if (!has_room()) return false;
     if (open_.size() == kDeepest) {
-      problems_.add(pointer(), "deeper nesting", fmt::format("at most {} levels", kDeepest));
+      problems_.add(pointer(),
+                    "deeper nesting",
+                    fmt::format("at most {} levels", kDeepest),
+                    ProblemKind::too_many);
       return false;
     }
     Level level;

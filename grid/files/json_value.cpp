@@ -108,7 +108,10 @@ class ListCodec : public Codec {
     // An element that was wrong and reported keeps its index, so that later indices are right.
     for (std::size_t i = 0; i < count; ++i) element_->read(at.element(i), access_.append(list));
     if (count < fewest_)
-      at.problems().add(at.pointer(), fmt::format("{} of them", count), expected().words);
+      at.problems().add(at.pointer(),
+                        fmt::format("{} of them", count),
+                        expected().words,
+                        ProblemKind::wrong_count);
     return true;
   }
   [[nodiscard]] Json write(const void* list) const override {
@@ -150,7 +153,7 @@ void Cursor::expect(std::string expected, ProblemKind kind) const {
 }
 
 void Cursor::missing(std::string expected) const {
-  problems_->add(pointer(), "", std::move(expected));
+  problems_->add(pointer(), "", std::move(expected), ProblemKind::missing);
 }
 
 std::optional<double> Cursor::number(const Range& range) const {

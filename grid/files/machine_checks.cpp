@@ -36,7 +36,8 @@ void check_bed(const model::Machine& machine, Problems& problems) {
                              machine.motors.right.x_mm,
                              -half,
                              half),
-                 "motors beyond either side of the bed");
+                 "motors beyond either side of the bed",
+                 ProblemKind::impossible);
     return;
   }
   const auto kinematics = model::make_kinematics(model::equilibrium_parameters(machine));
@@ -49,7 +50,8 @@ void check_bed(const model::Machine& machine, Problems& problems) {
                                place.x_mm,
                                place.y_mm,
                                pose.error().sentence()),
-                   "a bed under the motors that the sled reaches");
+                   "a bed under the motors that the sled reaches",
+                   ProblemKind::impossible);
       return;
     }
     const double pull_n = std::max(pose->chains.left.tension_at_sprocket_n,
@@ -58,7 +60,8 @@ void check_bed(const model::Machine& machine, Problems& problems) {
     problems.add("the machine's motors",
                  fmt::format("a pull of {:.0f} N at the {} of the bed", pull_n, name),
                  fmt::format("motors so high above the bed that no chain pulls more than {:.0f} N",
-                             kMostPullN));
+                             kMostPullN),
+                 ProblemKind::impossible);
     return;
   }
 }
@@ -67,8 +70,7 @@ void check_bed(const model::Machine& machine, Problems& problems) {
 
 void check_geometry(const model::Machine& machine, Problems& problems) {
   for (const model::MachineProblem& problem : model::problems_of(machine)) {
-    problems.add(
-        fmt::format("the machine's {}", problem.parameter), problem.value, problem.expected);
+    problems.add(fmt::format("the machine's {}", problem.parameter), problem);
   }
   if (!problems.any()) check_bed(machine, problems);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/machine_file.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "grid/files/effect_record.hpp"
@@ -229,14 +231,13 @@ void check_machine(const Cursor& at, Machine& machine) {
   for (const model::MachineProblem& problem : model::problems_of(machine)) {
     const std::string place = at.pointer() + problem.parameter;
     // A field that could not be read keeps its default, which needs no check.
-    if (!at.problems().at_or_below(place))
-      at.problems().add(place, problem.value, problem.expected);
+    if (!at.problems().at_or_below(place)) at.problems().add(place, problem);
   }
   // The sums of effects and machine are checked only if the machine itself is valid.
   if (!at.clean()) return;
   check_declared_on_bed(at.child("declared_effects"), machine);
   for (const model::MachineProblem& problem : model::effects::problems_of_effects(machine)) {
-    at.problems().add(at.pointer() + problem.parameter, problem.value, problem.expected);
+    at.problems().add(at.pointer() + problem.parameter, problem);
   }
 }
 
@@ -247,7 +248,8 @@ void refuse_emptiness(const std::string& text, Problems& problems) {
     return;
   problems.add("",
                "an empty machine",
-               "a machine; chaintrue start writes one to fill in, with every key explained");
+               "a machine; chaintrue start writes one to fill in, with every key explained",
+               ProblemKind::missing);
   problems.throw_if_any();
 }
 

@@ -29,7 +29,7 @@ class Settings {
         reader_(options.settings ? yaml_texts(*options.settings) : SettingTexts{}, problems_),
         assumed_(assumed) {
     if (options.settings && yaml_texts(*options.settings).empty()) {
-      problems_.add("", "no settings", "the machine's maslow.yaml");
+      problems_.add("", "no settings", "the machine's maslow.yaml", ProblemKind::missing);
     }
   }
 
@@ -145,12 +145,16 @@ void check_choice(const Maslow4Options& options,
   const int* const run = chosen_run(options);
   const PointRange* const points = chosen_points(options);
   if (run != nullptr && (*run < 1 || static_cast<std::size_t>(*run) > runs.size())) {
-    problems.add("--runs", fmt::format("{}", *run), fmt::format("a run of this file, 1 to {}", runs.size()));
+    problems.add("--runs",
+                 fmt::format("{}", *run),
+                 fmt::format("a run of this file, 1 to {}", runs.size()),
+                 ProblemKind::out_of_range);
   }
   if (points != nullptr && points->last > runs.back().points.last) {
     problems.add("--runs",
                  fmt::format("{}:{}", points->first, points->last),
-                 fmt::format("first and last of this file's points, 0:{}", runs.back().points.last));
+                 fmt::format("first and last of this file's points, 0:{}", runs.back().points.last),
+                 ProblemKind::out_of_range);
   }
 }
 
@@ -208,13 +212,15 @@ void report_nothing(const ScannedLog& log, const model::BeltMachine& machine, Pr
     none.machine = machine;
     problems.add(fmt::format("line {}", log.stopped->line),
                  log.stopped->said.empty() ? "the log's end" : log.stopped->said,
-                 "a list of readings, CLBM:[...]. " + words_of(*log.stopped, none));
+                 "a list of readings, CLBM:[...]. " + words_of(*log.stopped, none),
+                 ProblemKind::missing);
     return;
   }
   problems.add("",
                "no readings",
                "a log of Find Anchors, or a list of readings: "
-               "{bl:2960.58, br:3150.08, tr:3067.72, tl:3049.85}");
+               "{bl:2960.58, br:3150.08, tr:3067.72, tl:3049.85}",
+               ProblemKind::missing);
 }
 
 /// The runs with places, each of one frame.
@@ -296,8 +302,7 @@ Maslow4Import parse_maslow4(const std::string& text,
     problems.add_all(error);
   }
   for (const model::MachineProblem& problem : model::problems_of(result.belts.machine)) {
-    problems.add(
-        fmt::format("the settings' {}", problem.parameter), problem.value, problem.expected);
+    problems.add(fmt::format("the settings' {}", problem.parameter), problem);
   }
   // What a run looks like, a machine that cannot be does not say.
   problems.throw_if_any();

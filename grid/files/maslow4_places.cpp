@@ -139,7 +139,7 @@ void report_unreadable(const ScannedRun& run,
   for (std::size_t i = within.first; i <= within.last; ++i) {
     for (const InputProblem& problem : run.points[i].problems) {
       if (readable < kFewestBeltPoints) {
-        problems.add(problem.place, problem.value, problem.expected);
+        problems.add(problem.place, problem.value, problem.expected, problem.kind);
       } else if (&problem == &run.points[i].problems.front()) {
         left_out.push_back({problem.file,
                             problem.place,

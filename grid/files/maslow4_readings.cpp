@@ -86,7 +86,10 @@ std::optional<ScannedReading> ReadingReader::read(const std::string& text, End e
     const auto belt = model::belt_of(unquoted(part.substr(0, colon)));
     if (!belt) continue;
     if (known[*belt]) {
-      problems.add(place, std::string(unquoted(part)), "each belt once in a reading");
+      problems.add(place,
+                   std::string(unquoted(part)),
+                   "each belt once in a reading",
+                   ProblemKind::repeated_value);
       continue;
     }
     known[*belt] = true;
@@ -103,11 +106,13 @@ std::optional<ScannedReading> ReadingReader::read(const std::string& text, End e
       problems.add(
           place,
           whole,
-          fmt::format("a length of {} as well: a reading has tl, tr, bl and br", name(belt)));
+          fmt::format("a length of {} as well: a reading has tl, tr, bl and br", name(belt)),
+          ProblemKind::missing);
     }
   }
   if (end == End::lost && !problems.any())
-    problems.add(place, whole, "the whole reading: the log ends in the middle of it");
+    problems.add(
+        place, whole, "the whole reading: the log ends in the middle of it", ProblemKind::missing);
   ScannedReading reading;
   reading.line = line_;
   reading.problems = problems.list();

@@ -34,9 +34,13 @@ void check_shape(const std::vector<CsvRow>& rows, Problems& problems) {
   const std::string expected = fmt::format(
       "two blocks of {} lines with {} numbers, an empty line between them", kRows, kColumns);
   if (rows.size() != kLines) {
-    problems.add("", fmt::format("{} lines of numbers", rows.size()), expected);
+    problems.add(
+        "", fmt::format("{} lines of numbers", rows.size()), expected, ProblemKind::bad_table);
   } else if (rows[kRows].front().line == rows[kRows - 1].front().line + 1) {
-    problems.add(line_and_column(rows[kRows].front().line, 1), "no empty line before it", expected);
+    problems.add(line_and_column(rows[kRows].front().line, 1),
+                 "no empty line before it",
+                 expected,
+                 ProblemKind::bad_table);
   }
 }
 
@@ -47,7 +51,8 @@ void check_width(const CsvRow& row, char separator, Problems& problems) {
                fmt::format("{} numbers", row.size()),
                fmt::format("{} numbers{}",
                            kColumns,
-                           doubled ? " with decimal points; these look like decimal commas" : ""));
+                           doubled ? " with decimal points; these look like decimal commas" : ""),
+               ProblemKind::bad_table);
 }
 
 Blocks read_blocks(const std::string& text, Problems& problems) {
@@ -55,7 +60,10 @@ Blocks read_blocks(const std::string& text, Problems& problems) {
   const char separator = separator_of(text);
   std::vector<CsvRow> rows = split_csv(text, separator, problems);
   if (rows.empty())
-    problems.add("", "an empty file", "the scan that an optical calibration writes");
+    problems.add("",
+                 "an empty file",
+                 "the scan that an optical calibration writes",
+                 ProblemKind::empty_file);
   problems.throw_if_any();
   check_shape(rows, problems);
   for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -101,14 +109,18 @@ void number_visits(std::vector<StatedPoint>& points) {
 
 void check_options(const OpticalOptions& options, Problems& problems) {
   if (!kOpticalPitchMm.holds(options.pitch_mm)) {
-    problems.add("--pitch-mm", fmt::format("{}", options.pitch_mm), kOpticalPitchMm.expected());
+    problems.add("--pitch-mm",
+                 fmt::format("{}", options.pitch_mm),
+                 kOpticalPitchMm.expected(),
+                 ProblemKind::out_of_range);
   }
   if (options.machine.controller.kind == model::ControllerKind::ideal) {
     problems.add(
         "the machine's /controller",
         "",
         "the controller that carried the commands out (\"kind\": \"maslow_classic\", \"holey\" or "
-        "\"fluidnc_wallplotter\") and its settings");
+        "\"fluidnc_wallplotter\") and its settings",
+        ProblemKind::missing);
   }
 }
 

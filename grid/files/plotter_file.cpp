@@ -26,7 +26,8 @@ void check_correlations(const Cursor& at, FoundPlotter& found) {
   if (found.correlations.size() != kPairs) {
     at.problems().add(at.pointer() + "/correlations",
                       fmt::format("{} numbers", found.correlations.size()),
-                      "15: of each of the six settings with those after it");
+                      "15: of each of the six settings with those after it",
+                      ProblemKind::wrong_count);
     return;
   }
   // Rounded, a correlation matrix may miss zero by that.
@@ -42,7 +43,8 @@ void check_correlations(const Cursor& at, FoundPlotter& found) {
     return;
   at.problems().add(at.pointer() + "/correlations",
                     "numbers that no six quantities can have",
-                    "those that chaintrue fit wrote");
+                    "those that chaintrue fit wrote",
+                    ProblemKind::impossible);
 }
 
 const Record<FoundPlotter>& found_plotter_record() {
@@ -68,7 +70,8 @@ void check_found(const Cursor& at, KnownPlotter& plotter) {
   if (problems.empty()) return;
   at.problems().add(at.pointer() + "/found",
                     problems.front().parameter.substr(1) + " " + problems.front().value,
-                    problems.front().expected);
+                    problems.front().expected,
+                    ProblemKind::impossible);
 }
 
 const Record<KnownPlotter>& plotter_record() {

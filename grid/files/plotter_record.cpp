@@ -78,8 +78,7 @@ void check_plotter_machine(const Cursor& at, PlotterMachine& machine) {
   for (const model::MachineProblem& problem : model::problems_of(machine)) {
     const std::string place = at.pointer() + problem.parameter;
     // A field that could not be read keeps its default, which needs no check.
-    if (!at.problems().at_or_below(place))
-      at.problems().add(place, problem.value, problem.expected);
+    if (!at.problems().at_or_below(place)) at.problems().add(place, problem);
   }
 }
 
@@ -137,7 +136,8 @@ void check_set_plotter(const Cursor& at, SetPlotter& set) {
   if (is_mural && model::is_point(set.machine.gondola)) {
     at.problems().add(at.pointer() + "/machine/gondola/spacing_mm",
                       "0",
-                      "of a mural the distance between its two pulleys, 85 as it is built");
+                      "of a mural the distance between its two pulleys, 85 as it is built",
+                      ProblemKind::out_of_range);
   }
   if (!is_mural && !set.home) {
     at.child("home").missing(

@@ -220,7 +220,8 @@ void place_marlin_home(const MarlinArea& area, double belt, SetPlotter& set, Pro
   if (belt <= half) {
     problems.add("the longest belt",
                  fmt::format("{}", belt),
-                 fmt::format("more than half of the {} mm between the motors", 2.0 * half));
+                 fmt::format("more than half of the {} mm between the motors", 2.0 * half),
+                 ProblemKind::impossible);
     return;
   }
   set.home = model::BedPoint{area.home_x.value_or(set.pins_middle.x_mm) - set.pins_middle.x_mm,
@@ -384,7 +385,8 @@ void take_calibration(SettingReader& settings, PlotterMachine& machine, Problems
   if (extended.has_value() == measured.has_value()) return;
   problems.add(extended ? kMeasured : kExtended,
                "",
-               "both distances of the calibration: what was extended, and what a tape read of it");
+               "both distances of the calibration: what was extended, and what a tape read of it",
+               ProblemKind::missing);
 }
 
 SetPlotter of_mural(const std::string& text, Problems& problems) {
@@ -423,7 +425,8 @@ SetPlotter settings_of(const std::string& text, Problems& problems) {
                "no settings of a V-plotter",
                "FluidNC's config.yaml with a WallPlotter, Marlin's M665 and M92 or its "
                "Configuration.h, a Polargraph properties file, or for a mural a line such as \"top "
-               "distance: 1500 mm\"");
+               "distance: 1500 mm\"",
+               ProblemKind::missing);
   problems.throw_if_any();
   return {};
 }
@@ -442,8 +445,7 @@ ReadPlotter parse_plotter_settings(const std::string& text, const std::string& f
   PlotterMachine& machine = read.plotter.set.machine;
   machine.name = std::filesystem::path(file).filename().string();
   for (const model::MachineProblem& problem : model::problems_of(machine)) {
-    problems.add(
-        fmt::format("the plotter's {}", problem.parameter), problem.value, problem.expected);
+    problems.add(fmt::format("the plotter's {}", problem.parameter), problem);
   }
   problems.throw_if_any();
   read.warnings = problems.warnings();

@@ -29,7 +29,8 @@ std::vector<model::MarkPoint> parse_points(const std::string& text, const std::s
                                    {"commanded_y_mm", kCoordinate, is_sheet}},
                                   problems);
   if (table.rows.empty() && !problems.any()) {
-    problems.add("", "a header line only", "at least one line of numbers below it");
+    problems.add(
+        "", "a header line only", "at least one line of numbers below it", ProblemKind::empty_file);
   }
   problems.throw_if_any();
   std::vector<model::MarkPoint> points;

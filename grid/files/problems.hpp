@@ -5,7 +5,7 @@
 ///
 /// \code
 ///   Problems problems("grid.csv");
-///   problems.add("line 4, column 12", "abc", "a number in mm");
+///   problems.add("line 4, column 12", "abc", "a number in mm", ProblemKind::not_a_number);
 ///   problems.throw_if_any();
 /// \endcode
 #pragma once
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "grid/files/input_error.hpp"
+#include "model/machine.hpp"
 
 namespace chaintrue::grid::files {
 
@@ -24,10 +25,11 @@ class Problems {
   explicit Problems(std::string file) : file_(std::move(file)) {}
 
   /// `value` is shortened to 60 characters and made printable here.
-  void add(std::string place,
-           std::string_view value,
-           std::string expected,
-           ProblemKind kind = ProblemKind::unexpected);
+  void add(std::string place, std::string_view value, std::string expected, ProblemKind kind);
+  /// A value that no machine has.
+  void add(std::string place, const model::MachineProblem& problem) {
+    add(std::move(place), problem.value, problem.expected, ProblemKind::impossible);
+  }
   /// A recognised mistake: `sentence` says what it is and what to do.
   void explain(std::string place, ProblemKind kind, std::string sentence);
   void warn(std::string place,

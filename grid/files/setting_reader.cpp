@@ -80,14 +80,18 @@ std::optional<std::string> SettingReader::find_word(const std::string& key,
   if (std::find(words.begin(), words.end(), setting->text) != words.end()) return setting->text;
   problems_.add(setting->place,
                 setting->text.empty() ? "nothing" : setting->text,
-                fmt::format("{} ({})", fmt::join(words, " or "), key));
+                fmt::format("{} ({})", fmt::join(words, " or "), key),
+                ProblemKind::unknown_word);
   return std::nullopt;
 }
 
 void SettingReader::refuse_others() {
   for (const auto& [path, setting] : texts_) {
     if (!read_.contains(path))
-      problems_.add(setting.place, path, fmt::format("one of {}", fmt::join(asked_, ", ")));
+      problems_.add(setting.place,
+                    path,
+                    fmt::format("one of {}", fmt::join(asked_, ", ")),
+                    ProblemKind::unknown_word);
   }
 }
 
@@ -193,7 +197,10 @@ SettingTexts ini_texts(std::string_view text, Problems& problems) {
       continue;
     }
     if (texts.size() == kMostSettings) {
-      problems.add(place, "more settings", fmt::format("at most {} lines of settings", kMostSettings));
+      problems.add(place,
+                   "more settings",
+                   fmt::format("at most {} lines of settings", kMostSettings),
+                   ProblemKind::too_many);
       break;
     }
     const auto [same, is_new] =

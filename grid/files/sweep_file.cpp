@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/sweep_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -216,7 +218,7 @@ void check_effects(const SweepSpec& spec, Problems& problems) {
       machine.effects = effects;
       for (const model::MachineProblem& problem : model::effects::problems_of_effects(machine)) {
         const std::string place = fmt::format("/{}/{}{}", list, index, problem.parameter);
-        if (!problems.at_or_below(place)) problems.add(place, problem.value, problem.expected);
+        if (!problems.at_or_below(place)) problems.add(place, problem);
       }
     }
   };
@@ -233,7 +235,10 @@ void check_given(const SweepSpec& spec, std::set<std::string> given, Problems& p
   for (const auto& level : spec.effects) remove(level.effects);
   for (const auto& level : spec.uses) remove(level.effects);
   for (const std::string& id : given)
-    problems.add("/effects", "", fmt::format("a line that names {}, or --effects without its file", id));
+    problems.add("/effects",
+                 "",
+                 fmt::format("a line that names {}, or --effects without its file", id),
+                 ProblemKind::missing);
 }
 
 Json median_and_worst(const std::vector<sweep::CellResult>& done,

@@ -152,7 +152,7 @@ TEST(Problems, ValuesAreShortenedAndPrintable) {
 
 TEST(Problems, TheFirstHundredAreListedAndTheRestCounted) {
   Problems problems("file");
-  for (int i = 0; i < 140; ++i) problems.add("/x", "1", std::to_string(i));
+  for (int i = 0; i < 140; ++i) problems.add("/x", "1", std::to_string(i), ProblemKind::out_of_range);
   try {
     problems.throw_if_any();
     FAIL() << "no error";
@@ -165,8 +165,8 @@ TEST(Problems, TheFirstHundredAreListedAndTheRestCounted) {
 
 TEST(Problems, OfAKindFiveAreListedAndTheRestCounted) {
   Problems problems("file");
-  for (int i = 0; i < 101; ++i) problems.add("/x", "1", "a whole number");
-  for (int i = 0; i < 6; ++i) problems.add("/y", "1", "a word");
+  for (int i = 0; i < 101; ++i) problems.add("/x", "1", "a whole number", ProblemKind::not_a_number);
+  for (int i = 0; i < 6; ++i) problems.add("/y", "1", "a word", ProblemKind::unknown_word);
   try {
     problems.throw_if_any();
     FAIL() << "no error";

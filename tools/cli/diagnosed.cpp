@@ -32,12 +32,14 @@ void assume_order(const DiagnoseCommand& command, grid::MeasuredGrid& measured) 
       })) {
     problems.add("--assume-order",
                  command.assume_order,
-                 "to be left out, since these points say in which order they were visited");
+                 "to be left out, since these points say in which order they were visited",
+                 grid::ProblemKind::contradiction);
     problems.throw_if_any();
   }
   const auto numbers = grid::visit_numbers(measured.points, *order_from_word(command.assume_order));
   if (!numbers) {
-    problems.add("--assume-order", command.assume_order, numbers.error());
+    problems.add(
+        "--assume-order", command.assume_order, numbers.error(), grid::ProblemKind::bad_syntax);
     problems.throw_if_any();
   }
   for (std::size_t i = 0; i < measured.points.size(); ++i) measured.points[i].order = (*numbers)[i];

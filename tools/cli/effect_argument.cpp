@@ -31,7 +31,7 @@ std::optional<model::AppliedEffect> parse_form(const std::string& argument,
   effect.side = take_until(rest, ':');
   if (effect.side == "-") effect.side.clear();
   if (rest.empty()) {
-    problems.add("--effect", argument, std::string(kForm));
+    problems.add("--effect", argument, std::string(kForm), grid::ProblemKind::bad_syntax);
     return std::nullopt;
   }
   while (!rest.empty()) {
@@ -39,11 +39,15 @@ std::optional<model::AppliedEffect> parse_form(const std::string& argument,
     const std::string key(take_until(value, '='));
     double number = 0.0;
     if (!parse_number(value, number)) {
-      problems.add("--effect", argument, fmt::format("a number after {}=, as in {}", key, kForm));
+      problems.add("--effect",
+                   argument,
+                   fmt::format("a number after {}=, as in {}", key, kForm),
+                   grid::ProblemKind::not_a_number);
       return std::nullopt;
     }
     if (!effect.parameters.emplace(key, number).second) {
-      problems.add("--effect", argument, fmt::format("{} once", key));
+      problems.add(
+          "--effect", argument, fmt::format("{} once", key), grid::ProblemKind::repeated_key);
       return std::nullopt;
     }
   }
@@ -111,7 +115,8 @@ std::vector<model::AppliedEffect> parse_effects(const std::vector<std::string>& 
       problems.add("--effect",
                    problem.value.empty() ? *origin[index]
                                          : fmt::format("{} in {}", problem.value, *origin[index]),
-                   problem.expected + what);
+                   problem.expected + what,
+                   grid::ProblemKind::impossible);
     }
   }
   return effects;

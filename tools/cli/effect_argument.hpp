@@ -19,7 +19,7 @@ class OptionProblems {
   void add(std::string_view option,
            std::string value,
            std::string expected,
-           grid::ProblemKind kind = grid::ProblemKind::unexpected);
+           grid::ProblemKind kind);
   /// `value` is finite and within [least, most].
   void require(std::string_view option, double value, double least, double most);
   /// What `check` throws as files::InputError.

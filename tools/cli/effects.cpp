@@ -200,7 +200,7 @@ std::map<std::string, double> parse_values(const EffectsOptions& options,
     double value = 0.0;
     if (equals == std::string::npos ||
         !parse_number(std::string_view(argument).substr(equals + 1), value)) {
-      problems.add("--set", argument, "parameter=number");
+      problems.add("--set", argument, "parameter=number", grid::ProblemKind::bad_syntax);
       continue;
     }
     values[argument.substr(0, equals)] = value;
@@ -219,7 +219,7 @@ std::vector<double> chosen_values(const Effect& effect,
   model::Machine with = machine;
   with.effects.push_back(wanted);
   for (const model::MachineProblem& problem : model::effects::problems_of_effects(with)) {
-    problems.add("--set", problem.value, problem.expected);
+    problems.add("--set", problem.value, problem.expected, grid::ProblemKind::impossible);
   }
   problems.throw_if_any();
   std::vector<double> values;
@@ -234,7 +234,8 @@ EffectSide chosen_side(const Effect& effect, const std::string& word, OptionProb
   for (const EffectSide side : effect.sides) {
     if (name(side) == word || (word == "-" && side == EffectSide::none)) return side;
   }
-  problems.add("--side", word, fmt::format("one of {}", sides_of(effect)));
+  problems.add(
+      "--side", word, fmt::format("one of {}", sides_of(effect)), grid::ProblemKind::unknown_word);
   return EffectSide::none;
 }
 
@@ -251,7 +252,10 @@ void check_options(const EffectsOptions& options, OptionProblems& problems) {
   if (const Effect* effect = model::effects::find_effect(options.id)) {
     (void)chosen_side(*effect, options.side, problems);
   } else if (!known_later && !is_declared()) {
-    problems.add("effect", options.id, "an effect that `chaintrue effects` lists");
+    problems.add("effect",
+                 options.id,
+                 "an effect that `chaintrue effects` lists",
+                 grid::ProblemKind::unknown_word);
   }
 }
 
@@ -343,7 +347,8 @@ int run_effects(const EffectsOptions& options) {
     OptionProblems problems;
     problems.add("effect",
                  options.id,
-                 "an effect that `chaintrue effects` lists, or that --effects declares");
+                 "an effect that `chaintrue effects` lists, or that --effects declares",
+                 grid::ProblemKind::unknown_word);
     problems.throw_if_any();
   }
   if (!options.machine.empty()) return show_picture(*effect, options, machine);

@@ -36,9 +36,11 @@ NamedAtlas of_plotter(const model::PlotterMachine& machine, const std::string& c
 void refuse_declared(const InputFile& file, const std::vector<std::string>& declared) {
   if (declared.empty()) return;
   OptionProblems problems;
-  problems.add("--effects",
-               declared.front(),
-               fmt::format("to be left out: declared effects are of two chains, and {} is not", file.name));
+  problems.add(
+      "--effects",
+      declared.front(),
+      fmt::format("to be left out: declared effects are of two chains, and {} is not", file.name),
+      grid::ProblemKind::contradiction);
   problems.throw_if_any();
 }
 
@@ -78,7 +80,10 @@ int write_atlas(const std::string& machine,
   const NamedAtlas named = atlas_of_file(open_input(machine), cause, declared);
   if (named.atlas.pictures.empty() && named.atlas.not_drawn.empty()) {
     OptionProblems problems;
-    problems.add("effect", cause, fmt::format("a cause or a setting of {}: without a name all are drawn", machine));
+    problems.add("effect",
+                 cause,
+                 fmt::format("a cause or a setting of {}: without a name all are drawn", machine),
+                 grid::ProblemKind::unknown_word);
     problems.throw_if_any();
   }
   end_progress();

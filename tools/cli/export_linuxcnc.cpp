@@ -42,10 +42,12 @@ void check_linuxcnc(const ExportLinuxcncCommand& command, OptionProblems& proble
         return is_letter(static_cast<unsigned char>(c)) || (c >= '0' && c <= '9');
       });
   if (!is_identifier) {
-    problems.add("--output",
-                 command.output,
-                 "a file such as chaintrue_kins.c: LinuxCNC calls the module by its name, of letters, "
-                 "digits and _");
+    problems.add(
+        "--output",
+        command.output,
+        "a file such as chaintrue_kins.c: LinuxCNC calls the module by its name, of letters, "
+        "digits and _",
+        grid::ProblemKind::output_place);
   }
 }
 

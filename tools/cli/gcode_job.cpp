@@ -40,7 +40,8 @@ void check_limits(const GcodeOptions& options, OptionProblems& problems) {
       fmt::format("{}", options.tolerance_mm),
       fmt::format("more than {:.2g} mm, which rounding to {} decimals uses up; or more --decimals",
                   least_mm,
-                  options.decimals));
+                  options.decimals),
+      grid::ProblemKind::out_of_range);
 }
 
 gcode::CompensateOptions compensate_options(const GcodeOptions& options,

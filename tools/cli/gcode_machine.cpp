@@ -284,7 +284,8 @@ GcodeTarget::Parts GcodeTarget::of_belts(const GcodeOptions& options) {
     problems.add("--map",
                  options.map,
                  "anchors fitted to a file that states those in force: where commands count from "
-                 "follows from them (import maslow4 --settings maslow.yaml)");
+                 "follows from them (import maslow4 --settings maslow.yaml)",
+                 grid::ProblemKind::missing);
     problems.throw_if_any();
   }
   auto map = std::make_unique<const grid::BeltMap>(found.fit, holes);

@@ -68,7 +68,8 @@ void declare(const GridInput& input,
   OptionProblems problems;
   problems.add("--effects",
                input.effects.front(),
-               fmt::format("to be left out, or --machine: {} names no machine to act on", file));
+               fmt::format("to be left out, or --machine: {} names no machine to act on", file),
+               grid::ProblemKind::contradiction);
   problems.throw_if_any();
 }
 
@@ -194,7 +195,8 @@ grid::Measured load_measured(const std::vector<InputFile>& files,
       if (!difference.empty()) {
         problems.add("--with",
                      files[k].path,
-                     fmt::format("a file of the same machine as the first: {}", difference));
+                     fmt::format("a file of the same machine as the first: {}", difference),
+                     grid::ProblemKind::contradiction);
       }
     }
     for (std::size_t before = 0; before < k; ++before) {
@@ -202,7 +204,8 @@ grid::Measured load_measured(const std::vector<InputFile>& files,
         problems.add("--with",
                      files[k].path,
                      fmt::format("another session: it has exactly the same readings as {}",
-                                 files[before].path));
+                                 files[before].path),
+                     grid::ProblemKind::repeated_value);
       }
     }
     measured.add(std::move(other));

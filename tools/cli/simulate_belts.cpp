@@ -67,7 +67,11 @@ void add_causes(std::vector<model::AppliedEffect> causes, synthetic::BeltsSpec& 
 /// "9x7".
 void take_grid(const std::string& text, synthetic::BeltsSpec& spec, OptionProblems& problems) {
   const auto size = grid::files::pair_of(text, 'x', 2, 100);
-  if (!size) return problems.add("--grid", text, "columns x rows of places, 2 to 100 of each, as in 9x7");
+  if (!size)
+    return problems.add("--grid",
+                        text,
+                        "columns x rows of places, 2 to 100 of each, as in 9x7",
+                        grid::ProblemKind::bad_syntax);
   spec.columns = (*size)[0];
   spec.rows = (*size)[1];
 }
@@ -86,7 +90,8 @@ void take_offset(const std::string& text, model::BeltMachine& truth, OptionProbl
     problems.add("--offset",
                  text,
                  "tl_x_mm, tl_y_mm, tr_x_mm, tr_y_mm or br_x_mm, truth less what the file says, as "
-                 "in tl_x_mm=5");
+                 "in tl_x_mm=5",
+                 grid::ProblemKind::bad_syntax);
     return;
   }
   (is_x ? truth.anchors[*belt].x_mm : truth.anchors[*belt].y_mm) += value;
@@ -97,7 +102,10 @@ void take_pulls(const std::string& text, synthetic::BeltsSpec& spec, OptionProbl
   if (text.empty()) return;
   for (const grid::BeltPull& pull : files::pulls_of(text, "--pulls")) {
     if (pull.unit != grid::BeltPull::Unit::relative)
-      return problems.add("--pulls", text, "numbers against each other, as in 1,1.6");
+      return problems.add("--pulls",
+                          text,
+                          "numbers against each other, as in 1,1.6",
+                          grid::ProblemKind::bad_syntax);
     spec.pulls.push_back(pull.value);
   }
 }
@@ -119,12 +127,16 @@ synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& pro
         problem.parameter.data() + 1, problem.parameter.data() + problem.parameter.size(), index);
     // What has not the form of an effect is reported already.
     if (spec.hidden[index].effect.empty()) continue;
-    problems.add("--effect", problem.value + " in " + options.effects[index], problem.expected);
+    problems.add("--effect",
+                 problem.value + " in " + options.effects[index],
+                 problem.expected,
+                 grid::ProblemKind::impossible);
   }
   if (spec.bad_readings > spec.columns * spec.rows) {
     problems.add("--bad-points",
                  fmt::format("{}", spec.bad_readings),
-                 fmt::format("at most one for each of the {} places", spec.columns * spec.rows));
+                 fmt::format("at most one for each of the {} places", spec.columns * spec.rows),
+                 grid::ProblemKind::out_of_range);
   }
   return spec;
 }

@@ -41,7 +41,8 @@ std::vector<synthetic::SettingOffset> offsets_of(const SimulateOptions& options,
     problems.add("--offset",
                  std::string(model::name(offset.setting)),
                  "a setting of the machine; without --edges holes know their distances, not the "
-                 "sheet");
+                 "sheet",
+                 grid::ProblemKind::unknown_word);
   }
   return offsets;
 }
@@ -71,8 +72,10 @@ int simulate_the_holes(const SimulateOptions& options, const model::Machine& sta
   for (const synthetic::SettingOffset& offset : offsets)
     synthetic::offset_setting(truth, spec.sheet, offset);
   for (const model::MachineProblem& problem : model::problems_of(truth)) {
-    problems.add(
-        "--offset", fmt::format("{} = {}", problem.parameter, problem.value), problem.expected);
+    problems.add("--offset",
+                 fmt::format("{} = {}", problem.parameter, problem.value),
+                 problem.expected,
+                 grid::ProblemKind::impossible);
   }
   problems.throw_if_any();
   grid::HolesPlanRequest request = options.holes.plan;
@@ -86,7 +89,8 @@ int simulate_the_holes(const SimulateOptions& options, const model::Machine& sta
   if (spec.bad_readings > static_cast<int>(design.distances.size())) {
     problems.add("--bad-points",
                  fmt::format("{}", spec.bad_readings),
-                 fmt::format("at most one for each of the {} distances", design.distances.size()));
+                 fmt::format("at most one for each of the {} distances", design.distances.size()),
+                 grid::ProblemKind::out_of_range);
     problems.throw_if_any();
   }
   design.name = options.name.empty() ? fmt::format("simulated, seed {}", spec.seed) : options.name;

@@ -33,13 +33,15 @@ Enum parse_word(std::string_view option,
                 const std::optional<Enum>& value,
                 std::string expected,
                 OptionProblems& problems) {
-  if (!value) problems.add(option, word, std::move(expected));
+  if (!value) problems.add(option, word, std::move(expected), grid::ProblemKind::unknown_word);
   return value.value_or(Enum{});
 }
 
 void parse_grid_size(const std::string& text, synthetic::Design& design, OptionProblems& problems) {
   const auto size = grid::files::pair_of(text, 'x', 2, 1000);
-  if (!size) return problems.add("--grid", text, "columns x rows, each 2 to 1000, as in 7x4");
+  if (!size)
+    return problems.add(
+        "--grid", text, "columns x rows, each 2 to 1000, as in 7x4", grid::ProblemKind::bad_syntax);
   design.columns = (*size)[0];
   design.rows = (*size)[1];
 }
@@ -51,7 +53,9 @@ void parse_lattice(const SimulateOptions& options,
   const auto kind = synthetic::design_kind(options.spacing);
   const bool lattice =
       kind == synthetic::DesignKind::regular || kind == synthetic::DesignKind::chebyshev;
-  if (!lattice) problems.add("--spacing", options.spacing, "regular or chebyshev");
+  if (!lattice)
+    problems.add(
+        "--spacing", options.spacing, "regular or chebyshev", grid::ProblemKind::unknown_word);
   design.kind = lattice ? *kind : synthetic::DesignKind::regular;
 }
 
@@ -106,7 +110,7 @@ model::Model parse_model(const std::string& word, OptionProblems& problems) {
     if (name == word) return value;
     known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
   }
-  problems.add("--model", word, "one of " + known);
+  problems.add("--model", word, "one of " + known, grid::ProblemKind::unknown_word);
   return model::Model::elastic;
 }
 
@@ -119,7 +123,10 @@ std::vector<synthetic::SettingOffset> parse_offsets(const std::vector<std::strin
     double offset = 0.0;
     if (!setting || equals == std::string::npos ||
         !parse_number(argument.substr(equals + 1), offset)) {
-      problems.add("--offset", argument, "setting=number, as in motor_left_x_mm=1.5");
+      problems.add("--offset",
+                   argument,
+                   "setting=number, as in motor_left_x_mm=1.5",
+                   grid::ProblemKind::bad_syntax);
       continue;
     }
     offsets.push_back({*setting, offset});
@@ -169,8 +176,10 @@ synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const model:
   problems.throw_if_any();
   for (const model::MachineProblem& problem :
        problems_of(synthetic::truth_of(machine, spec).machine)) {
-    problems.add(
-        "--offset", fmt::format("{} = {}", problem.parameter, problem.value), problem.expected);
+    problems.add("--offset",
+                 fmt::format("{} = {}", problem.parameter, problem.value),
+                 problem.expected,
+                 grid::ProblemKind::impossible);
   }
   problems.throw_if_any();
   return spec;

@@ -50,7 +50,7 @@ sweep::Share parse_shard(const std::string& text, OptionProblems& problems) {
   const auto numbers = files::pair_of(text, '/', 1, kMost);
   if (numbers && (*numbers)[0] <= (*numbers)[1])
     return {static_cast<std::uint64_t>((*numbers)[0]) - 1, static_cast<std::uint64_t>((*numbers)[1])};
-  problems.add("--shard", text, "shard/shards, as in 3/16");
+  problems.add("--shard", text, "shard/shards, as in 3/16", grid::ProblemKind::bad_syntax);
   return {};
 }
 
@@ -59,7 +59,8 @@ void check_options(const SweepOptions& options, OptionProblems& problems) {
   if (!options.directory.empty() && options.directory != "-") return;
   problems.add("-o",
                options.directory.empty() ? "an empty name" : "-",
-               "the name of a folder; a sweep writes many files");
+               "the name of a folder; a sweep writes many files",
+               grid::ProblemKind::output_place);
 }
 
 void refuse_old_results(const SweepOptions& options) {
@@ -67,8 +68,10 @@ void refuse_old_results(const SweepOptions& options) {
   std::error_code error;
   if (options.resume || !fs::is_directory(parts, error) || fs::is_empty(parts, error)) return;
   OptionProblems problems;
-  problems.add(
-      "-o", options.directory, "a new folder, or --resume to go on with the cells that are there");
+  problems.add("-o",
+               options.directory,
+               "a new folder, or --resume to go on with the cells that are there",
+               grid::ProblemKind::output_place);
   problems.throw_if_any();
 }
 
