@@ -171,8 +171,10 @@ int run_check(Verb verb, const CheckCommand& command) {
 
 void add_check(Verb app, Run& run) {
   auto command = std::make_shared<CheckCommand>();
-  Verb verb = app.add_verb(
-      "check", "A few new points: is the map still valid, does re-zeroing mend it, or not");
+  Verb verb =
+      app.add_verb("check",
+                   "Check with a few new points whether a map is still valid, or valid after "
+                   "re-zeroing");
   add_input(verb, "map", command->map, "A chaintrue_map or chaintrue_anchors file").required();
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);
@@ -183,22 +185,27 @@ void add_check(Verb app, Run& run) {
   add_input(verb,
             "--settings",
             command->settings,
-            "What the controller held when the new points were commanded, if other than when the "
-            "map was measured: groundcontrol.ini, webcontrol.json, or a machine file");
-  verb.add_flag("--json", command->json, "All numbers, for scripts");
+            "The controller's settings when the new points were commanded, if they had changed "
+            "since the map was measured: groundcontrol.ini, webcontrol.json, or a machine file");
+  verb.add_flag("--json", command->json, "Print all numbers as JSON");
   add_output(
       verb, "-o,--output", command->output, {Origin::table, Origin::check}, "- is standard output")
       .shows_default();
   verb.footer(
-      "Three to five points far from each other will do, or holes and distances between "
-      "them;\nchaintrue plan --check picks the points that show most.\n\"Still valid (74 %)\": how "
-      "probable it is, by the new points and what usually changes, that\nnothing has changed. From "
-      "80 % on it is the verdict. The exit code is 0 if the map is valid as\nit is; otherwise 1: "
-      "valid after re-zeroing, to be measured again, made for settings other than\nthe "
-      "controller's, or more points are needed.\nAnchors of four belts are checked by new places "
-      "in a chaintrue_belts file.\n\nExample:\n  build/chaintrue fit "
-      "fixtures/grids/seven_by_four.json -o map.json\n  build/chaintrue check map.json "
-      "fixtures/grids/five_new_points.json");
+      "Three to five points far apart are enough, or holes and the distances between them;\n"
+      "chaintrue plan --check picks the most informative points.\n"
+      "\"Still valid (74 %)\" is the probability that nothing has changed, given the new points "
+      "and\n"
+      "what usually changes. From 80 % on it is the verdict. The exit code is 0 if the map is "
+      "valid as\n"
+      "it is; otherwise 1: valid after re-zeroing, to be measured again, made for settings other "
+      "than\n"
+      "the controller's, or more points are needed.\n"
+      "Anchors of four belts are checked by new places in a chaintrue_belts file.\n"
+      "\n"
+      "Example:\n"
+      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
+      "  build/chaintrue check map.json fixtures/grids/five_new_points.json");
   verb.when_chosen(
       [command, verb, &run] { run = [command, verb] { return run_check(verb, *command); }; });
 }

@@ -271,7 +271,7 @@ void add_completion(Verb app, Run& run) {
 void add_man(Verb app, Run& run) {
   auto words = std::make_shared<std::vector<std::string>>();
   Verb verb = app.add_verb("man", "Print a manual page (troff), as man -l - shows it");
-  verb.add_option("verb", *words, "Of which verb; by default of the command itself");
+  verb.add_option("verb", *words, "The verb; by default the command itself");
   verb.footer("Example:\n  build/chaintrue man gcode verify > chaintrue-gcode-verify.1");
   verb.when_chosen(
       [words, app, &run] { run = [words, app] { return print_manual(app.app(), *words); }; });

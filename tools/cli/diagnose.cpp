@@ -146,29 +146,27 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
              command.output,
              {Origin::diagnosis},
              "The diagnosis with all its numbers (JSON)");
-  add_output(verb,
-             "--report",
-             command.report,
-             {Origin::page},
-             "The diagnosis as a page for a browser (HTML)");
+  add_output(
+      verb, "--report", command.report, {Origin::page}, "The diagnosis as a web page (HTML)");
   add_output(verb,
              "--extended-machine",
              command.extended_machine,
              {Origin::machine},
-             "The machine with its settings calibrated and what was named in it");
+             "The machine with calibrated settings and the causes that were named");
   add_output(verb,
              "--corrected-grid",
              command.corrected_grid,
              {Origin::measured},
-             "The points on that machine, with marks and readings corrected where they are the "
-             "cause: fit these");
+             "The points on that machine, with marks and readings corrected where they were the "
+             "cause; the input for fit");
   // A file of an effect is edited by hand, and replaced with --force alone.
   add_output(verb,
              "--law",
              command.law,
              {Origin::list},
-             "The likeliest law of what no cause explains, from 90 % on, as a file for --effects");
-  verb.add_flag("--json", command.json, "The diagnosis file on standard output, for programs");
+             "The most probable law of what no cause explains (90 % or more), as a file for "
+             "--effects");
+  verb.add_flag("--json", command.json, "Print the diagnosis file on standard output");
 }
 
 }  // namespace
@@ -176,44 +174,49 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
 void add_diagnose(Verb app, Run& run) {
   auto command = std::make_shared<DiagnoseCommand>();
   Verb verb = app.add_verb("diagnose",
-                           "What the machine does wrong, why, and what knowing the cause gains");
+                           "Find what the machine does wrong and why, and how much knowing the "
+                           "cause improves the map");
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);
   add_effects_option(verb, command->input);
-  add_input(verb,
-            "--with",
-            command->with,
-            "More grids and holes of the same machine: all are used together");
+  add_input(
+      verb, "--with", command->with, "More grids and holes of the same machine, used together");
   add_diagnose_outputs(verb, *command);
   add_input(verb,
             "--held-out",
             command->held_out,
-            "Another grid of the same machine: how well the result predicts it");
+            "Another grid of the same machine, to test how well the result predicts it");
   verb.add_option("--assume-order",
                   command->assume_order,
-                  "Order of the visits if the points have none, lines from the top left; for "
-                  "drift, skips and hysteresis; the verdict says that it was assumed")
+                  "Assumed order of visits where the points state none, in lines from the top "
+                  "left. Drift, skips and hysteresis need an order; the verdict says that it was "
+                  "assumed")
       .one_of({"rows", "columns", "serpentine_rows", "serpentine_columns"});
   add_without_option(verb, command->without);
   verb.add_flag("--accept-class",
                 command->accept_class,
-                "Where points cannot tell a long chain from a long tape: take it to be the chain, "
-                "without a reading of its links");
+                "If the points cannot tell long links from a long tape, assume the links, without "
+                "a measurement of them");
   add_number(verb,
              "--seed",
              command->seed,
              {"", 0.0, 9e15},
-             "For the simulated chances: same seed, same answer")
+             "Seed of the simulations: same seed, same answer")
       .shows_default();
   verb.footer(
-      "The exit code is 0 also where nothing was found.\n\nExample:\n  build/chaintrue simulate "
-      "--machine fixtures/machines/classic.json --grid 7x5 --repeats 6 \\\n    --length-noise-mm "
-      "0.2 --position-noise-mm 0.3 --effect chain_pitch_error:left:elongation=0.0012 -o "
-      "worn.json\n  build/chaintrue diagnose worn.json -o diagnosis.json --report diagnosis.html "
-      "--extended-machine worn_machine.json\n  build/chaintrue fit worn.json --machine "
-      "worn_machine.json -o map.json\n  build/chaintrue diagnose fixtures/holes/nine_holes.json "
-      "--report holes.html\n  build/chaintrue diagnose fixtures/belts/thirty_one_places.json -o "
-      "belts_diagnosis.json\n  build/chaintrue diagnose fixtures/plotter/mural_drawing.json");
+      "The exit code is 0 even if nothing was found.\n"
+      "\n"
+      "Example:\n"
+      "  build/chaintrue simulate --machine fixtures/machines/classic.json --grid 7x5 --repeats 6 "
+      "\\\n"
+      "    --length-noise-mm 0.2 --position-noise-mm 0.3 --effect "
+      "chain_pitch_error:left:elongation=0.0012 -o worn.json\n"
+      "  build/chaintrue diagnose worn.json -o diagnosis.json --report diagnosis.html "
+      "--extended-machine worn_machine.json\n"
+      "  build/chaintrue fit worn.json --machine worn_machine.json -o map.json\n"
+      "  build/chaintrue diagnose fixtures/holes/nine_holes.json --report holes.html\n"
+      "  build/chaintrue diagnose fixtures/belts/thirty_one_places.json -o belts_diagnosis.json\n"
+      "  build/chaintrue diagnose fixtures/plotter/mural_drawing.json");
   verb.when_chosen(
       [command, verb, &run] { run = [command, verb] { return run_diagnose(verb, *command); }; });
 }

@@ -365,32 +365,39 @@ void add_effects(Verb app, Run& run) {
   Verb verb = app.add_verb(
       "effects", "List the catalogue of effects, or show what one of them does to a machine");
   verb.add_option("id", options->id, "Effect; without it the catalogue is listed");
-  auto machine =
-      add_input(verb, "--machine", options->machine, "chaintrue_machine file to show it on");
-  verb.add_option("--side", options->side, "left, right, both, x or y; default: the effect's first")
+  auto machine = add_input(verb,
+                           "--machine",
+                           options->machine,
+                           "chaintrue_machine file of the machine to "
+                           "show it on");
+  verb.add_option("--side",
+                  options->side,
+                  "left, right, both, x or y; by default the effect's "
+                  "first")
       .needs(machine);
-  verb.add_option("--set", options->values, "parameter=number instead of the usual size")
+  verb.add_option("--set", options->values, "Size as parameter=number instead of the usual one")
       .needs(machine);
   add_number(verb, "--length-noise-mm", options->length_noise_mm, {"mm", 1e-6, 100.0}, "One sigma")
       .needs(machine);
   add_number(
       verb, "--position-noise-mm", options->position_noise_mm, grid::files::kNoiseMm, "One sigma")
       .needs(machine);
-  add_output(verb, "--draw", options->drawing, {Origin::drawing}, "Also draw it into this SVG file")
+  add_output(verb, "--draw", options->drawing, {Origin::drawing}, "Also write it as an SVG picture")
       .needs(machine);
   auto json = verb.add_flag("--json", options->json, "For programs");
   auto markdown =
-      verb.add_flag("--markdown", options->markdown, "The catalogue as docs/effects.md");
+      verb.add_flag("--markdown", options->markdown, "Print the catalogue as in docs/effects.md");
   add_input(verb,
             "--effects",
             options->declared,
-            "chaintrue_effect files: your own effects, besides the catalogue's")
+            "chaintrue_effect files: effects of your own, in addition to the catalogue's")
       .excludes(markdown);
   auto atlas = add_input(verb,
                          "--atlas",
                          options->atlas,
-                         "A machine on two chains or four belts, or a V-plotter: a page with a "
-                         "picture of what each cause draws; after an effect's or a setting's name of that alone")
+                         "Write a page with a picture of each cause for a machine with two "
+                         "chains, four belts or a pen; with an effect's or a setting's name, of "
+                         "that one only")
                    .excludes(machine)
                    .excludes(json)
                    .excludes(markdown);

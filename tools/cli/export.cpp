@@ -417,17 +417,14 @@ int export_maslow4(Verb verb, const ExportCommand& command) {
 
 void add_maslow4(Verb verb, Run& run) {
   auto command = std::make_shared<ExportCommand>();
-  Verb maslow4 = verb.add_verb("maslow4", "The lines to paste into a Maslow 4's terminal");
+  Verb maslow4 = verb.add_verb("maslow4", "Print the lines to paste into a Maslow 4's terminal");
   add_input(maslow4,
             "file",
             command->input,
             "A chaintrue_anchors file, as fit makes it, or a diagnosis of belts")
       .required();
-  add_output(maslow4,
-             "-o,--output",
-             command->output,
-             {Origin::list},
-             "Where they go; - is standard output")
+  add_output(
+      maslow4, "-o,--output", command->output, {Origin::list}, "Output file; - is standard output")
       .shows_default();
   maslow4.footer(
       "The anchors as fitted, in the belts' own millimetres; with a taped distance the scales, "
@@ -444,14 +441,16 @@ void add_maslow4(Verb verb, Run& run) {
 }  // namespace
 
 void add_export(Verb app, Run& run) {
-  Verb verb = app.add_verb("export", "Turn a machine into settings for other programs");
+  Verb verb = app.add_verb("export",
+                           "Convert a map, machine or diagnosis into settings for other "
+                           "programs");
   verb.require_verb();
   constexpr const char* kExample =
       "Example:\n  build/chaintrue export groundcontrol fixtures/machines/groundcontrol.json";
   verb.footer(kExample);
   auto command = std::make_shared<ExportCommand>();
   Verb groundcontrol =
-      verb.add_verb("groundcontrol", "The numbers to type into GroundControl's settings");
+      verb.add_verb("groundcontrol", "Print the numbers to type into GroundControl");
   add_input(groundcontrol,
             "file",
             command->input,
@@ -461,13 +460,13 @@ void add_export(Verb app, Run& run) {
              "-o,--output",
              command->output,
              {Origin::list},
-             "Where they go; - is standard output")
+             "Output file; - is standard output")
       .shows_default();
   add_output(groundcontrol,
              "--map-after",
              command->map_after,
              {Origin::map},
-             "Of a map: write the map that is right once these numbers are typed in");
+             "With a map: also write the map that holds once these numbers are typed in");
   groundcontrol.footer(fmt::format(
       "The numbers that bring the controller nearest to the map, to the machine, or to the one that a "
       "diagnosis found, and how near; what the firmware has no number for, and what that costs. All "

@@ -66,8 +66,10 @@ int export_klipper(Verb verb, const ExportKlipperCommand& command) {
 
 void add_export_klipper(Verb export_verb, Run& run) {
   auto command = std::make_shared<ExportKlipperCommand>();
-  Verb verb = export_verb.add_verb(
-      "klipper", "The map as a kinematics module for Klipper, which then needs no compensated files");
+  Verb verb =
+      export_verb.add_verb("klipper",
+                           "Write the map as a kinematics module for Klipper, which then needs no "
+                           "compensated files");
   add_input(verb, "map", command->map, "A chaintrue_map file").required();
   add_output(verb,
              "-o,--output",

@@ -88,8 +88,10 @@ int export_linuxcnc(Verb verb, const ExportLinuxcncCommand& command) {
 
 void add_export_linuxcnc(Verb export_verb, Run& run) {
   auto command = std::make_shared<ExportLinuxcncCommand>();
-  Verb verb = export_verb.add_verb(
-      "linuxcnc", "The map as a kinematics module for LinuxCNC, which then needs no compensated files");
+  Verb verb =
+      export_verb.add_verb("linuxcnc",
+                           "Write the map as a kinematics module for LinuxCNC, which then needs no "
+                           "compensated files");
   add_input(verb, "map", command->map, "A chaintrue_map file").required();
   add_output(verb,
              "-o,--output",

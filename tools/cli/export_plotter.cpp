@@ -46,11 +46,11 @@ int export_plotter(const ExportPlotterCommand& command) {
 void add_export_plotter(Verb export_verb, Run& run) {
   auto command = std::make_shared<ExportPlotterCommand>();
   Verb verb = export_verb.add_verb(
-      "plotter", "The numbers to type into a V-plotter's controller after a test drawing");
+      "plotter", "Print the numbers to type into a V-plotter's controller after a test drawing");
   add_input(verb, "file", command->input, "A chaintrue_plotter file as fit makes it of a drawing")
       .required();
   add_output(
-      verb, "-o,--output", command->output, {Origin::list}, "Where they go; - is standard output")
+      verb, "-o,--output", command->output, {Origin::list}, "Output file; - is standard output")
       .shows_default();
   verb.footer(
       "Example:\n"

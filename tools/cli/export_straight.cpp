@@ -100,7 +100,7 @@ void add_controller(Verb export_verb,
   Verb verb = export_verb.add_verb(name, description);
   add_input(verb, "map", command->map, "A chaintrue_map file").required();
   add_output(
-      verb, "-o,--output", command->output, {Origin::list}, "Where they go; - is standard output")
+      verb, "-o,--output", command->output, {Origin::list}, "Output file; - is standard output")
       .shows_default();
   verb.footer(fmt::format(
       "For what they leave, compensate each program (gcode compensate).\n\n"
@@ -120,12 +120,14 @@ void add_export_straight(Verb export_verb, Run& run) {
   add_controller(export_verb,
                  run,
                  "fluidnc",
-                 "The WallPlotter settings that bring FluidNC nearest to a map, and what they leave",
+                 "Find the WallPlotter settings that come closest to a map, and the error they "
+                 "leave",
                  kFluidNc);
   add_controller(export_verb,
                  run,
                  "grblhal",
-                 "The wall plotter's settings that bring grblHAL nearest to a map, and what they leave",
+                 "Find grblHAL's wall plotter settings that come closest to a map, and the error "
+                 "they leave",
                  kGrblHal);
 }
 

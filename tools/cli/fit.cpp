@@ -251,61 +251,62 @@ int run_fit(Verb verb, const FitCommand& command) {
 
 void add_fit(Verb app, Run& run) {
   auto command = std::make_shared<FitCommand>();
-  Verb verb =
-      app.add_verb("fit", "Measured points become a compensation map, belt lengths anchors, a test drawing settings");
+  Verb verb = app.add_verb("fit",
+                           "Compute a map from measured points, anchors from belt lengths, "
+                           "settings from a test drawing");
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);
   add_effects_option(verb, command->input);
   add_input(verb,
             "--with",
             command->with,
-            "More files of the same machine, grids or chaintrue_holes, with belts chaintrue_holes: "
-            "all are fitted at once, in the frame of the first");
+            "More files of the same machine: grids or chaintrue_holes; with belts, "
+            "chaintrue_holes. All are fitted together, in the coordinates of the first");
   add_output(verb,
              "-o,--output",
              command->output,
              {Origin::map, Origin::anchors, Origin::machine},
-             "The map file, of belts the anchors file, of a drawing the plotter file; - is standard "
-             "output")
+             "The result: a map file, for belts an anchors file, for a drawing a plotter file; - "
+             "is standard output")
       .required();
   verb.add_option("--surface",
                   command->surface,
-                  "residual: a smooth correction on the calibrated machine; direct: splines "
-                  "through the lengths "
-                  "themselves, no machine needed")
+                  "residual: a smooth correction of the calibrated machine; direct: splines "
+                  "through the lengths, without a machine")
       .one_of({"residual", "direct"})
       .shows_default();
-  verb.add_option("--ends", command->ends, "How direct splines end at the edges")
+  verb.add_option("--ends", command->ends, "End condition of direct splines")
       .one_of({"not_a_knot", "natural", "parabolic", "clamped"})
       .shows_default();
   add_outside_options(verb, command->outside, "continued by default");
   verb.add_flag("--plain",
                 command->plain,
-                "The map on the machine file as it is. Without it causes are looked for as diagnose does, "
-                "and the map is built on those that make it better on points left out");
+                "Do not look for causes. By default, fit looks for causes as diagnose does and "
+                "uses those that improve the map at points left out");
   verb.add_flag("--accept-class",
                 command->accept_class,
-                "Where points cannot tell links from tape, take the links");
-  add_number(
-      verb,
-      "--wish-mm",
-      command->wish_mm,
-      kWishMm,
-      "The error of the tool that you wish for: fit says whether it is reached, and what would "
-      "reach it");
+                "If the points cannot tell long links from a long tape, assume the links");
+  add_number(verb,
+             "--wish-mm",
+             command->wish_mm,
+             kWishMm,
+             "The accuracy you want: fit says whether the map reaches it, and what would");
   verb.add_flag("-v,--verbose",
                 command->verbose,
-                "Print the tables too: settings, errors of points left out, each distance, left "
+                "Also print the tables: settings, errors at points left out, each distance, left "
                 "against right");
   add_without_option(verb, command->without);
   verb.add_flag("--json", command->json, "Print the results as JSON");
   verb.footer(
-      "What is found is printed on standard error.\n\nExample:\n  build/chaintrue fit "
-      "fixtures/grids/seven_by_four.json -o map.json\n  build/chaintrue fit "
-      "fixtures/holes/nine_holes.json -o map.json\n  build/chaintrue fit "
-      "fixtures/grids/seven_by_four.json --with fixtures/holes/nine_holes.json -o map.json\n  "
-      "build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json\n  "
-      "build/chaintrue fit fixtures/plotter/mural_drawing.json -o found.json");
+      "The result is printed on standard error.\n"
+      "\n"
+      "Example:\n"
+      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
+      "  build/chaintrue fit fixtures/holes/nine_holes.json -o map.json\n"
+      "  build/chaintrue fit fixtures/grids/seven_by_four.json --with "
+      "fixtures/holes/nine_holes.json -o map.json\n"
+      "  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json\n"
+      "  build/chaintrue fit fixtures/plotter/mural_drawing.json -o found.json");
   verb.when_chosen([command, verb, &run] {
     if (command->json && command->output == "-") {
       usage_error("fit", "--json and the map cannot both go to standard output");

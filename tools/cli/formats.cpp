@@ -51,13 +51,15 @@ int run_formats(Verb verb, const FormatsCommand& command) {
 
 void add_formats(Verb app, Run& run) {
   auto command = std::make_shared<FormatsCommand>();
-  Verb verb = app.add_verb(
-      "formats", "Every key of a file format, with unit, range and default; or its JSON Schema");
-  verb.add_option("name", command->name, "Which; without it they are listed")
+  Verb verb =
+      app.add_verb("formats",
+                   "Print every key of a file format with its unit, range and default, or its JSON "
+                   "Schema");
+  verb.add_option("name", command->name, "The format; without it all formats are listed")
       .one_of(files::described_formats());
-  verb.add_flag("--schema", command->schema, "The JSON Schema, for editors");
+  verb.add_flag("--schema", command->schema, "Print the JSON Schema");
   add_output_folder(
-      verb, "--all", command->all, "Write pages and schemas of all formats into this folder, anew");
+      verb, "--all", command->all, "Write pages and schemas of all formats into this folder");
   verb.footer(
       "Example:\n"
       "  build/chaintrue formats machine\n"

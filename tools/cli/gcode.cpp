@@ -55,14 +55,13 @@ Verb add(Verb parent,
          const char* help,
          Action action) {
   Verb verb = parent.add_verb(name, help);
-  verb.add_option("--home",
-                  options->home,
-                  "X,Y in mm that is added to the program's coordinates to get those of the sheet");
+  verb.add_option(
+      "--home", options->home, "Home on the sheet, X,Y in mm: added to the program's coordinates");
   verb.add_flag(
       "--block-delete", options->skip_deletable, "Leave out lines that begin with a slash");
   verb.add_flag("--tools-have-no-diameter",
                 options->tools_have_no_diameter,
-                "G41 and G42 change nothing; otherwise they are refused");
+                "Ignore G41 and G42, which are refused otherwise");
   verb.add_flag("--home-is-zero",
                 options->home_is_zero,
                 "G28 and G30 go to the machine's zero, which is the program's");
@@ -70,7 +69,7 @@ Verb add(Verb parent,
              "--step-budget",
              options->step_budget,
              {"", 1.0, 1e12},
-             "Steps in loops and subroutines until a program counts as endless");
+             "Steps in loops and subroutines after which a program counts as endless");
   add_option_check(verb, [options](OptionProblems& problems) {
     problems.take_from([&options] { (void)options->home_mm(); });
   });
@@ -87,7 +86,7 @@ void add_map_options(Verb verb, GcodeOptions& options, bool map_required) {
   const Option map =
       add_input(verb, "--map", options.map, "The compensation map, or the anchors of four belts");
   if (map_required) map.required();
-  verb.add_option("--frame", options.frame, "The program's zero: the marks' or the bed's")
+  verb.add_option("--frame", options.frame, "Zero of the program: the marks' or the bed's")
       .one_of({"marks", "bed"})
       .shows_default();
 }
@@ -98,28 +97,37 @@ void add_machine_options(Verb verb, GcodeOptions& options, bool map_required) {
       verb,
       "--machine",
       options.machine,
-      "A machine file: what the controller believes, if not what the map's own machine file said");
+      "A machine file with the controller's settings, if they are not those stored in the map");
   add_input(verb,
             "--settings",
             options.settings,
-            "What the controller holds now, if other than when the map was measured: "
+            "The controller's settings now, if they have changed since the map was measured: "
             "groundcontrol.ini, webcontrol.json, FluidNC's config.yaml, or a machine file")
       .excludes(machine);
-  verb.add_option("--controller", options.controller, "In place of the machine file's")
+  verb.add_option("--controller", options.controller, "Replaces the machine file's")
       .one_of({"maslow_classic", "holey", "fluidnc_wallplotter", "maslow4", "ideal"});
 }
 
 void add_limits(Verb verb, GcodeOptions& options) {
-  add_number(
-      verb, "--tolerance-mm", options.tolerance_mm, kToleranceMm, "How far the tool may stray");
-  add_number(verb, "--decimals", options.decimals, {"", 2.0, 6.0}, "Of the output's coordinates");
+  add_number(verb,
+             "--tolerance-mm",
+             options.tolerance_mm,
+             kToleranceMm,
+             "Largest permitted error of the "
+             "tool");
+  add_number(verb,
+             "--decimals",
+             options.decimals,
+             {"", 2.0, 6.0},
+             "Decimals of the output's "
+             "coordinates");
   add_number(verb,
              "--steepest-correction",
              options.steepest_correction,
              {"mm per mm", 1e-6, 10.0},
-             "Refuse changes above this, in mm per mm");
+             "Refuse corrections that change faster than this [mm/mm]");
   verb.add_flag(
-      "--keep-rapids-whole", options.keep_rapids_whole, "Correct rapids only at their ends");
+      "--keep-rapids-whole", options.keep_rapids_whole, "Correct rapids at their ends only");
   add_option_check(verb, [&options](OptionProblems& problems) {
     if (!options.map.empty()) check_limits(options, problems);
   });
@@ -131,7 +139,7 @@ void add_refusals(Verb verb, GcodeOptions& options) {
              "--largest-correction-mm",
              options.largest_correction_mm,
              {"mm", 0.001, 1000.0},
-             "Refuse larger ones");
+             "Refuse larger corrections");
 }
 
 }  // namespace
@@ -146,19 +154,19 @@ void add_gcode(Verb app, Run& run) {
                    run,
                    options,
                    "check",
-                   "What the program does, and what would go wrong, by line",
+                   "List what the program does and what would go wrong, by line",
                    run_gcode_check);
   add_input(check, "file", options->program, "G-code; - is standard input").required();
   add_machine_options(check, *options, false);
   add_limits(check, *options);
   add_refusals(check, *options);
-  check.add_flag("--json", options->json, "JSON in place of words");
+  check.add_flag("--json", options->json, "Print JSON instead of text");
   check.footer(
       "Example:\n"
       "  build/chaintrue gcode check fixtures/gcode/bracket.nc");
 
-  Verb lengths =
-      add(gcode, run, options, "lengths", "The chain lengths along the path", run_gcode_lengths);
+  Verb lengths = add(
+      gcode, run, options, "lengths", "Print the chain lengths along the path", run_gcode_lengths);
   add_input(lengths, "file", options->program, "G-code; - is standard input").required();
   add_map_options(lengths, *options, true);
   add_output(lengths, "-o,--output", options->output, {Origin::table}, "CSV; - is standard output")
@@ -167,8 +175,8 @@ void add_gcode(Verb app, Run& run) {
              "--every-mm",
              options->every_mm,
              {"mm", 1e-9, 1e5},
-             "Places along a move are at most so far apart");
-  lengths.add_flag("--json", options->json, "One JSON object a line in place of CSV");
+             "Largest distance between places along a move");
+  lengths.add_flag("--json", options->json, "Print one JSON object a line instead of CSV");
   lengths.footer(
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
@@ -178,7 +186,7 @@ void add_gcode(Verb app, Run& run) {
                         run,
                         options,
                         "compensate",
-                        "Rewrite a program so that the tool goes where it says",
+                        "Rewrite a program so that the tool follows its coordinates",
                         run_gcode_compensate);
   add_input(compensate, "file", options->program, "G-code; - is standard input").required();
   add_machine_options(compensate, *options, true);
@@ -192,12 +200,12 @@ void add_gcode(Verb app, Run& run) {
              "--report",
              options->report,
              {Origin::page},
-             "A page with the path before and after, coloured by the correction");
+             "Write a page with the path before and after, coloured by the correction");
   add_limits(compensate, *options);
   add_refusals(compensate, *options);
   compensate.add_flag("--no-verify",
                       options->no_verify,
-                      "Write the output without having run it on the simulated machine");
+                      "Do not run the output on the simulated machine before it is written");
   compensate.footer(
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
@@ -209,13 +217,19 @@ void add_gcode(Verb app, Run& run) {
           run,
           options,
           "verify",
-          "Run a program on a simulated controller and machine; exit code 1 when the tool strays",
+          "Run a program on a simulated controller and machine; exit code 1 if the tool strays "
+          "too far",
           run_gcode_verify);
-  add_input(verify, "original", options->program, "Where the tool shall go").required();
-  add_input(verify, "run", options->other, "What the controller is given").required();
+  add_input(verify,
+            "original",
+            options->program,
+            "The program that states where the tool should "
+            "go")
+      .required();
+  add_input(verify, "run", options->other, "The program that the controller runs").required();
   add_machine_options(verify, *options, true);
   add_limits(verify, *options);
-  verify.add_flag("--json", options->json, "JSON in place of words");
+  verify.add_flag("--json", options->json, "Print JSON instead of text");
   verify.footer(
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
@@ -227,7 +241,7 @@ void add_gcode(Verb app, Run& run) {
                      run,
                      options,
                      "explain",
-                     "State before and after a line, its moves and their corrections",
+                     "Print the state before and after a line, its moves and their corrections",
                      run_gcode_explain);
   explain.add_option("place", options->program, "FILE:LINE").required();
   add_machine_options(explain, *options, false);

@@ -24,28 +24,33 @@ void add_grid_options(Verb verb, GridInput& input) {
   add_input(verb,
             "grid",
             input.grid,
-            "The measured points: a chaintrue_grid file, or CSV; - is standard input")
+            "Measured points: a chaintrue_grid file or a CSV table; - is standard input")
       .required();
-  add_input(
-      verb, "--machine", input.machine, "A chaintrue_machine file, in place of the grid's own");
+  add_input(verb,
+            "--machine",
+            input.machine,
+            "A chaintrue_machine file that replaces the grid's own "
+            "machine");
   add_number(verb,
              "--noise-length-mm",
              input.length_noise_mm,
              grid::files::kNoiseMm,
-             "One sigma of a chain length, in place of the grid's own");
+             "Standard deviation (1 sigma) of a measured chain length, replaces the grid's own");
   add_number(verb,
              "--noise-position-mm",
              input.position_noise_mm,
              grid::files::kNoiseMm,
-             "One sigma of the tool's place on each axis, in place of the grid's own");
+             "Standard deviation (1 sigma) of a measured position on each axis, replaces the "
+             "grid's own");
   add_number(verb,
              "--noise-dof",
              input.noise_dof,
              grid::files::kNoiseDof,
-             "How well the noise is known, in degrees of freedom (15 by default)");
+             "Degrees of freedom of the noise: the higher, the more it is trusted (15 by "
+             "default)");
   verb.add_flag("--inches",
                 input.inches,
-                "Of tables (CSV): places, lengths and distances that were measured are in inches, "
+                "In CSV tables, measured positions, lengths and distances are in inches, as "
                 "43.8125 or 43 13/16; commands stay in mm");
 }
 
@@ -53,7 +58,7 @@ void add_effects_option(Verb verb, GridInput& input) {
   add_input(verb,
             "--effects",
             input.effects,
-            "chaintrue_effect files: your own causes, tested along with the catalogue's");
+            "chaintrue_effect files: causes of your own, tested along with the catalogue's");
 }
 
 namespace {
@@ -119,22 +124,25 @@ void add_tape_options(Verb verb, TapeInput& input) {
              "--tape-sigma-mm",
              input.sigma_mm,
              grid::files::kTapeSigmaMm,
-             "Of holes: one sigma of a tape reading");
-  add_number(verb,
-             "--hook-offset-mm",
-             input.tape_zero_offset_mm,
-             grid::files::kTapeZeroOffsetMm,
-             "Of holes: every reading is longer than the distance by this much");
+             "Holes: standard deviation (1 sigma) of a tape reading");
+  add_number(
+      verb,
+      "--hook-offset-mm",
+      input.tape_zero_offset_mm,
+      grid::files::kTapeZeroOffsetMm,
+      "Holes: the tape's zero error; every reading is longer than the distance by this much");
   add_number(verb,
              "--hook-sigma-mm",
              input.tape_zero_offset_sigma_mm,
              grid::files::kHoleSigmaMm,
-             "Of holes: how well that is known, one sigma; 3 mm by default, exactly with 0");
+             "Holes: standard deviation (1 sigma) of the zero error, 3 mm by default; 0 if it is "
+             "known exactly");
   add_number(verb,
              "--hole-sigma-mm",
              input.hole_sigma_mm,
              grid::files::kHoleSigmaMm,
-             "Of holes: one sigma of how far a hole is from where its chains put it, on each axis");
+             "Holes: standard deviation (1 sigma) of a hole's position on each axis, as the drill "
+             "wanders");
 }
 
 grid::MeasuredGrid read_grid_input(const GridInput& input) {
@@ -217,8 +225,8 @@ grid::Measured load_measured(const std::vector<InputFile>& files,
 void add_without_option(Verb verb, std::string& without) {
   verb.add_option("--without",
                   without,
-                  "Points of a chaintrue_belts file to leave out, counted from 1 as messages have "
-                  "them, as in 7,12");
+                  "Points of a chaintrue_belts file to leave out, numbered from 1 as in messages, "
+                  "such as 7,12");
 }
 
 std::vector<std::size_t> points_left_out(const std::string& without) {

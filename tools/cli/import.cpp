@@ -66,20 +66,27 @@ int import_optical(const OpticalCommand& command) {
 void add_optical(Verb import, Run& run) {
   auto command = std::make_shared<OpticalCommand>();
   Verb verb = import.add_verb("optical",
-                              "A scan by WebControl's or GroundControl's optical "
-                              "calibration becomes a grid of commanded positions");
+                              "Convert a scan by WebControl's or GroundControl's optical "
+                              "calibration into a grid");
   add_input(verb,
             "file",
             command->input,
             "The scan: 15 lines of 31 errors in x, an empty line, the same in y")
       .required();
-  add_input(
-      verb, "--machine", command->machine, "The machine, with the controller in force at the scan")
+  add_input(verb,
+            "--machine",
+            command->machine,
+            "The machine with the controller settings in force "
+            "during the scan")
       .required();
-  add_number(
-      verb, "--pitch-mm", command->pitch_mm, grid::files::kOpticalPitchMm, "From square to square");
+  add_number(verb,
+             "--pitch-mm",
+             command->pitch_mm,
+             grid::files::kOpticalPitchMm,
+             "Distance between "
+             "squares");
   verb.add_option(
-          "--order", command->order, "In which order the squares were visited, if you know it")
+          "--order", command->order, "Order in which the squares were visited, if it is known")
       .one_of({"rows", "columns", "serpentine_rows", "serpentine_columns"});
   add_output(verb,
              "-o,--output",
@@ -114,8 +121,8 @@ int import_groundcontrol(const GroundcontrolCommand& command) {
 
 void add_groundcontrol(Verb import, Run& run) {
   auto command = std::make_shared<GroundcontrolCommand>();
-  Verb verb = import.add_verb("groundcontrol",
-                              "GroundControl's settings become a machine and its controller");
+  Verb verb =
+      import.add_verb("groundcontrol", "Convert GroundControl's settings into a machine file");
   add_input(verb, "file", command->input, "groundcontrol.ini").required();
   add_output(verb,
              "-o,--output",
@@ -125,8 +132,8 @@ void add_groundcontrol(Verb import, Run& run) {
       .shows_default();
   verb.add_flag("--nominal-pitch",
                 command->nominal_pitch,
-                "Do not take the chain tolerances for the pitch of the chains: nobody knows where "
-                "they come from, or they were tuned to take up something else");
+                "Ignore the chain tolerances as measurements of the pitch: their origin is "
+                "unknown, or they were tuned to hide another error");
   verb.footer(
       "What the settings do not say is assumed, and said so here and in the file.\n\n"
       "Example:\n"
@@ -138,8 +145,9 @@ void add_groundcontrol(Verb import, Run& run) {
 }  // namespace
 
 void add_import(Verb app, Run& run) {
-  Verb verb =
-      app.add_verb("import", "Turn files of other programs into machine, plotter, grid and belts files");
+  Verb verb = app.add_verb("import",
+                           "Convert files of other programs into machine, plotter, grid and "
+                           "belts files");
   verb.require_verb();
   verb.footer(
       "Example:\n"

@@ -129,8 +129,8 @@ int import_maslow4(const Maslow4Command& command) {
 
 void add_import_maslow4(Verb import, Run& run) {
   auto command = std::make_shared<Maslow4Command>();
-  Verb verb = import.add_verb(
-      "maslow4", "What a Maslow 4 prints while it finds its anchors becomes a belts file");
+  Verb verb =
+      import.add_verb("maslow4", "Convert the log of a Maslow 4's Find Anchors into a belts file");
   add_input(verb,
             "file",
             command->inputs,
@@ -140,22 +140,22 @@ void add_import_maslow4(Verb import, Run& run) {
   add_input(verb, "--settings", command->settings, "The machine's maslow.yaml");
   verb.add_option("--lengths",
                   command->lengths,
-                  "What a length counts: the belt alone, slanting; the belt with its extension and "
+                  "Meaning of a length: the slanting belt alone; the belt with its extension and "
                   "arm, as printed before October 2024; or the level span from anchor to tool, as "
-                  "since")
+                  "printed since")
       .one_of({"belt", "belt_and_arm", "span"});
-  verb.add_option("--orientation", command->orientation, "How the frame stands")
+  verb.add_option("--orientation", command->orientation, "Position of the frame")
       .one_of({"upright", "flat"});
   verb.add_option("--runs",
                   command->runs,
-                  "Which runs of the one log to take, as one session where there are several: 2 or 1,2; a "
-                  "run may be given by its first and last point, counted from 0 over all runs, as in 0:98. "
-                  "Unsaid: the last");
+                  "Runs of the log to use, such as 2 or 1,2; several form one session. A run may "
+                  "be given by its first and last point, counted from 0 over all runs, such as "
+                  "0:98. By default the last");
   verb.add_option("--pulls",
                   command->pulls,
-                  "How hard belts were pulled in each run: 1,1.6 against each other, 1300mA,1900mA of "
-                  "the motors' current (Maslow_Calibration_Current_Threshold) or 150N,240N; unsaid: "
-                  "what the log prints of that setting");
+                  "Pull on the belts in each run: a ratio (1,1.6), the motors' current "
+                  "(1300mA,1900mA; Maslow_Calibration_Current_Threshold) or a force (150N,240N). "
+                  "By default as the log prints that setting");
   add_output(verb,
              "-o,--output",
              command->output,

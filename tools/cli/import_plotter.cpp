@@ -35,8 +35,9 @@ int import_plotter(const PlotterCommand& command) {
 
 void add_import_plotter(Verb import, Run& run) {
   auto command = std::make_shared<PlotterCommand>();
-  Verb verb =
-      import.add_verb("plotter", "The settings of a V-plotter's controller become a plotter");
+  Verb verb = import.add_verb("plotter",
+                              "Convert the settings of a V-plotter's controller into a plotter "
+                              "file");
   add_input(verb,
             "file",
             command->input,

@@ -115,10 +115,16 @@ int main_with_exit_code(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("-V,--version", CHAINTRUE_VERSION);
   bool is_quiet = false;
-  app.add_flag("-q,--quiet", is_quiet, "Say nothing but what goes wrong");
+  app.add_flag("-q,--quiet", is_quiet, "Print problems only");
   int threads = 0;
-  add_number(Verb(app), "--threads", threads, {"", 0.0, 4096.0}, "Cores to use at most, 0 for all: the answers are the same");
-  app.footer("chaintrue help VERB, or VERB --help, says what a verb takes, with an example.");
+  add_number(Verb(app),
+             "--threads",
+             threads,
+             {"", 0.0, 4096.0},
+             "Largest number of cores, 0 for "
+             "all; the answers do not depend "
+             "on it");
+  app.footer("chaintrue help VERB, or VERB --help, lists the options of a verb, with an example.");
   app.set_help_all_flag("--help-all", "The help of every verb");
   Run run;
 #define CHAINTRUE_VERB(id) add_##id(Verb(app), run);

@@ -189,7 +189,9 @@ std::vector<files::OutputFile> looked_at(const std::vector<files::OutputFile>& o
 
 void add_force(Verb verb) {
   if (verb.has_option("--force")) return;
-  verb.add_flag("--force", "Replace files that chaintrue did not make, or that were changed since");
+  verb.add_flag("--force",
+                "Overwrite files that chaintrue did not write, or that were changed "
+                "since");
 }
 
 }  // namespace

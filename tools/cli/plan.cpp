@@ -187,7 +187,7 @@ int run_plan(Verb verb, PlanOptions options) {
 void add_plan(Verb app, Run& run) {
   auto options = std::make_shared<PlanOptions>();
   Verb verb = app.add_verb(
-      "plan", "Where to measure: a list for the workshop, and how good the map will be");
+      "plan", "Plan where to measure: a list for the workshop, and how accurate the map will be");
   add_input(verb,
             "--machine",
             options->machine,
@@ -202,13 +202,13 @@ void add_plan(Verb app, Run& run) {
       add_input(verb,
                 "--after",
                 options->follow_up.after,
-                "A chaintrue_diagnosis of them: what to measure next, and the lines to "
-                "add to the file");
+                "A chaintrue_diagnosis of those points: plan what to measure next, and the lines "
+                "to add to the file");
   after.needs(grid);
   add_input(verb,
             "--with",
             options->follow_up.with,
-            "With --after: the other files of the same diagnosis, as diagnose --with had them")
+            "With --after: the other files of the same diagnosis, as given to diagnose --with")
       .needs(after);
   const grid::PlanRequest usual;
   const grid::CheckPlanRequest usual_check;
@@ -217,7 +217,7 @@ void add_plan(Verb app, Run& run) {
       "--points",
       options->points,
       {"", 1.0, 1000.0},
-      fmt::format("How many, {} to {}; {} by default. With --check {} to {}; {} by default",
+      fmt::format("Number of marks, {} to {}, {} by default; with --check {} to {}, {} by default",
                   grid::kFewestPlanned,
                   grid::kMostPlanned,
                   usual.points,
@@ -228,23 +228,24 @@ void add_plan(Verb app, Run& run) {
              "--second-visits",
              options->second_visits,
              {"", 0.0, 66.0},
-             "So many marks are measured twice, the first one last: they show what changes during "
-             "the session");
+             "Number of marks measured twice, the first one at the end; they show what changes "
+             "during the session");
   add_input(verb,
             "--check",
             options->check.map,
-            "Plan the few points that later show best whether this chaintrue_map still holds")
+            "Plan the few points that best show later whether this chaintrue_map still holds")
       .excludes(after);
-  add_number(verb,
-             "--margin-mm",
-             options->margin_mm,
-             {"mm", 0.0, 10000.0},
-             fmt::format("From the bed's edge to the outermost marks; {:g} by default, on a small "
-                         "bed a fifth of its shorter side: nearer, a sled hangs over the edge",
-                         kReachableMm));
+  add_number(
+      verb,
+      "--margin-mm",
+      options->margin_mm,
+      {"mm", 0.0, 10000.0},
+      fmt::format("Distance from the bed's edge to the outermost marks: {:g} by default, on a "
+                  "small bed a fifth of its shorter side. Nearer to the edge, a sled tips over it",
+                  kReachableMm));
   add_plan_holes_options(verb, options->holes, points);
   const auto noise_words = [](const char* what, double usually_mm, double in_check_mm) {
-    return fmt::format("Noise of {}, one sigma; {:g} by default, with --check {:g}",
+    return fmt::format("Standard deviation (1 sigma) of {}; {:g} by default, {:g} with --check",
                        what,
                        usually_mm,
                        in_check_mm);
@@ -264,36 +265,39 @@ void add_plan(Verb app, Run& run) {
              "-o,--output",
              options->output,
              {Origin::list, Origin::measured},
-             "The list with empty cells to fill in: CSV, or JSON where the file is called so; - is "
+             "The list with empty cells to fill in: CSV, or JSON if the name ends in .json; - is "
              "standard output")
       .shows_default();
-  verb.add_flag("--json", options->json, "The list as JSON, with the machine in it");
+  verb.add_flag("--json", options->json, "Print the list as JSON, including the machine");
   add_output(verb,
              "--page",
              options->page,
              {Origin::page},
-             "Write a page to print: the bed drawn, what to do, and lines to write on");
+             "Write a page to print: the bed, the instructions, and lines to fill in");
   add_drill_options(verb, options->gcode, options->drill);
   add_output(verb,
              "--svg",
              options->drawing,
              {Origin::drawing},
-             "Draw the points over the expected error of the map, or the holes and their "
-             "distances, into this SVG file");
+             "Write an SVG picture of the points over the expected error of the map, or of the "
+             "holes and their distances");
   verb.footer(
-      "The list goes row by row from the bottom left, turning round at the end of each "
-      "row;\nchaintrue simulate --marks takes it. The expected error is printed on standard "
-      "error.\nFill in the list (in an editor or a spreadsheet) and hand it to chaintrue fit, "
-      "diagnose or\ncheck as it is, a CSV with --machine. Empty cells are left out, with a "
-      "note.\n\nExamples:\n  build/chaintrue plan --machine fixtures/machines/classic.json "
-      "--points 28 -o plan.csv --svg plan.svg\n  build/chaintrue plan --machine "
-      "fixtures/machines/groundcontrol.json -o marks.csv --gcode marks.nc --page marks.html\n  "
-      "build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n  "
-      "build/chaintrue plan fixtures/grids/seven_by_four.json --after diagnosis.json\n  "
-      "build/chaintrue plan --machine fixtures/machines/classic.json --holes 9 --tape-sigma-mm 0.5 "
-      "-o holes.csv --gcode holes.nc --svg holes.svg\n  build/chaintrue fit "
-      "fixtures/grids/seven_by_four.json -o map.json\n  build/chaintrue plan --check map.json -o "
-      "five.csv --svg five.svg");
+      "The list goes row by row from the bottom left and turns back at the end of each row;\n"
+      "chaintrue simulate --marks reads it. The expected error is printed on standard error.\n"
+      "Fill in the list (in an editor or a spreadsheet) and hand it to chaintrue fit, diagnose or\n"
+      "check as it is, a CSV with --machine. Empty cells are left out, with a note.\n"
+      "\n"
+      "Examples:\n"
+      "  build/chaintrue plan --machine fixtures/machines/classic.json --points 28 -o plan.csv "
+      "--svg plan.svg\n"
+      "  build/chaintrue plan --machine fixtures/machines/groundcontrol.json -o marks.csv --gcode "
+      "marks.nc --page marks.html\n"
+      "  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n"
+      "  build/chaintrue plan fixtures/grids/seven_by_four.json --after diagnosis.json\n"
+      "  build/chaintrue plan --machine fixtures/machines/classic.json --holes 9 --tape-sigma-mm "
+      "0.5 -o holes.csv --gcode holes.nc --svg holes.svg\n"
+      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
+      "  build/chaintrue plan --check map.json -o five.csv --svg five.svg");
   verb.when_chosen([options, verb, &run] {
     if (options->follow_up.after.empty() && !options->follow_up.file.empty())
       missing_option("--after");

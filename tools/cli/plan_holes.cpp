@@ -50,7 +50,7 @@ void add_plan_holes_options(Verb verb, HolesPlanOptions& options, Option points)
              "--holes",
              request.holes,
              {"", grid::kFewestPlannedHoles, grid::kMostPlannedHoles},
-             fmt::format("Plan holes and tape distances instead: how many holes, {} to {}",
+             fmt::format("Plan this number of holes, {} to {}, and tape distances between them",
                          grid::kFewestPlannedHoles,
                          grid::kMostPlannedHoles))
       .shows_default("")
@@ -59,29 +59,28 @@ void add_plan_holes_options(Verb verb, HolesPlanOptions& options, Option points)
              "--distances",
              request.distances,
              {"", 1.0, 10000.0},
-             "Of --holes: how many to measure; by default twice the holes and two more, with "
-             "--edges six more")
+             "With --holes: number of distances to measure; by default twice the holes plus two, "
+             "and six more with --edges")
       .shows_default("");
   verb.add_flag("--edges",
                 request.edges,
-                "Of --holes: measure to the sheet's edges as well, so that jobs come out where "
-                "they belong on the sheet, not only true in themselves");
+                "With --holes: also measure to the sheet's edges, so that jobs lie where they "
+                "should on the sheet");
   add_number(verb,
              "--tape-sigma-mm",
              request.tape_sigma_mm,
              grid::files::kTapeSigmaMm,
-             "Of --holes: one sigma of a tape reading");
-  add_number(
-      verb,
-      "--hole-sigma-mm",
-      request.hole_sigma_mm,
-      grid::files::kHoleSigmaMm,
-      "Of --holes: one sigma of how far a hole is from where its chains put it, on each axis");
+             "With --holes: standard deviation (1 sigma) of a tape reading");
+  add_number(verb,
+             "--hole-sigma-mm",
+             request.hole_sigma_mm,
+             grid::files::kHoleSigmaMm,
+             "With --holes: standard deviation (1 sigma) of a hole's position on each axis");
   add_number(verb,
              "--tape-length-mm",
              request.longest_mm,
              {"mm", 500.0, 100000.0},
-             "Of --holes: the tape's length");
+             "With --holes: length of the tape");
 }
 
 int plan_the_holes(const HolesPlanOptions& options,

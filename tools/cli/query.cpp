@@ -187,43 +187,42 @@ void check_usage(const QueryCommand& command) {
 
 void add_query(Verb app, Run& run) {
   auto command = std::make_shared<QueryCommand>();
-  Verb verb =
-      app.add_verb("query", "Chain lengths for points of the bed, or the point for chain lengths");
+  Verb verb = app.add_verb("query",
+                           "Compute chain lengths for points of the bed, or the point for chain "
+                           "lengths");
   add_input(
       verb, "map", command->map, "A chaintrue_map or chaintrue_anchors file, or a chaintrue_plotter as fit makes it of a drawing; - is standard input")
       .required();
-  add_numbers(verb,
-              "coordinates",
-              command->coordinates,
-              {"mm", -1e6, 1e6},
-              "X Y, in mm, as many pairs as you like");
-  add_input(verb,
-            "--points",
-            command->points,
-            "A CSV with the columns x_mm and y_mm; - is standard input");
+  add_numbers(verb, "coordinates", command->coordinates, {"mm", -1e6, 1e6}, "Pairs X Y [mm]");
+  add_input(
+      verb, "--points", command->points, "CSV with the columns x_mm and y_mm; - is standard input");
   add_numbers(verb,
               "--inverse",
               command->inverse,
               {"mm", -1e6, 1e6},
-              "Chain lengths L R in mm: where is the tool?")
+              "Find the tool's position from the chain lengths L R [mm]")
       .takes(2);
   verb.add_option("--frame",
                   command->frame,
-                  "marks: coordinates as on the measured sheet; bed: as in the machine file, the "
-                  "sheet's placement taken out")
+                  "marks: coordinates as on the measured sheet; bed: as in the machine file, "
+                  "without the sheet's placement")
       .one_of({"marks", "bed"})
       .shows_default();
   add_output(verb, "-o,--output", command->output, {Origin::table}, "- is standard output")
       .shows_default();
   add_outside_options(verb, command->outside, "by default as the map says");
-  verb.add_flag("--json", command->json, "JSON in place of CSV");
+  verb.add_flag("--json", command->json, "Print JSON instead of CSV");
   verb.footer(
       "status: inside the measured points, at their edge, extrapolated beyond them, or outside the "
       "bed (exit code 4).\n"
       "Sigmas are one standard deviation of the map at that point.\n"
-      "Of anchors the answer is four belts' own lengths at the bed's height, from the anchor\n"
-      "slanting to the end, as the firmware pays them out; the upper two decide, and --inverse\n"
-      "takes these two.\n\nExample:\n"
+      "With anchors, the answer is the four belts' own lengths at the bed's height, from the "
+      "anchor\n"
+      "to the end, slanting, as the firmware pays them out; the upper two determine the position, "
+      "and --inverse\n"
+      "takes those two.\n"
+      "\n"
+      "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue query map.json 100 200 -1000 -450");
   verb.when_chosen([command, verb, &run] {

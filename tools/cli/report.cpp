@@ -105,8 +105,8 @@ int run_report(Verb verb, const ReportCommand& command) {
 void add_report(Verb app, Run& run) {
   auto command = std::make_shared<ReportCommand>();
   Verb verb = app.add_verb("report",
-                           "A map, a diagnosis or the anchors of four belts as a page for a "
-                           "browser, to be read without a network");
+                           "Write a map, a diagnosis or the anchors of four belts as a web page "
+                           "that needs no network");
   add_input(verb,
             "file",
             command->input,

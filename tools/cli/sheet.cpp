@@ -58,9 +58,9 @@ void add_measure_option(Verb verb, std::string& word) {
   verb.add_option(
           "--measure",
           word,
-          "What the list has empty cells for. places: the controller is sent to each mark, and you "
-          "measure where the tool stood. lengths: the tool is brought to each mark, and you read "
-          "both chains. By default places if the machine names its controller, else lengths")
+          "What you will measure. places: you send the controller to each mark and measure where "
+          "the tool stands. lengths: you bring the tool to each mark and read both chains. By "
+          "default places if the machine names its controller, lengths otherwise")
       .one_of({"places", "lengths"});
 }
 
@@ -100,14 +100,19 @@ void add_drill_options(Verb verb, std::string& gcode, DrillOptions& options) {
              "--gcode",
              gcode,
              {Origin::program},
-             "Write a program that drives to the marks in their order and drills them; where "
-             "lengths are read it stops above each");
-  add_number(verb, "--depth-mm", options.depth_mm, {"mm", 0.1, 100.0}, "Of --gcode: how deep");
+             "Write a program that drills the marks in order, or stops above each one if lengths "
+             "are to be read");
+  add_number(verb,
+             "--depth-mm",
+             options.depth_mm,
+             {"mm", 0.1, 100.0},
+             "With --gcode: depth of "
+             "the holes");
   add_number(verb,
              "--clearance-mm",
              options.clearance_mm,
              {"mm", 0.1, 100.0},
-             "Of --gcode: how high between holes");
+             "With --gcode: height of travel between holes");
 }
 
 std::string drill_gcode(std::string_view what,

@@ -120,41 +120,50 @@ int run_simulate(Verb verb, const SimulateOptions& options) {
 void add_design_options(Verb verb, SimulateOptions& o) {
   auto where = verb.add_choice("where");
   where.add_option("--grid", o.grid, "Columns x rows of marks, as in 7x4");
-  add_number(where, "--random", o.random_points, {"", 1.0, 1e6}, "So many marks anywhere")
+  add_number(where,
+             "--random",
+             o.random_points,
+             {"", 1.0, 1e6},
+             "Number of marks at random "
+             "positions")
       .shows_default("");
-  add_input(where, "--marks", o.marks, "CSV of marks (x_mm, y_mm), such as a plan's");
+  add_input(where, "--marks", o.marks, "CSV of marks (x_mm, y_mm), as plan writes it");
   add_input(
-      where, "--points", o.points, "CSV of true places: readings there without noise, all digits");
+      where, "--points", o.points, "CSV of true positions, read without noise and with all digits");
   add_number(where,
              "--holes",
              o.holes.plan.holes,
              {"", grid::kFewestPlannedHoles, grid::kMostPlannedHoles},
-             "So many holes, as chaintrue plan --holes sets them, and a tape")
+             "Number of holes, placed as by chaintrue plan --holes, measured with a tape")
       .shows_default("");
-  verb.add_option("--spacing", o.spacing, "Of --grid: regular or chebyshev (denser at the edges)")
+  verb.add_option("--spacing", o.spacing, "With --grid: regular or chebyshev (denser at the edges)")
       .shows_default();
   add_number(verb,
              "--margin-mm",
              o.margin_mm,
              {"mm", 0.0, 10000.0},
-             "From the bed's edge to the outermost marks; default: bed rounded down to 100 mm");
-  verb.add_flag("--without-corners", o.without_corners, "Leave the four corners out");
-  verb.add_option("--region", o.region, "Marks on this part only: whole, left, right, top, bottom")
+             "Distance from the bed's edge to the outermost marks; by default the marks span "
+             "whole hundreds of mm");
+  verb.add_flag("--without-corners", o.without_corners, "Leave out the four corners");
+  verb.add_option("--region",
+                  o.region,
+                  "Part of the bed with marks: whole, left, right, top or "
+                  "bottom")
       .shows_default();
   verb.add_option("--order",
                   o.order,
-                  "Of visits: rows, columns, serpentine_rows, serpentine_columns, random")
+                  "Order of visits: rows, columns, serpentine_rows, serpentine_columns or random")
       .shows_default();
   add_number(verb,
              "--repeats",
              o.repeats,
              {"", 0.0, 1e6},
-             "Second visits of measured marks, spread over the session");
+             "Number of second visits to measured marks, spread over the session");
   add_number(verb,
              "--jitter-mm",
              o.jitter_mm,
              {"mm", 0.0, 1000.0},
-             "The sled is put down up to this far from a mark");
+             "Largest distance of the sled from a mark");
 }
 
 void add_noise_options(Verb verb, SimulateOptions& o) {
@@ -162,14 +171,16 @@ void add_noise_options(Verb verb, SimulateOptions& o) {
              "--length-noise-mm",
              o.noise.length_mm,
              grid::files::kNoiseMm,
-             "One sigma of each chain's reading");
+             "Standard deviation (1 sigma) of a chain reading");
   add_number(verb,
              "--position-noise-mm",
              o.noise.position_mm,
              grid::files::kNoiseMm,
-             "One sigma of each coordinate");
-  verb.add_flag(
-      "--heavy-tails", o.noise.heavy_tails, "Student's t (4 degrees of freedom) of the same sigma");
+             "Standard deviation (1 sigma) of each coordinate");
+  verb.add_flag("--heavy-tails",
+                o.noise.heavy_tails,
+                "Draw noise from Student's t (4 degrees of freedom) "
+                "with the same standard deviation");
   add_number(verb,
              "--length-rounding-mm",
              o.noise.length_rounding_mm,
@@ -179,24 +190,29 @@ void add_noise_options(Verb verb, SimulateOptions& o) {
              "--position-rounding-mm",
              o.noise.position_rounding_mm,
              grid::files::kNoiseMm,
-             "Round marks to whole multiples, 0.5 for a tape");
+             "Round marks to whole multiples, such as 0.5 for a tape");
   add_number(verb,
              "--stated-length-noise-mm",
              o.stated_length_mm,
              grid::files::kNoiseMm,
-             "What the person believes; default: the truth");
+             "The value that the file holds, by default the true one");
   add_number(verb,
              "--stated-position-noise-mm",
              o.stated_position_mm,
              grid::files::kNoiseMm,
-             "What the person believes; default: the truth");
+             "The value that the file holds, by default the true one");
   add_number(verb,
              "--stated-dof",
              o.stated_dof,
              grid::files::kNoiseDof,
-             "How well it is believed (degrees of freedom)");
-  add_number(verb, "--bad-points", o.bad.count, {"", 0.0, 1e6}, "So many marks written down wrong");
-  add_number(verb, "--bad-size-mm", o.bad.size_mm, {"mm", 0.0, 10000.0}, "How far off those are");
+             "Degrees of freedom of the noise in the file");
+  add_number(verb,
+             "--bad-points",
+             o.bad.count,
+             {"", 0.0, 1e6},
+             "Number of marks written down "
+             "wrong");
+  add_number(verb, "--bad-size-mm", o.bad.size_mm, {"mm", 0.0, 10000.0}, "Error of those marks");
 }
 
 void add_holes_options(Verb verb, HolesOptions& o) {
@@ -204,30 +220,32 @@ void add_holes_options(Verb verb, HolesOptions& o) {
              "--distances",
              o.plan.distances,
              {"", 1.0, 10000.0},
-             "Of --holes: how many are measured")
+             "With --holes: number of distances measured")
       .shows_default("");
-  verb.add_flag("--edges", o.plan.edges, "Of --holes: some of them to the sheet's edges");
+  verb.add_flag("--edges",
+                o.plan.edges,
+                "With --holes: measure some distances to the sheet's "
+                "edges");
   add_number(verb,
              "--tape-sigma-mm",
              o.plan.tape_sigma_mm,
              grid::files::kTapeSigmaMm,
-             "Of --holes: one sigma of a reading");
-  add_number(
-      verb,
-      "--hole-sigma-mm",
-      o.plan.hole_sigma_mm,
-      grid::files::kHoleSigmaMm,
-      "Of --holes: one sigma of how far a hole is from where its chains put it, on each axis");
+             "With --holes: standard deviation (1 sigma) of a reading");
+  add_number(verb,
+             "--hole-sigma-mm",
+             o.plan.hole_sigma_mm,
+             grid::files::kHoleSigmaMm,
+             "With --holes: standard deviation (1 sigma) of a hole's position on each axis");
   add_number(verb,
              "--hook-offset-mm",
              o.tape_zero_offset_mm,
              grid::files::kTapeZeroOffsetMm,
-             "Of --holes: added to every reading");
+             "With --holes: zero error of the tape, added to every reading");
   add_number(verb,
              "--tape-rounding-mm",
              o.rounding_mm,
              {"mm", 0.0, 100.0},
-             "Of --holes: read to whole multiples");
+             "With --holes: readings are rounded to whole multiples");
 }
 
 void add_truth_options(Verb verb, SimulateOptions& o) {
@@ -244,19 +262,19 @@ void add_truth_options(Verb verb, SimulateOptions& o) {
       "keeps them");
   verb.add_option("--offset",
                   o.offsets,
-                  "Hidden offset of a setting, truth less what the file says: motor_left_x_mm=1.5");
+                  "Hidden offset of a setting, true minus assumed, such as motor_left_x_mm=1.5");
   verb.add_flag(
       "--draw-settings", o.draw_settings, "Draw motors and zeros from the machine's uncertainty");
   add_number(verb,
              "--sheet-shift-mm",
              o.sheet_shift_mm,
              {"mm", 0.0, 1000.0},
-             "The sheet was placed by hand, this well");
+             "Standard deviation (1 sigma) of the sheet's placement");
   add_number(verb,
              "--sheet-rotation-mrad",
              o.sheet_rotation_mrad,
              {"mrad", 0.0, 500.0},
-             "The sheet was placed by hand, this well");
+             "Standard deviation (1 sigma) of the sheet's placement");
   verb.add_option("--model",
                   o.model,
                   "straight, wrap, firmware, one_shot, inextensible, elastic, elastic_3d")
@@ -268,11 +286,10 @@ void add_truth_options(Verb verb, SimulateOptions& o) {
 
 void add_simulate(Verb app, Run& run) {
   auto options = std::make_shared<SimulateOptions>();
-  Verb verb = app.add_verb(
-      "simulate", "Make a grid as a person would measure it on a machine with hidden effects");
+  Verb verb = app.add_verb("simulate", "Simulate measurements on a machine with hidden effects");
   auto machine = verb.add_choice("machine");
   add_input(
-      machine, "--machine", options->machine, "chaintrue_machine file, as its owner states it");
+      machine, "--machine", options->machine, "The chaintrue_machine file as its owner states it");
   add_input(machine,
             "--belts",
             options->belts,
@@ -280,8 +297,8 @@ void add_simulate(Verb app, Run& run) {
             "chaintrue_belts or chaintrue_anchors file with its settings");
   verb.add_option("--pulls",
                   options->pulls,
-                  "Of --belts: all places once with each pull, against each other, as in 1,1.6; sizes of "
-                  "effects are those at the least");
+                  "With --belts: measure all places once with each relative pull, such as 1,1.6; "
+                  "sizes of effects refer to the smallest");
   add_design_options(verb, *options);
   add_noise_options(verb, *options);
   add_holes_options(verb, options->holes);

@@ -233,37 +233,47 @@ int run_square(Verb verb, const SquareOptions& options) {
 void add_square(Verb app, Run& run) {
   auto options = std::make_shared<SquareOptions>();
   Verb verb = app.add_verb(
-      "square",
-      "A test square: sides, diagonals and bows as a ruler will show them, and its program");
-  const Option map = add_input(
-      verb, "--map", options->map, "The machine that will cut it: a chaintrue_map, chaintrue_anchors, or the chaintrue_plotter "
-                               "that fit makes of a drawing");
+      "square", "Predict the sides, diagonals and bows of a test square, and write its program");
+  const Option map = add_input(verb,
+                               "--map",
+                               options->map,
+                               "The machine that will cut it: a chaintrue_map, "
+                               "chaintrue_anchors, or the chaintrue_plotter that fit wrote "
+                               "for a drawing");
   const Option machine =
       add_input(verb,
                 "--machine",
                 options->machine,
-                "Without a map, a chaintrue_machine file: what the machine is, with its "
+                "Without a map: a chaintrue_machine file that describes the true machine with its "
                 "effects");
   machine.excludes(map);
   add_input(verb,
             "--controller-machine",
             options->controller_machine,
-            "What the controller believes: a chaintrue_machine file, or one of the map's kind; of a map what "
-            "its own machine file said");
+            "The controller's settings: a chaintrue_machine file, or one of the map's kind; by "
+            "default those stored in the map");
   add_number(verb, "--size-mm", options->size_mm, {"mm", 1.0, 5000.0}, "Length of a side");
   add_numbers(verb,
               "--at",
               options->at,
               {"mm", -20000.0, 20000.0},
-              "X Y of the lower left corner, mm; default: around the bed's middle")
+              "X Y of the lower left corner [mm]; by default the square lies around the bed's "
+              "middle")
       .takes(2);
-  verb.add_flag(
-      "--below", options->below, "The square hangs below --at, which is its upper left corner");
-  verb.add_flag("--json", options->json, "JSON, all digits, instead of a table");
+  verb.add_flag("--below",
+                options->below,
+                "Place the square below --at, which is then its upper left corner");
+  verb.add_flag("--json", options->json, "Print JSON with all digits instead of a table");
   add_output(
-      verb, "-o,--output", options->drawing, {Origin::drawing}, "Draw it into this SVG file");
-  add_output(verb, "--gcode", options->program, {Origin::program}, "The program that cuts it");
-  add_number(verb, "--depth-mm", options->depth_mm, {"mm", 0.1, 100.0}, "Of --gcode: how deep");
+      verb, "-o,--output", options->drawing, {Origin::drawing}, "Write it as an SVG picture");
+  add_output(
+      verb, "--gcode", options->program, {Origin::program}, "Write the program that cuts it");
+  add_number(verb,
+             "--depth-mm",
+             options->depth_mm,
+             {"mm", 0.1, 100.0},
+             "With --gcode: depth of "
+             "the holes");
   verb.footer(
       "Examples:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"

@@ -162,14 +162,14 @@ int run_start(Verb verb, const StartCommand& command) {
 void add_start(Verb app, Run& run) {
   auto command = std::make_shared<StartCommand>();
   Verb verb = app.add_verb(
-      "start", "A folder for your machine: its file, what to do next, and the sheets to print");
+      "start", "Create a folder for your machine: its file, the next steps, and sheets to print");
   add_input(verb,
             "file",
             command->file,
             "groundcontrol.ini, webcontrol.json, FluidNC's yaml, or a chaintrue_machine; of a "
             "V-plotter Marlin's, Polargraph's or a mural's settings, or a chaintrue_plotter; "
             "without one a machine file to fill in is written");
-  add_output_folder(verb, "folder", command->folder, "Where it all goes").shows_default();
+  add_output_folder(verb, "folder", command->folder, "The folder to create").shows_default();
   verb.footer(
       "Example:\n"
       "  build/chaintrue start fixtures/good/groundcontrol_ring.ini my-machine\n"

@@ -159,18 +159,22 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
 
 void add_sweep(Verb app, Run& run) {
   auto options = std::make_shared<SweepOptions>();
-  Verb verb = app.add_verb("sweep", "Accuracy against the simulator over any product of factors");
+  Verb verb = app.add_verb("sweep", "Simulate the accuracy of maps over combinations of factors");
   add_input(verb, "specification", options->specification, "chaintrue_sweep file").required();
-  add_output_folder(verb, "-o,--output", options->directory, "Folder for the parts and the results")
+  add_output_folder(verb,
+                    "-o,--output",
+                    options->directory,
+                    "Folder for the shards and the "
+                    "results")
       .required();
-  verb.add_option("--shard", options->shard, "Only this share of the cells, as in 3/16");
+  verb.add_option("--shard", options->shard, "Compute this share of the cells only, such as 3/16");
   add_input(verb,
             "--effects",
             options->effects,
             "chaintrue_effect files: effects of your own that the specification may name");
   verb.add_flag("--resume",
                 options->resume,
-                "Go on with the finished cells that the folder holds; merges shards too");
+                "Keep the finished cells in the folder and continue; also merges shards");
   verb.footer(
       "Over several machines: mpirun -n 4 build/chaintrue sweep SPEC.json -o DIR\n\n"
       "Example:\n"
