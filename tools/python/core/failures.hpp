@@ -36,6 +36,8 @@ template <auto kReason>
   return text.substr(text.rfind(':') + 1);
 }
 
+static_assert(spelled<gcode::ProblemName::outside_map>() == "outside_map");
+
 /// Of an enumeration that counts from 0 to at most 15: the name of its enumerator.
 template <class Reason, int... kValues>
 [[nodiscard]] std::string_view name_of(Reason reason, std::integer_sequence<int, kValues...>) {
