@@ -60,16 +60,14 @@ double move_mm(const ObservationSet& session, const Eigen::VectorXd& change) {
 tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
   const ObservationSet& session = a.session;
   State state = stated_state(session);
-  Steps projected = a.options.steps;
-  projected.project_settings = true;
   const std::vector<bool> none(session.units.size(), false);
   a.converged = false;
   for (int pass = 0; pass < kCalibrations && !a.converged; ++pass) {
-    auto system = linearise(session, state, a.options.steps);
+    auto system = linearise(session, state);
     if (!system) return tl::unexpected(unreachable(session, system.error()));
     system->g = RegressorColumns(session.rows);
-    const auto outliers = outlier_sets(*system, none, {{}}, projected).front();
-    const MarginalisedSystem marginalised = marginalise(*system, outliers, projected);
+    const auto outliers = outlier_sets(*system, none, {{}}).front();
+    const MarginalisedSystem marginalised = marginalise(*system, outliers);
     const Eigen::VectorXd change = estimate(*system, marginalised, {}, -1).setting_change;
     auto moved = moved_to(session, std::move(state), system->setting + change);
     if (!moved) return tl::unexpected(impossible(session, moved.error()));
@@ -128,12 +126,6 @@ void speak_of_leaders(const RegressorSystem& system,
 
 }  // namespace
 
-double noise_dof(const Analysis& a) {
-  // Nothing is known beforehand of noise that is whatever the best fit leaves.
-  constexpr double kNothingKnown = 1e-3;
-  return a.options.steps.anchor_noise ? a.session.noise_dof : kNothingKnown;
-}
-
 bool is_observable(const RegressorSystem& system,
                  const MarginalisedSystem& marginalised,
                  const CauseId& cause) {
@@ -172,15 +164,14 @@ void estimate_decided(Analysis& a) {
 void test_significance(const RegressorSystem& causes, NoiseSize noise, Analysis& a) {
   const MarginalisedSystem marginalised =
       marginalise(causes,
-                  a.comparison.marginalised_systems[a.comparison.best().marginalised].outliers,
-                  a.options.steps);
+                  a.comparison.marginalised_systems[a.comparison.best().marginalised].outliers);
   const bool is_stated = noise == NoiseSize::stated;
   // The length of the residuals is given, so that nothing is known of the noise besides.
   constexpr double kNothingStated = 1e-3;
   const SingleScore score(
       causes,
       marginalised,
-      is_stated && a.options.steps.anchor_noise ? causes.noise_dof : kNothingStated);
+      is_stated ? causes.noise_dof : kNothingStated);
   // Enough draws for a family-wise 1 in 100, and in 300; fewer where one draw is long.
   constexpr std::size_t kManyUnits = 150;
   const int draws = causes.units.size() > kManyUnits ? 2000 : 4000;
@@ -196,19 +187,19 @@ namespace {
 tl::expected<void, DiagnosisFailure> linearise_anew(const std::vector<Refinement>& known,
                                                     bool first,
                                                     Analysis& a) {
-  auto system = linearise(a.session, a.state, a.options.steps);
+  auto system = linearise(a.session, a.state);
   if (!system) return tl::unexpected(unreachable(a.session, system.error()));
   a.system = std::move(*system);
   add_regressors(a.session, a.state, a.candidates.testable, known, a.system);
   const std::vector<bool> none(a.session.units.size(), false);
-  const MarginalisedSystem marginalised = marginalise(a.system, none, a.options.steps);
+  const MarginalisedSystem marginalised = marginalise(a.system, none);
   share_out_links(marginalised, a.system);
   if (first) drop_invisible(marginalised, a);
   return {};
 }
 
 ComparisonOptions comparison_options(const Analysis& a) {
-  ComparisonOptions compared{.steps = a.options.steps, .given_cause = a.options.given_cause};
+  ComparisonOptions compared{.given_cause = a.options.given_cause};
   // A smooth pattern is one of chain lengths over the bed.
   compared.discrepancies = a.session.is_of_chains();
   return compared;
@@ -222,10 +213,10 @@ void weigh_for_a_verdict(Analysis& a) {
   a.family_wise_p = std::min(1.0, options.orders_tried * a.family_wise_p);
   // An average has no weights that hold without some of the readings.
   if (!options.given_cause)
-    a.sessions = session_posteriors(a.system, noise_dof(a), a.session.fewest_units, a.comparison);
-  if (options.steps.average_parts && !options.given_cause) {
+    a.sessions = session_posteriors(a.system, a.session.fewest_units, a.comparison);
+  if (options.average_parts && !options.given_cause) {
     a.parts = average_over_parts(
-        a.system, noise_dof(a), nothing_rejected(a.system), a.session.fewest_units, a.comparison);
+        a.system, nothing_rejected(a.system), a.session.fewest_units, a.comparison);
   }
   decide_for(options.given_cause.has_value() || a.family_wise_p < kFalseAlarm, a);
 }

@@ -48,8 +48,6 @@ void decide_for(bool detected, Analysis& analysis);
 /// Noise and estimate of the decision at hand.
 void estimate_decided(Analysis& analysis);
 
-/// How well the noise is known, degrees of freedom.
-[[nodiscard]] double noise_dof(const Analysis& analysis);
 
 /// Whether a cause could show at some size that it may have, the settings free.
 [[nodiscard]] bool is_observable(const RegressorSystem& system,

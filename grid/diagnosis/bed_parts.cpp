@@ -165,7 +165,6 @@ std::vector<BedPart> bed_parts(const RegressorSystem& system,
 }
 
 std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
-                                              double noise_dof,
                                               const std::vector<bool>& excluded,
                                               std::size_t fewest,
                                               ModelComparison& comparison) {
@@ -177,7 +176,7 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
   if (pattern <= kDiscrepancyLikely) return result;
   std::vector<BedPart> parts = bed_parts(system, excluded, fewest);
   if (parts.empty()) return result;
-  const Downdating downdating(system, comparison, noise_dof, followed_of(system));
+  const Downdating downdating(system, comparison, followed_of(system));
   const std::vector<const CandidateModel*> models = downdating.followed();
   std::vector<std::vector<double>> of_part(parts.size());
   for_each_index(parts.size(), [&](std::size_t p) {
@@ -193,7 +192,6 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
 }
 
 std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system,
-                                                 double noise_dof,
                                                  std::size_t fewest,
                                                  const ModelComparison& comparison) {
   std::vector<std::size_t> units;  // of each session
@@ -203,7 +201,7 @@ std::vector<SessionPosterior> session_posteriors(const RegressorSystem& system,
   }
   std::vector<SessionPosterior> result;
   if (units.size() < 2) return result;
-  const Downdating downdating(system, comparison, noise_dof, followed_of(system));
+  const Downdating downdating(system, comparison, followed_of(system));
   for (std::size_t session = 0; session < units.size(); ++session) {
     if (units[session] < std::max<std::size_t>(fewest, 1)) continue;
     BedPart others;

@@ -105,9 +105,8 @@ void weigh_for_a_verdict(BeltsAnalysis& a) {
   RegressorSystem alone = system_of(a.belts, {a.alone, {}}, own.candidates.testable, a.sigma_mm);
   if (a.taken_out.size() > 0) alone.e -= a.taken_out;
   test_significance(alone, NoiseSize::unknown, own);
-  if (!own.options.steps.average_parts || own.options.given_cause) return;
+  if (!own.options.average_parts || own.options.given_cause) return;
   own.parts = average_over_parts(own.system,
-                                 own.session.noise_dof,
                                  nothing_rejected(own.system),
                                  own.session.fewest_units,
                                  own.comparison);
@@ -115,7 +114,7 @@ void weigh_for_a_verdict(BeltsAnalysis& a) {
 
 void compare(bool last, AnalysisDepth depth, BeltsAnalysis& a) {
   Analysis& own = a.analysis;
-  ComparisonOptions options{.steps = own.options.steps, .given_cause = own.options.given_cause};
+  ComparisonOptions options{.given_cause = own.options.given_cause};
   options.search = kSearch;
   // Until the last every other strength with the best set of outliers says enough.
   options.search.sets_given = last ? 2 : 1;
@@ -138,7 +137,7 @@ void compare(bool last, AnalysisDepth depth, BeltsAnalysis& a) {
 void drop_hidden(BeltsAnalysis& a) {
   Analysis& own = a.analysis;
   const MarginalisedSystem marginalised =
-      marginalise(own.system, nothing_rejected(own.system), own.options.steps);
+      marginalise(own.system, nothing_rejected(own.system));
   std::vector<CauseId> visible;
   for (const CauseId& cause : own.candidates.testable) {
     if (is_observable(own.system, marginalised, cause)) {
@@ -222,7 +221,6 @@ tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts
   for (auto& [cause, reason] : all.not_testable)
     own.candidates.not_testable.push_back({cause, std::move(reason)});
   own.system = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
-  own.session.noise_dof = own.system.noise_dof;
   own.session.units.resize(own.system.units.size());
   own.session.fewest_units = kFewestPlaces;
   drop_hidden(a);

@@ -167,7 +167,7 @@ LinearisedBelts linearise(const MeasuredBelts& belts,
   const auto readings = std::make_shared<const observation::BeltLengthReadings>(belts::readings_of(
       untaped, counting, sigma_mm, reachable(*mechanism, state.places)));
   const ObservationSet set = estimation::observation_set({}, {readings}, mechanism);
-  LinearisedBelts result{linearise(set, estimation::stated_state(set), {}).value(), {}};
+  LinearisedBelts result{linearise(set, estimation::stated_state(set)).value(), {}};
   for (const NumberedUnit& unit : set.units) result.points.push_back(unit.index);
   return result;
 }

@@ -52,7 +52,7 @@ Eigen::MatrixXd slope_by_settings(const Analysis& a, const Regressor& own) {
       settings(column) += change;
       const auto state = moved_to(a.session, a.state, settings);
       if (!state) return std::nullopt;
-      const auto there = linearise(a.session, *state, a.options.steps);
+      const auto there = linearise(a.session, *state);
       if (!there) return std::nullopt;
       return signature(a.session, *state, *there, own.cause, own.values);
     };

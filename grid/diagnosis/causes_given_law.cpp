@@ -18,8 +18,8 @@ constexpr double kHardlyLikely = 0.1;
 bool may_name_a_cause(const Analysis& a, const Eigen::VectorXd& rows) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const Eigen::VectorXd e = marginalised.e - reduced(marginalised, rows);
-  const NoiseDensity noise(noise_dof(a), marginalised.kept.size());
-  const SingleScores scores = single_scores(a.system, marginalised, noise, e, true);
+  const NoiseDensity noise(a.system.noise_dof, marginalised.kept.size());
+  const SingleScores scores = single_scores(a.system, marginalised, noise, e);
   const double beforehand = log_odds_of_another(a.system, {}, false);
   const double least = std::log(kHardlyLikely / (1.0 - kHardlyLikely));
   return any_of(scores.log_factor, [&](double factor) { return factor + beforehand > least; });

@@ -110,12 +110,12 @@ std::size_t home_of(ModelComparison& comparison, std::vector<bool> outliers) {
 
 Downdating::Downdating(const RegressorSystem& system,
                        const ModelComparison& comparison,
-                       double noise_dof,
                        const FollowedModels& limits)
     : system_(system),
       comparison_(comparison),
-      dof_(noise_dof),
-      score_(system, comparison.marginalised_systems[comparison.best().marginalised], noise_dof) {
+      score_(system,
+             comparison.marginalised_systems[comparison.best().marginalised],
+             system.noise_dof) {
   for (auto& [key, models] : models_to_follow(system, comparison, limits)) {
     add_factorisation(key.first, key.second, std::move(models));
   }
@@ -162,7 +162,7 @@ void Downdating::add_factorisation(std::size_t number,
                                         columns,
                                         marginalised.g.dense(columns).colwise().squaredNorm()),
                           log_det};
-  const NoiseDensity noise(dof_, n);
+  const NoiseDensity noise(system_.noise_dof, n);
   for (const CandidateModel& model : models) {
     std::vector<Eigen::Index> set;
     for (const int k : model.regressors) set.push_back(factorised.equations.position(k));
@@ -207,7 +207,7 @@ Downdating::Without Downdating::without(const std::vector<std::size_t>& units) c
     const auto out = whole.kept.positions(units);
     const NormalEquations equations = downdated_equations(factorised, out);
     const Eigen::Index rows = factorised.inverse.rows() - std::ssize(out);
-    const NoiseDensity noise(dof_, rows);
+    const NoiseDensity noise(system_.noise_dof, rows);
     // Marginalised systems that differ in the points left out alone are one.
     const std::size_t home = home_of(comparison, with_units(system_, whole.outliers, units, true));
     const std::vector<bool> outliers = with_units(system_, whole.outliers, units, false);
@@ -257,7 +257,7 @@ std::vector<double> Downdating::probabilities_without(const std::vector<std::siz
     const NormalEquations equations = downdated_equations(factorised, out);
     const Eigen::Index all = factorised.inverse.rows();
     const Eigen::Index rows = all - std::ssize(out);
-    const NoiseDensity noise(dof_, rows);
+    const NoiseDensity noise(system_.noise_dof, rows);
     const double power = count_as == CountAs::all
                              ? static_cast<double>(all) / static_cast<double>(std::max<Eigen::Index>(rows, 1))
                              : 1.0;

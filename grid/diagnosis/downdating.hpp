@@ -45,7 +45,6 @@ class Downdating {
   /// System and comparison are kept by reference.
   Downdating(const RegressorSystem& system,
              const ModelComparison& comparison,
-             double noise_dof,
              const FollowedModels& followed = {});
 
   struct Without {
@@ -87,7 +86,6 @@ class Downdating {
 
   const RegressorSystem& system_;
   const ModelComparison& comparison_;
-  double dof_;
   SingleScore score_;
   std::vector<Factorisation> factorisations_;
 };

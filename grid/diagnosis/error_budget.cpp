@@ -62,7 +62,7 @@ std::vector<Corner> corners_of(const Analysis& a) {
       const auto marks = corner(area, right, top);
       ObservationSet session = session_at(a, {marks.begin(), marks.end()});
       if (session.places.size() != marks.size()) continue;
-      auto system = linearise(session, a.state, a.options.steps);
+      auto system = linearise(session, a.state);
       if (system) result.push_back({std::move(session), std::move(*system)});
     }
   }
@@ -96,7 +96,7 @@ class Budget {
   }
 
   [[nodiscard]] ErrorBudget measure() {
-    const auto stated = linearise(a_.session, stated_state(a_.session), {});
+    const auto stated = linearise(a_.session, stated_state(a_.session));
     if (!stated || units_.empty()) return {};
     Shifts before_calibration;
     for (const std::size_t u : units_) before_calibration.push_back(error_of_unit(*stated, stated->e, u));

@@ -89,20 +89,15 @@ double log_price_of_outliers(const RegressorSystem& system, const std::vector<bo
 }
 
 MarginalisedSystem marginalise(const RegressorSystem& system,
-                               const std::vector<bool>& outliers,
-                               const Steps& steps) {
+                               const std::vector<bool>& outliers) {
   MarginalisedSystem marginalised;
   marginalised.outliers = outliers;
   marginalised.kept = KeptRows(system, outliers);
   marginalised.log_outliers = log_price_of_outliers(system, outliers);
   const Eigen::MatrixXd a = marginalised.kept.of(system.by_setting);
   Eigen::VectorXd e = marginalised.kept(system.e);
-  if (steps.project_settings) {
-    marginalised.root = CovarianceRoot(linear::scaled_columns(a, system.sigma));
-    linear::add_product(e, -1.0, a, system.expected_change);
-  } else {
-    marginalised.root = CovarianceRoot(Eigen::MatrixXd(a.rows(), 0));
-  }
+  linear::add_product(e, -1.0, a, system.expected_change);
+  marginalised.root = CovarianceRoot(linear::scaled_columns(a, system.sigma));
   marginalised.log_det = marginalised.root.log_det();
   marginalised.e = marginalised.root.solve(e);
   marginalised.g = system.g.mapped([&](const auto& columns) {

@@ -89,8 +89,7 @@ struct MarginalisedSystem {
 [[nodiscard]] double log_price_of_outliers(const RegressorSystem& system,
                                            const std::vector<bool>& outliers);
 [[nodiscard]] MarginalisedSystem marginalise(const RegressorSystem& system,
-                                             const std::vector<bool>& outliers,
-                                             const Steps& steps);
+                                             const std::vector<bool>& outliers);
 /// The kept rows' covariance with the nuisances unknown but for their sigmas: the
 /// noise as a person sees it. Empty where there are none.
 [[nodiscard]] linear::Cholesky nuisance_noise(const RegressorSystem& system, const KeptRows& kept);

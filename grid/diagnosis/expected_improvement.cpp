@@ -89,13 +89,13 @@ MarginalisedSystem without_slips(const Analysis& a, const MarginalisedSystem& ma
   std::vector<bool> outliers = marginalised.outliers;
   reject_slips(a, outliers);
   return outliers == marginalised.outliers ? marginalised
-                                           : marginalise(a.system, outliers, a.options.steps);
+                                           : marginalise(a.system, outliers);
 }
 
 ExpectedImprovement expected_improvement(const Analysis& a) {
   if (!a.session.reads_chains()) return improvement_of_distances(a);
   const ObservationSet area = hangs_on_visits(a) ? a.session : over_the_area(a);
-  const auto there = linearise(area, a.state, a.options.steps);
+  const auto there = linearise(area, a.state);
   if (!there || area.units.empty()) return {};
   const std::vector<int>& causes = a.decision.regressors;
   const Estimate plain = estimate(a.system, without_slips(a, marginalised_system(a)), {}, -1);

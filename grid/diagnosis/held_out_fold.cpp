@@ -15,7 +15,7 @@ class FoldErrors {
         comparison_(without.comparison),
         decision_(decision),
         marginalised_(marginalise(
-            a_.system, comparison_.marginalised_systems[decision.marginalised].outliers, a_.options.steps)) {}
+            a_.system, comparison_.marginalised_systems[decision.marginalised].outliers)) {}
 
   [[nodiscard]] Errors at(const std::vector<std::size_t>& units) const {
     const std::vector<int>& all = a_.decision.regressors;
@@ -82,7 +82,7 @@ DecidedWithout decided_without(const Analysis& a,
 }
 
 HeldOutFolds::HeldOutFolds(const Analysis& analysis)
-    : analysis_(analysis), downdating_(analysis.system, analysis.comparison, noise_dof(analysis)) {}
+    : analysis_(analysis), downdating_(analysis.system, analysis.comparison) {}
 
 Fold HeldOutFolds::without(const std::vector<std::size_t>& units) const {
   const Analysis& a = analysis_;

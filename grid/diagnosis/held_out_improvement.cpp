@@ -49,7 +49,7 @@ struct BeforeCalibration {
 BeforeCalibration before_calibration(const Analysis& a, const std::vector<std::size_t>& units) {
   BeforeCalibration result;
   const ObservationSet& session = a.session;
-  const auto stated = linearise(session, stated_state(session), {});
+  const auto stated = linearise(session, stated_state(session));
   if (!stated) return result;
   constexpr auto kOfMachine = std::ssize(model::kMachineSettings);
   const auto sheet = std::ssize(session.settings) - kOfMachine;

@@ -24,7 +24,7 @@ LawModel::LawModel(const Analysis& a,
                    const MarginalisedSystem& marginalised,
                    const std::vector<int>& regressors,
                    int discrepancy)
-    : system_(a.system), marginalised_(marginalised), dof_(noise_dof(a)) {
+    : system_(a.system), marginalised_(marginalised), dof_(a.system.noise_dof) {
   const KeptRows& kept = marginalised.kept;
   settings_ = linear::scaled_columns(kept.of(a.system.by_setting), a.system.sigma);
   covariance_ = linear::one_plus_outer(settings_);

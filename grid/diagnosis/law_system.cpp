@@ -16,7 +16,7 @@ LawSystem::LawSystem(const Analysis& a,
                      const std::vector<std::vector<int>>& sets)
     : from_(a.system),
       marginalised_(a.comparison.marginalised_systems[number]),
-      noise_(noise_dof(a), marginalised_.kept.size()),
+      noise_(a.system.noise_dof, marginalised_.kept.size()),
       columns_(a.system) {
   std::set<int> used;
   for (const auto& set : sets) used.insert(set.begin(), set.end());

@@ -51,7 +51,7 @@ ModelCollector::ModelCollector(const RegressorSystem& system,
       marginalised_(marginalised),
       number_(number),
       options_(options),
-      noise_(options.steps.anchor_noise ? system.noise_dof : 1e-3, marginalised.kept.size()),
+      noise_(system.noise_dof, marginalised.kept.size()),
       best_(kMinusInfinity) {}
 
 double ModelCollector::consider(const ColumnSet& set,
@@ -81,11 +81,6 @@ double ModelCollector::consider(const ColumnSet& set,
 double ModelCollector::log_prior_of(const std::vector<int>& regressors, int discrepancy) const {
   double value = log_prior(system_, regressors, discrepancy >= 0);
   if (discrepancy >= 0) value += system_.discrepancies->log_share_of(discrepancy);
-  if (!options_.steps.average_location) {
-    for (const int k : regressors) {
-      value -= system_.regressor(k).log_prior;
-    }
-  }
   return value;
 }
 

@@ -30,9 +30,9 @@ double prior_of_count(std::size_t causes, double odds) {
 std::vector<std::vector<int>> first_hypotheses(const RegressorSystem& system,
                                                const std::vector<bool>& excluded,
                                                const ComparisonOptions& options) {
-  const MarginalisedSystem marginalised = marginalise(system, excluded, options.steps);
+  const MarginalisedSystem marginalised = marginalise(system, excluded);
   const NoiseDensity noise(system.noise_dof, marginalised.kept.size());
-  const SingleScores scores = single_scores(system, marginalised, noise, marginalised.e, false);
+  const SingleScores scores = single_scores(system, marginalised, noise, marginalised.e);
   std::vector<std::vector<int>> hypotheses = {{}};
   for (std::size_t k = 0; k < scores.causes.size(); ++k) {
     if (options.given_cause && !(scores.causes[k] == *options.given_cause)) continue;
@@ -96,15 +96,14 @@ double log_odds_of_another(const RegressorSystem& system, const std::vector<int>
 SingleScores single_scores(const RegressorSystem& system,
                            const MarginalisedSystem& marginalised,
                            const NoiseDensity& noise,
-                           const Eigen::VectorXd& e,
-                           bool average_location) {
+                           const Eigen::VectorXd& e) {
   SingleScores scores;
   const double ee = e.squaredNorm();
   const double nothing = noise.log_density(ee);
   const Eigen::VectorXd c = marginalised.g.transpose_times(e);
   const Eigen::VectorXd square = marginalised.g.squared_norms();
   std::vector<std::vector<double>> terms;
-  std::vector<double> best;
+  double best = kMinusInfinity;  // of the cause at hand
   NormalEquations equations;
   equations.columns = {0};
   equations.ee = ee;
@@ -117,7 +116,7 @@ SingleScores single_scores(const RegressorSystem& system,
       scores.causes.push_back(regressor.cause);
       scores.best_regressor.push_back(-1);
       terms.emplace_back();
-      best.push_back(kMinusInfinity);
+      best = kMinusInfinity;
     }
     const auto at = as_index(k);
     if (!(square(at) > 1e-8)) continue;
@@ -128,14 +127,12 @@ SingleScores single_scores(const RegressorSystem& system,
     const double factor =
         set_evidence(equations, one, first, noise).log_evidence - nothing + regressor.log_prior;
     terms.back().push_back(factor);
-    if (factor > best.back()) {
-      best.back() = factor;
+    if (factor > best) {
+      best = factor;
       scores.best_regressor.back() = static_cast<int>(k);
     }
   }
-  for (std::size_t k = 0; k < terms.size(); ++k) {
-    scores.log_factor.push_back(average_location ? log_sum(terms[k]) : best[k]);
-  }
+  for (const auto& places : terms) scores.log_factor.push_back(log_sum(places));
   return scores;
 }
 
@@ -172,10 +169,6 @@ std::vector<std::vector<bool>> sets_without_links(const RegressorSystem& system,
   return result;
 }
 
-}  // namespace
-
-namespace {
-
 std::vector<std::size_t> all_kernels(const RegressorSystem& system) {
   std::vector<std::size_t> all(system.discrepancies->kernels.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -207,7 +200,7 @@ class Comparer {
     for (const auto& outliers : sets) {
       auto& systems = comparison_.marginalised_systems;
       if (systems.size() == kMostOutlierSets) break;
-      systems.push_back(marginalise(system_, outliers, options_.steps));
+      systems.push_back(marginalise(system_, outliers));
       searches.emplace_back(system_, systems.back(), systems.size() - 1, options_);
       take(searches.back().run());
       best = std::max(best, searches.back().best());
@@ -272,8 +265,7 @@ ModelComparison compare_models(const RegressorSystem& system,
                                const std::vector<bool>& excluded,
                                const ComparisonOptions& options) {
   Comparer comparer(system, excluded, options);
-  auto sets =
-      outlier_sets(system, excluded, first_hypotheses(system, excluded, options), options.steps);
+  auto sets = outlier_sets(system, excluded, first_hypotheses(system, excluded, options));
   if (!contains(sets, excluded)) sets.push_back(excluded);
   comparer.compare_with(sets);
   const auto more = sets_without_links(system, excluded, comparer.comparison());

@@ -57,7 +57,6 @@ struct SearchLimits {
 };
 
 struct ComparisonOptions {
-  Steps steps;
   bool discrepancies = true;
   /// Kernels of the discrepancy to try (numbers in the system's family); empty: all.
   std::vector<std::size_t> kernels{};
@@ -100,7 +99,6 @@ struct SingleScores {
 [[nodiscard]] SingleScores single_scores(const RegressorSystem& system,
                                          const MarginalisedSystem& marginalised,
                                          const NoiseDensity& noise,
-                                         const Eigen::VectorXd& e,
-                                         bool average_location);
+                                         const Eigen::VectorXd& e);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -53,7 +53,7 @@ Alternative expected_with(const Analysis& a,
 std::vector<NextMeasurement> next_for_laws(const Analysis& a, const LawsFound& found) {
   if (found.laws.empty() || found.laws.front().probability >= kEnough) return {};
   NextCandidates candidates = next_candidates(a);
-  const auto system = linearise(candidates.session, a.state, {});
+  const auto system = linearise(candidates.session, a.state);
   if (!system) return {};
   const Next next{candidates.session, *system};
   std::vector<Alternative> alternatives;

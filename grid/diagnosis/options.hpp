@@ -13,16 +13,6 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Steps that can be left out to see what they are worth. All on but for such experiments.
-struct Steps {
-  bool project_settings = true;  ///< off: settings stay as calibrated while effects are scored
-  bool whiten = true;            ///< off: all chain lengths with one weight, no position noise
-  bool anchor_noise = true;      ///< off: the noise is whatever the best fit leaves
-  bool average_location = true;  ///< off: the best location counts in full
-  bool robust = true;            ///< off: no point is set aside
-  bool average_parts = true;     ///< off: the probabilities of all readings, also given a pattern
-};
-
 struct DiagnosisOptions {
   std::uint64_t seed = 1;
   bool improvement = true;  ///< error of the tool today; held-out errors, naming repeated in each fold
@@ -35,7 +25,8 @@ struct DiagnosisOptions {
   bool accept_class = false;
   /// Nothing but this cause is looked for: what somebody who knew it would find.
   std::optional<CauseId> given_cause{};
-  Steps steps;
+  /// Given a pattern the probabilities are averaged over parts of the bed (bed_parts.hpp).
+  bool average_parts = true;
   Progress progress{};
 };
 

@@ -131,7 +131,7 @@ RegressorSystem order_columns(const Analysis& a, const Measured& ordered) {
   RegressorSystem result;
   auto set = observations_of(ordered);
   if (!set) return result;
-  auto system = linearise(*set, a.state, a.options.steps);
+  auto system = linearise(*set, a.state);
   if (!system) return result;
   std::vector<CauseId> causes;
   for (const CauseId& cause : candidates(*set).testable) {
@@ -161,7 +161,7 @@ double log_order_factor(const RegressorSystem& columns, const GivenModel& model,
     return model.covariance.half_solve(model.kept.of(all));
   });
   const NoiseDensity noise(noise_dof, model.kept.size());
-  const SingleScores scores = single_scores(columns, reduced, noise, model.e, true);
+  const SingleScores scores = single_scores(columns, reduced, noise, model.e);
   return log_sum(scores.log_factor) + model.log_odds;
 }
 
@@ -192,7 +192,7 @@ std::vector<double> order_probabilities(const Measured& measured, const Analysis
     if (columns.regressors.empty()) continue;
     std::vector<double> terms;
     for (const GivenModel& model : models)
-      terms.push_back(model.log_weight + log_order_factor(columns, model, noise_dof(a)));
+      terms.push_back(model.log_weight + log_order_factor(columns, model, a.system.noise_dof));
     log_weights.emplace_back(k, log_sum(terms));
   }
   std::vector<double> all = {a.comparison.log_total};

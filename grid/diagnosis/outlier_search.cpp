@@ -289,25 +289,24 @@ FoundSet search(MeanShifts shifts,
   return best;
 }
 
-}  // namespace
-
-std::vector<OutlierGroup> unit_groups(const RegressorSystem& system) {
+/// The rows of each unit where the system has no groups: a point read wrongly spoils both.
+std::vector<OutlierGroup> groups_of(const RegressorSystem& system) {
+  if (!system.groups.empty()) return system.groups;
   std::vector<OutlierGroup> groups;
   for (const SystemUnit& unit : system.units) groups.push_back({unit.first_row, unit.rows});
   return groups;
 }
 
+}  // namespace
+
 std::vector<std::vector<bool>> outlier_sets(const RegressorSystem& system,
-                                            const std::vector<OutlierGroup>& groups,
-                                            const OutlierLimits& limits,
                                             const std::vector<bool>& excluded,
-                                            const std::vector<std::vector<int>>& hypotheses,
-                                            const Steps& steps) {
-  const MarginalisedSystem marginalised = marginalise(system, excluded, steps);
+                                            const std::vector<std::vector<int>>& hypotheses) {
+  const MarginalisedSystem marginalised = marginalise(system, excluded);
+  const std::vector<OutlierGroup> groups = groups_of(system);
   const std::vector<FreeGroup> free = free_groups(marginalised, groups);
   std::vector<bool> beforehand(groups.size(), true);
   for (const FreeGroup& group : free) beforehand[group.group] = false;
-  if (!steps.robust) return {beforehand};
   const MeanShifts nothing(marginalised, free);
   std::vector<FoundSet> found;
   for (const auto& set : hypotheses) {
@@ -315,7 +314,7 @@ std::vector<std::vector<bool>> outlier_sets(const RegressorSystem& system,
                           system,
                           marginalised,
                           free,
-                          limits,
+                          system.limits,
                           beforehand,
                           log_prior(system, set, false));
     const auto same = std::find_if(
@@ -335,18 +334,6 @@ std::vector<std::vector<bool>> outlier_sets(const RegressorSystem& system,
     sets.push_back(one.outliers);
   }
   return sets;
-}
-
-std::vector<std::vector<bool>> outlier_sets(const RegressorSystem& system,
-                                            const std::vector<bool>& excluded,
-                                            const std::vector<std::vector<int>>& hypotheses,
-                                            const Steps& steps) {
-  return outlier_sets(system,
-                      system.groups.empty() ? unit_groups(system) : system.groups,
-                      system.limits,
-                      excluded,
-                      hypotheses,
-                      steps);
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -21,25 +21,12 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// The rows of each unit: a point read wrongly spoils both.
-[[nodiscard]] std::vector<OutlierGroup> unit_groups(const RegressorSystem& system);
-
-/// A flag a group, the most probable set first; groups of units that are excluded beforehand are
+/// A flag an outlier group of the system, the most probable set first; groups of units that are excluded beforehand are
 /// flagged in all of them. Where a set takes all directions of some rows, all groups of these rows
 /// are flagged. `hypotheses` are sets of regressors.
 [[nodiscard]] std::vector<std::vector<bool>> outlier_sets(
     const RegressorSystem& system,
-    const std::vector<OutlierGroup>& groups,
-    const OutlierLimits& limits,
     const std::vector<bool>& excluded,
-    const std::vector<std::vector<int>>& hypotheses,
-    const Steps& steps);
-
-/// The same of the system's own groups, within its limits.
-[[nodiscard]] std::vector<std::vector<bool>> outlier_sets(
-    const RegressorSystem& system,
-    const std::vector<bool>& excluded,
-    const std::vector<std::vector<int>>& hypotheses,
-    const Steps& steps);
+    const std::vector<std::vector<int>>& hypotheses);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -11,37 +11,10 @@ namespace {
 /// Where nothing is stated of a parameter, in its own unit: a metre is as good as nothing.
 constexpr double kOpenSigma = 1000.0;
 
-/// For each observation one whitening in place of its units' own, of the mean variance of a row.
-std::vector<double> common_sigmas(const RegressorSystem& system, std::size_t parts) {
-  std::vector<double> variance(parts, 0.0);
-  std::vector<double> rows(parts, 0.0);
-  for (const auto* units : {&system.units, &system.certain}) {
-    for (const SystemUnit& unit : *units) {
-      variance[unit.observation] += unit.whitening.inverse().squaredNorm();
-      rows[unit.observation] += static_cast<double>(unit.rows);
-    }
-  }
-  for (std::size_t k = 0; k < parts; ++k) variance[k] = std::sqrt(variance[k] / rows[k]);
-  return variance;
-}
-
-void whiten_by(const std::vector<double>& sigma, SystemUnit& unit, RegressorSystem& system) {
-  const double own = sigma[unit.observation];
-  const Eigen::MatrixXd change = unit.whitening.inverse() / own;
-  const auto rows = Eigen::seqN(unit.first_row, unit.rows);
-  system.e(rows) = (change * system.e(rows)).eval();
-  system.by_setting(rows, Eigen::all) = (change * system.by_setting(rows, Eigen::all)).eval();
-  for (observation::PlaceColumns& place : unit.places)
-    place.by_chain = (change * place.by_chain).eval();
-  unit.whitening =
-      estimation::UnitWhitening(Eigen::MatrixXd::Identity(unit.rows, unit.rows) * own * own);
-}
-
 }  // namespace
 
 tl::expected<RegressorSystem, observation::Unreachable> linearise(const ObservationSet& set,
-                                                                  const State& state,
-                                                                  const Steps& steps) {
+                                                                  const State& state) {
   std::vector<estimation::ObservedFrom> from;
   for (const ObservationPart& part : set.parts) {
     const auto settings = std::ssize(set.columns_of(part));
@@ -64,12 +37,6 @@ tl::expected<RegressorSystem, observation::Unreachable> linearise(const Observat
                       : model::effects::effects_of(state.machine).size());
   system.noise_dof = set.noise_dof;
   system.limits.fewest_groups = set.fewest_units;
-  if (!steps.whiten) {
-    const std::vector<double> sigma = common_sigmas(system, set.parts.size());
-    for (auto* units : {&system.units, &system.certain}) {
-      for (SystemUnit& unit : *units) whiten_by(sigma, unit, system);
-    }
-  }
   return system;
 }
 

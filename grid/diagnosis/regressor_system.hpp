@@ -126,6 +126,6 @@ struct RegressorSystem : estimation::LinearisedSystem {
 
 /// Without regressors. Fails with the first place that the machine cannot reach.
 [[nodiscard]] tl::expected<RegressorSystem, observation::Unreachable> linearise(
-    const ObservationSet& set, const State& state, const Steps& steps);
+    const ObservationSet& set, const State& state);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -188,9 +188,9 @@ Relinearised relinearise(const Analysis& a) {
   }
   Relinearised result{a.state, {}};
   for (int round = 0; round < kRounds; ++round) {
-    auto about = linearise(session, result.state, a.options.steps);
+    auto about = linearise(session, result.state);
     if (!about || !renew_regressors(session, result.state, own, *about)) break;
-    MarginalisedSystem there = marginalise(*about, marginalised.outliers, a.options.steps);
+    MarginalisedSystem there = marginalise(*about, marginalised.outliers);
     there.discrepancy_trace =
         marginalised.discrepancy_trace;  // the discrepancy stays as strong as it was found
     const Round here(session, result.state, *about, std::move(there), discrepancy);

@@ -74,8 +74,7 @@ std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stabil
   excluded[reading->unit] = true;
   a.comparison = compare_models(a.system,
                                 excluded,
-                                {.steps = a.options.steps,
-                                 .kernels = best_kernels(a.comparison),
+                                {.kernels = best_kernels(a.comparison),
                                  .given_cause = a.options.given_cause});
   decide_for(false, a);
   return refusal_words(a.session, *reading, cause, leader.probability);

@@ -169,7 +169,7 @@ std::optional<Stability> examine_stability(const Analysis& a) {
   if (a.decision.listed.empty()) return std::nullopt;
   const std::vector<LeftOut> groups = groups_to_leave_out(a.session);
   if (groups.empty()) return std::nullopt;
-  const Downdating downdating(a.system, a.comparison, noise_dof(a));
+  const Downdating downdating(a.system, a.comparison);
   const Statement statement(a);
   const double all = statement.log_odds(downdating.without({}).comparison);
   Stability result;

@@ -32,8 +32,8 @@ class Placed {
     if (sheet_.by_setting.cols() == 0) return left;
     RegressorSystem system = sheet_;
     system.e = left;
-    const auto outliers = outlier_sets(system, nothing_rejected(system), {{}}, {}).front();
-    return estimate(system, marginalise(system, outliers, {}), {}, -1).left;
+    const auto outliers = outlier_sets(system, nothing_rejected(system), {{}}).front();
+    return estimate(system, marginalise(system, outliers), {}, -1).left;
   }
 
  private:
@@ -121,8 +121,8 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   // The other sheet was placed for itself.
   State state{a.state.machine, std::vector<model::SheetPlacement>(second->sheets)};
   if (first->sheets == second->sheets) state.sheets = a.state.sheets;
-  const auto system = linearise(*second, state, {});
-  const auto stated = linearise(*second, stated_state(*second), {});
+  const auto system = linearise(*second, state);
+  const auto stated = linearise(*second, stated_state(*second));
   if (!system || !stated) {
     return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::point_unreachable,
                                            "a point of the other grid cannot be reached"});

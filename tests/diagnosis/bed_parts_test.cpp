@@ -41,7 +41,7 @@ Analysis analysed(const MeasuredGrid& grid, bool averaged = true) {
   auto session = observations_of(grid);
   EXPECT_TRUE(session);
   DiagnosisOptions options = verdict_alone();
-  options.steps.average_parts = averaged;
+  options.average_parts = averaged;
   auto a = analyse(*std::move(session), options);
   EXPECT_TRUE(a);
   return *std::move(a);
@@ -166,12 +166,12 @@ TEST(Averaging, EqualsComparisonsOfEachPart) {
   for (const PartPosterior& part : a.parts) {
     std::vector<bool> excluded = nothing_rejected(a.system);
     for (const std::size_t u : part.left_out.units) excluded[u] = true;
-    const ModelComparison own = compare_models(a.system, excluded, {.steps = verdict_alone().steps});
+    const ModelComparison own = compare_models(a.system, excluded, {});
     // As if the rest of the bed had been a session of its own.
     RegressorSystem split = a.system;
     for (const std::size_t u : part.left_out.units) split.units[u].observation = 1;
     const PartPosterior shortcut =
-        session_posteriors(split, noise_dof(a), 1, whole.comparison).front().posterior;
+        session_posteriors(split, 1, whole.comparison).front().posterior;
     for (const auto& [cause, p] : shortcut.causes) by_cause[name_of(cause)].first += p / 16.0;
     for (const CandidateModel& model : own.models) {
       for (const int k : model.regressors) {

@@ -122,7 +122,7 @@ double brute_force(const RegressorSystem& system,
 
 TEST(Evidence, OfNothingEqualsTheIntegral) {
   const RegressorSystem system = small_system(-100.0);
-  const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
+  const MarginalisedSystem marginalised = marginalise(system, {false, false, false});
   const NormalEquations equations = normal_equations(system, marginalised, {0});
   const NoiseDensity noise(kDof, 6);
   const double closed = set_evidence(equations, system.regressors, {}, noise).log_evidence;
@@ -134,7 +134,7 @@ TEST(Evidence, OfNothingEqualsTheIntegral) {
 TEST(Evidence, OfACauseEqualsTheIntegral) {
   for (const double lowest : {-100.0, 0.0}) {
     const RegressorSystem system = small_system(lowest);
-    const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
+    const MarginalisedSystem marginalised = marginalise(system, {false, false, false});
     const NormalEquations equations = normal_equations(system, marginalised, {0});
     const NoiseDensity noise(kDof, 6);
     const std::array<Eigen::Index, 1> set = {0};
@@ -175,7 +175,7 @@ TEST(Evidence, MassOfTheNormalAddsUp) {
 
 TEST(Evidence, QuadraticIsThatOfGeneralisedLeastSquares) {
   const RegressorSystem system = small_system(-100.0);
-  const MarginalisedSystem marginalised = marginalise(system, {false, true, false}, {});
+  const MarginalisedSystem marginalised = marginalise(system, {false, true, false});
   const std::vector<Eigen::Index> kept = {0, 1, 4, 5};
   ASSERT_EQ(marginalised.kept.rows(), kept);
   const Eigen::VectorXd a = system.by_setting(kept, 0);
@@ -192,7 +192,7 @@ TEST(Decision, NothingIsMoreThanCertain) {
   const RegressorSystem system = small_system(-100.0);
   const std::vector<bool> none(3, false);
   ModelComparison comparison;
-  comparison.marginalised_systems.push_back(marginalise(system, none, {}));
+  comparison.marginalised_systems.push_back(marginalise(system, none));
   comparison.marginalised_systems.front().discrepancy_trace.assign(chain_discrepancies().kernels.size(),
                                                                    1.0);
   CandidateModel model;
@@ -206,7 +206,7 @@ TEST(Decision, NothingIsMoreThanCertain) {
 
 TEST(NullDistribution, HoldsItsSize) {
   const RegressorSystem system = small_system(0.0);
-  const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
+  const MarginalisedSystem marginalised = marginalise(system, {false, false, false});
   const SingleScore score(system, marginalised, kDof);
   const NullDistribution null = draw_null(score, 6, 4000, 1);
   Random random(20261121);

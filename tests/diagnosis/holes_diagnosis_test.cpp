@@ -98,7 +98,7 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
   const auto session = observations_of(set);
   ASSERT_TRUE(session);
   const State state = stated_state(*session);
-  const auto system = linearise(*session, state, {});
+  const auto system = linearise(*session, state);
   ASSERT_TRUE(system);
   const observation::Observation& tape = *session->parts.front().observation;
   const auto line = tape.linearise(state.view(session->parts.front()), observation::columns_of(tape));

@@ -83,7 +83,7 @@ Weighed weighed(const RegressorSystem& system,
 /// the nested sets.
 std::vector<bool> one_by_one(const RegressorSystem& system, const std::vector<int>& set) {
   const std::vector<bool> none(kUnits, false);
-  const MarginalisedSystem whole = marginalise(system, none, {});
+  const MarginalisedSystem whole = marginalise(system, none);
   const Eigen::MatrixXd scaled = system.by_setting * system.sigma.asDiagonal();
   Eigen::MatrixXd covariance =
       Eigen::MatrixXd::Identity(system.e.size(), system.e.size()) + scaled * scaled.transpose();
@@ -134,7 +134,7 @@ TEST(OutlierSearch, IsThatOfTheWholeCovariance) {
     const RegressorSystem system = random_system(random);
     const std::vector<bool> none(kUnits, false);
     for (const std::vector<int>& set : {std::vector<int>{}, std::vector<int>{0}}) {
-      const auto found = outlier_sets(system, none, {set}, {});
+      const auto found = outlier_sets(system, none, {set});
       EXPECT_EQ(found.front(), one_by_one(system, set)) << set.size() << " regressors";
     }
   }
@@ -256,10 +256,10 @@ TEST(OutlierSearch, DirectionsAreThoseOfTheWholeCovariance) {
         best = outliers;
       }
     }
-    EXPECT_EQ(outlier_sets(system, nothing_rejected(system), {{}}, {}).front(), best);
+    EXPECT_EQ(outlier_sets(system, nothing_rejected(system), {{}}).front(), best);
     // What is left without them is what the comparison weighs causes in; to rounding.
     const Weighed w = weighed_without(best);
-    const MarginalisedSystem left = marginalise(system, best, {});
+    const MarginalisedSystem left = marginalise(system, best);
     EXPECT_EQ(left.kept.size(), w.rows);
     EXPECT_NEAR(left.e.squaredNorm(), w.quadratic, 1e-9 * (1.0 + w.quadratic));
     EXPECT_NEAR(left.log_det, w.log_det, 1e-9 * (1.0 + std::abs(w.log_det)));

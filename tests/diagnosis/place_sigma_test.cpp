@@ -49,7 +49,7 @@ class Profile {
       steps_.push_back(kStep * a.system.sigma[j]);
       values[j] += steps_.back();
       moved_.push_back(moved_to(a.session, a.state, values).value());
-      systems_.push_back(linearise(a.session, moved_.back(), a.options.steps).value());
+      systems_.push_back(linearise(a.session, moved_.back()).value());
     }
   }
   [[nodiscard]] double square_at(double place) const {

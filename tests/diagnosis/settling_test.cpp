@@ -41,12 +41,10 @@ TEST(Settling, ATurnOfTheSheetCountsAsItsEdgeMoves) {
   grid.sheet = SheetUncertainty{20.0, 10.0};
   const Analysis a = analysis_of_grid(grid);
   ASSERT_TRUE(a.converged);
-  auto again = linearise(a.session, a.state, a.options.steps).value();
+  auto again = linearise(a.session, a.state).value();
   again.g = RegressorColumns(a.session.rows);
-  Steps projected = a.options.steps;
-  projected.project_settings = true;
   const auto marginalised =
-      marginalise(again, a.comparison.marginalised_systems.front().outliers, projected);
+      marginalise(again, a.comparison.marginalised_systems.front().outliers);
   const Eigen::VectorXd change = estimate(again, marginalised, {}, -1).setting_change;
   const double edge_mm = 0.5 * a.session.stated.bed.width_mm;
   const Eigen::Index turn = ObservationSet::sheet_column(0) + 2;

@@ -83,7 +83,7 @@ TEST(Downdating, OfAllPointsIsTheComparison) {
   const auto a = analyse(*session, verdict_alone());
   ASSERT_TRUE(a);
   ASSERT_FALSE(a->decision.listed.empty());
-  const Downdating downdating(a->system, a->comparison, noise_dof(*a));
+  const Downdating downdating(a->system, a->comparison);
   const auto all = downdating.without({});
   EXPECT_LT(a->null.p_value(all.score), kFalseAlarm);
   EXPECT_EQ(all.comparison.best().regressors, a->comparison.best().regressors);
@@ -112,7 +112,7 @@ TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
       std::vector<bool> excluded(session->units.size(), false);
       for (const std::size_t i : groups[k].units) excluded[i] = true;
       const ModelComparison comparison =
-          compare_models(a->system, excluded, {.steps = verdict_alone().steps});
+          compare_models(a->system, excluded, {});
       const Decision decision = decide(a->system, comparison, excluded, true, a->decision.classes);
       EXPECT_EQ(stability->removals[k].stands, still_named(a->decision, decision)) << "group " << k;
       // Not included in the models of all points: sets of outliers and discrepancies that become

@@ -139,7 +139,7 @@ grid::diagnosis::Diagnosis diagnosed(const grid::MeasuredGrid& grid, bool averag
   options.improvement = false;
   options.next_measurements = false;
   options.accept_class = true;
-  options.steps.average_parts = average_parts;
+  options.average_parts = average_parts;
   auto found = grid::diagnosis::diagnose(grid, options);
   if (!found) throw std::runtime_error(found.error().sentence());
   return std::move(*found);
