@@ -2,7 +2,7 @@
 /// \file
 /// Whole containers as arguments of the standard algorithms, and positions between the standard library,
 /// whose are unsigned, and Eigen, whose are signed. (std::ranges is missing in the library with which the
-/// page is built.)
+/// page is built.) Counts enter formulas as doubles.
 ///
 /// \code
 ///   if (contains(members, cause)) ...
@@ -15,7 +15,10 @@
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
+#include <functional>
 #include <iterator>
+#include <numeric>
+#include <vector>
 
 namespace chaintrue::grid {
 
@@ -24,6 +27,10 @@ namespace chaintrue::grid {
 }
 [[nodiscard]] constexpr Eigen::Index as_index(std::integral auto position) {
   return static_cast<Eigen::Index>(position);
+}
+
+[[nodiscard]] constexpr double as_double(std::integral auto count) {
+  return static_cast<double>(count);
 }
 
 template <class Container, class Value>
@@ -52,14 +59,29 @@ void stable_sort(Container& all, Less... less) {
   std::stable_sort(std::begin(all), std::end(all), less...);
 }
 
-/// Orders for sort() by a member: stable_sort(models, descending(&CandidateModel::log_weight)).
-template <class Member>
-[[nodiscard]] auto ascending(Member member) {
-  return [member](const auto& a, const auto& b) { return a.*member < b.*member; };
+/// The first of which it holds; null for none.
+template <class Container, class Predicate>
+[[nodiscard]] auto* find_where(Container& all, Predicate holds) {
+  const auto found = std::find_if(std::begin(all), std::end(all), holds);
+  return found != std::end(all) ? &*found : nullptr;
 }
-template <class Member>
-[[nodiscard]] auto descending(Member member) {
-  return [member](const auto& a, const auto& b) { return a.*member > b.*member; };
+
+/// Orders by a member, or by what a function makes of each: stable_sort(models, descending(&CandidateModel::log_weight)).
+template <class Key>
+[[nodiscard]] auto ascending(Key key) {
+  return [key](const auto& a, const auto& b) { return std::invoke(key, a) < std::invoke(key, b); };
+}
+template <class Key>
+[[nodiscard]] auto descending(Key key) {
+  return [key](const auto& a, const auto& b) { return std::invoke(key, a) > std::invoke(key, b); };
+}
+
+/// 0, 1, ... below `count`.
+template <class Integer = std::size_t>
+[[nodiscard]] std::vector<Integer> numbers_below(std::integral auto count) {
+  std::vector<Integer> all(as_size(count));
+  std::iota(all.begin(), all.end(), Integer{0});
+  return all;
 }
 
 /// Each value once, in ascending order.

@@ -97,7 +97,7 @@ std::uint64_t Random::bits() {
   return result;
 }
 
-double Random::uniform() { return (static_cast<double>(bits() >> 11U) + 0.5) * 0x1.0p-53; }
+double Random::uniform() { return (as_double(bits() >> 11U) + 0.5) * 0x1.0p-53; }
 
 double Random::uniform(double from, double to) { return from + (to - from) * uniform(); }
 

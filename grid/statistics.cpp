@@ -21,21 +21,21 @@ double rms(const std::vector<double>& values) {
   if (values.empty()) return 0.0;
   double squares = 0.0;
   for (const double value : values) squares += value * value;
-  return std::sqrt(squares / static_cast<double>(values.size()));
+  return std::sqrt(squares / as_double(values.size()));
 }
 
 double rms(const std::vector<Eigen::Vector2d>& values) {
   if (values.empty()) return 0.0;
   double squares = 0.0;
   for (const Eigen::Vector2d& value : values) squares += value.squaredNorm();
-  return std::sqrt(squares / (2.0 * static_cast<double>(values.size())));
+  return std::sqrt(squares / (2.0 * as_double(values.size())));
 }
 
 double rms_length(const std::vector<Eigen::Vector2d>& values) {
   if (values.empty()) return 0.0;
   double squares = 0.0;
   for (const Eigen::Vector2d& value : values) squares += value.squaredNorm();
-  return std::sqrt(squares / static_cast<double>(values.size()));
+  return std::sqrt(squares / as_double(values.size()));
 }
 
 double log_sum(double a, double b) {

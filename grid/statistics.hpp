@@ -4,7 +4,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 namespace chaintrue::grid {
@@ -29,5 +31,32 @@ inline constexpr double kMinusInfinity = -kInfinity;
 [[nodiscard]] double log_sum(double a, double b);
 /// log(sum exp(t)); minus infinity for no terms.
 [[nodiscard]] double log_sum(const std::vector<double>& terms);
+
+/// Chance of a standard normal beyond z.
+[[nodiscard]] inline double normal_upper(double z) {
+  return 0.5 * std::erfc(z / std::numbers::sqrt2);
+}
+
+/// log of the chance beyond z; asymptotic where erfc underflows.
+[[nodiscard]] inline double log_normal_upper(double z) {
+  if (z < 25.0) return std::log(normal_upper(z));
+  return -0.5 * z * z - std::log(z * std::sqrt(2.0 * std::numbers::pi)) - 1.0 / (z * z);
+}
+
+/// log of the chance between low < high, in sigmas about the mean.
+[[nodiscard]] inline double log_normal_mass(double low, double high) {
+  // The tails beyond are below half of a double's last digit of one.
+  constexpr double kNoTail = 8.3;
+  if (low < -kNoTail && high > kNoTail) return 0.0;
+  if (high < 0.0) return log_normal_mass(-high, -low);
+  if (low <= 0.0) {
+    const double outside = normal_upper(-low) + normal_upper(high);
+    // The series' next term is below 1e-18. Most bounds are far away, and log1p is what would cost time.
+    return outside < 1e-6 ? -outside - 0.5 * outside * outside : std::log1p(-outside);
+  }
+  const double a = log_normal_upper(low);
+  const double b = log_normal_upper(high);
+  return b >= a ? kMinusInfinity : a + std::log1p(-std::exp(b - a));
+}
 
 }  // namespace chaintrue::grid

@@ -8,6 +8,7 @@
 
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/first_frames.hpp"
+#include "grid/containers.hpp"
 #include "grid/map/noise_from_repeats.hpp"
 #include "grid/statistics.hpp"
 #include "model/belts/belt_mechanism.hpp"
@@ -112,8 +113,7 @@ Counting without_nowhere_points(const MeasuredBelts& belts,
       ++out;
     }
   }
-  const bool are_few =
-      static_cast<double>(out) <= kMostBadReadings * static_cast<double>(belts.points.size());
+  const bool are_few = as_double(out) <= kMostBadReadings * as_double(belts.points.size());
   return are_few ? fewer : counting;
 }
 
@@ -183,8 +183,7 @@ AnchorFit without_gross_points(const MeasuredBelts& belts, AnchorFit frame) {
   constexpr double kMuchBetter = 3.0;
   const std::size_t count = belts.points.size();
   if (count > kMostPoints) return frame;
-  const auto most =
-      static_cast<std::size_t>(std::ceil(kMostBadReadings * static_cast<double>(count)));
+  const auto most = static_cast<std::size_t>(std::ceil(kMostBadReadings * as_double(count)));
   for (std::size_t out = 0; out < most; ++out) {
     if (frame.is_sound && frame.residual_sigma_mm < kPlausibleSpreadMm) break;
     std::optional<AnchorFit> best;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grid/belts/anchor_estimate.hpp"
+#include "grid/failed.hpp"
 #include "grid/map/lengths_check.hpp"
 #include "grid/statistics.hpp"
 #include "model/belts/belt_mechanism.hpp"
@@ -32,16 +33,12 @@ CheckWords words_of_anchors() {
           words_of_belts};
 }
 
-tl::unexpected<CheckFailure> check_fails(CheckFailure::Reason reason, const char* sentence) {
-  return tl::unexpected(CheckFailure{reason, sentence});
-}
-
 }  // namespace
 
 tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const MeasuredBelts& belts) {
   using Reason = CheckFailure::Reason;
   if (fit.checks < 1 || !(fit.residual_sigma_mm > 0.0)) {
-    return check_fails(
+    return failed(
         Reason::no_noise,
         "these anchors were not fitted to belts, so that nothing says how well new readings should "
         "agree: fit belts, and check against those anchors");
@@ -64,7 +61,7 @@ tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const Measu
     for (const CheckResidual& one : check->residuals) residuals_mm.push_back(one.residual_mm);
   }
   if (!check || !(rms(residuals_mm) < kAnotherFrameMm)) {
-    return check_fails(
+    return failed(
         Reason::nowhere,
         "the new lengths end nowhere together about these anchors: are they of this frame, and do "
         "their \"lengths\" count what the file says?");

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/belts/belt_checks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/first_frames.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
+#include "grid/containers.hpp"
 #include "grid/input_checks/findings.hpp"
 #include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/robust_trend.hpp"
@@ -98,10 +99,10 @@ double far_from_commands(const MeasuredBelts& belts, const std::vector<model::Fr
     mean += off.back();
   }
   if (off.empty()) return 0.0;
-  mean /= static_cast<double>(off.size());
+  mean /= as_double(off.size());
   double square = 0.0;
   for (const Eigen::Vector2d& one : off) square += (one - mean).squaredNorm();
-  return std::sqrt(square / static_cast<double>(off.size()));
+  return std::sqrt(square / as_double(off.size()));
 }
 
 /// A share of how far the commands themselves reach: mirrored ones are off by as much as that.

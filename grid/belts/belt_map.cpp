@@ -70,7 +70,7 @@ interp::Rectangle domain_of(const model::BeltMachine& machine) {
 
 /// The shift and turn that lay `from` on `to`, by least squares.
 model::SheetPlacement laid(const std::vector<MarkPoint>& from, const std::vector<BedPoint>& to) {
-  const auto count = static_cast<double>(from.size());
+  const auto count = as_double(from.size());
   MarkPoint a;
   BedPoint b;
   for (std::size_t i = 0; i < from.size(); ++i) {

@@ -11,6 +11,7 @@
 #include "grid/belts/holes_estimate.hpp"
 #include "grid/belts/taped_state.hpp"
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/precondition.hpp"
@@ -28,11 +29,6 @@ using belts::kAnchorUnknowns;
 using belts::kFrameUnknowns;
 using belts::TapedMarginal;
 using belts::TapedState;
-
-tl::unexpected<BeltsFitFailure> joint_failure(BeltsFitFailure::Reason reason,
-                                              std::string sentence) {
-  return tl::unexpected(BeltsFitFailure{reason, std::move(sentence)});
-}
 
 void fill_frame(const MeasuredBelts& measured,
                 const TapedState& state,
@@ -193,11 +189,10 @@ tl::expected<BeltsAndHolesFit, BeltsFitFailure> joined(const MeasuredBelts& meas
                                                        BeltsFit alone) {
   const auto state = belts::converged_state(frame, sets);
   if (!state) {
-    return joint_failure(
-        BeltsFitFailure::Reason::tape_contradicts,
-        "more than a third of the distances contradict the belts or each other: check "
-        "the anchors in force when the holes were cut, which holes the distances join, "
-        "and the tape's hook offset");
+    return failed(BeltsFitFailure::Reason::tape_contradicts,
+                  "more than a third of the distances contradict the belts or each other: check "
+                  "the anchors in force when the holes were cut, which holes the distances join, "
+                  "and the tape's hook offset");
   }
   BeltsAndHolesFit fit{std::move(alone), {}};
   fit.holes.covariance = posterior(frame, sets, *state, fit.holes.displacement);

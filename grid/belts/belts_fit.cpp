@@ -11,6 +11,7 @@
 #include "grid/belts/prediction.hpp"
 #include "grid/belts/repeated_pulls.hpp"
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 
 namespace chaintrue::grid {
 
@@ -25,13 +26,9 @@ constexpr double kLostAnchorMm = 100.0;
 /// itself gives up at 5 mm of its own kind.
 constexpr double kNoFrameMm = 50.0;
 
-tl::unexpected<BeltsFitFailure> failure(BeltsFitFailure::Reason reason, std::string sentence) {
-  return tl::unexpected(BeltsFitFailure{reason, std::move(sentence)});
-}
-
 tl::unexpected<BeltsFitFailure> not_determined(const MeasuredBelts& belts) {
   const std::string pulls = repeated_pulls_in_words(belts);
-  return failure(
+  return failed(
       BeltsFitFailure::Reason::not_determined,
       fmt::format("the places do not tell where the anchors are: they lie on a line, or all in one "
                   "spot; measure at places spread over the sheet's width and height{}{}",
@@ -56,12 +53,12 @@ bool are_in_one_spot(const MeasuredBelts& belts) {
 tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
   using Reason = BeltsFitFailure::Reason;
   if (belts.points.size() < kFewestBeltPoints) {
-    return failure(Reason::too_few_points,
-                   fmt::format("{} places are too few: {} leave {} checks of five anchor "
-                               "coordinates; measure at more places",
-                               belts.points.size(),
-                               kFewestBeltPoints,
-                               2 * kFewestBeltPoints - 5));
+    return failed(Reason::too_few_points,
+                  fmt::format("{} places are too few: {} leave {} checks of five anchor "
+                              "coordinates; measure at more places",
+                              belts.points.size(),
+                              kFewestBeltPoints,
+                              2 * kFewestBeltPoints - 5));
   }
   const bool has_holes =
       any_of(belts.distances, [](const BeltDistance& distance) {
@@ -69,9 +66,9 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
                std::holds_alternative<CutHole>(distance.to);
       });
   if (has_holes && !belts.machine.anchors_known) {
-    return failure(Reason::hole_without_anchors,
-                   "a distance ends at a hole, and where the machine cut that follows from the "
-                   "anchors that it had at the time: state x_mm and y_mm of the anchors in force");
+    return failed(Reason::hole_without_anchors,
+                  "a distance ends at a hole, and where the machine cut that follows from the "
+                  "anchors that it had at the time: state x_mm and y_mm of the anchors in force");
   }
   const auto frame = belts::fit_anchors_robustly(belts);
   constexpr const char* kNoFrame =
@@ -79,13 +76,13 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
       "own "
       "belt?";
   if (!frame)
-    return are_in_one_spot(belts) ? not_determined(belts) : failure(Reason::no_frame, kNoFrame);
+    return are_in_one_spot(belts) ? not_determined(belts) : failed(Reason::no_frame, kNoFrame);
   const belts::FitDiagnostics view(belts, *frame);
   if (frame->residual_sigma_mm > kNoFrameMm) {
-    return failure(Reason::no_frame,
-                   fmt::format("the lengths contradict each other by {:.0f} mm whatever the "
-                               "anchors: are they of one frame, in mm, each under its own belt?",
-                               frame->residual_sigma_mm));
+    return failed(Reason::no_frame,
+                  fmt::format("the lengths contradict each other by {:.0f} mm whatever the "
+                              "anchors: are they of one frame, in mm, each under its own belt?",
+                              frame->residual_sigma_mm));
   }
   const Eigen::VectorXd variance = view.covariance().diagonal().head<5>();
   if (!view.covariance().allFinite() || variance.minCoeff() <= 0.0 ||
@@ -93,7 +90,7 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
       belts::are_on_a_line(frame->state.places)) {
     return not_determined(belts);
   }
-  if (!frame->is_sound) return failure(Reason::no_frame, kNoFrame);
+  if (!frame->is_sound) return failed(Reason::no_frame, kNoFrame);
   BeltsFit fit = belts::fit_report(belts, view, view.covariance());
   fit.half_left_out = belts::predict_by_halves(belts, *frame);
   return fit;

@@ -166,7 +166,7 @@ BeltResidual FitDiagnostics::residual(std::size_t point, Belt belt) const {
   const double own_share =
       row.by_position * blocks_[slots_[point]->block].inverse * row.by_position.transpose();
   const double h = (own_share + row.by_unknown.dot(covariance_ * row.by_unknown)) / s2;
-  const auto n = static_cast<double>(frame_.checks);
+  const auto n = as_double(frame_.checks);
   if (!result.counts) {
     if (n >= 1.0)
       result.sigmas = estimation::normal_deviate(r / (frame_.residual_sigma_mm * std::sqrt(1.0 + h)), n);

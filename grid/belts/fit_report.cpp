@@ -67,7 +67,7 @@ void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFi
     }
     fit.places.push_back(std::move(place));
   }
-  fit.rms_mm = std::sqrt(square / (4.0 * static_cast<double>(belts.points.size())));
+  fit.rms_mm = std::sqrt(square / (4.0 * as_double(belts.points.size())));
   for (const Belt belt : kBelts) {
     fit.rms_of_mm[belt] = counts[belt] > 0 ? std::sqrt(squares[belt] / counts[belt]) : 0.0;
   }

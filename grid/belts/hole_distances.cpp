@@ -62,7 +62,7 @@ constexpr model::MechanismReason kNowhere{"circles_do_not_meet",
 }  // namespace
 
 HoleDistances::HoleDistances(const std::vector<BeltHoles>& sets, const Eigen::MatrixXd& covariance)
-    : sets_(&sets), covariance_(covariance) {
+    : Observation(false, 0.0), sets_(&sets), covariance_(covariance) {
   measured_ = Eigen::VectorXd::Zero(covariance.rows());
   for (Eigen::Index row = 0; row < covariance.rows(); ++row)
     units_.push_back({row, 1, as_size(row)});

@@ -42,9 +42,6 @@ class HoleDistances final : public observation::Observation {
   [[nodiscard]] const observation::Kind& kind() const override {
     return observation::tape_distances;
   }
-  [[nodiscard]] bool ordered() const override { return false; }
-  [[nodiscard]] double noise_dof() const override { return 0.0; }
-  [[nodiscard]] bool may_be_outlier() const override { return true; }
   [[nodiscard]] tl::expected<Eigen::VectorXd, observation::Unreachable> predicted(
       const observation::View& view) const override;
   [[nodiscard]] tl::expected<observation::Linearisation, observation::Unreachable> linearise(

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "grid/containers.hpp"
 #include "grid/statistics.hpp"
@@ -36,8 +35,7 @@ BeltPrediction summed(const std::vector<double>& residual_mm) {
 }
 
 std::vector<std::size_t> in_order(const MeasuredBelts& belts) {
-  std::vector<std::size_t> order(belts.points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  auto order = numbers_below(belts.points.size());
   stable_sort(order, [&](std::size_t a, std::size_t b) {
     return belts.points[a].order.value_or(static_cast<int>(a)) <
            belts.points[b].order.value_or(static_cast<int>(b));

@@ -68,7 +68,7 @@ struct Chosen {
   [[nodiscard]] double mean() const {
     double sum = 0.0;
     for (const double one : all) sum += std::exp(one - best);
-    return best + std::log(sum / static_cast<double>(all.size()));
+    return best + std::log(sum / as_double(all.size()));
   }
 };
 
@@ -146,7 +146,7 @@ std::optional<TapedState> converged_state(const HolesEstimate& frame,
   state.counting.assign(as_size(state.rows.residual_mm.size()), true);
   const double dof = noise_dof(sets);
   if (!converge(frame, sets, state)) return std::nullopt;
-  const auto most = static_cast<std::size_t>(static_cast<double>(state.counting.size()) / 3.0);
+  const auto most = static_cast<std::size_t>(as_double(state.counting.size()) / 3.0);
   for (std::size_t rejected = 0; rejected <= most; ++rejected) {
     state.noise = likeliest_noise(frame, sets, state, dof);
     if (!converge(frame, sets, state)) return std::nullopt;

@@ -78,31 +78,6 @@ tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
   return {};
 }
 
-/// Takes effects out that could not show at any size that they may have.
-void drop_invisible(const MarginalisedSystem& marginalised, Analysis& a) {
-  std::vector<CauseId> visible;
-  for (const CauseId& cause : a.candidates.testable) {
-    if (is_observable(a.system, marginalised, cause)) {
-      visible.push_back(cause);
-    } else {
-      NotTestable& hidden = a.candidates.not_testable.emplace_back();
-      hidden.cause = cause;
-      hidden.reason = "whatever its size, calibrating the settings would hide it";
-    }
-  }
-  const auto is_visible = [&](const Regressor& d) { return contains(visible, d.cause); };
-  std::vector<Eigen::Index> kept;
-  std::vector<Regressor> regressors;
-  for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
-    if (!is_visible(a.system.regressors[k])) continue;
-    kept.push_back(as_index(k));
-    regressors.push_back(a.system.regressors[k]);
-  }
-  a.system.g = a.system.g.subset(kept);
-  a.system.regressors = std::move(regressors);
-  a.candidates.testable = std::move(visible);
-}
-
 /// What is fitted is the member that gives its class the name: settings and sizes belong together.
 void speak_of_leaders(const RegressorSystem& system,
                       const ModelComparison& comparison,
@@ -113,12 +88,12 @@ void speak_of_leaders(const RegressorSystem& system,
       if (members.front() == own || !contains(members, own)) {
         continue;
       }
-      const auto alone = std::find_if(
-          comparison.models.begin(), comparison.models.end(), [&](const CandidateModel& model) {
+      auto* alone =
+          find_where(comparison.models, [&](const CandidateModel& model) {
             return model.regressors.size() == 1 &&
                    system.regressor(model.regressors.front()).cause == members.front();
           });
-      if (alone != comparison.models.end()) k = alone->regressors.front();
+      if (alone != nullptr) k = alone->regressors.front();
     }
   }
   sort(decision.regressors);
@@ -126,30 +101,44 @@ void speak_of_leaders(const RegressorSystem& system,
 
 }  // namespace
 
-bool is_observable(const RegressorSystem& system,
-                 const MarginalisedSystem& marginalised,
-                 const CauseId& cause) {
-  double most = 0.0;
-  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
-    const Regressor& d = system.regressors[k];
-    if (!(d.cause == cause)) continue;
-    const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
-    most = std::max(most, size * marginalised.g.col(as_index(k)).norm());
+void drop_hidden(const MarginalisedSystem& marginalised, std::string_view reason, Analysis& a) {
+  const auto shows = [&](const CauseId& cause) {
+    double most = 0.0;
+    for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+      const Regressor& d = a.system.regressors[k];
+      if (!(d.cause == cause)) continue;
+      const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
+      most = std::max(most, size * marginalised.g.col(as_index(k)).norm());
+    }
+    return most >= kLeastReach;
+  };
+  std::vector<CauseId> visible;
+  for (const CauseId& cause : a.candidates.testable) {
+    if (shows(cause)) {
+      visible.push_back(cause);
+    } else {
+      a.candidates.not_testable.push_back({cause, std::string(reason)});
+    }
   }
-  return most >= kLeastReach;
+  std::vector<Eigen::Index> kept;
+  std::vector<Regressor> regressors;
+  for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+    if (!contains(visible, a.system.regressors[k].cause)) continue;
+    kept.push_back(as_index(k));
+    regressors.push_back(a.system.regressors[k]);
+  }
+  a.system.g = a.system.g.subset(kept);
+  a.system.regressors = std::move(regressors);
+  a.candidates.testable = std::move(visible);
 }
 
-Decision decide_for_leaders(const RegressorSystem& system,
-                            const ModelComparison& comparison,
-                            const std::vector<bool>& excluded,
-                            bool detected) {
-  Decision decision = decide(system, comparison, excluded, detected);
-  speak_of_leaders(system, comparison, decision);
-  return decision;
+void decide_for_leaders(bool detected, Analysis& a) {
+  a.decision = decide(a.system, a.comparison, nothing_rejected(a.system), detected);
+  speak_of_leaders(a.system, a.comparison, a.decision);
 }
 
 void decide_for(bool detected, Analysis& a) {
-  a.decision = decide_for_leaders(a.system, a.comparison, nothing_rejected(a.system), detected);
+  decide_for_leaders(detected, a);
   estimate_decided(a);
 }
 
@@ -194,7 +183,8 @@ tl::expected<void, DiagnosisFailure> linearise_anew(const std::vector<Refinement
   const std::vector<bool> none(a.session.units.size(), false);
   const MarginalisedSystem marginalised = marginalise(a.system, none);
   share_out_links(marginalised, a.system);
-  if (first) drop_invisible(marginalised, a);
+  if (first)
+    drop_hidden(marginalised, "whatever its size, calibrating the settings would hide it", a);
   return {};
 }
 
@@ -215,8 +205,7 @@ void weigh_for_a_verdict(Analysis& a) {
   if (!options.given_cause)
     a.sessions = session_posteriors(a.system, a.session.fewest_units, a.comparison);
   if (options.average_parts && !options.given_cause) {
-    a.parts = average_over_parts(
-        a.system, nothing_rejected(a.system), a.session.fewest_units, a.comparison);
+    a.parts = average_over_parts(a.system, a.session.fewest_units, a.comparison);
   }
   decide_for(options.given_cause.has_value() || a.family_wise_p < kFalseAlarm, a);
 }

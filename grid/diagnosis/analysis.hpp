@@ -4,6 +4,7 @@
 /// about what was found, compare again.
 #pragma once
 
+#include <string_view>
 #include <tl/expected.hpp>
 
 #include "grid/diagnosis/bed_parts.hpp"
@@ -36,23 +37,18 @@ struct Analysis {
   Estimate estimate;  ///< of the decision's causes
 };
 
-/// decide(), what is fitted being the member that gives its class the name.
-[[nodiscard]] Decision decide_for_leaders(const RegressorSystem& system,
-                                                 const ModelComparison& comparison,
-                                                 const std::vector<bool>& excluded,
-                                                 bool detected);
-
-/// Decision and estimate from the comparison at hand. `detected`: the strongest effect is beyond what
-/// noise does.
+/// decide() from the comparison at hand, what is fitted being the member that gives its class the name. `detected`: the
+/// strongest effect is beyond what noise does.
+void decide_for_leaders(bool detected, Analysis& analysis);
+/// The same with its estimate.
 void decide_for(bool detected, Analysis& analysis);
 /// Noise and estimate of the decision at hand.
 void estimate_decided(Analysis& analysis);
 
-
-/// Whether a cause could show at some size that it may have, the settings free.
-[[nodiscard]] bool is_observable(const RegressorSystem& system,
-                               const MarginalisedSystem& marginalised,
-                               const CauseId& cause);
+/// Takes causes out that could not show at any size that they may have, the settings free, for this reason.
+void drop_hidden(const MarginalisedSystem& marginalised,
+                 std::string_view reason,
+                 Analysis& analysis);
 
 /// How often noise alone lets some cause look as strong as the strongest does: sets `null`, `score` and
 /// `family_wise_p`, without what the best model rejects.

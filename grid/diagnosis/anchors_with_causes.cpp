@@ -41,8 +41,7 @@ void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, Anc
       if (frame.counting[k][belt]) square += std::pow(lines.residual_mm[belts::row_of(k, belt)], 2);
     }
   }
-  frame.residual_sigma_mm =
-      std::max(std::sqrt(square / static_cast<double>(frame.checks)), kLeastSpreadMm);
+  frame.residual_sigma_mm = std::max(std::sqrt(square / as_double(frame.checks)), kLeastSpreadMm);
 }
 
 /// (1) of anchors_with_causes.hpp. \returns the covariance of anchors and scale; empty where the

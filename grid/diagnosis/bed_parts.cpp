@@ -47,7 +47,7 @@ Eigen::Vector2d place_of(const RegressorSystem& system, std::size_t u) {
     const model::MarkPoint& mark = system.places[place.place].mark;
     sum += Eigen::Vector2d(mark.x_mm, mark.y_mm);
   }
-  return sum / static_cast<double>(unit.places.size());
+  return sum / as_double(unit.places.size());
 }
 
 std::vector<UnitPlace> places_of_units(const RegressorSystem& system,
@@ -63,7 +63,7 @@ std::vector<UnitPlace> places_of_units(const RegressorSystem& system,
 
 bool lie_on_a_line(const std::vector<Eigen::Vector2d>& places) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (const auto& at : places) mean += at / static_cast<double>(places.size());
+  for (const auto& at : places) mean += at / as_double(places.size());
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
   for (const auto& at : places) scatter += (at - mean) * (at - mean).transpose();
   const Eigen::Vector2d squares =
@@ -86,10 +86,8 @@ PartPosterior summary(const RegressorSystem& system,
     if (!models[k]->regressors.empty()) result.caused += probability[k];
     for (const int regressor : models[k]->regressors) {
       const CauseId& cause = system.regressor(regressor).cause;
-      const auto known = std::find_if(result.causes.begin(),
-                                      result.causes.end(),
-                                      [&](const auto& own) { return own.first == cause; });
-      auto& own = known != result.causes.end() ? *known : result.causes.emplace_back(cause, 0.0);
+      auto* known = find_where(result.causes, [&](const auto& own) { return own.first == cause; });
+      auto& own = known != nullptr ? *known : result.causes.emplace_back(cause, 0.0);
       own.second += probability[k];
     }
   }
@@ -136,7 +134,7 @@ std::vector<BedPart> bed_parts(const RegressorSystem& system,
                                const std::vector<bool>& excluded,
                                std::size_t fewest) {
   const std::vector<UnitPlace> places = places_of_units(system, excluded);
-  const auto out = static_cast<std::size_t>(kShareLeftOut * static_cast<double>(places.size()));
+  const auto out = static_cast<std::size_t>(kShareLeftOut * as_double(places.size()));
   std::vector<BedPart> parts;
   for (int k = 0; k < kCutDirections && out > 0; ++k) {
     // Half a step from the axes, so that no line runs along the columns of a lattice.
@@ -165,7 +163,6 @@ std::vector<BedPart> bed_parts(const RegressorSystem& system,
 }
 
 std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
-                                              const std::vector<bool>& excluded,
                                               std::size_t fewest,
                                               ModelComparison& comparison) {
   std::vector<PartPosterior> result;
@@ -174,7 +171,7 @@ std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
     if (model.discrepancy >= 0) pattern += comparison.probability(model);
   }
   if (pattern <= kDiscrepancyLikely) return result;
-  std::vector<BedPart> parts = bed_parts(system, excluded, fewest);
+  std::vector<BedPart> parts = bed_parts(system, nothing_rejected(system), fewest);
   if (parts.empty()) return result;
   const Downdating downdating(system, comparison, followed_of(system));
   const std::vector<const CandidateModel*> models = downdating.followed();

@@ -22,7 +22,7 @@
 /// B. Jing, Biometrika 82 (1995), 561.
 ///
 /// \code
-///   const std::vector<PartPosterior> parts = average_over_parts(system, excluded, fewest, comparison);
+///   const std::vector<PartPosterior> parts = average_over_parts(system, fewest, comparison);
 /// \endcode
 #pragma once
 
@@ -59,7 +59,6 @@ struct PartPosterior {
 /// Puts averaged probabilities in place of the weights, and says what the parts make of the causes. The
 /// comparison stays as it is where no parts can be formed, or a pattern is no likelier than not.
 [[nodiscard]] std::vector<PartPosterior> average_over_parts(const RegressorSystem& system,
-                                                            const std::vector<bool>& excluded,
                                                             std::size_t fewest,
                                                             ModelComparison& comparison);
 

@@ -91,7 +91,7 @@ void take_expected_back(BeltsAnalysis& a) {
 /// Decision, and the estimate of its causes: given the pattern that it holds, if any.
 void decide(bool detected, BeltsAnalysis& a) {
   Analysis& own = a.analysis;
-  own.decision = decide_for_leaders(own.system, own.comparison, nothing_rejected(own.system), detected);
+  decide_for_leaders(detected, own);
   // Where the strongest cause is no more than noise does by chance, none is named, whatever a pattern with
   // it seems to leave for it.
   if (!detected) withdraw_names(own.comparison, own.decision);
@@ -106,10 +106,7 @@ void weigh_for_a_verdict(BeltsAnalysis& a) {
   if (a.taken_out.size() > 0) alone.e -= a.taken_out;
   test_significance(alone, NoiseSize::unknown, own);
   if (!own.options.average_parts || own.options.given_cause) return;
-  own.parts = average_over_parts(own.system,
-                                 nothing_rejected(own.system),
-                                 own.session.fewest_units,
-                                 own.comparison);
+  own.parts = average_over_parts(own.system, own.session.fewest_units, own.comparison);
 }
 
 void compare(bool last, AnalysisDepth depth, BeltsAnalysis& a) {
@@ -131,28 +128,6 @@ void compare(bool last, AnalysisDepth depth, BeltsAnalysis& a) {
   const bool for_a_verdict = last && depth == AnalysisDepth::verdict;
   if (for_a_verdict) weigh_for_a_verdict(a);
   decide(!for_a_verdict || own.family_wise_p < kFalseAlarmOfBelts, a);
-}
-
-/// Causes that nothing in these readings could show.
-void drop_hidden(BeltsAnalysis& a) {
-  Analysis& own = a.analysis;
-  const MarginalisedSystem marginalised =
-      marginalise(own.system, nothing_rejected(own.system));
-  std::vector<CauseId> visible;
-  for (const CauseId& cause : own.candidates.testable) {
-    if (is_observable(own.system, marginalised, cause)) {
-      visible.push_back(cause);
-    } else {
-      NotTestable& hidden = own.candidates.not_testable.emplace_back();
-      hidden.cause = cause;
-      hidden.reason =
-          "at any size that it may have, other anchors would hide it: measure at more places, "
-          "spread over the sheet";
-    }
-  }
-  if (visible.size() == own.candidates.testable.size()) return;
-  own.candidates.testable = std::move(visible);
-  own.system = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
 }
 
 /// Anchors, places and sizes as the decision has them. The state stays where that settles nowhere.
@@ -216,14 +191,14 @@ tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts
   a.sigma_mm = kUsualSpreadMm;
   Analysis& own = a.analysis;
   own.options = options;
-  BeltsCandidates all = candidates(a.belts);
-  own.candidates.testable = std::move(all.testable);
-  for (auto& [cause, reason] : all.not_testable)
-    own.candidates.not_testable.push_back({cause, std::move(reason)});
+  own.candidates = candidates(a.belts);
   own.system = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
   own.session.units.resize(own.system.units.size());
   own.session.fewest_units = kFewestPlaces;
-  drop_hidden(a);
+  drop_hidden(marginalise(own.system, nothing_rejected(own.system)),
+              "at any size that it may have, other anchors would hide it: measure at more places, "
+              "spread over the sheet",
+              own);
   for (int pass = 0; pass < kCalibrationRounds; ++pass) {
     compare(pass + 1 == kCalibrationRounds, depth, a);
     if (pass + 1 == kCalibrationRounds) break;

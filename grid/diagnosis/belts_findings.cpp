@@ -66,7 +66,7 @@ double shape_error_mm(const Believed& believed, const std::vector<FramePoint>& p
   }
   const Eigen::VectorXd left =
       shift - linear::product(design, linear::least_squares(design, shift));
-  return std::sqrt(left.squaredNorm() / static_cast<double>(n));
+  return std::sqrt(left.squaredNorm() / as_double(n));
 }
 
 /// Half of an axis of the anchors' uncertainty at a time, both ways: rms over all of them.
@@ -115,7 +115,7 @@ double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
   const FitGivenCauses& at = fitted ? *fitted : given;
   const MeasuredBelts without_causes = without_effects(belts, at.causes, at.frame.state);
   const Eigen::VectorXd left = belts::reading_lines(without_causes, at.frame.state).residual_mm;
-  return std::sqrt(left.squaredNorm() / static_cast<double>(left.size()));
+  return std::sqrt(left.squaredNorm() / as_double(left.size()));
 }
 
 /// By the tape, with the causes taken out: a stretch makes the belts' millimetres longer as a scale does, and counted
@@ -218,9 +218,8 @@ Unexplained unexplained(const BeltsAnalysis& a) {
   const KeptRows& kept = own.comparison.marginalised_systems[own.decision.marginalised].kept;
   const Eigen::VectorXd all = kept(own.estimate.left);
   const Eigen::VectorXd taken = all - kept(own.estimate.left_given_discrepancy);
-  result.rms_mm = a.sigma_mm * std::sqrt(taken.squaredNorm() / static_cast<double>(taken.size()));
-  result.signal_to_noise =
-      result.rms_mm / a.sigma_mm * std::sqrt(static_cast<double>(own.system.e.size()));
+  result.rms_mm = a.sigma_mm * std::sqrt(taken.squaredNorm() / as_double(taken.size()));
+  result.signal_to_noise = result.rms_mm / a.sigma_mm * std::sqrt(as_double(own.system.e.size()));
   result.share = std::min(1.0, taken.squaredNorm() / std::max(all.squaredNorm(), 1e-300));
   result.length_mm = own.noise->process.kernel.fields.front().length;
   return result;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
@@ -195,8 +194,7 @@ std::optional<double> all_once_more(const BeltsAnalysis& a, double times = 1.0) 
     gathering.add(a.state.frame.state.places[k], a.belts.points[k].pulled, a.belts.points[k].pull);
   gathering.count_visits();
   const std::vector<Alternative> alternatives = predicted_at(a, gathering.take()).alternatives;
-  std::vector<Eigen::Index> rows(as_size(alternatives.front().mean.size()));
-  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  auto rows = numbers_below<Eigen::Index>(alternatives.front().mean.size());
   return expected_discrimination(alternatives, rows).named_alone;
 }
 

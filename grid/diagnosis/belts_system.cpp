@@ -7,7 +7,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
-#include "grid/diagnosis/secants.hpp"
+#include "grid/diagnosis/regressors.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -111,8 +111,7 @@ class Columns {
       if (own.cause == cause) found = &own;
     }
     if (found != nullptr) values = found->values;
-    const double side =
-        effect_share(cause.effect->id) / static_cast<double>(cause.effect->sides.size());
+    const double side = effect_share(cause.effect->id) / as_double(cause.effect->sides.size());
     if (parameters.size() == 1) return add_one({cause, values}, found != nullptr, side);
     std::vector<int> visits = thinned(visits_);
     if (found != nullptr) {
@@ -120,7 +119,7 @@ class Columns {
       append_all(visits, near);
       sort_unique(visits);
     }
-    const double share = side / static_cast<double>(visits.size());
+    const double share = side / as_double(visits.size());
     for (const int visit : visits) {
       values.back() = visit;
       if (parameters.front().integer) {
@@ -194,38 +193,39 @@ class Columns {
 
 }  // namespace
 
-BeltsCandidates candidates(const MeasuredBelts& belts) {
-  BeltsCandidates result;
+Candidates candidates(const MeasuredBelts& belts) {
   const bool ordered = !visits_to_set_in(belts).empty();
   std::array<bool, 2> is_pulled_anywhere{};
   for (const BeltPoint& point : belts.points) {
     for (const Belt belt : kBelts) is_pulled_anywhere[is_pulled(point, belt) ? 1 : 0] = true;
   }
+  const bool tells_pull = is_pulled_anywhere[0] && is_pulled_anywhere[1];
+  const auto hidden_because = [&](const model::belts::BeltEffect* effect, EffectSide side) {
+    if (effect == &model::belts::anchor_moved && side == EffectSide::all)
+      return "a frame that stands elsewhere as a whole, with the places in it, changes no length: "
+             "measure a hole that the machine cut from two edges of the sheet";
+    if (effect == &model::belts::belt_scale && side == EffectSide::all)
+      return belts.distances.empty()
+                 ? "lengths that are all too long by the same share make a larger frame and "
+                   "contradict nothing: tape one long distance, between two anchors or two holes "
+                   "that the machine cut, and give it as distances"
+                 : "no belt tells it; the taped distances do: see the scale";
+    if (effect->needs == model::effects::DataNeed::order && !ordered)
+      return "the file does not say in which order the places were measured: give order";
+    if ((effect == &model::belts::belt_stretch || effect == &model::belts::anchor_flex) &&
+        !tells_pull)
+      return "no belt is pulled while others hold: say which are, with pulled";
+    return "";
+  };
+  Candidates result;
   for (const model::belts::BeltEffect* effect : model::belts::belt_effects()) {
     for (const EffectSide side : effect->sides) {
       const CauseId cause{&model::belts::described(*effect), side};
-      if (effect == &model::belts::anchor_moved && side == EffectSide::all) {
-        result.not_testable.emplace_back(
-            cause,
-            "a frame that stands elsewhere as a whole, with the places in it, changes no length: "
-            "measure a hole that the machine cut from two edges of the sheet");
-      } else if (effect == &model::belts::belt_scale && side == EffectSide::all) {
-        result.not_testable.emplace_back(
-            cause,
-            belts.distances.empty()
-                ? "lengths that are all too long by the same share make a larger frame and "
-                  "contradict nothing: tape one long distance, between two anchors or two holes "
-                  "that the machine cut, and give it as distances"
-                : "no belt tells it; the taped distances do: see the scale");
-      } else if (effect->needs == model::effects::DataNeed::order && !ordered) {
-        result.not_testable.emplace_back(
-            cause, "the file does not say in which order the places were measured: give order");
-      } else if ((effect == &model::belts::belt_stretch || effect == &model::belts::anchor_flex) &&
-                 !(is_pulled_anywhere[0] && is_pulled_anywhere[1])) {
-        result.not_testable.emplace_back(
-            cause, "no belt is pulled while others hold: say which are, with pulled");
-      } else {
+      const std::string reason = hidden_because(effect, side);
+      if (reason.empty()) {
         result.testable.push_back(cause);
+      } else {
+        result.not_testable.push_back({cause, reason});
       }
     }
   }
@@ -244,7 +244,7 @@ LengthEntry entry_of(const MeasuredBelts& belts,
   entry.point = index;
   entry.x_mm = where.x_mm;
   entry.y_mm = where.y_mm;
-  entry.visit = static_cast<double>(point.order.value_or(0));
+  entry.visit = as_double(point.order.value_or(0));
   for (const Belt belt : kBelts) {
     entry.length_mm.push_back(point.lengths_mm[belt]);
     entry.angle_rad.push_back(std::atan2(std::abs(where.y_mm - frame.anchors[belt].y_mm),

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "grid/diagnosis/belts_given_causes.hpp"
-#include "grid/diagnosis/regressor_system.hpp"
+#include "grid/diagnosis/regressors.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -28,12 +28,8 @@ struct BeltsState {
 /// 1000 and more; the fourth does not tell.
 [[nodiscard]] double share_of_expected(std::string_view effect);
 
-/// Causes that these data can show, and the others with what would show them.
-struct BeltsCandidates {
-  std::vector<CauseId> testable;
-  std::vector<std::pair<CauseId, std::string>> not_testable;
-};
-[[nodiscard]] BeltsCandidates candidates(const MeasuredBelts& belts);
+/// Of what these data cannot show, what would show it.
+[[nodiscard]] Candidates candidates(const MeasuredBelts& belts);
 
 /// With a regressor for each of `causes` at every place where it may set in.
 [[nodiscard]] RegressorSystem system_of(const MeasuredBelts& belts,

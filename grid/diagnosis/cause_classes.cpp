@@ -136,9 +136,7 @@ void put_likelier_first(const RegressorSystem& system,
   };
   const auto is_paper = [](const CauseId& cause) { return on_paper(cause); };
   const auto end = std::find_if(members.begin(), members.end(), is_paper);
-  std::stable_sort(members.begin(), end, [&](const CauseId& a, const CauseId& b) {
-    return weight_of(a) > weight_of(b);
-  });
+  std::stable_sort(members.begin(), end, descending(weight_of));
 }
 
 /// An orthonormal basis of what the settings can do. Distances hardly feel some of them, and what

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -62,7 +63,7 @@ HeldOutBlocksError error_of(const std::vector<HeldOutSquare>& squares) {
     sum.plain_mm += one.plain_mm2;
     sum.with_causes_mm += one.with_causes_mm2;
   }
-  const auto count = static_cast<double>(std::max<std::size_t>(squares.size(), 1));
+  const auto count = as_double(std::max<std::size_t>(squares.size(), 1));
   return {std::sqrt(sum.plain_mm / count), std::sqrt(sum.with_causes_mm / count)};
 }
 
@@ -75,9 +76,9 @@ bool falls_beyond_its_error(const std::vector<HeldOutSquare>& squares) {
     count += 1.0;
     total += one.plain_mm2 - one.with_causes_mm2;
   }
-  const auto b = static_cast<double>(blocks.size());
+  const auto b = as_double(blocks.size());
   if (b < 2.0) return false;
-  const auto n = static_cast<double>(squares.size());
+  const auto n = as_double(squares.size());
   const double mean = total / n;
   double sum = 0.0;
   for (const auto& [block, of] : blocks) sum += std::pow(of.first - of.second * mean, 2);

@@ -328,11 +328,10 @@ namespace {
 
 /// The likeliest pattern without any cause; false where none was weighed.
 bool take_pattern_alone(const ModelComparison& comparison, Decision& decision) {
-  const auto alone = std::find_if(
-      comparison.models.begin(), comparison.models.end(), [](const CandidateModel& model) {
-        return model.discrepancy >= 0 && model.regressors.empty();
-      });
-  if (alone == comparison.models.end()) return false;
+  auto* alone = find_where(comparison.models, [](const CandidateModel& model) {
+    return model.discrepancy >= 0 && model.regressors.empty();
+  });
+  if (alone == nullptr) return false;
   decision.best_discrepancy = alone->discrepancy;
   decision.marginalised = alone->marginalised;
   decision.discrepancy_left = true;

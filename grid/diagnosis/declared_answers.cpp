@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/law_model.hpp"
@@ -18,9 +19,7 @@ using Says = DeclaredAnswer::Says;
 
 template <class T>
 const T* find_of(const std::vector<T>& all, const CauseId& cause) {
-  const auto at = std::find_if(
-      all.begin(), all.end(), [&](const T& one) { return one.cause == cause; });
-  return at == all.end() ? nullptr : &*at;
+  return find_where(all, [&](const T& one) { return one.cause == cause; });
 }
 
 /// What leads the comparison, without this cause.

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid::diagnosis {
 namespace {
 
@@ -30,7 +32,7 @@ double between_lengths(const DiscrepancyKernel& kernel, const LengthEntry& a, co
     const FieldArgument there = of_place ? FieldArgument{b.x_mm, b.y_mm} : FieldArgument{b.visit};
     sum += field_covariance(field, at, there);
   }
-  return sum / static_cast<double>(kernel.fields.size());
+  return sum / as_double(kernel.fields.size());
 }
 
 Eigen::Matrix2d between_units(const DiscrepancyKernel& kernel,
@@ -114,7 +116,7 @@ Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
     }
     sum += field_entry(field, a) * covariance * field_entry(field, b).transpose();
   }
-  return sum / static_cast<double>(kernel.fields.size());
+  return sum / as_double(kernel.fields.size());
 }
 
 Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to,

@@ -154,9 +154,8 @@ class DiscrepancyBasis::Fields {
 
   Products& of(DiscrepancyField field) {
     field.direction_rad.reset();
-    const auto known =
-        std::find_if(all_.begin(), all_.end(), [&](const Products& p) { return p.field == field; });
-    if (known != all_.end()) return *known;
+    auto* known = find_where(all_, [&](const Products& p) { return p.field == field; });
+    if (known != nullptr) return *known;
     Products& p = all_.emplace_back();
     p.field = field;
     p.parts = components_of(system_, marginalised_, field, system_.places);
@@ -240,7 +239,7 @@ DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system,
     const DiscrepancyKernel& kernel = system.discrepancies->kernels[number];
     Kernel& own = kernels_[number];
     if (kernel.of_lengths()) own.blocks.push_back({&fields_->of(kernel), 1.0, 0.0});
-    const double share = 1.0 / std::sqrt(static_cast<double>(kernel.fields.size()));
+    const double share = 1.0 / std::sqrt(as_double(kernel.fields.size()));
     for (const DiscrepancyField& field : kernel.fields) {
       if (kernel.of_lengths()) break;
       Products* const products = &fields_->of(field);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -94,7 +95,7 @@ class Kernels {
   }
   void take(std::vector<DiscrepancyField>& group, double prior) {
     for (const DiscrepancyField& field : group) {
-      const double share = prior / static_cast<double>(group.size());
+      const double share = prior / as_double(group.size());
       if (field.entry == FieldEntry::tool && field.of != Coordinate::place) {
         all_.push_back({{field, trend_of(field)}, share});
       } else {
@@ -143,7 +144,7 @@ const DiscrepancyFamily& length_discrepancies_of_laws(bool ordered) {
       for (Eigen::Index length = 0; length < kLengths; ++length) {
         DiscrepancyField field{Coordinate::place, place_mm, FieldEntry::lengths};
         field.alone = length;
-        family.kernels.push_back({{field}, kHalf / static_cast<double>(kPlaceMm.size() * kLengths)});
+        family.kernels.push_back({{field}, kHalf / as_double(kPlaceMm.size() * kLengths)});
       }
     }
     return family;

@@ -197,35 +197,43 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
   return equations;
 }
 
+Downdating::Downdated Downdating::downdated(const Factorisation& factorised,
+                                            const std::vector<std::size_t>& units) const {
+  const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.marginalised];
+  const auto out = whole.kept.positions(units);
+  std::vector<bool> outliers = with_units(system_, whole.outliers, units, false);
+  const double price = log_price_of_outliers(system_, outliers);
+  return {downdated_equations(factorised, out),
+          factorised.inverse.rows() - std::ssize(out),
+          std::move(outliers),
+          price};
+}
+
 Downdating::Without Downdating::without(const std::vector<std::size_t>& units) const {
   Without result;
   ModelComparison& comparison = result.comparison;
   std::set<std::tuple<std::size_t, int, std::vector<int>>> known;
   std::vector<std::pair<double, std::size_t>> strongest;  // score, by marginalised system
   for (const Factorisation& factorised : factorisations_) {
-    const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.marginalised];
-    const auto out = whole.kept.positions(units);
-    const NormalEquations equations = downdated_equations(factorised, out);
-    const Eigen::Index rows = factorised.inverse.rows() - std::ssize(out);
-    const NoiseDensity noise(system_.noise_dof, rows);
+    const Downdated own = downdated(factorised, units);
+    const NoiseDensity noise(system_.noise_dof, own.rows);
     // Marginalised systems that differ in the points left out alone are one.
-    const std::size_t home = home_of(comparison, with_units(system_, whole.outliers, units, true));
-    const std::vector<bool> outliers = with_units(system_, whole.outliers, units, false);
-    const double price = log_price_of_outliers(system_, outliers);
+    const std::size_t home = home_of(comparison, with_units(system_, own.outliers, units, true));
     for (std::size_t k = 0; k < factorised.models.size(); ++k) {
       const CandidateModel& model = factorised.models[k];
       if (!known.emplace(home, factorised.discrepancy, model.regressors).second) continue;
       const SetEvidence evidence =
-          set_evidence(equations, system_.regressors, factorised.sets[k], noise);
+          set_evidence(own.equations, system_.regressors, factorised.sets[k], noise);
       if (!std::isfinite(evidence.log_evidence)) continue;
       comparison.models.push_back({model.regressors,
                                    factorised.discrepancy,
                                    home,
-                                   factorised.prior[k] + evidence.log_evidence + price,
+                                   factorised.prior[k] + evidence.log_evidence + own.price,
                                    evidence.larger_noise,
                                    evidence.quadratic});
     }
-    if (factorised.discrepancy < 0) strongest.emplace_back(score_.largest(equations, rows), home);
+    if (factorised.discrepancy < 0)
+      strongest.emplace_back(score_.largest(own.equations, own.rows), home);
   }
   sort_by_weight(comparison);
   for (const auto& [score, marginalised] : strongest) {
@@ -252,24 +260,19 @@ std::vector<double> Downdating::probabilities_without(const std::vector<std::siz
   std::map<std::tuple<std::vector<bool>, int, std::vector<int>>, Same> known;
   std::vector<std::pair<Same*, double>> of_model;
   for (const Factorisation& factorised : factorisations_) {
-    const MarginalisedSystem& whole = comparison_.marginalised_systems[factorised.marginalised];
-    const auto out = whole.kept.positions(units);
-    const NormalEquations equations = downdated_equations(factorised, out);
-    const Eigen::Index all = factorised.inverse.rows();
-    const Eigen::Index rows = all - std::ssize(out);
-    const NoiseDensity noise(system_.noise_dof, rows);
-    const double power = count_as == CountAs::all
-                             ? static_cast<double>(all) / static_cast<double>(std::max<Eigen::Index>(rows, 1))
-                             : 1.0;
-    const std::vector<bool> outliers = with_units(system_, whole.outliers, units, false);
-    const double price = log_price_of_outliers(system_, outliers);
+    const Downdated own = downdated(factorised, units);
+    const NoiseDensity noise(system_.noise_dof, own.rows);
+    const double power =
+        count_as == CountAs::all
+            ? as_double(factorised.inverse.rows()) / as_double(std::max<Eigen::Index>(own.rows, 1))
+            : 1.0;
     for (std::size_t k = 0; k < factorised.models.size(); ++k) {
       const CandidateModel& model = factorised.models[k];
-      Same& same = known[{outliers, factorised.discrepancy, model.regressors}];
+      Same& same = known[{own.outliers, factorised.discrepancy, model.regressors}];
       if (same.log_shares.empty()) {
         const double evidence =
-            set_evidence(equations, system_.regressors, factorised.sets[k], noise).log_evidence;
-        same.log_weight = factorised.prior[k] + power * evidence + price;
+            set_evidence(own.equations, system_.regressors, factorised.sets[k], noise).log_evidence;
+        same.log_weight = factorised.prior[k] + power * evidence + own.price;
       }
       same.log_shares.push_back(model.log_weight);
       of_model.emplace_back(&same, model.log_weight);
@@ -282,9 +285,9 @@ std::vector<double> Downdating::probabilities_without(const std::vector<std::siz
   }
   const double total = weights.empty() ? 0.0 : log_sum(weights);
   std::vector<double> result;
-  for (const auto& [same, own] : of_model) {
+  for (const auto& [same, weight] : of_model) {
     result.push_back(std::isfinite(same->log_weight)
-                         ? std::exp(same->log_weight - total + own - same->log_all)
+                         ? std::exp(same->log_weight - total + weight - same->log_all)
                          : 0.0);
   }
   return result;

@@ -77,6 +77,15 @@ class Downdating {
     std::vector<double> prior;                    ///< of each: weight less evidence
   };
 
+  /// A factorisation without some units.
+  struct Downdated {
+    NormalEquations equations;
+    Eigen::Index rows = 0;       ///< that are left
+    std::vector<bool> outliers;  ///< of the units that are left
+    double price = 0.0;          ///< of these
+  };
+  [[nodiscard]] Downdated downdated(const Factorisation& factorised,
+                                    const std::vector<std::size_t>& units) const;
   void add_factorisation(std::size_t marginalised,
                          int discrepancy,
                          std::vector<CandidateModel> models);

@@ -31,7 +31,7 @@ using Shifts = std::vector<Eigen::Vector2d>;
 double mean_square(const Shifts& shifts) {
   double sum = 0.0;
   for (const Eigen::Vector2d& shift : shifts) sum += shift.squaredNorm();
-  return shifts.empty() ? 0.0 : sum / static_cast<double>(shifts.size());
+  return shifts.empty() ? 0.0 : sum / as_double(shifts.size());
 }
 
 BudgetLine::ChangesWith changes_with(const model::effects::Effect& effect) {

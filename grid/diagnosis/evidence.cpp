@@ -11,7 +11,6 @@
 #include <stdexcept>
 
 #include "grid/containers.hpp"
-#include "grid/diagnosis/normal.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 
@@ -25,8 +24,7 @@ double log_mass(double mean, double sigma, double low, double high) {
 
 }  // namespace
 
-NoiseDensity::NoiseDensity(double dof, Eigen::Index rows)
-    : dof_(dof), rows_(static_cast<double>(rows)) {
+NoiseDensity::NoiseDensity(double dof, Eigen::Index rows) : dof_(dof), rows_(as_double(rows)) {
   const double constant = std::lgamma(0.5 * (rows_ + dof)) - std::lgamma(0.5 * dof) -
                           0.5 * rows_ * std::log(std::numbers::pi);
   const auto component = [&](double scale, double prior) {
@@ -64,8 +62,7 @@ NoiseDensity::Averages NoiseDensity::averages(double quadratic) const {
 
 double log_price_of_outlier(Eigen::Index rows) {
   return std::log(kOutlierPrior) -
-         0.5 * static_cast<double>(rows) *
-             std::log(2.0 * std::numbers::pi * kOutlierSpread * kOutlierSpread);
+         0.5 * as_double(rows) * std::log(2.0 * std::numbers::pi * kOutlierSpread * kOutlierSpread);
 }
 
 double log_price_of_outliers(const RegressorSystem& system, const std::vector<bool>& outliers) {
@@ -83,7 +80,7 @@ double log_price_of_outliers(const RegressorSystem& system, const std::vector<bo
       Eigen::Index& own = of_unit[as_size(unit)];
       if (outliers[k]) own = std::min(own + (group.direction ? 1 : group.rows), group.rows);
     }
-    for (const Eigen::Index directions : of_unit) rejected[0] += static_cast<double>(directions);
+    for (const Eigen::Index directions : of_unit) rejected[0] += as_double(directions);
   }
   return rejected[0] * log_price_of_outlier(1) + rejected[1] * log_price_of_outlier(2);
 }

@@ -7,8 +7,8 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
-#include "grid/diagnosis/normal.hpp"
 #include "grid/linear_algebra.hpp"
+#include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -221,8 +221,7 @@ struct Rival {
 double chance_of_all(const std::vector<Rival>& rivals) {
   const double odds = (1.0 - kNamedAlone) / kNamedAlone;
   const auto taken = [](const Rival& rival) { return rival.mean - 2.0 * std::sqrt(rival.variance); };
-  const auto most = std::min_element(
-      rivals.begin(), rivals.end(), [&](const Rival& a, const Rival& b) { return taken(a) < taken(b); });
+  const auto most = std::min_element(rivals.begin(), rivals.end(), ascending(taken));
   constexpr double kWidest = 4.0;  // sigmas
   constexpr int kSteps = 32;
   double chance = 0.0;

@@ -62,7 +62,7 @@ ExpectedImprovement over_units(const RegressorSystem& there,
                by_unknown.row(0).dot(covariance * by_unknown.row(0).transpose());
     }
   }
-  const auto count = static_cast<double>(there.units.size());
+  const auto count = as_double(there.units.size());
   return {drop / count, drop > 0.0 ? drop / (drop + doubt) : 0.0};
 }
 

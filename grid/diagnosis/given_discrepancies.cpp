@@ -174,9 +174,8 @@ class PlacesOfCauses {
   /// Whether this one is among the first `most` of its cause, or ties with the last of these.
   [[nodiscard]] bool takes(int regressor, double score) {
     const CauseId& cause = system_.regressor(regressor).cause;
-    const auto known = std::find_if(
-        taken_.begin(), taken_.end(), [&](const Taken& own) { return own.cause == cause; });
-    Taken& own = known != taken_.end() ? *known : taken_.emplace_back(Taken{cause, 0, 0.0});
+    auto* known = find_where(taken_, [&](const Taken& own) { return own.cause == cause; });
+    Taken& own = known != nullptr ? *known : taken_.emplace_back(Taken{cause, 0, 0.0});
     if (own.count == most_) return tied(score, own.last_score);
     ++own.count;
     own.last_score = score;

@@ -15,6 +15,7 @@
 
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/downdating.hpp"
+#include "grid/diagnosis/observations.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -28,13 +29,15 @@ struct DecidedWithout {
                                              const Downdating& downdating,
                                              const std::vector<std::size_t>& units);
 
-/// Errors of the tool in mm, for every way of modelling.
+/// Errors of the tool in mm with some causes, without a surface and with one.
+struct ErrorsWith {
+  std::vector<Eigen::Vector2d> machine, and_surface;
+};
+/// For every choice of causes.
 struct Errors {
-  std::vector<Eigen::Vector2d> calibrated, surface_only;
-  /// With the causes that the fold itself names.
-  std::vector<Eigen::Vector2d> extended, extended_and_surface;
-  /// With the causes that all units name, their sizes fitted without the fold.
-  std::vector<Eigen::Vector2d> fixed_naming, fixed_naming_and_surface;
+  ErrorsWith calibrated;    ///< none
+  ErrorsWith extended;      ///< those that the fold itself names
+  ErrorsWith fixed_naming;  ///< those that all units name, their sizes fitted without the fold
 };
 
 /// Held-out units of one fold.
@@ -58,5 +61,14 @@ class HeldOutFolds {
   const Analysis& analysis_;
   Downdating downdating_;
 };
+
+/// Units held out together, and what they are.
+struct HeldOutBlocks {
+  std::vector<std::vector<std::size_t>> units;  ///< empty where there are too few units
+  bool of_the_bed = false;                      ///< or each hole with all distances that end there
+};
+
+/// What is held out tells of the tool where chains were read at marks enough, else of distances.
+[[nodiscard]] HeldOutBlocks held_out_blocks(const ObservationSet& session);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -9,9 +9,8 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/expected_improvement.hpp"
-#include "grid/diagnosis/held_out_blocks.hpp"
 #include "grid/diagnosis/held_out_fold.hpp"
-#include "grid/diagnosis/uncalibrated.hpp"
+#include "grid/diagnosis/observations.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 #include "grid/random.hpp"
@@ -38,7 +37,7 @@ bool names_agree(const Fold& fold, const Analysis& a) {
 double noise_floor(const Analysis& a, const std::vector<std::size_t>& units) {
   double sum = 0.0;
   for (const std::size_t u : units) sum += noise_of_unit_mm2(a.system, u).trace();
-  return std::sqrt(a.estimate.noise_square * sum / static_cast<double>(units.size()));
+  return std::sqrt(a.estimate.noise_square * sum / as_double(units.size()));
 }
 
 /// Errors of the machine as delivered, and with the sheets alone moved to where they fit.
@@ -77,35 +76,29 @@ BeforeCalibration before_calibration(const Analysis& a, const std::vector<std::s
   return result;
 }
 
-void append(const Errors& fold, Errors& all) {
-  append_all(all.calibrated, fold.calibrated);
-  append_all(all.surface_only, fold.surface_only);
-  append_all(all.extended, fold.extended);
-  append_all(all.extended_and_surface, fold.extended_and_surface);
-  append_all(all.fixed_naming, fold.fixed_naming);
-  append_all(all.fixed_naming_and_surface, fold.fixed_naming_and_surface);
+void append(const ErrorsWith& more, ErrorsWith& all) {
+  append_all(all.machine, more.machine);
+  append_all(all.and_surface, more.and_surface);
 }
 
 /// Which errors speak of the extension: an extension that does not help on points that it was not fitted to
 /// is not made.
 struct Extension {
-  const std::vector<Eigen::Vector2d>* machine = nullptr;
-  const std::vector<Eigen::Vector2d>* and_surface = nullptr;
+  const ErrorsWith& errors;
   bool helps = false;
   bool naming_repeated = true;
 };
 
 Extension extension_of(const Analysis& a, const Errors& errors) {
-  if (!a.decision.listed.empty() && rms_length(errors.extended) < rms_length(errors.calibrated)) {
-    return {&errors.extended, &errors.extended_and_surface, true, true};
-  }
+  const auto helps = [&](const ErrorsWith& extended) {
+    return !a.decision.listed.empty() &&
+           rms_length(extended.machine) < rms_length(errors.calibrated.machine);
+  };
+  if (helps(errors.extended)) return {errors.extended, true, true};
   // A block without which these points leave two names, the wrong one first, says little against
   // the name that all points give.
-  if (!a.decision.listed.empty() &&
-      rms_length(errors.fixed_naming) < rms_length(errors.calibrated)) {
-    return {&errors.fixed_naming, &errors.fixed_naming_and_surface, true, false};
-  }
-  return {&errors.calibrated, &errors.surface_only, false, true};
+  if (helps(errors.fixed_naming)) return {errors.fixed_naming, true, false};
+  return {errors.calibrated, false, true};
 }
 
 /// What every fold held out, one after the other.
@@ -127,7 +120,9 @@ AllFolds hold_out_each(const Analysis& a, const HeldOutBlocks& blocks) {
     all.agree += names_agree(fold, a) ? 1 : 0;
     append_all(all.units, fold.units);
     all.number.insert(all.number.end(), fold.units.size(), b);
-    append(fold.errors, all.errors);
+    append(fold.errors.calibrated, all.errors.calibrated);
+    append(fold.errors.extended, all.errors.extended);
+    append(fold.errors.fixed_naming, all.errors.fixed_naming);
   }
   return all;
 }
@@ -157,7 +152,7 @@ HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
   result.rms_mm = rms_length(tool_mm);
   std::vector<double> sorted = size;
   sort(sorted);
-  const auto at = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(sorted.size())));
+  const auto at = static_cast<std::size_t>(std::ceil(0.95 * as_double(sorted.size())));
   result.percentile_95_mm = sorted[std::max<std::size_t>(at, 1) - 1];
   const std::size_t blocks = 1 + *std::max_element(block.begin(), block.end());
   std::vector<double> sum(blocks, 0.0);
@@ -198,12 +193,12 @@ std::optional<HeldOutImprovement> measure_improvement(const Analysis& a) {
   const BeforeCalibration before = before_calibration(a, units);
   improvement.uncalibrated = summarise(before.as_stated, number, seed);
   if (!before.placed.empty()) improvement.placed = summarise(before.placed, number, seed);
-  improvement.calibrated = summarise(all.calibrated, number, seed);
-  improvement.surface_only = summarise(all.surface_only, number, seed);
+  improvement.calibrated = summarise(all.calibrated.machine, number, seed);
+  improvement.surface_only = summarise(all.calibrated.and_surface, number, seed);
   const Extension extension = extension_of(a, all);
   improvement.scheme = scheme_of(a.session, blocks, extension.naming_repeated);
-  improvement.extended = summarise(*extension.machine, number, seed);
-  improvement.extended_and_surface = summarise(*extension.and_surface, number, seed);
+  improvement.extended = summarise(extension.errors.machine, number, seed);
+  improvement.extended_and_surface = summarise(extension.errors.and_surface, number, seed);
   improvement.noise_floor_mm = noise_floor(a, units);
   if (extension.helps) {
     const ExpectedImprovement expected = expected_improvement(a);
@@ -215,7 +210,24 @@ std::optional<HeldOutImprovement> measure_improvement(const Analysis& a) {
 
 bool naming_improves_the_map(const Analysis& a) {
   const Errors errors = hold_out_each(a, held_out_blocks(a.session)).errors;
-  return rms_length(*extension_of(a, errors).and_surface) < rms_length(errors.surface_only);
+  return rms_length(extension_of(a, errors).errors.and_surface) <
+         rms_length(errors.calibrated.and_surface);
+}
+
+Eigen::VectorXd uncalibrated(const ObservationSet& session, const RegressorSystem& stated) {
+  Eigen::VectorXd e = stated.e;
+  for (const SystemUnit& unit : stated.units) {
+    if (!unit.reads_chains) continue;
+    const std::size_t number = unit.places.front().place;
+    const ObservationPart& part = session.parts[session.places[number].part];
+    const observation::Place& place = part.observation->places()[number - part.first_place];
+    if (!place.commanded) continue;
+    const Eigen::Vector2d displacement(place.commanded->x_mm - place.mark.x_mm,
+                                       place.commanded->y_mm - place.mark.y_mm);
+    e.segment<2>(unit.first_row) =
+        unit.whitening * (stated.places[number].state.by_mark * displacement);
+  }
+  return e;
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -9,9 +9,11 @@
 /// prefer.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 
 #include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -27,5 +29,11 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
                                 const std::vector<std::size_t>& block,
                                 std::uint64_t seed);
+
+/// The errors of the machine as it was delivered. Of a place that gives a command they are what was
+/// commanded less what was measured, whatever the stated machine makes of the lengths that its
+/// controller paid out. As `stated.e`, whitened; `stated` is the session's linearised where everything is as stated.
+[[nodiscard]] Eigen::VectorXd uncalibrated(const ObservationSet& session,
+                                           const RegressorSystem& stated);
 
 }  // namespace chaintrue::grid::diagnosis

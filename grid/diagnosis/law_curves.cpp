@@ -80,7 +80,7 @@ class CurveList {
     curve.shape = shape;
     curve.towards = towards;
     curve.weight = weight;
-    curve.mass.assign(grid.size(), 1.0 / static_cast<double>(grid.size()));
+    curve.mass.assign(grid.size(), 1.0 / as_double(grid.size()));
     curve.grid = std::move(grid);
     curves_.push_back(std::move(curve));
   }
@@ -116,7 +116,7 @@ class CurveList {
       std::complex<double> sum = 0.0;
       for (const double v : values_)
         sum += std::polar(1.0, 2.0 * std::numbers::pi * waves * (v - start_.from) / start_.span());
-      if (std::abs(sum) > kSamePhase * static_cast<double>(values_.size())) return 0.5 * waves;
+      if (std::abs(sum) > kSamePhase * as_double(values_.size())) return 0.5 * waves;
     }
     return most;
   }
@@ -179,7 +179,7 @@ StepPlaces step_places(const std::vector<double>& values, double from, double to
   const auto close = [&] {
     if (same.empty()) return;
     places.at.push_back(0.5 * (same.front() + same.back()));
-    places.mass.push_back(static_cast<double>(same.size()) / kStepPlaces);
+    places.mass.push_back(as_double(same.size()) / kStepPlaces);
     same.clear();
   };
   for (int k = 0; k < kStepPlaces; ++k) {

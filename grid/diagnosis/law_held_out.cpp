@@ -154,4 +154,30 @@ double rms_of_units_mm(const RegressorSystem& system,
   return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
+double averaged_over_parts(const Analysis& a,
+                           const LawEvidence& evidence,
+                           const WeighedLaw& law,
+                           double probability) {
+  const KeptRows& kept = a.comparison.marginalised_systems[evidence.marginalised].kept;
+  const std::vector<BedPart> parts =
+      bed_parts(a.system, nothing_rejected(a.system), a.session.fewest_units);
+  if (parts.empty()) return probability;
+  const LawModel with = model_with(a, evidence, &law);
+  const LawModel without = model_with(a, evidence, nullptr);
+  const auto all = kept.positions({}, false);
+  const double of_all = with.log_density(all) - without.log_density(all);
+  // As far as odds are numbers.
+  const double sure = std::min(probability, 1.0 - 1e-15);
+  const double log_odds = std::log(sure) - std::log1p(-sure);
+  double sum = 0.0;
+  for (const BedPart& part : parts) {
+    const auto rows = kept.positions(part.units, false);
+    const double counts = as_double(all.size()) / as_double(rows.size());
+    const double own =
+        log_odds + counts * (with.log_density(rows) - without.log_density(rows)) - of_all;
+    sum += 1.0 / (1.0 + std::exp(-own));
+  }
+  return std::min(probability, sum / as_double(parts.size()));
+}
+
 }  // namespace chaintrue::grid::diagnosis

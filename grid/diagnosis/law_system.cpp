@@ -2,7 +2,6 @@
 #include "grid/diagnosis/law_system.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 
 #include "grid/containers.hpp"
@@ -35,8 +34,7 @@ LawSystem::LawSystem(const Analysis& a,
   own_.discrepancies = from_.discrepancies;
   own_.unit_of_row = from_.unit_of_row;
   own_.e = from_.e;
-  std::vector<std::size_t> kernels(own_.discrepancies->kernels.size());
-  std::iota(kernels.begin(), kernels.end(), std::size_t{0});
+  auto kernels = numbers_below(own_.discrepancies->kernels.size());
   basis_.emplace(own_, marginalised_, kernels);
   take(Eigen::MatrixXd(rows(), 0));
 }
@@ -54,8 +52,7 @@ void LawSystem::take(const Eigen::MatrixXd& laws) {
   law.highest = kInfinity;
   own_.regressors = cause_regressors_;
   own_.regressors.resize(cause_regressors_.size() + as_size(laws.cols()), law);
-  std::vector<int> all(own_.regressors.size());
-  std::iota(all.begin(), all.end(), 0);
+  auto all = numbers_below<int>(own_.regressors.size());
   given_.clear();
   plain_ = &plains_.emplace_back(normal_equations(own_, marginalised_, std::move(all)));
 }

@@ -13,7 +13,6 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/law_held_out.hpp"
-#include "grid/diagnosis/law_parts.hpp"
 #include "grid/diagnosis/law_residuals.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/parallel.hpp"

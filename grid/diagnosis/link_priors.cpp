@@ -37,8 +37,8 @@ void share_out_links(const MarginalisedSystem& marginalised, RegressorSystem& sy
     }
     for (std::size_t k = first; k < last && system.regressors[first].fixed; ++k) {
       Regressor& d = system.regressors[k];
-      d.log_prior = log_weight[k - first] - log_all -
-                    std::log(static_cast<double>(d.cause.effect->sides.size()));
+      d.log_prior =
+          log_weight[k - first] - log_all - std::log(as_double(d.cause.effect->sides.size()));
       if (d.slip) d.log_prior += std::log(kSlipOddsOfVisit * d.visits);
     }
     first = last;

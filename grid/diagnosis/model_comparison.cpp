@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/estimate.hpp"
@@ -78,8 +77,7 @@ double log_prior(const RegressorSystem& system, const std::vector<int>& set, boo
     }
   }
   const double odds = discrepancy ? system.prior.odds_given_discrepancy : 1.0;
-  return value + std::log(prior_of_count(lasting, odds)) +
-         std::lgamma(1.0 + static_cast<double>(lasting));
+  return value + std::log(prior_of_count(lasting, odds)) + std::lgamma(1.0 + as_double(lasting));
 }
 
 double log_odds_of_another(const RegressorSystem& system, const std::vector<int>& set, bool discrepancy) {
@@ -90,7 +88,7 @@ double log_odds_of_another(const RegressorSystem& system, const std::vector<int>
   if (lasting == kMostCauses) return kMinusInfinity;
   const double odds = discrepancy ? system.prior.odds_given_discrepancy : 1.0;
   return std::log(prior_of_count(lasting + 1, odds) / prior_of_count(lasting, odds)) +
-         std::log(1.0 + static_cast<double>(lasting)) - std::log(system.prior.shares);
+         std::log(1.0 + as_double(lasting)) - std::log(system.prior.shares);
 }
 
 SingleScores single_scores(const RegressorSystem& system,
@@ -170,16 +168,14 @@ std::vector<std::vector<bool>> sets_without_links(const RegressorSystem& system,
 }
 
 std::vector<std::size_t> all_kernels(const RegressorSystem& system) {
-  std::vector<std::size_t> all(system.discrepancies->kernels.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
+  auto all = numbers_below(system.discrepancies->kernels.size());
   return all;
 }
 
 /// Weightiest first; those that were not tried stay where they are.
 std::vector<std::size_t> by_weight(const std::vector<std::size_t>& kernels,
                                    const std::vector<double>& weight) {
-  std::vector<std::size_t> order(kernels.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  auto order = numbers_below(kernels.size());
   stable_sort(order, [&](std::size_t a, std::size_t b) { return weight[a] > weight[b]; });
   for (std::size_t& k : order) k = kernels[k];
   return order;
@@ -227,8 +223,7 @@ class Comparer {
   }
 
   void look_alongside_likeliest(std::vector<SetSearch>& searches) {
-    std::vector<std::size_t> order(searches.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
+    auto order = numbers_below(searches.size());
     stable_sort(order, [&](std::size_t a, std::size_t b) {
       return searches[a].best() > searches[b].best();
     });

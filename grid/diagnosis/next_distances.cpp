@@ -86,7 +86,7 @@ class HoleCandidates {
       const model::BedPoint& hole = measured_.holes[i].commanded;
       return std::pow(hole.x_mm - place.x_mm, 2) + std::pow(hole.y_mm - place.y_mm, 2);
     };
-    stable_sort(order, [&](std::size_t i, std::size_t j) { return squared(i) > squared(j); });
+    stable_sort(order, descending(squared));
     return order;
   }
 

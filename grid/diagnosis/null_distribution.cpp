@@ -63,7 +63,7 @@ double SingleScore::largest(const NormalEquations& equations, Eigen::Index rows)
                             equations.gg(at, at),
                             equations.ge(at),
                             equations.ee,
-                            static_cast<double>(rows)));
+                            as_double(rows)));
   }
   return result;
 }
@@ -71,7 +71,7 @@ double SingleScore::largest(const NormalEquations& equations, Eigen::Index rows)
 double SingleScore::largest(const Eigen::VectorXd& e) const {
   const Eigen::VectorXd c = marginalised_.g.transpose_times(e);
   const double ee = e.squaredNorm();
-  const auto n = static_cast<double>(e.size());
+  const auto n = as_double(e.size());
   double result = kNoScore;
   for (Eigen::Index k = 0; k < c.size(); ++k)
     result = std::max(result, score(k, square_(k), c(k), ee, n));
@@ -81,7 +81,7 @@ double SingleScore::largest(const Eigen::VectorXd& e) const {
 Eigen::VectorXd SingleScore::largest(const Eigen::MatrixXd& e) const {
   const RegressorColumns& g = marginalised_.g;
   const Eigen::MatrixXd c = linear::product(linear::transposed(g.distinct()), e);
-  const auto n = static_cast<double>(e.rows());
+  const auto n = as_double(e.rows());
   Eigen::VectorXd result = Eigen::VectorXd::Constant(e.cols(), kNoScore);
   for (Eigen::Index draw = 0; draw < e.cols(); ++draw) {
     const double ee = e.col(draw).squaredNorm();
@@ -96,8 +96,8 @@ Eigen::VectorXd SingleScore::largest(const Eigen::MatrixXd& e) const {
 
 double NullDistribution::p_value(double score) const {
   const auto first = std::lower_bound(largest.begin(), largest.end(), score);
-  const auto above = static_cast<double>(largest.end() - first);
-  return (above + 1.0) / (static_cast<double>(largest.size()) + 1.0);
+  const auto above = as_double(largest.end() - first);
+  return (above + 1.0) / (as_double(largest.size()) + 1.0);
 }
 
 namespace {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -50,14 +49,13 @@ std::optional<Measured> grid_alone(const Measured& measured) {
 
 /// The points by place, so that the order of the file's rows is of no account.
 std::vector<std::size_t> by_place(const std::vector<MeasuredPoint>& points) {
-  std::vector<std::size_t> result(points.size());
-  std::iota(result.begin(), result.end(), std::size_t{0});
+  auto result = numbers_below(points.size());
   const auto key = [&](std::size_t i) {
     const MeasuredPoint& point = points[i];
     const model::ChainLengths lengths = point.lengths.value_or(model::ChainLengths{});
     return std::tuple(point.mark.y_mm, point.mark.x_mm, lengths.left_mm, lengths.right_mm);
   };
-  stable_sort(result, [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  stable_sort(result, ascending(key));
   return result;
 }
 
@@ -196,7 +194,8 @@ std::vector<double> order_probabilities(const Measured& measured, const Analysis
     log_weights.emplace_back(k, log_sum(terms));
   }
   std::vector<double> all = {a.comparison.log_total};
-  const double share = std::log(kOrderPrior / static_cast<double>(std::max<std::size_t>(1, log_weights.size())));
+  const double share =
+      std::log(kOrderPrior / as_double(std::max<std::size_t>(1, log_weights.size())));
   for (auto& [order, log_weight] : log_weights) all.push_back(log_weight += share);
   const double total = log_sum(all);
   for (const auto& [order, log_weight] : log_weights) result[order] = std::exp(log_weight - total);

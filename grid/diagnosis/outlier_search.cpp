@@ -260,7 +260,7 @@ FoundSet search(MeanShifts shifts,
                 const OutlierLimits& limits,
                 std::vector<bool> outliers,
                 double log_prior) {
-  const auto count = static_cast<double>(free.size());
+  const auto count = as_double(free.size());
   const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostOutlierShare * count)));
   Eigen::Index n = marginalised.kept.size();
   std::array<double, 2> rejected{};
@@ -317,9 +317,8 @@ std::vector<std::vector<bool>> outlier_sets(const RegressorSystem& system,
                           system.limits,
                           beforehand,
                           log_prior(system, set, false));
-    const auto same = std::find_if(
-        found.begin(), found.end(), [&](const FoundSet& f) { return f.outliers == one.outliers; });
-    if (same == found.end()) {
+    auto* same = find_where(found, [&](const FoundSet& f) { return f.outliers == one.outliers; });
+    if (same == nullptr) {
       found.push_back(std::move(one));
     } else {
       same->log_weight = std::max(same->log_weight, one.log_weight);

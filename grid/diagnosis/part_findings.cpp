@@ -103,10 +103,9 @@ std::string words_of_quarters(const Diagnosis& d) {
   for (const PartFinding& part : d.bed_parts) {
     if (!denies(d, part)) continue;
     const OtherAnswer own = answer_without(part);
-    const auto same = std::find_if(answers.begin(), answers.end(), [&](const OtherAnswer& other) {
-      return other.words == own.words;
-    });
-    OtherAnswer& answer = same != answers.end() ? *same : answers.emplace_back(own);
+    auto* same =
+        find_where(answers, [&](const OtherAnswer& other) { return other.words == own.words; });
+    OtherAnswer& answer = same != nullptr ? *same : answers.emplace_back(own);
     answer.least = std::min(answer.least, own.least);
     answer.most = std::max(answer.most, own.most);
     const std::string_view where = quarter(part.towards_rad);

@@ -59,7 +59,7 @@ std::vector<double> compared(const RegressorSystem& system, PlaceVariable variab
 std::vector<double> evenly_by_rank(std::vector<double> there) {
   std::vector<double> result;
   sort(there);
-  const auto last = static_cast<double>(there.size() - 1);
+  const auto last = as_double(there.size() - 1);
   for (int k = 0; k < kPlaces; ++k) {
     const double at = last * k / kPlaces;
     const auto below = static_cast<std::size_t>(at);

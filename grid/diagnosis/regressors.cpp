@@ -8,7 +8,6 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/law_curves.hpp"
 #include "grid/diagnosis/regressor_places.hpp"
-#include "grid/diagnosis/secants.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/effects/declared_effect.hpp"
 
@@ -128,7 +127,7 @@ class Builder {
     } else {
       if (has_step(*cause.effect)) return add_steps(cause, values);
       const std::vector<double> where = places_to_set_in(system_, cause);
-      const double share = std::log(share_of_side(cause) / static_cast<double>(where.size()));
+      const double share = std::log(share_of_side(cause) / as_double(where.size()));
       for (const double place : where) {
         values.back() = place;
         add_one(cause, values, share);
@@ -143,7 +142,7 @@ class Builder {
 
  private:
   [[nodiscard]] static double share_of_side(CauseId cause) {
-    return 1.0 / static_cast<double>(cause.effect->sides.size());
+    return 1.0 / as_double(cause.effect->sides.size());
   }
 
   void add_one(CauseId cause, const std::vector<double>& values, double log_prior) {
@@ -198,7 +197,7 @@ class Builder {
         regressor.fixed = true;
         regressor.slip = cause.effect->at_one_visit;
         regressor.lowest = regressor.highest = 1.0;
-        regressor.visits = static_cast<double>(where.size());
+        regressor.visits = as_double(where.size());
         system_.regressors.push_back(std::move(regressor));
         if (links == -kMostLinks) {
           system_.g.add(*one, links);
@@ -310,6 +309,29 @@ double size_slope(const Regressor& regressor, double coefficient) {
   if (coefficient <= 0.0 && is_odd(regressor)) return at;
   const double c = std::max(coefficient, 1e-6);
   return at / regressor.power * std::pow(c, 1.0 / regressor.power - 1.0);
+}
+
+double power_of(const Eigen::VectorXd& whole, const Eigen::VectorXd& half) {
+  const double ratio = whole.norm() / std::max(half.norm(), 1e-300);
+  return std::max(1.0, std::round(std::log2(ratio)));
+}
+
+double power_about(const Eigen::VectorXd& whole, const Eigen::VectorXd& nearby) {
+  const double ratio = whole.dot(nearby) / whole.squaredNorm();
+  return std::clamp(std::log(std::max(ratio, 1e-3)) / std::log(kNearby), 0.2, 4.0);
+}
+
+void limit(Regressor& regressor) {
+  const model::effects::EffectParameter& size = regressor.cause.effect->parameters.front();
+  const double at = regressor.values.front();
+  const auto coefficient = [&](double bound) {
+    const double ratio = bound / at;
+    return ratio < 0.0 ? -std::pow(-ratio, regressor.power) : std::pow(ratio, regressor.power);
+  };
+  const double a = coefficient(size.lower);
+  const double b = coefficient(size.upper);
+  regressor.lowest = std::min(a, b);
+  regressor.highest = std::max(a, b);
 }
 
 }  // namespace chaintrue::grid::diagnosis

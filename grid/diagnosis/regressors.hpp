@@ -4,6 +4,7 @@
 /// in.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -52,5 +53,18 @@ void add_regressors(const ObservationSet& session,
 [[nodiscard]] double size_at(const Regressor& regressor, double coefficient);
 /// d(size)/d(coefficient) there.
 [[nodiscard]] double size_slope(const Regressor& regressor, double coefficient);
+
+/// Of a size: far enough for differences, near enough for a slope.
+inline constexpr double kNearby = 0.95;
+
+/// The coefficient's power: how the signature grows from half the size to the whole one.
+[[nodiscard]] double power_of(const Eigen::VectorXd& whole, const Eigen::VectorXd& half);
+
+/// The same about a size that was found, `nearby` at kNearby of it. A signature that hardly grows any
+/// more leaves its size open; one that shrinks again has no power.
+[[nodiscard]] double power_about(const Eigen::VectorXd& whole, const Eigen::VectorXd& nearby);
+
+/// Sets what the coefficient may be from the range of the size.
+void limit(Regressor& regressor);
 
 }  // namespace chaintrue::grid::diagnosis

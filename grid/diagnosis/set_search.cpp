@@ -165,7 +165,7 @@ class SetSearch::Search {
       (d.fixed ? fixed : at_a_visit(d) ? shifts : kept).push_back(k);
     }
     const auto explained = [&](int k) { return c(k) * c(k) / square(k); };
-    stable_sort(shifts, [&](int a, int b) { return explained(a) > explained(b); });
+    stable_sort(shifts, descending(explained));
     shifts.resize(count_with_ties(shifts, kKeptShifts, explained));
     std::vector<int> likeliest = kept;
     append_all(kept, shifts);
@@ -173,7 +173,7 @@ class SetSearch::Search {
       append_all(kept, fixed);
       return kept;
     }
-    stable_sort(likeliest, [&](int a, int b) { return explained(a) > explained(b); });
+    stable_sort(likeliest, descending(explained));
     likeliest.resize(count_with_ties(likeliest, 8, explained));
     const RegressorColumns& g = marginalised_.g;
     const Eigen::MatrixXd cross =
@@ -244,7 +244,7 @@ class SetSearch::Search {
       q -= (one_b * ca * ca + one_a * cb * cb - 2.0 * collinearity * ca * cb) / det;
       occam = std::log(usual(i)) + std::log(usual(j)) + 0.5 * std::log(det);
     }
-    const auto n = static_cast<double>(marginalised_.kept.size());
+    const auto n = as_double(marginalised_.kept.size());
     return -0.5 * (n + system_.noise_dof) * std::log(system_.noise_dof + std::max(q, 0.0)) - occam +
            a.log_prior + b.log_prior;
   }

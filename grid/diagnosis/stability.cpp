@@ -38,7 +38,7 @@ std::vector<LeftOut> lines_along(const ObservationSet& session,
                                  double model::MarkPoint::*coordinate) {
   const auto at = [&](std::size_t u) { return mark_of(session, u).*coordinate; };
   std::vector<std::size_t> order = units_at_marks(session);
-  stable_sort(order, [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
+  stable_sort(order, ascending(at));
   std::vector<LeftOut> lines;
   for (std::size_t k = 0; k < order.size(); ++k) {
     if (k == 0 || at(order[k]) - at(order[k - 1]) >= kLineGapMm)
@@ -48,7 +48,7 @@ std::vector<LeftOut> lines_along(const ObservationSet& session,
   }
   if (lines.size() < kFewestLines || order.size() < kFewestOnLine * lines.size()) return {};
   for (LeftOut& line : lines) {
-    line.at_mm /= static_cast<double>(line.units.size());
+    line.at_mm /= as_double(line.units.size());
     sort(line.units);
   }
   return lines;
@@ -98,26 +98,10 @@ class Statement {
 
   /// Logarithm of its odds.
   [[nodiscard]] double log_odds(const ModelComparison& comparison) const {
-    double with = 0.0;
-    double against = 0.0;
-    const double best = comparison.best().log_weight;
-    // Of what holds and of what does not the larger one first: neither may vanish next to the other.
-    double best_with = kMinusInfinity;
-    double best_against = best_with;
-    for (const CandidateModel& model : comparison.models) {
-      double& highest = holds(model) ? best_with : best_against;
-      highest = std::max(highest, model.log_weight - best);
-    }
-    for (const CandidateModel& model : comparison.models) {
-      const double weight = model.log_weight - best;
-      if (holds(model)) {
-        with += std::exp(weight - best_with);
-      } else {
-        against += std::exp(weight - best_against);
-      }
-    }
-    return std::clamp(
-        best_with + std::log(with) - best_against - std::log(against), -kMostOdds, kMostOdds);
+    std::vector<double> with, against;
+    for (const CandidateModel& model : comparison.models)
+      (holds(model) ? with : against).push_back(model.log_weight);
+    return std::clamp(log_sum(with) - log_sum(against), -kMostOdds, kMostOdds);
   }
 
  private:

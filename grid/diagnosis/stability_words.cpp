@@ -90,11 +90,10 @@ std::string fate(const Removal& removal) {
 
 /// Whether a column or row that was left out holds the point.
 bool lies_on(const Diagnosis& diagnosis, const Removal& line, std::size_t point) {
-  const auto found = std::find_if(diagnosis.points.begin(),
-                                  diagnosis.points.end(),
-                                  [&](const PointPicture& p) { return p.index == point; });
+  auto* found =
+      find_where(diagnosis.points, [&](const PointPicture& p) { return p.index == point; });
   const bool is_line = line.what == Removal::What::column || line.what == Removal::What::row;
-  if (!is_line || found == diagnosis.points.end()) return false;
+  if (!is_line || found == nullptr) return false;
   const double at_mm = line.what == Removal::What::column ? found->mark.x_mm : found->mark.y_mm;
   return std::abs(at_mm - line.at_mm) < kLineGapMm;
 }

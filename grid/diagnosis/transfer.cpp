@@ -6,7 +6,6 @@
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
-#include "grid/diagnosis/uncalibrated.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
 #include "grid/linear_algebra.hpp"
 
@@ -93,7 +92,7 @@ HeldOut summary(const ObservationSet& to,
 double noise_floor_of(const RegressorSystem& system) {
   double sum = 0.0;
   for (std::size_t u = 0; u < system.units.size(); ++u) sum += noise_of_unit_mm2(system, u).trace();
-  return std::sqrt(sum / static_cast<double>(system.units.size()));
+  return std::sqrt(sum / as_double(system.units.size()));
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/findings.hpp"
+#include "grid/linear_algebra.hpp"
+#include "grid/random.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -32,7 +34,7 @@ Enters entry_of(const DiscrepancyKernel& kernel) {
   // The nearest of the four directions of a half turn; those between two are mixed.
   const double eighths = *field.direction_rad / (0.25 * std::numbers::pi);
   const long nearest = std::lround(eighths);
-  if (std::abs(eighths - static_cast<double>(nearest)) > 0.4) return Enters::mixed;
+  if (std::abs(eighths - as_double(nearest)) > 0.4) return Enters::mixed;
   if (field.entry == FieldEntry::tool) {
     return nearest % 2 != 0 ? Enters::mixed : nearest % 4 == 0 ? Enters::x : Enters::y;
   }
@@ -105,19 +107,31 @@ double mean_square_mm2(const Analysis& a, const Eigen::VectorXd& whitened) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
+/// What the discrepancy of the decision makes of all rows, and its length in noise.
+struct Pattern {
+  Eigen::VectorXd rows;
+  double signal_to_noise = 0.0;
+};
+/// \pre The decision has a best discrepancy.
+Pattern pattern_of(const Analysis& a) {
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const Estimate given =
+      estimate(a.system, marginalised, a.decision.regressors, a.decision.best_discrepancy);
+  Pattern pattern{given.left - given.left_given_discrepancy};
+  pattern.signal_to_noise =
+      length_in_noise(a.system, marginalised.kept, pattern.rows) / std::sqrt(given.noise_square);
+  return pattern;
+}
+
 }  // namespace
 
 Unexplained unexplained(const Analysis& a) {
   Unexplained result;
   result.probability = std::min(a.decision.discrepancy, 1.0);
   if (a.decision.best_discrepancy < 0) return result;
-  const MarginalisedSystem& marginalised = marginalised_system(a);
-  const Estimate given =
-      estimate(a.system, marginalised, a.decision.regressors, a.decision.best_discrepancy);
-  const Eigen::VectorXd pattern = given.left - given.left_given_discrepancy;
-  result.signal_to_noise =
-      length_in_noise(a.system, marginalised.kept, pattern) / std::sqrt(given.noise_square);
-  const double own = mean_square_mm2(a, pattern);
+  const Pattern pattern = pattern_of(a);
+  result.signal_to_noise = pattern.signal_to_noise;
+  const double own = mean_square_mm2(a, pattern.rows);
   result.rms_mm = std::sqrt(own);
   const Estimate plain = estimate_of(a, {});
   const double all = mean_square_mm2(a, left_of_machine(a.system, plain, plain.left));
@@ -127,6 +141,153 @@ Unexplained unexplained(const Analysis& a) {
   if (chain_of(of) || of == Coordinate::x || of == Coordinate::y) result.follows = name(of);
   result.enters = most_of(said.enters, said.weight, Enters::mixed);
   result.length_mm = said.weight > 0.0 ? std::exp(said.log_length / said.weight) : 0.0;
+  return result;
+}
+
+namespace {
+
+constexpr double kSmoothMm = 450.0;  // length over which a discrepancy is looked for
+constexpr int kLeftOverDraws = 999;
+constexpr int kDegree = 4;
+/// Share of what is left that a coordinate must explain, beyond what its terms take by chance.
+constexpr double kFollowsShare = 0.2;
+/// Of what no place explains, so much must follow the visits before they are named.
+constexpr double kTimeOverPlace = 0.3;
+
+/// X in units of what each unknown may be beforehand.
+Eigen::MatrixXd design_of(const Analysis& a) {
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const Eigen::Index n = marginalised.kept.size();
+  const Eigen::Index settings = a.system.by_setting.cols();
+  const auto causes = std::ssize(a.estimate.free);
+  Eigen::MatrixXd design(n, settings + causes);
+  design.leftCols(settings) =
+      linear::scaled_columns(marginalised.kept.of(a.system.by_setting), a.system.sigma);
+  for (Eigen::Index k = 0; k < causes; ++k) {
+    const int column = a.estimate.regressors[a.estimate.free[as_size(k)]];
+    design.col(settings + k) = marginalised.kept(a.system.g.col(column)) * kWideSignalToNoise /
+                               std::max(marginalised.g.col(column).norm(), 1e-12);
+  }
+  return design;
+}
+
+/// What a fit leaves of noise, a column a draw: residuals have passed through the fit that made them, so the noise
+/// that they are held against has to pass through it too. The nuisances' share is put back, as left_of_machine()
+/// does.
+///
+///   y = B diag(s) u + z,  u and z standard normal;   r = y - X (X'X + P)^-1 X' y
+///
+/// X, the columns of settings, nuisances (B, with their sigmas s) and named causes; P, their precision beforehand.
+Eigen::MatrixXd left_of_noise(const Analysis& a, int draws, std::uint64_t stream) {
+  const Eigen::MatrixXd design = design_of(a);
+  const Eigen::Index n = design.rows();
+  const Eigen::Index shared = a.system.nuisances;
+  const auto by_nuisance = design.middleCols(a.system.by_setting.cols() - shared, shared);
+  const linear::Cholesky normal(linear::one_plus_gram(design));
+  Random random(a.options.seed, stream);
+  Eigen::MatrixXd z(n, draws);
+  Eigen::VectorXd u(shared);
+  for (Eigen::Index draw = 0; draw < draws; ++draw) {
+    for (Eigen::Index i = 0; i < n; ++i) z(i, draw) = random.normal();
+    for (Eigen::Index q = 0; q < shared; ++q) u(q) = random.normal();
+    linear::add_product(z.col(draw), 1.0, by_nuisance, u);
+  }
+  const Eigen::MatrixXd taken = normal.solve(linear::product(linear::transposed(design), z));
+  linear::add_product(z, -1.0, design, taken);
+  if (shared > 0) {
+    linear::add_product(
+        z, 1.0, by_nuisance, taken.middleRows(a.system.by_setting.cols() - shared, shared));
+  }
+  return z;
+}
+
+/// e'K e / e'e against what a fit leaves of noise: is there more in common between neighbours than
+/// chance has?
+double p_of_structure(const Analysis& a) {
+  const KeptRows& kept = marginalised_system(a).kept;
+  Eigen::MatrixXd e(kept.size(), kLeftOverDraws + 1);
+  e.col(0) = kept(left_of_machine(a.system, a.estimate, a.estimate.left));
+  constexpr std::uint64_t kStream = 63;
+  e.rightCols(kLeftOverDraws) = left_of_noise(a, kLeftOverDraws, kStream);
+  Eigen::MatrixXd k =
+      discrepancy_covariance(a.system, kept, {{{Coordinate::place, kSmoothMm}}, 1.0});
+  if (a.system.nuisances > 0) {
+    const linear::Cholesky noise = nuisance_noise(a.system, kept);
+    noise.half_solve_in_place(e);
+    noise.half_solve_in_place(k);
+    k.transposeInPlace();
+    noise.half_solve_in_place(k);
+  }
+  const Eigen::ArrayXd in_common = (e.array() * linear::product(k, e).array()).colwise().sum();
+  const Eigen::ArrayXd all = e.colwise().squaredNorm();
+  const Eigen::ArrayXd share = in_common / all.max(1e-300);
+  const auto above = (share.tail(kLeftOverDraws) >= share(0)).count();
+  return (as_double(above) + 1.0) / (kLeftOverDraws + 1.0);
+}
+
+/// Of coordinates that explain the same the first is named.
+constexpr Coordinate kAlong[] = {Coordinate::angle_left,
+                                 Coordinate::angle_right,
+                                 Coordinate::length_left,
+                                 Coordinate::length_right,
+                                 Coordinate::tension_left,
+                                 Coordinate::tension_right,
+                                 Coordinate::x,
+                                 Coordinate::y,
+                                 Coordinate::visit};
+
+/// Share of the square of what is left that a quartic along the coordinate takes in either chain,
+/// less what as many terms take of noise.
+double share_along(const Analysis& a, Coordinate coordinate) {
+  const std::vector<bool>& outliers = marginalised_system(a).outliers;
+  std::vector<double> t;
+  std::vector<Eigen::Vector2d> chain;
+  for (std::size_t u = 0; u < a.system.units.size(); ++u) {
+    const SystemUnit& unit = a.system.units[u];
+    if (outliers[u] || !unit.reads_chains) continue;
+    t.push_back(value_at(a.system.places[unit.places.front().place], coordinate));
+    chain.push_back(unit.unwhitened(a.estimate.left));
+  }
+  if (t.empty()) return 0.0;
+  const auto [low, high] = std::minmax_element(t.begin(), t.end());
+  if (!(*high > *low)) return 0.0;
+  const auto n = std::ssize(t);
+  Eigen::MatrixXd basis(n, kDegree + 1);
+  Eigen::MatrixXd values(n, 2);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double x = 2.0 * (t[as_size(i)] - *low) / (*high - *low) - 1.0;
+    basis(i, 0) = 1.0;
+    basis(i, 1) = x;
+    for (int k = 2; k <= kDegree; ++k) basis(i, k) = 2.0 * x * basis(i, k - 1) - basis(i, k - 2);
+    values.row(i) = chain[as_size(i)].transpose();
+  }
+  Eigen::MatrixXd rest = values;
+  linear::add_product(rest, -1.0, basis, linear::least_squares(basis, values));
+  const double of_noise = as_double(n - kDegree - 1) / as_double(n);
+  return 1.0 - rest.squaredNorm() / (of_noise * std::max(values.squaredNorm(), 1e-300));
+}
+
+}  // namespace
+
+LeftOver left_over(const Analysis& a) {
+  LeftOver result;
+  result.p_value = p_of_structure(a);
+  if (a.decision.best_discrepancy >= 0) result.signal_to_noise = pattern_of(a).signal_to_noise;
+  // A distance joins two places and follows neither.
+  if (result.p_value >= kFalseAlarm || !a.session.reads_chains()) return result;
+  for (const Coordinate coordinate : kAlong) {
+    const bool of_order = coordinate == Coordinate::visit;
+    if (of_order && !a.session.ordered()) continue;
+    const double share = share_along(a, coordinate);
+    // Where the bed was visited in order, time and place run together: place is the simpler guess.
+    const double needed =
+        of_order ? result.share + kTimeOverPlace * (1.0 - result.share) : result.share;
+    if (share > needed) {
+      result.share = share;
+      result.follows = of_order ? "order" : name(coordinate);
+    }
+  }
+  if (result.share < kFollowsShare) result.follows.clear();
   return result;
 }
 

@@ -246,7 +246,7 @@ tl::expected<void, EstimationFailure> Estimator::choose_surface() {
   const auto with = interp::fit_penalised(bent->weighted(weights_), plain);
   if (!with) return {};  // what the readings do not determine they do not ask for
   // The polynomials' prior, added to V as a constant.
-  const double prior = 2.0 * static_cast<double>(bent->unknowns().surface().polynomials) *
+  const double prior = 2.0 * as_double(bent->unknowns().surface().polynomials) *
                        std::log(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
   surface_log_evidence_ = 0.5 * (without - (with->minus_two_log_reml - prior));
   if (surface_log_evidence_ < kSurfaceEvidence) return {};

@@ -15,15 +15,14 @@ using model::MarkPoint;
 Eigen::MatrixXd whole_motion(const std::vector<MarkPoint>& commanded) {
   const auto count = std::ssize(commanded);
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const MarkPoint& c : commanded)
-    middle += Eigen::Vector2d(c.x_mm, c.y_mm) / static_cast<double>(count);
+  for (const MarkPoint& c : commanded) middle += Eigen::Vector2d(c.x_mm, c.y_mm) / as_double(count);
   Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, 2 * count);
   double squares = 0.0;
   for (Eigen::Index i = 0; i < count; ++i) {
     const MarkPoint c = commanded[as_size(i)];
     const double x = c.x_mm - middle.x();
     const double y = c.y_mm - middle.y();
-    motion(0, 2 * i) = motion(1, 2 * i + 1) = 1.0 / static_cast<double>(count);
+    motion(0, 2 * i) = motion(1, 2 * i + 1) = 1.0 / as_double(count);
     motion(2, 2 * i) = -y;
     motion(2, 2 * i + 1) = x;
     squares += x * x + y * y;

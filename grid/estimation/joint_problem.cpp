@@ -35,7 +35,7 @@ std::vector<MarkPoint> stated_marks(const observation::Observations& observation
 double spacing_mm_of(const std::vector<MarkPoint>& points) {
   std::vector<interp::PlanePoint> in_plane;
   for (const MarkPoint point : points) in_plane.push_back({point.x_mm, point.y_mm});
-  return std::sqrt(interp::ConvexHull(in_plane).area() / static_cast<double>(points.size()));
+  return std::sqrt(interp::ConvexHull(in_plane).area() / as_double(points.size()));
 }
 
 /// Intervals a little wider than the square that each place has to itself: three more coefficients
@@ -92,7 +92,7 @@ double JointProblem::dof(const interp::PenalisedFit& fit) const {
   for (std::size_t u = 0; u < units_.size(); ++u) {
     rows += rejected(u).empty() ? units_[u].rows : without_readings(units_[u], rejected(u)).cols();
   }
-  return static_cast<double>(rows) - fit.edf;
+  return as_double(rows) - fit.edf;
 }
 
 EstimationFailure JointProblem::unreachable(const UnreachablePlace& failure) const {

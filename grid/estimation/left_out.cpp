@@ -13,8 +13,8 @@ namespace {
 /// Length that a vector of n standard normal numbers exceeds as seldom as one number exceeds z:
 /// E. Wilson and M. Hilferty, The distribution of chi-square, Proc. Natl. Acad. Sci. 17 (1931) 684.
 double chi(Eigen::Index n, double z) {
-  const double part = 2.0 / (9.0 * static_cast<double>(n));
-  return std::sqrt(static_cast<double>(n) * std::pow(1.0 - part + z * std::sqrt(part), 3));
+  const double part = 2.0 / (9.0 * as_double(n));
+  return std::sqrt(as_double(n) * std::pow(1.0 - part + z * std::sqrt(part), 3));
 }
 
 }  // namespace

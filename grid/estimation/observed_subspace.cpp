@@ -13,7 +13,7 @@ namespace {
 Eigen::MatrixXd bending_root(const Eigen::MatrixXd& penalty, const Eigen::MatrixXd& polynomials) {
   const Eigen::Index size = penalty.rows();
   const Eigen::MatrixXd orthonormal = linear::orthonormal_columns(polynomials);
-  const double scale = penalty.trace() / static_cast<double>(size);
+  const double scale = penalty.trace() / as_double(size);
   Eigen::MatrixXd bent = penalty;
   linear::add_outer(bent, scale, orthonormal);
   Eigen::MatrixXd root = linear::Cholesky(std::move(bent)).root_of_inverse();

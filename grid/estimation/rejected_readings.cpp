@@ -72,7 +72,7 @@ void Estimator::reject_readings() {
   if (std::sqrt(fit_.sigma2) > limits.most_noise) return;
   Eigen::Index readings = 0;
   for (const SystemUnit& unit : problem_->units()) readings += unit.by_reading.cols();
-  const auto most = static_cast<std::size_t>(limits.most_share * static_cast<double>(readings));
+  const auto most = static_cast<std::size_t>(limits.most_share * as_double(readings));
   const auto of_now = [this] {
     RejectedReadings rejected = problem_->rejected();
     rejected.resize(problem_->units().size());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/spatial_blocks.hpp"
 
-#include <numeric>
 #include <tuple>
 
 #include "grid/containers.hpp"
@@ -25,18 +24,17 @@ std::vector<std::vector<std::size_t>> cut(const std::vector<std::size_t>& order,
 }  // namespace
 
 std::vector<std::vector<std::size_t>> spatial_blocks(const std::vector<LengthPoint>& points) {
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  auto order = numbers_below(points.size());
   const auto by_x = [&](std::size_t i) {
     return std::tuple(points[i].mark.x_mm, points[i].mark.y_mm, points[i].lengths.left_mm);
   };
   const auto by_y = [&](std::size_t i) {
     return std::tuple(points[i].mark.y_mm, points[i].mark.x_mm, points[i].lengths.left_mm);
   };
-  sort(order, [&](auto a, auto b) { return by_x(a) < by_x(b); });
+  sort(order, ascending(by_x));
   std::vector<std::vector<std::size_t>> blocks;
   for (auto& column : cut(order, 4)) {
-    sort(column, [&](auto a, auto b) { return by_y(a) < by_y(b); });
+    sort(column, ascending(by_y));
     for (auto& block : cut(column, 2)) {
       sort(block);
       blocks.push_back(std::move(block));

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 
@@ -35,7 +36,7 @@ double median_of_finite(const Eigen::VectorXd& values) {
 double RobustTrend::median_residual_mm() const { return median_of_finite(residual_mm); }
 
 double log_density_of(double residual_mm, double scale_mm, Eigen::Index components) {
-  return -0.5 * static_cast<double>(components + 1) * std::log1p(std::pow(residual_mm / scale_mm, 2));
+  return -0.5 * as_double(components + 1) * std::log1p(std::pow(residual_mm / scale_mm, 2));
 }
 
 RobustTrend robust_trend(const Eigen::MatrixXd& basis,
@@ -59,7 +60,7 @@ RobustTrend robust_trend(const Eigen::MatrixXd& basis,
   const double start_mm = trend.median_residual_mm();
   trend.scale_mm = std::max(kLeastScaleMm, std::isfinite(start_mm) ? start_mm : kLeastScaleMm);
   const Eigen::MatrixXd prior = prior_sigma_mm.cwiseAbs2().cwiseInverse().asDiagonal();
-  const auto dof = static_cast<double>(components + 1);
+  const auto dof = as_double(components + 1);
   for (int step = 0; step < kSteps; ++step) {
     const double variance = trend.scale_mm * trend.scale_mm;
     Eigen::MatrixXd normal = prior;
@@ -72,7 +73,7 @@ RobustTrend robust_trend(const Eigen::MatrixXd& basis,
       normal.noalias() += weight / variance * basis.row(i).transpose() * basis.row(i);
       right.noalias() += weight / variance * basis.row(i).transpose() * readings_mm.row(i);
       sum += weight * trend.residual_mm[i] * trend.residual_mm[i];
-      count += static_cast<double>(components);
+      count += as_double(components);
     }
     if (count == 0.0) break;
     trend.coefficients = linear::PivotedCholesky(normal).solve(right);
@@ -82,11 +83,10 @@ RobustTrend robust_trend(const Eigen::MatrixXd& basis,
   const double normaliser =
       components == 1 ? std::log(std::numbers::pi) : std::log(2.0 * std::numbers::pi);
   for (const double residual_mm : trend.residual_mm) {
-    trend.log_likelihood +=
-        std::isfinite(residual_mm)
-            ? log_density_of(residual_mm, trend.scale_mm, components) - normaliser -
-                  static_cast<double>(components) * std::log(trend.scale_mm)
-            : -static_cast<double>(components) * std::log(kAnywhereMm);
+    trend.log_likelihood += std::isfinite(residual_mm)
+                                ? log_density_of(residual_mm, trend.scale_mm, components) -
+                                      normaliser - as_double(components) * std::log(trend.scale_mm)
+                                : -as_double(components) * std::log(kAnywhereMm);
   }
   trend.prior_chi_square =
       (prior_sigma_mm.cwiseInverse().asDiagonal() * trend.coefficients).squaredNorm();

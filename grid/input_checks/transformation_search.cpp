@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/input_checks/transformation_search.hpp"
+#include "grid/containers.hpp"
 
 #include <fmt/format.h>
+
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -60,7 +62,7 @@ std::size_t tail_of(const std::vector<double>& gain) {
 }
 
 double log_choices(std::size_t of, std::size_t taken) {
-  const auto gamma = [](std::size_t n) { return std::lgamma(static_cast<double>(n) + 1.0); };
+  const auto gamma = [](std::size_t n) { return std::lgamma(as_double(n) + 1.0); };
   return gamma(of) - gamma(taken) - gamma(of - taken);
 }
 
@@ -121,7 +123,7 @@ class Search {
       if (sum > kHundredTimes) parts.push_back({std::move(rows), from, std::move(words), penalty});
     };
     const std::size_t n = count();
-    const double cuts = std::log(static_cast<double>(n));
+    const double cuts = std::log(as_double(n));
     const std::size_t from = tail_of(gain);
     RowSet tail(n, false);
     std::fill(tail.begin() + static_cast<std::ptrdiff_t>(from), tail.end(), true);
@@ -139,7 +141,7 @@ class Search {
       if (some[i]) names.push_back(name_of_row_(i));
     }
     const std::size_t taken = names.size();
-    if (!is_part(taken) || static_cast<double>(taken) < kLeastShare * static_cast<double>(n)) return parts;
+    if (!is_part(taken) || as_double(taken) < kLeastShare * as_double(n)) return parts;
     constexpr std::size_t kMostNamed = 12;
     if (taken > kMostNamed) names.resize(kMostNamed);
     offer(std::move(some),
@@ -171,11 +173,11 @@ class Search {
       add(own, trend, part, candidates);
       std::vector<Part> next =
           parts_of(own, gains(plain_, all, trend.coefficients, trend.scale_mm));
-      const auto alike = std::find_if(next.begin(), next.end(), [&](const Part& other) {
+      auto* alike = find_where(next, [&](const Part& other) {
         return other.from_row.has_value() == part.from_row.has_value() &&
                (other.from_row == 0U) == (part.from_row == 0U);
       });
-      if (alike == next.end()) return;
+      if (alike == nullptr) return;
       part = std::move(*alike);
     }
   }

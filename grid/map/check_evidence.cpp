@@ -9,6 +9,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -84,15 +85,13 @@ std::vector<Proposal> proposals_of(const CheckReadings& readings) {
   for (const CheckUnit& unit : readings.units) {
     Proposal bad = plain(model::Change::bad_point,
                          CheckVerdict::measure_again,
-                         prior.bad_point / static_cast<double>(readings.units.size()));
+                         prior.bad_point / as_double(readings.units.size()));
     bad.hypothesis.count = static_cast<int>(unit.index);
     bad.hypothesis.name = unit.name;
     all.push_back(std::move(bad));
   }
   return all;
 }
-
-double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
 /// K with what every place may have changed by itself: kUnknownSigmaMm of each length. A place that
 /// one unit alone sees adds to that unit's noise; the others' readings share it.
@@ -166,7 +165,7 @@ class Evidence {
   [[nodiscard]] double log_density(double log_root, double square) const {
     const double nu = readings_.noise_dof;
     if (!std::isfinite(nu)) return -log_root - 0.5 * square;
-    const auto n = static_cast<double>(readings_.residual_mm.size());
+    const auto n = as_double(readings_.residual_mm.size());
     return -log_root - 0.5 * (n + nu) * std::log1p(square / nu);
   }
 
@@ -217,7 +216,7 @@ class Evidence {
       found.value += q[at];
       found.sigma = std::sqrt(covariance(at, at));
       if (found.of.only_grows)
-        added += std::log(std::max(1e-300, 2.0 * normal_cdf(q[at] / found.sigma)));
+        added += std::log(std::max(1e-300, 2.0 * normal_upper(-q[at] / found.sigma)));
     }
     return added;
   }

@@ -12,6 +12,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/estimation/placement_fit.hpp"
+#include "grid/failed.hpp"
 #include "grid/map/corrected_data.hpp"
 #include "grid/observation/chain_lengths.hpp"
 
@@ -21,10 +22,6 @@ namespace {
 using model::MarkPoint;
 
 using Reason = CheckFailure::Reason;
-
-tl::unexpected<CheckFailure> check_fails(Reason reason, std::string sentence) {
-  return tl::unexpected(CheckFailure{reason, std::move(sentence)});
-}
 
 /// A sheet that is said to lie exactly is held by these: an inverse of nothing has no value.
 constexpr double kLeastShiftMm = 1e-6;
@@ -71,7 +68,7 @@ MeasuredHoles merged(const MeasuredHoles& set) {
 }
 
 tl::unexpected<CheckFailure> too_many(std::size_t found, std::size_t most, const char* what) {
-  return check_fails(
+  return failed(
       Reason::too_many_readings,
       fmt::format("{} {} are more than a check takes ({}); three to five far from each other show "
                   "as much; for a map of all of them, use chaintrue fit",
@@ -117,13 +114,12 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
   // A map is free of what belongs to the paper and to the visit: so must be what is held against it.
   const auto corrected = corrected_data(with_machine);
   if (!corrected) {
-    return check_fails(corrected.error().reason == FitFailure::Reason::no_lengths
-                           ? Reason::no_lengths
-                           : Reason::unreachable,
-                       corrected.error().sentence());
+    return failed(corrected.error().reason == FitFailure::Reason::no_lengths ? Reason::no_lengths
+                                                                             : Reason::unreachable,
+                  corrected.error().sentence());
   }
   const auto points = length_points(corrected->grid);
-  if (!points) return check_fails(Reason::no_lengths, points.error().sentence());
+  if (!points) return failed(Reason::no_lengths, points.error().sentence());
   CheckedPart part;
   part.notes = corrected->notes;
   part.points = merged(*points);
@@ -142,9 +138,8 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
 tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
                                                      const MeasuredHoles& set) {
   if (!set.machine) {
-    return check_fails(
-        Reason::no_machine,
-        "the holes name no machine, whose controller turns commands into chain lengths");
+    return failed(Reason::no_machine,
+                  "the holes name no machine, whose controller turns commands into chain lengths");
   }
   MeasuredHoles once = merged(with_true_tape(set));
   if (once.distances.size() > kMostCheckedDistances)
@@ -152,13 +147,13 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
   if (once.holes.size() > kMostCheckedHoles)
     return too_many(once.holes.size(), kMostCheckedHoles, "holes");
   auto distances = observation::TapeDistances::in_given_order(std::move(once));
-  if (!distances) return check_fails(Reason::no_lengths, distances.error().sentence());
+  if (!distances) return failed(Reason::no_lengths, distances.error().sentence());
   CheckedPart part;
   for (const observation::Place& place : distances->places()) {
     const auto mark = map.inverse(place.lengths);
     if (!mark) {
-      return check_fails(Reason::unreachable,
-                         fmt::format("hole {}: {}", place.name, mark.error().sentence()));
+      return failed(Reason::unreachable,
+                    fmt::format("hole {}: {}", place.name, mark.error().sentence()));
     }
     part.marks.push_back(*mark);
   }

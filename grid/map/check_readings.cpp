@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/map/check_parts.hpp"
 #include "grid/map/map_at.hpp"
 #include "grid/observation/chain_lengths.hpp"
@@ -209,9 +210,9 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
     auto part =
         std::visit([&map](const auto& one) { return checked_part(map, one); }, file.measured);
     if (!part) {
-      return tl::unexpected(CheckFailure{
+      return failed(
           part.error().reason,
-          (files.size() > 1 ? file.name + ": " : std::string{}) + part.error().sentence()});
+          (files.size() > 1 ? file.name + ": " : std::string{}) + part.error().sentence());
     }
     append_all(marks, part->marks);
     parts.push_back(*std::move(part));

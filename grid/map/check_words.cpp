@@ -129,14 +129,14 @@ double CheckUnit::rms_mm(const std::vector<CheckResidual>& residuals) const {
   double square = 0.0;
   for (std::size_t k = first_row; k < first_row + rows; ++k)
     square += residuals[k].residual_mm * residuals[k].residual_mm;
-  return std::sqrt(square / static_cast<double>(rows));
+  return std::sqrt(square / as_double(rows));
 }
 
 double CheckUnit::sigma_mm(const std::vector<CheckResidual>& residuals) const {
   double variance = 0.0;
   for (std::size_t k = first_row; k < first_row + rows; ++k)
     variance += residuals[k].sigma_mm * residuals[k].sigma_mm;
-  return std::sqrt(variance / static_cast<double>(rows));
+  return std::sqrt(variance / as_double(rows));
 }
 
 CheckWords words_of(const model::Mechanism& mechanism) {

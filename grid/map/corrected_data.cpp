@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "model/effects/catalogue.hpp"
@@ -46,11 +47,10 @@ tl::expected<std::vector<model::ChainLengths>, FitFailure> readings_with(
     const Machine& machine, const std::vector<model::Visit>& visits) {
   auto read = model::readings(model::ReadingModel(machine), visits);
   if (read) return *std::move(read);
-  return tl::unexpected(
-      FitFailure{FitFailure::Reason::point_unreachable,
-                 fmt::format("point {} cannot be reached by the machine in your file: {}",
-                             read.error().place + 1,
-                             read.error().sentence())});
+  return failed(FitReason::point_unreachable,
+                fmt::format("point {} cannot be reached by the machine in your file: {}",
+                            read.error().place + 1,
+                            read.error().sentence()));
 }
 
 /// Takes the visit effects out of the readings, which are in the order of the points.
@@ -58,8 +58,7 @@ tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid,
                                                 const Machine& with_visits,
                                                 const Machine& without) {
   const auto points = length_points(grid);
-  if (!points)
-    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, points.error().sentence()});
+  if (!points) return failed(FitReason::no_lengths, points.error().sentence());
   std::vector<model::Visit> visits;
   for (const MeasuredPoint& point : grid.points)
     visits.push_back({model::identity_placement(point.mark), *point.order});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/failed.hpp"
 #include "grid/map/fit_part.hpp"
 #include "grid/map/map_parts.hpp"
 #include "grid/precondition.hpp"
@@ -116,13 +117,13 @@ tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredHoles& 
   if (set.distances.empty())
     throw precondition("a fit of no distances between {} holes", set.holes.size());
   if (!set.machine) {
-    return tl::unexpected(FitFailure{FitFailure::Reason::no_machine,
-                                     "the holes name no machine, whose controller turns commands "
-                                     "into chain lengths: give --machine"});
+    return failed(FitReason::no_machine,
+                  "the holes name no machine, whose controller turns commands "
+                  "into chain lengths: give --machine");
   }
   auto distances = observation::TapeDistances::in_given_order(set);
   if (!distances) {
-    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, distances.error().sentence()});
+    return failed(FitReason::no_lengths, distances.error().sentence());
   }
   if (auto possible = check_readings_of(*set.machine, set.readings, "set's"); !possible)
     return tl::unexpected(possible.error());

@@ -1,11 +1,200 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/map/fit.hpp"
 
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "grid/containers.hpp"
+#include "grid/failed.hpp"
+#include "grid/map/controller_error.hpp"
 #include "grid/map/corrected_data.hpp"
-#include "grid/map/direct_fit.hpp"
 #include "grid/map/joint_fit.hpp"
+#include "grid/map/lattice_residual.hpp"
+#include "grid/map/map_accuracy.hpp"
+#include "grid/observation/length_points.hpp"
 
 namespace chaintrue::grid {
+
+namespace {
+
+using model::Side;
+
+/// The lines of a full grid, and its values; `filled` marks the empty nodes.
+struct Lattice {
+  std::vector<double> x_nodes_mm;
+  std::vector<double> y_nodes_mm;
+  model::PerSide<Eigen::MatrixXd> lengths_mm;
+  Eigen::MatrixXi visits;
+};
+
+/// Repeats are averaged.
+Lattice lattice_of(const std::vector<LengthPoint>& points) {
+  std::vector<double> x;
+  std::vector<double> y;
+  for (const LengthPoint& point : points) {
+    x.push_back(point.mark.x_mm);
+    y.push_back(point.mark.y_mm);
+  }
+  Lattice lattice{lines_of(std::move(x)), lines_of(std::move(y)), {}, {}};
+  const auto nx = std::ssize(lattice.x_nodes_mm);
+  const auto ny = std::ssize(lattice.y_nodes_mm);
+  lattice.visits = Eigen::MatrixXi::Zero(nx, ny);
+  for (Side side : model::kSides) lattice.lengths_mm[side] = Eigen::MatrixXd::Zero(nx, ny);
+  for (const LengthPoint& point : points) {
+    const Eigen::Index ix = line_of(lattice.x_nodes_mm, point.mark.x_mm);
+    const Eigen::Index iy = line_of(lattice.y_nodes_mm, point.mark.y_mm);
+    lattice.lengths_mm.left(ix, iy) += point.lengths.left_mm;
+    lattice.lengths_mm.right(ix, iy) += point.lengths.right_mm;
+    ++lattice.visits(ix, iy);
+  }
+  for (Side side : model::kSides) {
+    lattice.lengths_mm[side].array() /= lattice.visits.array().max(1).cast<double>();
+  }
+  return lattice;
+}
+
+std::vector<double> without(std::vector<double> lines, std::size_t line) {
+  lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(line));
+  return lines;
+}
+
+/// What a map without one inner line says of that line's nodes, each line in turn.
+struct LineErrors {
+  std::vector<HeldOutResidual> residuals;
+  /// The error that the full grid has between its lines, one sigma: halving the spacing divides a
+  /// cubic spline's error by 16, a parabola's (three lines left) by 8.
+  double interpolation_sigma_mm = 0.0;
+};
+
+LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& ends, bool columns) {
+  const std::vector<double>& lines = columns ? lattice.x_nodes_mm : lattice.y_nodes_mm;
+  LineErrors errors;
+  double squares = 0.0;
+  for (std::size_t line = 1; line + 1 < lines.size(); ++line) {
+    const auto axes = std::make_shared<const interp::TensorAxes>(
+        columns ? without(lines, line) : lattice.x_nodes_mm,
+        columns ? lattice.y_nodes_mm : without(lines, line),
+        ends);
+    const auto at = as_index(line);
+    const auto kept = [&](const Eigen::MatrixXd& all) {
+      Eigen::MatrixXd values(std::ssize(axes->x), std::ssize(axes->y));
+      if (columns) {
+        values << all.topRows(at), all.bottomRows(all.rows() - at - 1);
+      } else {
+        values << all.leftCols(at), all.rightCols(all.cols() - at - 1);
+      }
+      return values;
+    };
+    const std::vector<double> x_kept = columns ? without(lines, line) : lattice.x_nodes_mm;
+    const std::vector<double> y_kept = columns ? lattice.y_nodes_mm : without(lines, line);
+    const auto spline = [&](const Eigen::MatrixXd& all) {
+      const Eigen::MatrixXd values = kept(all);
+      return interp::TensorSpline(axes, values, parabola_slopes(x_kept, y_kept, values));
+    };
+    const interp::TensorSpline left = spline(lattice.lengths_mm.left);
+    const interp::TensorSpline right = spline(lattice.lengths_mm.right);
+    const std::size_t nodes = columns ? lattice.y_nodes_mm.size() : lattice.x_nodes_mm.size();
+    for (std::size_t node = 0; node < nodes; ++node) {
+      const std::size_t ix = columns ? line : node;
+      const std::size_t iy = columns ? node : line;
+      const auto l = left.at(lattice.x_nodes_mm[ix], lattice.y_nodes_mm[iy]);
+      const auto r = right.at(lattice.x_nodes_mm[ix], lattice.y_nodes_mm[iy]);
+      const auto i = as_index(ix);
+      const auto j = as_index(iy);
+      HeldOutResidual residual;
+      residual.chain_mm = {lattice.lengths_mm.left(i, j) - l.value,
+                           lattice.lengths_mm.right(i, j) - r.value};
+      residual.mark_jacobian << l.dx, l.dy, r.dx, r.dy;
+      squares += residual.chain_mm.squaredNorm();
+      errors.residuals.push_back(residual);
+    }
+  }
+  if (!errors.residuals.empty()) {
+    const double rms = std::sqrt(squares / (2.0 * as_double(errors.residuals.size())));
+    errors.interpolation_sigma_mm = rms / (lines.size() > 4 ? 16.0 : 8.0);
+  }
+  return errors;
+}
+
+tl::expected<void, FitFailure> check_full(const Lattice& lattice) {
+  const Eigen::Index nx = lattice.visits.rows();
+  const Eigen::Index ny = lattice.visits.cols();
+  const auto missing = (lattice.visits.array() == 0).count();
+  if (missing == 0 && nx >= 2 && ny >= 2) return {};
+  return failed(
+      FitReason::not_a_grid,
+      fmt::format("--surface direct needs a point on every crossing of full rows and columns; "
+                  "these points make {} columns and {} rows with {} crossings empty. Where the "
+                  "sled stood off its marks, --surface residual takes the points as they are",
+                  nx,
+                  ny,
+                  missing));
+}
+
+/// SurfaceKind::direct.
+tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
+                                                     const FitOptions& options) {
+  const auto points = length_points(grid);
+  if (!points) return failed(FitReason::no_lengths, points.error().sentence());
+  Lattice lattice = lattice_of(*points);
+  if (auto full = check_full(lattice); !full) return tl::unexpected(full.error());
+
+  const LineErrors columns = leave_lines_out(lattice, options.ends, true);
+  const LineErrors rows = leave_lines_out(lattice, options.ends, false);
+  MapContents map;
+  map.name = grid.name;
+  map.domain = {lattice.x_nodes_mm.front(),
+                lattice.x_nodes_mm.back(),
+                lattice.y_nodes_mm.front(),
+                lattice.y_nodes_mm.back()};
+  std::vector<model::MarkPoint> marks;
+  for (const LengthPoint& point : *points) marks.push_back(point.mark);
+  const MeasuredArea area(marks, map.domain);
+  map.hull = area.hull();
+  map.edge_mm = area.edge_mm();
+  const StatedNoise assumed;
+  const StatedNoise noise = grid.noise.value_or(assumed);
+  map.noise = {noise.length_mm,
+               noise.position_mm,
+               grid.noise ? NoiseSource::stated : NoiseSource::assumed,
+               1.0};
+  std::vector<HeldOutResidual> lines = columns.residuals;
+  append_all(lines, rows.residuals);
+  map.accuracy.leave_one_out = summarise(lines);
+  const HeldOutError by_columns = summarise(columns.residuals);
+  const HeldOutError by_rows = summarise(rows.residuals);
+  map.accuracy.blocked = by_columns.tool.rms_mm > by_rows.tool.rms_mm ? by_columns : by_rows;
+  map.surface =
+      DirectSurface{lattice.x_nodes_mm,
+                    lattice.y_nodes_mm,
+                    lattice.lengths_mm,
+                    options.ends,
+                    std::hypot(columns.interpolation_sigma_mm, rows.interpolation_sigma_mm)};
+  map.notes.push_back(
+      "The lengths were interpolated without a machine: between few points that is off by "
+      "millimetres near the motors, however well each point was measured. Leave-one-out here means "
+      "a column or a row at a time, blocked the worse of the two.");
+  const CompensationMap bare(map);
+  for (const LengthPoint& point : *points) {
+    const auto here = bare.lengths(point.mark);
+    if (!here) continue;
+    MapPoint result;
+    result.mark = point.mark;
+    result.lengths = point.lengths;
+    const Eigen::Vector2d chain(point.lengths.left_mm - here->lengths.left_mm,
+                                point.lengths.right_mm - here->lengths.right_mm);
+    result.mapped_mm = -(here->mark_jacobian.inverse() * chain);
+    map.points.push_back(result);
+  }
+  const CompensationMap first(map);
+  measure_expected_error(first, map.accuracy);
+  map.mirror = test_mirror(first);
+  return CompensationMap(std::move(map));
+}
+
+}  // namespace
 
 tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid, const FitOptions& options) {
   if (options.surface == SurfaceKind::residual) {

@@ -28,7 +28,7 @@ ErrorSummary summary_of(const std::vector<FittedDistance>& distances, bool with_
     summary.maximum_mm = std::max(summary.maximum_mm, std::abs(distance.left_out_mm));
     ++count;
   }
-  if (count > 0) summary.rms_mm = std::sqrt(squares / static_cast<double>(count));
+  if (count > 0) summary.rms_mm = std::sqrt(squares / as_double(count));
   return summary;
 }
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/map/corrected_data.hpp"
 #include "grid/map/fit_part.hpp"
 #include "grid/map/larger_error.hpp"
@@ -22,10 +23,6 @@ namespace chaintrue::grid {
 namespace {
 
 using Parts = std::vector<std::unique_ptr<FitPart>>;
-
-tl::unexpected<FitFailure> fail(FitFailure::Reason reason, std::string sentence) {
-  return tl::unexpected(FitFailure{reason, std::move(sentence)});
-}
 
 FitFailure failure_of(const estimation::EstimationFailure& failure) {
   using Of = estimation::EstimationFailure::Reason;
@@ -45,13 +42,13 @@ tl::expected<void, FitFailure> check_one_machine(const std::vector<MeasuredFile>
   for (const MeasuredFile& file : files) {
     const auto& machine = file.machine();
     if (!machine) {
-      return fail(FitFailure::Reason::no_machine,
-                  fmt::format("{} names no machine: give --machine", file.name));
+      return failed(FitFailure::Reason::no_machine,
+                    fmt::format("{} names no machine: give --machine", file.name));
     }
     const std::string difference = difference_of_settings(*files.front().machine(), *machine);
     if (!difference.empty()) {
-      return fail(FitFailure::Reason::impossible_readings,
-                  fmt::format("{}: {}", file.name, difference));
+      return failed(FitFailure::Reason::impossible_readings,
+                    fmt::format("{}: {}", file.name, difference));
     }
   }
   return {};
@@ -69,8 +66,9 @@ tl::expected<Parts, FitFailure> parts_of(const std::vector<MeasuredFile>& files,
     auto part =
         set == nullptr ? part_of(*file.grid()) : part_of(with_grids ? with_true_tape(*set) : *set);
     if (!part) {
-      return fail(part.error().reason,
-                  (files.size() > 1 ? file.name + ": " : std::string{}) + part.error().sentence());
+      return failed(
+          part.error().reason,
+          (files.size() > 1 ? file.name + ": " : std::string{}) + part.error().sentence());
     }
     parts.push_back(*std::move(part));
   }
@@ -132,7 +130,7 @@ tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>
     }
     const bool alone = parts.size() == 1;
     if (3 * bad <= all && (!alone || all - bad >= parts[k]->fewest_good)) continue;
-    return fail(
+    return failed(
         FitFailure::Reason::rank_deficient,
         alone ? parts[k]->few_good(bad, all)
               : fmt::format("{}: {} of {} {} contradict the other files or the machine file: are "
@@ -164,7 +162,8 @@ tl::expected<void, FitFailure> state_noises(const std::vector<MeasuredFile>& fil
       if (auto good = check_enough_good({files[k]}, one, alone->estimate); !good)
         alone = tl::unexpected(good.error());
     }
-    if (!alone) return fail(alone.error().reason, files[k].name + ": " + alone.error().sentence());
+    if (!alone)
+      return failed(alone.error().reason, files[k].name + ": " + alone.error().sentence());
     one.front()->take_noise(*alone);
     parts[k] = std::move(one.front());
   }
@@ -329,8 +328,8 @@ tl::expected<void, FitFailure> check_readings_of(const model::Machine& machine,
   }
   if (problems.empty()) return {};
   problems.back() = '.';
-  return fail(FitFailure::Reason::impossible_readings,
-              fmt::format("with the {} readings put in,{}", what, problems));
+  return failed(FitFailure::Reason::impossible_readings,
+                fmt::format("with the {} readings put in,{}", what, problems));
 }
 
 tl::expected<JointFit, FitFailure> joint_fit(const Measured& measured,

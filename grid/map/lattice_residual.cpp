@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "grid/map/lattice_lines.hpp"
+#include "grid/containers.hpp"
 #include "grid/map/fitted_points.hpp"
 #include "grid/statistics.hpp"
 #include "interp/missing_nodes.hpp"
@@ -88,9 +88,8 @@ double predicted(const Places& places, Eigen::MatrixXd values, Eigen::Index ix, 
   values(ix, iy) = kEmpty;
   const auto filled = interp::fill_missing(places.x_nodes_mm, places.y_nodes_mm, values);
   if (!filled) return kEmpty;
-  const auto node = std::find_if(filled->filled.begin(),
-                                 filled->filled.end(),
-                                 [&](const auto& one) { return one.ix == ix && one.iy == iy; });
+  auto* node =
+      find_where(filled->filled, [&](const auto& one) { return one.ix == ix && one.iy == iy; });
   return node->by_line;
 }
 
@@ -153,8 +152,8 @@ std::optional<LatticeFit> fit_lattice(const PointsFit& fit) {
     }
     lattice.left_out_residual_mm.push_back(residual);
   }
-  const bool noisy = fit.estimate.effective_parameters <
-                     kMetClosely * 2.0 * static_cast<double>(errors_here.size());
+  const bool noisy =
+      fit.estimate.effective_parameters < kMetClosely * 2.0 * as_double(errors_here.size());
   if (noisy || rms(errors_here) > kStillPredicts * rms(errors_there)) return std::nullopt;
 
   lattice.residual.x_nodes_mm = places->x_nodes_mm;
@@ -171,6 +170,19 @@ std::optional<LatticeFit> fit_lattice(const PointsFit& fit) {
   }
   lattice.residual.interpolation_sigma_mm = rms(errors_here) / kHalvedSpacing;
   return lattice;
+}
+
+std::vector<double> lines_of(std::vector<double> coordinates_mm) {
+  sort(coordinates_mm);
+  const auto same = [](double a, double b) { return b - a <= kOnLineMm; };
+  coordinates_mm.erase(std::unique(coordinates_mm.begin(), coordinates_mm.end(), same),
+                       coordinates_mm.end());
+  return coordinates_mm;
+}
+
+Eigen::Index line_of(const std::vector<double>& lines_mm, double coordinate_mm) {
+  return std::lower_bound(lines_mm.begin(), lines_mm.end(), coordinate_mm - kOnLineMm) -
+         lines_mm.begin();
 }
 
 }  // namespace chaintrue::grid

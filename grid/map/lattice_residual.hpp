@@ -76,4 +76,14 @@ struct LatticeFit {
 /// readings), or where the lines predict left-out points far worse.
 [[nodiscard]] std::optional<LatticeFit> fit_lattice(const PointsFit& fit);
 
+/// Points nearer than this to a line of the lattice lie on it: the rounding of written
+/// coordinates.
+inline constexpr double kOnLineMm = 0.01;
+
+/// The distinct coordinates, rising; of those within kOnLineMm of each other the least.
+[[nodiscard]] std::vector<double> lines_of(std::vector<double> coordinates_mm);
+
+/// The line that a coordinate, one of those which made the lines, lies on.
+[[nodiscard]] Eigen::Index line_of(const std::vector<double>& lines_mm, double coordinate_mm);
+
 }  // namespace chaintrue::grid

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/linear_algebra.hpp"
 
 
@@ -46,9 +47,8 @@ tl::expected<CheckReadings, CheckFailure> readings_of(
     const observation::Unit& unit = observed.units()[as_size(u)];
     auto line = observed.line_of(view, as_size(u), true);
     if (!line) {
-      return tl::unexpected(CheckFailure{
-          CheckFailure::Reason::unreachable,
-          fmt::format("{}: {}", observed.name_of(as_size(u)), line.error().sentence())});
+      return failed(CheckReason::unreachable,
+                    fmt::format("{}: {}", observed.name_of(as_size(u)), line.error().sentence()));
     }
     readings.residual_mm.segment(unit.first_row, unit.rows) =
         observed.measured().segment(unit.first_row, unit.rows) - line->predicted;
@@ -77,8 +77,7 @@ tl::expected<Check, CheckFailure> check_lengths(
   const observation::BeltLengthReadings observed(
       places, false, {fitted.length_mm, fitted.position_mm}, fitted.noise_dof);
   if (observed.units().empty()) {
-    return tl::unexpected(
-        CheckFailure{CheckFailure::Reason::no_lengths, "no place has a length that checks another"});
+    return failed(CheckReason::no_lengths, "no place has a length that checks another");
   }
   return readings_of(fitted, observed).map([&](const CheckReadings& readings) {
     return judged(readings, words);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/containers.hpp"
+
 namespace chaintrue::grid {
 namespace {
 
@@ -19,7 +21,7 @@ class Tally {
     ++count_;
   }
   [[nodiscard]] double rms() const {
-    return count_ == 0 ? 0.0 : std::sqrt(squares_ / static_cast<double>(count_));
+    return count_ == 0 ? 0.0 : std::sqrt(squares_ / as_double(count_));
   }
   [[nodiscard]] ErrorSummary summary() const { return {rms(), largest_}; }
 
@@ -86,7 +88,7 @@ MirrorTest test_mirror(const CompensationMap& map) {
     return test;
   }
   test.difference = tally.summary();
-  test.mean_mm = sum / static_cast<double>(test.points);
+  test.mean_mm = sum / as_double(test.points);
   const auto than = [](double value) { return value >= 0.0 ? "longer" : "shorter"; };
   if (test.holds) {
     test.sentence = fmt::format(

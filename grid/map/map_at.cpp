@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/observation/observation.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 constexpr auto& kOfMachine = model::kMachineSettings;
 
 tl::unexpected<CheckFailure> no_answer(std::string sentence) {
-  return tl::unexpected(CheckFailure{CheckFailure::Reason::unreachable, std::move(sentence)});
+  return failed(CheckReason::unreachable, std::move(sentence));
 }
 
 /// Columns of d(lengths)/d(settings) at a mark, in the order of the surface's settings.
@@ -52,7 +53,7 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
   std::optional<model::ReadingModel> model;
   if (surface != nullptr) model.emplace(surface->machine);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(count);
+    const double share = as_double(i) / as_double(count);
     tell(progress, {"the map at the new points", 1, 2, share});
     const model::MarkPoint mark = marks[as_size(i)];
     const auto refused = [&mark](const MapFailure& failure) {

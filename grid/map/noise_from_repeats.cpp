@@ -35,9 +35,8 @@ double rounding_sigma_mm(const std::vector<double>& readings_mm) {
     for (const double digit : {1.0, 0.5, 0.2}) steps.push_back(digit * std::pow(10.0, -decade));
   }
   sort(steps, std::greater<>());
-  const auto step = std::find_if(
-      steps.begin(), steps.end(), [&](double one) { return are_multiples(readings_mm, one); });
-  return step == steps.end() ? 0.0 : *step / std::sqrt(12.0);
+  auto* step = find_where(steps, [&](double one) { return are_multiples(readings_mm, one); });
+  return step == nullptr ? 0.0 : *step / std::sqrt(12.0);
 }
 
 observation::PointNoise rounding_noise(const MeasuredGrid& grid) {
@@ -62,9 +61,9 @@ void RepeatScatter::add(const Eigen::Vector2d& residual_mm, const Eigen::Matrix2
 
 void RepeatScatter::end_group() {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (const Eigen::Vector2d& w : group_) mean += w / static_cast<double>(group_.size());
+  for (const Eigen::Vector2d& w : group_) mean += w / as_double(group_.size());
   for (const Eigen::Vector2d& w : group_) squares_ += (w - mean).squaredNorm();
-  if (!group_.empty()) dof_ += 2.0 * static_cast<double>(group_.size() - 1);
+  if (!group_.empty()) dof_ += 2.0 * as_double(group_.size() - 1);
   group_.clear();
 }
 

@@ -7,6 +7,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
+#include "grid/failed.hpp"
 #include "grid/map/corrected_data.hpp"
 #include "grid/map/fit_part.hpp"
 #include "grid/map/lattice_residual.hpp"
@@ -119,7 +120,7 @@ class PointsPart final : public FitPart {
 
   void take_noise(const Fitting& alone) override {
     const estimation::Estimate& estimate = alone.estimate;
-    const double left = 2.0 * static_cast<double>(points_.size()) - estimate.effective_parameters;
+    const double left = 2.0 * as_double(points_.size()) - estimate.effective_parameters;
     noise_ = {estimate.noise_factor * noise_.length_mm, estimate.noise_factor * noise_.position_mm};
     noise = {interp::NoiseKnowledge::from_repeats,
              source_ == NoiseSource::repeats ? noise.degrees_of_freedom : std::max(left, 1.0)};
@@ -277,15 +278,14 @@ class PointsPart final : public FitPart {
 
 tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredGrid& grid) {
   if (!grid.machine) {
-    return tl::unexpected(FitFailure{FitFailure::Reason::no_machine,
-                                     "the grid names no machine; a residual surface needs one: "
-                                     "give --machine, or ask for --surface direct"});
+    return failed(FitReason::no_machine,
+                  "the grid names no machine; a residual surface needs one: "
+                  "give --machine, or ask for --surface direct");
   }
   auto corrected = corrected_data(grid);
   if (!corrected) return tl::unexpected(corrected.error());
   auto points = length_points(corrected->grid);
-  if (!points)
-    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, points.error().sentence()});
+  if (!points) return failed(FitReason::no_lengths, points.error().sentence());
   const MeasuredGrid& own = corrected->grid;
   if (auto possible = check_readings_of(*own.machine, own.readings, "grid's"); !possible)
     return tl::unexpected(possible.error());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/mechanism_map.hpp"
@@ -137,14 +138,10 @@ void round_to_type(const std::vector<FreeSetting>& free,
   }
 }
 
-tl::unexpected<SettingsFailure> failure(SettingsFailure::Reason reason, const char* sentence) {
-  return tl::unexpected(SettingsFailure{reason, sentence});
-}
-
 tl::unexpected<SettingsFailure> no_machine() {
-  return failure(SettingsFailure::Reason::no_machine,
-                 "this map was made without a machine, so there are no settings to mend: fit the "
-                 "points again with --machine, and without --surface direct");
+  return failed(SettingsFailure::Reason::no_machine,
+                "this map was made without a machine, so there are no settings to mend: fit the "
+                "points again with --machine, and without --surface direct");
 }
 
 /// Over the area, without what is uncertain of it.
@@ -167,9 +164,7 @@ std::optional<ControllerSettings> best_settings(const Truth& truth,
   // they come from.
   constexpr double kFinestMm = 0.05;
   const double sigma_mm = std::max(truth.sigma_mm, kFinestMm);
-  const double told =
-      truth.points == 0 ? 1.0
-                        : static_cast<double>(truth.points) / static_cast<double>(places.size());
+  const double told = truth.points == 0 ? 1.0 : as_double(truth.points) / as_double(places.size());
   const double weight = told / (sigma_mm * sigma_mm);
   ControllerSettings settings = truth.machine.controller.settings;
   // The formulas bend little over some millimetres: the third step is below what is typed.
@@ -240,9 +235,9 @@ tl::expected<SettingsToType, SettingsFailure> settings_for(const Truth& truth) {
   const auto before = errors_with(truth.machine, in_force, places);
   if (!maslow || !std::holds_alternative<model::Ring>(truth.machine.attachment) || !before ||
       places.empty()) {
-    return failure(SettingsFailure::Reason::another_controller,
-                   "the machine has no controller of a Maslow with a ring, whose settings could be "
-                   "fitted: compensate the G-code with a map");
+    return failed(SettingsFailure::Reason::another_controller,
+                  "the machine has no controller of a Maslow with a ring, whose settings could be "
+                  "fitted: compensate the G-code with a map");
   }
   SettingsToType result;
   result.settings = in_force;

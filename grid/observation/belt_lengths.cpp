@@ -5,7 +5,6 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <numeric>
 
 #include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
@@ -42,11 +41,10 @@ BeltLengthReadings::BeltLengthReadings(std::vector<LengthsAtPlace> places,
                                        BeltNoise noise,
                                        double noise_dof,
                                        std::vector<TapedDistance> distances)
-    : readings_(sorted_readings(std::move(places))),
+    : Observation(ordered, noise_dof),
+      readings_(sorted_readings(std::move(places))),
       distances_(std::move(distances)),
-      ordered_(ordered),
-      noise_(noise),
-      noise_dof_(noise_dof) {
+      noise_(noise) {
   if (!(noise_.length_mm > 0.0 && noise_.position_mm >= 0.0)) {
     throw precondition("lengths with a sigma of {} mm at positions with {} mm",
                        noise_.length_mm,
@@ -68,8 +66,7 @@ BeltLengthReadings::BeltLengthReadings(std::vector<LengthsAtPlace> places,
 
 /// Blocks: places with the distances between them, joined until no distance leads out of one.
 void BeltLengthReadings::join_places() {
-  std::vector<std::size_t> root(readings_.size());
-  std::iota(root.begin(), root.end(), std::size_t{0});
+  auto root = numbers_below(readings_.size());
   const auto root_of = [&root](std::size_t place) {
     while (root[place] != place) place = root[place] = root[root[place]];
     return place;

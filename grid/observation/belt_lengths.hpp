@@ -99,9 +99,6 @@ class BeltLengthReadings final : public Observation {
   };
 
   [[nodiscard]] const Kind& kind() const override { return belt_lengths; }
-  [[nodiscard]] bool ordered() const override { return ordered_; }
-  [[nodiscard]] double noise_dof() const override { return noise_dof_; }
-  [[nodiscard]] bool may_be_outlier() const override { return true; }
   [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
       const View& view) const override;
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
@@ -177,9 +174,7 @@ class BeltLengthReadings final : public Observation {
   std::vector<std::size_t> first_unit_;  ///< of each block
   std::vector<std::size_t> block_of_;    ///< of each place; blocks_.size(): of none
   std::vector<std::size_t> place_of_unit_;
-  bool ordered_;
   BeltNoise noise_;
-  double noise_dof_;
 };
 
 }  // namespace chaintrue::grid::observation

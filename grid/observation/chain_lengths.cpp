@@ -44,7 +44,7 @@ ChainLengthReadings::ChainLengthReadings(GivenOrder,
                                          PointNoise noise,
                                          double noise_dof,
                                          std::optional<SheetPrior> sheet)
-    : ordered_(ordered), noise_(noise), noise_dof_(noise_dof) {
+    : Observation(ordered, noise_dof), noise_(noise) {
   places_ = std::move(places);
   sheet_ = sheet;
   measured_.resize(2 * std::ssize(places_));

@@ -39,9 +39,6 @@ class ChainLengthReadings final : public Observation {
                                                           std::optional<SheetPrior> sheet);
 
   [[nodiscard]] const Kind& kind() const override { return chain_lengths; }
-  [[nodiscard]] bool ordered() const override { return ordered_; }
-  [[nodiscard]] double noise_dof() const override { return noise_dof_; }
-  [[nodiscard]] bool may_be_outlier() const override { return true; }
   [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
       const View& view) const override;
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
@@ -61,9 +58,7 @@ class ChainLengthReadings final : public Observation {
                       double noise_dof,
                       std::optional<SheetPrior> sheet);
 
-  bool ordered_;
   PointNoise noise_;
-  double noise_dof_;
 };
 
 }  // namespace chaintrue::grid::observation

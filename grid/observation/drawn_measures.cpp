@@ -17,7 +17,7 @@ const Kind drawn_measures{"drawn_measures", "measure", "measures", "point", fals
 DrawnMeasures::DrawnMeasures(std::vector<DrawnPoint> points,
                              std::vector<DrawnMeasure> measures,
                              double noise_dof)
-    : points_(std::move(points)), noise_dof_(noise_dof) {
+    : Observation(false, noise_dof), points_(std::move(points)) {
   std::vector<std::size_t> order(measures.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     const DrawnMeasure& own = measures[i];
@@ -32,7 +32,7 @@ DrawnMeasures::DrawnMeasures(std::vector<DrawnPoint> points,
     const DrawnMeasure& m = measures[i];
     return std::tie(m.kind, points_[m.from].name, points_[m.to].name, m.value_mm, m.sigma_mm);
   };
-  sort(order, [&](auto a, auto b) { return key(a) < key(b); });
+  sort(order, ascending(key));
   for (std::size_t i = 0; i < points_.size(); ++i)
     places_.push_back({i, points_[i].name, points_[i].commanded, points_[i].paid_out});
   measured_.resize(std::ssize(order));

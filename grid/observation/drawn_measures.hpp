@@ -59,9 +59,6 @@ class DrawnMeasures final : public Observation {
                 double noise_dof);
 
   [[nodiscard]] const Kind& kind() const override { return drawn_measures; }
-  [[nodiscard]] bool ordered() const override { return false; }
-  [[nodiscard]] double noise_dof() const override { return noise_dof_; }
-  [[nodiscard]] bool may_be_outlier() const override { return true; }
   [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
       const View& view) const override;
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
@@ -86,7 +83,6 @@ class DrawnMeasures final : public Observation {
 
   std::vector<DrawnPoint> points_;
   std::vector<DrawnMeasure> measures_;
-  double noise_dof_;
 };
 
 }  // namespace chaintrue::grid::observation

@@ -115,8 +115,8 @@ std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoin
       return std::hypot(first.x_mm - points[i].mark.x_mm, first.y_mm - points[i].mark.y_mm) <=
              kRepeatDistanceMm;
     };
-    const auto group = std::find_if(groups.begin(), groups.end(), near);
-    if (group == groups.end()) {
+    auto* group = find_where(groups, near);
+    if (group == nullptr) {
       groups.push_back({i});
     } else {
       group->push_back(i);
@@ -132,10 +132,10 @@ namespace {
 std::vector<ExtraReading> combined(const std::vector<ExtraReading>& readings) {
   std::vector<ExtraReading> result;
   for (const ExtraReading& reading : readings) {
-    const auto same = std::find_if(result.begin(), result.end(), [&](const ExtraReading& other) {
+    auto* same = find_where(result, [&](const ExtraReading& other) {
       return other.what == reading.what && other.side == reading.side;
     });
-    if (same == result.end()) {
+    if (same == nullptr) {
       result.push_back(reading);
       continue;
     }

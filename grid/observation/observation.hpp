@@ -189,11 +189,11 @@ class Observation {
   /// Absent: the marks' frame is the bed's.
   [[nodiscard]] const std::optional<SheetPrior>& sheet() const { return sheet_; }
   /// The visits' order is known.
-  [[nodiscard]] virtual bool ordered() const = 0;
+  [[nodiscard]] bool ordered() const { return ordered_; }
   /// How well the noise is known, degrees of freedom.
-  [[nodiscard]] virtual double noise_dof() const = 0;
+  [[nodiscard]] double noise_dof() const { return noise_dof_; }
   /// Whether units may be outliers; not what was measured with care, once, and is stated with a sigma.
-  [[nodiscard]] virtual bool may_be_outlier() const = 0;
+  [[nodiscard]] bool may_be_outlier() const { return may_be_outlier_; }
 
   /// The same rows, with these readings left out of what is linearised about: a position that is
   /// found from the others alone. Null of a kind whose units are outliers as a whole.
@@ -216,7 +216,8 @@ class Observation {
   [[nodiscard]] virtual std::string name_of(std::size_t unit) const = 0;
 
  protected:
-  Observation() = default;
+  Observation(bool ordered, double noise_dof, bool may_be_outlier = true)
+      : ordered_(ordered), noise_dof_(noise_dof), may_be_outlier_(may_be_outlier) {}
   Observation(const Observation&) = default;
   Observation(Observation&&) = default;
   Observation& operator=(const Observation&) = default;
@@ -227,6 +228,9 @@ class Observation {
   Eigen::VectorXd measured_;
   Eigen::VectorXd nuisance_sigma_;
   std::optional<SheetPrior> sheet_;
+  bool ordered_;
+  double noise_dof_;
+  bool may_be_outlier_;
 };
 
 using Observations = std::vector<std::shared_ptr<const Observation>>;

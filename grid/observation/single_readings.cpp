@@ -75,7 +75,7 @@ double predicted_reading(const Machine& machine, const ExtraReading& reading) {
 }
 
 SingleReadings::SingleReadings(std::vector<ExtraReading> readings)
-    : readings_(std::move(readings)) {
+    : Observation(false, kInfinity, false), readings_(std::move(readings)) {
   sort(readings_, [](const ExtraReading& a, const ExtraReading& b) {
     return std::tie(a.what, a.side, a.value, a.sigma) < std::tie(b.what, b.side, b.value, b.sigma);
   });
@@ -90,8 +90,6 @@ SingleReadings::SingleReadings(std::vector<ExtraReading> readings)
     units_.push_back({as_index(k), 1, k});
   }
 }
-
-double SingleReadings::noise_dof() const { return kInfinity; }
 
 tl::expected<Eigen::VectorXd, Unreachable> SingleReadings::predicted(const View& view) const {
   Eigen::VectorXd all(rows());

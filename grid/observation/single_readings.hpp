@@ -26,9 +26,6 @@ class SingleReadings final : public Observation {
   explicit SingleReadings(std::vector<ExtraReading> readings);
 
   [[nodiscard]] const Kind& kind() const override { return single_readings; }
-  [[nodiscard]] bool ordered() const override { return false; }
-  [[nodiscard]] double noise_dof() const override;
-  [[nodiscard]] bool may_be_outlier() const override { return false; }
   [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
       const View& view) const override;
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(

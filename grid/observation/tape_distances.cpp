@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/observation/tape_zero.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/chains/chain_mechanism.hpp"
@@ -82,7 +83,7 @@ Sorted sorted_set(const MeasuredHoles& set) {
   };
   result.distance.resize(set.distances.size());
   std::iota(result.distance.begin(), result.distance.end(), std::size_t{0});
-  stable_sort(result.distance, [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  stable_sort(result.distance, ascending(key));
   for (std::size_t k = 0; k < result.distance.size(); ++k) {
     HoleDistance own = set.distances[result.distance[k]];
     own.from = place[own.from];
@@ -203,13 +204,12 @@ tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::in_given_order(
     const Hole& hole = result.set_.holes[i];
     const auto lengths = controller->lengths(hole.commanded);
     if (!lengths) {
-      return tl::unexpected(TapeDistancesFailure{
-          TapeDistancesFailure::Reason::no_lengths,
-          fmt::format("hole {} at ({:.1f}, {:.1f}) is out of the controller's reach: {}",
-                      hole.name,
-                      hole.commanded.x_mm,
-                      hole.commanded.y_mm,
-                      lengths.error().sentence())});
+      return failed(TapeDistancesReason::no_lengths,
+                    fmt::format("hole {} at ({:.1f}, {:.1f}) is out of the controller's reach: {}",
+                                hole.name,
+                                hole.commanded.x_mm,
+                                hole.commanded.y_mm,
+                                lengths.error().sentence()));
     }
     result.places_.push_back(
         {i, hole.name, model::identity_placement(hole.commanded), *lengths, static_cast<int>(i)});

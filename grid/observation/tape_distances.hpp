@@ -93,9 +93,6 @@ class TapeDistances final : public Observation {
   [[nodiscard]] const Kind& kind() const override { return tape_distances; }
   /// measured() are the readings less the zero offset.
   [[nodiscard]] Eigen::Index nuisances_of_noise() const override { return 2 * std::ssize(places_); }
-  [[nodiscard]] bool ordered() const override { return false; }
-  [[nodiscard]] double noise_dof() const override { return set_.noise_dof; }
-  [[nodiscard]] bool may_be_outlier() const override { return true; }
   [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
       const View& view) const override;
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
@@ -113,7 +110,8 @@ class TapeDistances final : public Observation {
       const View& view, const ChainPlaceState& place, const std::vector<model::Setting>& settings);
 
  private:
-  explicit TapeDistances(MeasuredHoles set) : set_(std::move(set)) {}
+  explicit TapeDistances(MeasuredHoles set)
+      : Observation(false, set.noise_dof), set_(std::move(set)) {}
   void state_nuisances();
 
   MeasuredHoles set_;

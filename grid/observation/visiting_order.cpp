@@ -64,7 +64,7 @@ double usual_spacing_mm(const std::vector<MarkInLine>& marks) {
         return a.along_mm < b.along_mm;
       });
   const double area_mm2 = (high_a->across_mm - low_a->across_mm) * (high_b->along_mm - low_b->along_mm);
-  return std::sqrt(area_mm2 / static_cast<double>(marks.size()));
+  return std::sqrt(area_mm2 / as_double(marks.size()));
 }
 
 /// Sorted across; empty where the marks stand in none.
@@ -81,7 +81,7 @@ std::vector<std::vector<MarkInLine>> lines_of(std::vector<MarkInLine> marks) {
     return line.back().across_mm - line.front().across_mm > kWidestLine * gap_mm;
   });
   if (is_blurred || lines.size() < 2 ||
-      static_cast<double>(marks.size()) < kFewestALine * static_cast<double>(lines.size()))
+      as_double(marks.size()) < kFewestALine * as_double(lines.size()))
     return {};
   return lines;
 }

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/map/check_readings.hpp"
 #include "grid/precondition.hpp"
@@ -134,16 +134,15 @@ tl::expected<CheckReadings, PlanFailure> readings_at(const CompensationMap& map,
   for (const MarkPoint& mark : marks) {
     const auto answer = map.query(mark);
     if (!answer) {
-      return tl::unexpected(PlanFailure{
-          PlanFailure::Reason::unreachable,
-          fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, answer.error().sentence())});
+      return failed(
+          PlanReason::unreachable,
+          fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, answer.error().sentence()));
     }
     grid.points.push_back({mark, answer->lengths, {}, {}});
   }
   auto readings = check_readings(map, grid);
   if (!readings) {
-    return tl::unexpected(
-        PlanFailure{PlanFailure::Reason::unreachable, readings.error().sentence()});
+    return failed(PlanReason::unreachable, readings.error().sentence());
   }
   return *std::move(readings);
 }
@@ -166,8 +165,7 @@ tl::expected<model::PerSide<double>, PlanFailure> expected_sigmas(
   if (map.machine() == nullptr) return tl::unexpected(no_machine());
   const auto readings = readings_at(map, marks, request);
   if (!readings) return tl::unexpected(readings.error());
-  std::vector<std::size_t> all(marks.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
+  auto all = numbers_below(marks.size());
   return roots(Separation(*readings).squared_sigmas(all));
 }
 
@@ -177,9 +175,8 @@ tl::expected<CheckPlan, PlanFailure> plan_check(const CompensationMap& map,
   if (map.machine() == nullptr) return tl::unexpected(no_machine());
   const std::vector<MarkPoint> places = places_of(map, request.margin_mm);
   if (places.size() < as_size(request.points)) {
-    return tl::unexpected(
-        PlanFailure{PlanFailure::Reason::too_few_places,
-                    fmt::format("the map answers at only {} of the places tried", places.size())});
+    return failed(PlanReason::too_few_places,
+                  fmt::format("the map answers at only {} of the places tried", places.size()));
   }
   const auto readings = readings_at(map, places, request);
   if (!readings) return tl::unexpected(readings.error());

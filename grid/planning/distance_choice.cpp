@@ -139,13 +139,9 @@ DistanceChooser::Choice DistanceChooser::exchange(const Holes& holes, Choice cho
   for (int sweep = 0; sweep < kSweeps && moved; ++sweep) {
     moved = false;
     for (std::size_t& one : chosen) {
-      const auto done = static_cast<double>(&one - chosen.data());
+      const auto done = as_double(&one - chosen.data());
       tell(request_.progress,
-           {"which distances are measured",
-            2,
-            2,
-            done / static_cast<double>(chosen.size()),
-            sweep + 1});
+           {"which distances are measured", 2, 2, done / as_double(chosen.size()), sweep + 1});
       for (std::size_t other = 0; other < all.distances.size(); ++other) {
         if (contains(chosen, other)) continue;
         const std::size_t before = std::exchange(one, other);

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/planning/detectable_effects.hpp"
 #include "grid/planning/tool_error.hpp"
 #include "grid/precondition.hpp"
@@ -95,7 +96,7 @@ DistanceChooser::Choice move_holes(const DistanceChooser& chooser,
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     bool moved = false;
     for (std::size_t i = 0; i < holes.size(); ++i) {
-      const double share = static_cast<double>(i) / static_cast<double>(holes.size());
+      const double share = as_double(i) / as_double(holes.size());
       tell(progress, {"where the holes are cut", 1, 2, share, sweep + 1});
       for (const PlannedPlace& place : places) {
         if (&place == holes[i] || !is_free(holes, i, place.place, apart_mm)) continue;
@@ -148,7 +149,7 @@ MeasuredHoles set_of(const model::Machine& machine,
   }
   // Edges last: the tape is held differently there.
   const auto key = [](const HoleDistance& one) { return std::tuple(one.edge, one.from, one.to); };
-  sort(set.distances, [&key](const auto& a, const auto& b) { return key(a) < key(b); });
+  sort(set.distances, ascending(key));
   for (HoleDistance& distance : set.distances) distance.distance_mm = commanded_mm(set, distance);
   return set;
 }
@@ -248,11 +249,10 @@ tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
   check(machine, request);
   const std::vector<PlannedPlace> places = candidates(machine, request.margin_mm);
   if (places.size() < as_size(request.holes)) {
-    return tl::unexpected(
-        PlanFailure{PlanFailure::Reason::too_few_places,
-                    fmt::format("the machine can cut at only {} of the places tried; a wider "
-                                "margin leaves out those it cannot reach",
-                                places.size())});
+    return failed(PlanReason::too_few_places,
+                  fmt::format("the machine can cut at only {} of the places tried; a wider "
+                              "margin leaves out those it cannot reach",
+                              places.size()));
   }
   const Eigen::MatrixXd prior = prior_of(machine, request.edges);
   const ToolError error = tool_error(machine, request.edges);

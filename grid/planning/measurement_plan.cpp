@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/map/fit.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/precondition.hpp"
@@ -43,13 +44,12 @@ class Planner {
     for (const MarkPoint& mark : marks) {
       const auto reading = model_.at(model::identity_placement(mark));
       if (!reading) {
-        return tl::unexpected(
-            PlanFailure{PlanFailure::Reason::unreachable,
-                        fmt::format("the machine cannot measure at ({:.0f}, {:.0f}): {}. A wider "
-                                    "margin leaves such places out",
-                                    mark.x_mm,
-                                    mark.y_mm,
-                                    reading.error().sentence())});
+        return failed(PlanReason::unreachable,
+                      fmt::format("the machine cannot measure at ({:.0f}, {:.0f}): {}. A wider "
+                                  "margin leaves such places out",
+                                  mark.x_mm,
+                                  mark.y_mm,
+                                  reading.error().sentence()));
       }
       const model::ChainLengths disturbance = synthetic::unmodelled(model::identity_placement(mark));
       grid.points.push_back(
@@ -60,8 +60,7 @@ class Planner {
            std::nullopt});
     }
     auto map = fit(grid);
-    if (!map)
-      return tl::unexpected(PlanFailure{PlanFailure::Reason::no_map, map.error().sentence()});
+    if (!map) return failed(PlanReason::no_map, map.error().sentence());
     return *std::move(map);
   }
 
@@ -75,8 +74,8 @@ class Planner {
     std::optional<MarkPoint> worst;
     double largest = 0.0;
     for (std::size_t i = 0; i < errors.size(); ++i) {
-      const auto column = static_cast<double>(i % kRasterColumns);
-      const auto row = static_cast<double>(i / kRasterColumns);
+      const auto column = as_double(i % kRasterColumns);
+      const auto row = as_double(i / kRasterColumns);
       const MarkPoint place{
           std::trunc(
               std::clamp(bed.width_mm * ((column + 0.5) / kRasterColumns - 0.5), -half_x, half_x)),

@@ -55,7 +55,7 @@ ToolError tool_error(const model::Machine& machine, bool sheet_counts) {
   ToolError error;
   error.whole = linear::least_squares(rigid, motion);
   if (!sheet_counts) linear::add_product(motion, -1.0, rigid, error.whole);
-  error.root = linear::upper_triangle(motion) / std::sqrt(static_cast<double>(count));
+  error.root = linear::upper_triangle(motion) / std::sqrt(as_double(count));
   return error;
 }
 

@@ -8,7 +8,9 @@
 #include <iterator>
 #include <optional>
 
+#include "grid/containers.hpp"
 #include "grid/estimation/estimate.hpp"
+#include "grid/failed.hpp"
 #include "grid/plotter/drawing_slips.hpp"
 
 namespace chaintrue::grid {
@@ -52,14 +54,13 @@ tl::expected<estimation::Estimate, DrawingFailure> estimated(
   input.surface = estimation::SurfaceUse::none;
   input.domain = {0.0, 1.0, 0.0, 1.0};  // of a surface, which there is none
   auto found = estimation::estimate(input);
-  if (!found)
-    return tl::unexpected(DrawingFailure{DrawingReason::not_converged, found.error().sentence()});
+  if (!found) return failed(DrawingReason::not_converged, found.error().sentence());
   if (found->converged) return found.value();
-  return tl::unexpected(DrawingFailure{
+  return failed(
       DrawingReason::not_converged,
       "the settings did not settle: no settings near those in the file make this drawing. "
       "Look whether the machine's kind, its pins' spacing and the crosses are those of the "
-      "drawing"});
+      "drawing");
 }
 
 std::vector<PlotterSetting> settings_of(const estimation::Estimate& estimate) {
@@ -124,26 +125,24 @@ tl::expected<model::ToolPosition, model::MechanismFailure> pen_of_command(
 
 tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing) {
   if (drawing.measures.size() < kFewestMeasures) {
-    return tl::unexpected(DrawingFailure{
+    return failed(
         DrawingReason::too_few,
         fmt::format(
             "{} measures; {} at least, of the 24 on the sheet, say whether what is found is "
             "right",
             drawing.measures.size(),
-            kFewestMeasures)});
+            kFewestMeasures));
   }
   auto made = drawn_measures_of(drawing);
   if (!made) {
-    return tl::unexpected(
-        DrawingFailure{DrawingReason::cross_out_of_reach,
-                       sentence_of(drawing, made.error().place, made.error().sentence())});
+    return failed(DrawingReason::cross_out_of_reach,
+                  sentence_of(drawing, made.error().place, made.error().sentence()));
   }
   const auto readings = std::make_shared<const observation::DrawnMeasures>(std::move(*made));
   const auto as_set = readings->predicted(View(model::make_plotter_mechanism(drawing.machine)));
   if (!as_set) {
-    return tl::unexpected(
-        DrawingFailure{DrawingReason::cross_out_of_reach,
-                       sentence_of(drawing, as_set.error().place, as_set.error().sentence())});
+    return failed(DrawingReason::cross_out_of_reach,
+                  sentence_of(drawing, as_set.error().place, as_set.error().sentence()));
   }
   const Eigen::VectorXd stated = in_file_order(*readings, *as_set);
   const DrawnValues drawn = [&](const model::Mechanism& machine) -> std::optional<Eigen::VectorXd> {
@@ -163,8 +162,8 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
   if (auto slip = exchanged_rows(drawing, found, rejected)) return tl::unexpected(std::move(*slip));
   const auto bad = std::count(rejected.begin(), rejected.end(), true);
   if (estimate->noise_factor > kMostNoiseFactor ||
-      static_cast<double>(bad) > kMostRejectedShare * static_cast<double>(rejected.size())) {
-    return tl::unexpected(DrawingFailure{
+      as_double(bad) > kMostRejectedShare * as_double(rejected.size())) {
+    return failed(
         DrawingReason::no_settings_fit,
         fmt::format(
             "no settings make this drawing: {} of {} measures do not fit the rest, which "
@@ -172,7 +171,7 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
             "the page a second time: a machine that slips draws another one",
             bad,
             rejected.size(),
-            estimate->noise_factor)});
+            estimate->noise_factor));
   }
 
   DrawingFit fit;
@@ -184,9 +183,8 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
   fit.to_set = typed_in(drawing.firmware, fit.mechanism->machine());
   const auto after = next_drawing(drawing, fit);
   if (!after) {
-    return tl::unexpected(
-        DrawingFailure{DrawingReason::not_converged,
-                       "with the settings that were found the page cannot be drawn again"});
+    return failed(DrawingReason::not_converged,
+                  "with the settings that were found the page cannot be drawn again");
   }
   for (std::size_t i = 0; i < drawing.measures.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);

@@ -63,7 +63,7 @@ model::Machine used_machine(const SweepSpec& spec,
 
 // i-th of `count` positions over a span about 0.
 double raster(double span, int i, int count) {
-  return count == 1 ? 0.0 : span * (static_cast<double>(i) / (count - 1) - 0.5);
+  return count == 1 ? 0.0 : span * (as_double(i) / (count - 1) - 0.5);
 }
 
 class ErrorSum {

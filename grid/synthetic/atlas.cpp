@@ -50,7 +50,7 @@ constexpr int kPointsOfSide = 5;
 std::vector<ToolPosition> straight(ToolPosition from, ToolPosition to, int count) {
   std::vector<ToolPosition> points;
   for (int i = 0; i < count; ++i) {
-    const double part = static_cast<double>(i) / (count - 1);
+    const double part = as_double(i) / (count - 1);
     points.push_back({from.x_mm + part * (to.x_mm - from.x_mm),
                       from.y_mm + part * (to.y_mm - from.y_mm)});
   }

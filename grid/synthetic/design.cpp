@@ -40,7 +40,7 @@ double half_span(double bed_mm, const std::optional<double>& margin_mm) {
 
 // The i-th of count positions from -1 to 1.
 double position(DesignKind kind, int i, int count) {
-  const double share = static_cast<double>(i) / (count - 1);
+  const double share = as_double(i) / (count - 1);
   return kind == DesignKind::chebyshev ? -std::cos(std::numbers::pi * share) : 2.0 * share - 1.0;
 }
 
@@ -138,7 +138,7 @@ void put_in_order(std::vector<Mark>& marks, VisitingOrder order, Random& random)
     const double along = by_column ? mark.place.y_mm : mark.place.x_mm;
     return std::tuple{line, turning && line % 2 == 1 ? -along : along};
   };
-  stable_sort(marks, [&](const Mark& a, const Mark& b) { return key(a) < key(b); });
+  stable_sort(marks, ascending(key));
 }
 
 std::optional<DesignKind> design_kind(std::string_view word) {

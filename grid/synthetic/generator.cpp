@@ -174,8 +174,8 @@ std::optional<StatedNoise> stated_noise(const SyntheticSpec& spec) {
 // Reports the number of visits read so far.
 std::function<void(std::size_t)> counting(const Progress& progress, std::size_t visits) {
   if (!progress) return {};
-  return [&progress, total = static_cast<double>(visits)](std::size_t read) {
-    tell(progress, {"the machine read at every mark", 1, 1, static_cast<double>(read) / total});
+  return [&progress, total = as_double(visits)](std::size_t read) {
+    tell(progress, {"the machine read at every mark", 1, 1, as_double(read) / total});
   };
 }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "grid/containers.hpp"
+#include "grid/failed.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/random.hpp"
 #include "model/calibration/setting.hpp"
@@ -50,7 +51,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
   if (!design.machine) throw std::invalid_argument("holes are cut by a machine; none was given");
   const auto distances = observation::TapeDistances::in_given_order(design);
   if (!distances) {
-    return tl::unexpected(CutFailure{CutFailure::Reason::no_lengths, distances.error().sentence()});
+    return failed(CutReason::no_lengths, distances.error().sentence());
   }
   SyntheticHoles made{design, truth ? *truth : hidden_truth(*design.machine, spec), {}};
   const model::ReadingModel model(made.truth);
@@ -58,12 +59,12 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
   for (std::size_t i = 0; i < design.holes.size(); ++i) {
     const auto reading = model.find(distances->places()[i].lengths, design.holes[i].commanded);
     if (!reading) {
-      return tl::unexpected(CutFailure{CutFailure::Reason::unreachable,
-                                       fmt::format("hole {} at ({:.1f}, {:.1f}) cannot be cut: {}",
-                                                   design.holes[i].name,
-                                                   design.holes[i].commanded.x_mm,
-                                                   design.holes[i].commanded.y_mm,
-                                                   reading.error().sentence())});
+      return failed(CutReason::unreachable,
+                    fmt::format("hole {} at ({:.1f}, {:.1f}) cannot be cut: {}",
+                                design.holes[i].name,
+                                design.holes[i].commanded.x_mm,
+                                design.holes[i].commanded.y_mm,
+                                reading.error().sentence()));
     }
     const model::MarkPoint at = spec.sheet.to_mark(reading->pose.position);
     const double dx = design.hole_sigma_mm * hole_noise.normal();

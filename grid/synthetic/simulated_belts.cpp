@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -31,8 +30,8 @@ std::vector<model::BedPoint> commands_of(const model::BeltMachine& stated, const
   for (int row = 0; row < spec.rows; ++row) {
     for (int i = 0; i < spec.columns; ++i) {
       const int column = row % 2 == 0 ? i : spec.columns - 1 - i;
-      commands.push_back({width * (static_cast<double>(column) / (spec.columns - 1) - 0.5),
-                          height * (static_cast<double>(row) / (spec.rows - 1) - 0.5)});
+      commands.push_back({width * (as_double(column) / (spec.columns - 1) - 0.5),
+                          height * (as_double(row) / (spec.rows - 1) - 0.5)});
     }
   }
   return commands;
@@ -92,8 +91,7 @@ std::optional<BeltsUnreachable> add_pass(const model::BeltMachine& stated,
 
 void spoil(const BeltsSpec& spec, MeasuredBelts& belts) {
   Random random(spec.seed, kBadReadingStream);
-  std::vector<std::size_t> points(belts.points.size());
-  std::iota(points.begin(), points.end(), std::size_t{0});
+  auto points = numbers_below(belts.points.size());
   random.shuffle(points);
   for (std::size_t i = 0; i < as_size(spec.bad_readings); ++i) {
     const Belt belt = kBelts[random.below(kBelts.size())];

@@ -49,7 +49,7 @@ std::vector<std::vector<double>> place_choices(const Effect& effect, std::size_t
     const double from = counts_visits ? 1.0
                         : declared    ? parameter.lower
                                       : std::max(parameter.lower, 0.0);
-    const double to = counts_visits ? static_cast<double>(visits) - 1.0
+    const double to = counts_visits ? as_double(visits) - 1.0
                       : declared    ? parameter.upper
                                     : std::min(parameter.upper, std::numbers::pi);
     std::vector<std::vector<double>> more;
@@ -189,10 +189,9 @@ StrengthTable::Entry StrengthTable::entry(const AppliedEffect& applied) const {
 }
 
 const StrengthTable::Entry& StrengthTable::usual(const Effect& effect, EffectSide side) const {
-  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
-    return e.usual && e.effect == &effect && e.side == side;
-  });
-  if (found == entries_.end()) {
+  auto* found = find_where(
+      entries_, [&](const Entry& e) { return e.usual && e.effect == &effect && e.side == side; });
+  if (found == nullptr) {
     throw precondition("strength: {} cannot act on this machine", effect.id);
   }
   return *found;
@@ -214,10 +213,9 @@ EffectStrength StrengthTable::strength(const Effect& effect, EffectSide side) co
     if (!(length > 0.0 && result.signal_to_noise > 0.0)) continue;
     const double collinearity =
         std::min(1.0, std::abs(own.left.dot(other.left)) / (length * result.signal_to_noise));
-    const auto same = std::find_if(rivals.begin(), rivals.end(), [&](const Rival& r) {
-      return r.effect == other.effect && r.side == other.side;
-    });
-    if (same == rivals.end()) {
+    auto* same = find_where(
+        rivals, [&](const Rival& r) { return r.effect == other.effect && r.side == other.side; });
+    if (same == nullptr) {
       rivals.push_back({other.effect, other.side, collinearity});
     } else {
       same->collinearity = std::max(same->collinearity, collinearity);

@@ -14,9 +14,9 @@
 
 #include "grid/diagnosis/decision.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
-#include "grid/diagnosis/normal.hpp"
 #include "grid/diagnosis/null_distribution.hpp"
 #include "grid/random.hpp"
+#include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
