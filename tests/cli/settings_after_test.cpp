@@ -2,9 +2,8 @@
 // Once better numbers are typed in, the map of --map-after is right and the one before is not. The
 // machine is the hidden side's own (tests/lab/generator), the controller is written down here from the
 // firmware's description, and what the tool does is computed from what was written: the product's
-// models decide nothing.
+// models decide nothing. What check and compensate say of settings: tests/cli/cases/settings.cases.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,8 +23,6 @@ namespace {
 
 using generator::Lengths;
 using generator::Vec2;
-using testing::HasSubstr;
-using testing::Not;
 using testing_support::Outcome;
 
 using Settings = std::map<std::string, double>;
@@ -213,22 +210,6 @@ class SettingsAfter : public testing_support::CommandFixture,
     return std::sqrt(sum / static_cast<double>(meant.size()));
   }
 
-  /// Five new points of a controller that holds `settings`, into five.csv.
-  void measure_five(const Settings& settings) const {
-    generator::Dice dice(11, "five");
-    std::string five = "commanded_x_mm,commanded_y_mm,x_mm,y_mm\n";
-    for (const Vec2& mark :
-         {Vec2{-1000, -400}, Vec2{1000, -400}, Vec2{0, 50}, Vec2{-900, 450}, Vec2{900, 450}}) {
-      const Vec2 went = truth_.tool(paid_out(settings, mark), mark);
-      five += fmt::format("{},{},{:.3f},{:.3f}\n",
-                          mark.x,
-                          mark.y,
-                          went.x + 0.3 * dice.normal(),
-                          went.y + 0.3 * dice.normal());
-    }
-    write("five.csv", five);
-  }
-
   Truth truth_;
   Settings now_;
 };
@@ -252,64 +233,6 @@ TEST_P(SettingsAfter, TheMapAfterIsRightAndTheOneBeforeIsNot) {
   EXPECT_GT(before, 2.0);
   // Numbers cannot say that the beam's middle is not the bed's and that it rises; the map can.
   EXPECT_LT(after, 0.5 * typed_alone);
-}
-
-TEST_P(SettingsAfter, TheOldMapServesWhereTheSettingsAreNamed) {
-  succeed("gcode compensate part.nc --map map.after.json -o after.nc");
-  EXPECT_THAT(succeed("gcode compensate part.nc --map map.json --settings settings.ini -o named.nc"),
-              HasSubstr("(motorspacingx 2978.4 -> "));
-  const std::string after = testing_support::content_of(folder_ / "after.nc");
-  const std::string named = testing_support::content_of(folder_ / "named.nc");
-  EXPECT_EQ(after.substr(after.find("G21 G90")), named.substr(named.find("G21 G90")));
-  EXPECT_EQ(run("gcode verify part.nc after.nc --map map.json --settings settings.ini").code, 0);
-  EXPECT_EQ(run("gcode verify part.nc after.nc --map map.json").code, 1);
-}
-
-TEST_P(SettingsAfter, ACheckSaysThatTheSettingsHaveChanged) {
-  measure_five(now_);
-  EXPECT_THAT(run("check map.after.json five.csv --machine machine.json").err,
-              HasSubstr("(motorspacingx"));
-  const Outcome json = run("check map.json five.csv --json");
-  EXPECT_EQ(json.code, 1);
-  EXPECT_THAT(json.out, HasSubstr("\"settings_have_changed\": true"));
-  for (const char* right :
-       {"check map.after.json five.csv", "check map.json five.csv --settings settings.ini"}) {
-    const Outcome outcome = run(right);
-    EXPECT_EQ(outcome.code, 0) << right << "\n" << outcome.out << outcome.err;
-  }
-}
-
-TEST_P(SettingsAfter, ACheckTellsWhichNumbersAreTypedIn) {
-  const Settings before = settings_in(kTyped);
-  const auto said = [&](const Settings& held, const std::string& map) {
-    measure_five(held);
-    const Outcome outcome = run("check " + map + " five.csv");
-    EXPECT_EQ(outcome.code, 1) << outcome.out;
-    return outcome.out;
-  };
-  EXPECT_THAT(said(before, "map.after.json"),
-              HasSubstr("The numbers that this map is for are not in the controller: "));
-  Settings some = before;
-  some["motorspacingx"] = now_["motorspacingx"];
-  EXPECT_THAT(said(some, "map.json"),
-              HasSubstr("Only some of the numbers of export groundcontrol have been typed in: the new "
-                        "points fit these (motorspacingx "));
-  some = now_;
-  some["motorspacingx"] = before.at("motorspacingx");
-  EXPECT_THAT(said(some, "map.after.json"),
-              HasSubstr("Only some of the numbers that this map is for are in the controller: the new "
-                        "points fit the others as they were (motorspacingx "));
-}
-
-TEST_P(SettingsAfter, CompensateAsksWhetherTheNumbersAreTypedIn) {
-  const std::string question = "Have you typed in the numbers that map.after.json is for?";
-  EXPECT_THAT(succeed("gcode compensate part.nc --map map.json -o a.nc"), HasSubstr(question));
-  for (const char* answered : {"gcode compensate part.nc --map map.json --settings settings.ini -o b.nc",
-                               "gcode compensate part.nc --map map.after.json -o c.nc"})
-    EXPECT_THAT(succeed(answered), Not(HasSubstr(question)));
-  // That of another map says nothing of this one.
-  succeed("fit marks.csv --machine machine.json --plain --outside refuse -o map.json --force");
-  EXPECT_THAT(succeed("gcode compensate part.nc --map map.json -o d.nc"), Not(HasSubstr(question)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways,
