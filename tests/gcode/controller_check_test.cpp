@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How unmodified controllers execute a program, by the formulas of their firmware.
+/// How unmodified controllers execute a program, by the formulas of their firmware. What is said of it:
+/// tests/cli/cases/gcode_programs.cases.
 #include "tools/gcode/controller_check.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,26 +19,11 @@ namespace chaintrue::gcode {
 namespace {
 
 using model::ControllerKind;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 constexpr ControllerKind kAll[] = {ControllerKind::ideal,
                                    ControllerKind::maslow_classic,
                                    ControllerKind::holey,
                                    ControllerKind::fluidnc_wallplotter};
-
-std::vector<std::string> notes(ControllerKind kind, const std::string& program) {
-  Findings findings;
-  ControllerCheck check(firmware(kind), findings);
-  EXPECT_TRUE(run_text(program, check));
-  std::vector<std::string> lines;
-  for (const Note& note : findings.notes) {
-    lines.push_back(std::to_string(note.line) + " " + std::string(note.name) + ": " +
-                    note.sentence);
-  }
-  return lines;
-}
 
 std::vector<Point> chords(ControllerKind kind, const std::string& program) {
   ProgramEvents events;
@@ -49,59 +34,6 @@ std::vector<Point> chords(ControllerKind kind, const std::string& program) {
     return true;
   });
   return ends;
-}
-
-TEST(ControllerCheck, WhatEveryControllerFollowsGetsNoNote) {
-  for (const ControllerKind kind : kAll) {
-    EXPECT_THAT(notes(kind, "G21 G90\nG0 X10 Y10\nM3\nF600 G1 X40\nG3 X40 Y30 J10\nM5\nM2\n"),
-                IsEmpty());
-  }
-}
-
-TEST(ControllerCheck, CodesAreNamedAsTheFirmwareTakesThem) {
-  EXPECT_THAT(notes(ControllerKind::ideal, "G91.1\nG64 P0.1\nM2\n"), IsEmpty());
-  for (const ControllerKind kind : {ControllerKind::maslow_classic, ControllerKind::holey}) {
-    const std::string name = firmware(kind).name;
-    EXPECT_THAT(notes(kind, "G91.1 G21\nG0 X10 Y10\nG64 P0.1\nF600 G1 X40\nM2\n"),
-                ElementsAre("3 code_not_known: " + name + " ignores G64",
-                            HasSubstr("1 code_misread: " + name + " reads G91.1 as G91")));
-  }
-  EXPECT_THAT(notes(ControllerKind::fluidnc_wallplotter,
-                    "G91.1 G21\nG0 X10 Y10\nG64 P0.1\nF600 G1 X40\nG59.1 G1 X30\nM2\n"),
-              ElementsAre(HasSubstr("5 code_not_known: fluidnc_wallplotter stops with an error at "
-                                    "G59.1"),
-                          HasSubstr("3 code_not_known: fluidnc_wallplotter stops with an error at "
-                                    "G64")));
-}
-
-TEST(ControllerCheck, AMoveOfNoLengthIsAPhantomMoveForWallPlottersAlone) {
-  const std::string program = "G0 X10 Y10\nF600 G1 X40\nG1 X40 Y10\nG1 X50\nM2\n";
-  for (const ControllerKind kind : kAll) {
-    if (kind == ControllerKind::fluidnc_wallplotter) {
-      EXPECT_THAT(notes(kind, program), ElementsAre(HasSubstr("3 move_of_no_length: ")));
-    } else {
-      EXPECT_THAT(notes(kind, program), IsEmpty());
-    }
-  }
-}
-
-TEST(ControllerCheck, TurnsOfAnArcAreKnownToTheIdealAlone) {
-  const std::string program = "G0 X10 Y10\nF600 G3 X10 Y10 I10 P3\nM2\n";
-  EXPECT_THAT(notes(ControllerKind::ideal, program), IsEmpty());
-  EXPECT_THAT(notes(ControllerKind::maslow_classic, program),
-              ElementsAre(HasSubstr("2 arc_turns_not_known: maslow_classic ignores the P")));
-  EXPECT_THAT(
-      notes(ControllerKind::fluidnc_wallplotter, program),
-      ElementsAre(HasSubstr("2 arc_turns_not_known: fluidnc_wallplotter stops with an error at")));
-}
-
-TEST(ControllerCheck, AShortArcIsAnnouncedWithItsErrorOnMaslows) {
-  // 0.06 rad at 1000 mm: 1000 (1 - cos 0.03) = 0.450 mm from the line.
-  const std::string program = "G0 X1000 Y0\nF600 G3 X998.2005 Y59.9640 I-1000 J0\nM2\n";
-  EXPECT_THAT(notes(ControllerKind::maslow_classic, program),
-              ElementsAre(HasSubstr("2 arc_cut_straight: maslow_classic cuts so short or so wide "
-                                    "an arc as a straight line, here up to 0.450 mm off it")));
-  EXPECT_THAT(notes(ControllerKind::fluidnc_wallplotter, program), IsEmpty());
 }
 
 TEST(FirmwareArc, MaslowsCutStraightWhereTheirChordHeightSaysSo) {
