@@ -90,6 +90,23 @@ TEST(HolesFit, TheSheetIsFoundFromItsEdges) {
   }
 }
 
+TEST(HolesFit, ASheetThatIsLargerMovesEachEdgeByHalfOfThat) {
+  MeasuredHoles set = with_edges();
+  const auto places = synthetic::simulate_holes(set, usual_holes(7))->places;
+  const observation::DistanceGeometry as_said = observation::distance_geometry(set, places);
+  for (const auto& [size, axis] :
+       {std::pair(&set.sheet.width_mm, 0), std::pair(&set.sheet.height_mm, 1)}) {
+    constexpr double kLarger = 2.0;
+    **size += kLarger;
+    const Eigen::VectorXd moved =
+        observation::distance_geometry(set, places).predicted_mm - as_said.predicted_mm;
+    **size -= kLarger;
+    ASSERT_GT(moved.norm(), 0.0);
+    // It is linear: what is left is rounding of metres.
+    EXPECT_LT((moved - kLarger * as_said.by_size.col(axis)).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
 TEST(HolesFit, AFreeSheetLiesSoThatTheHolesAreWhereTheyWereCommanded) {
   const auto made = synthetic::simulate_holes(nine_holes(), usual_holes(11));
   const auto fit = joint_fit(made->set);
