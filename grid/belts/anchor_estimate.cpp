@@ -41,12 +41,6 @@ bool is_upright_frame(const AnchorVector& a) {
   return a[4] > 0.0 && a[2] > a[0] && a[1] > 0.0 && a[3] > 0.0;
 }
 
-MeasuredBelts without_distances(const MeasuredBelts& belts) {
-  MeasuredBelts untaped = belts;
-  untaped.distances.clear();
-  return untaped;
-}
-
 /// An end for any mechanism; of a hole, where the controller means it to be and what it pays out.
 observation::TapeEnd end_of(const model::BeltMachine& machine, const BeltEnd& end) {
   if (const auto* index = std::get_if<std::size_t>(&end)) return observation::AtPlace{*index};
@@ -90,8 +84,7 @@ void place_all(const MeasuredBelts& belts,
     }
   }
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
-    if (!is_placed[k])
-      fit.state.places[k] = nearest_place(machine, belts.points[k], {true, true, true, true});
+    if (!is_placed[k]) fit.state.places[k] = nearest_place(machine, belts.points[k], kAllBelts);
   }
 }
 
@@ -109,7 +102,7 @@ Counting without_nowhere_points(const MeasuredBelts& belts,
   for (const auto& block : readings.blocks()) {
     if (readings.block_line(observation::View(mechanism), block, false)) continue;
     for (const std::size_t place : block.places) {
-      fewer[readings.readings()[place].index] = {false, false, false, false};
+      fewer[readings.readings()[place].index] = {};
       ++out;
     }
   }
@@ -190,7 +183,7 @@ AnchorFit without_gross_points(const MeasuredBelts& belts, AnchorFit frame) {
     for (std::size_t k = 0; k < count; ++k) {
       if (!frame.counting[k].tl) continue;
       Counting fewer = frame.counting;
-      fewer[k] = {false, false, false, false};
+      fewer[k] = {};
       auto without = fit_alone(belts, frame.state.anchors, std::move(fewer), Readings::all);
       if (!without || without->checks < 1 || !without->is_sound) continue;
       if (!best || without->residual_sigma_mm < best->residual_sigma_mm) best = std::move(without);
@@ -203,7 +196,7 @@ AnchorFit without_gross_points(const MeasuredBelts& belts, AnchorFit frame) {
 
 /// From the likeliest start, without a tape. Of a fit that is implausible every reading counts.
 std::optional<AnchorFit> first_fit(const MeasuredBelts& belts, Readings which) {
-  const Counting all(belts.points.size(), {true, true, true, true});
+  const Counting all(belts.points.size(), kAllBelts);
   std::optional<AnchorFit> best;
   for (const AnchorVector& start : first_frames(belts)) {
     auto fit = fit_alone(belts, start, all, which);

@@ -14,6 +14,8 @@ namespace chaintrue::grid::belts {
 /// Of each point and belt, whether its reading counts.
 using Counting = std::vector<model::PerBelt<bool>>;
 
+/// All four belts.
+inline constexpr model::PerBelt<bool> kAllBelts{true, true, true, true};
 /// tl x, tl y, tr x, tr y, br x.
 inline constexpr Eigen::Index kAnchorUnknowns = 5;
 using AnchorVector = Eigen::Matrix<double, kAnchorUnknowns, 1>;

@@ -49,7 +49,7 @@ tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const Measu
   const auto mechanism =
       model::make_belt_mechanism(belts::with_anchors(belts.machine, belts::anchors_of(fit.machine)))
           ->with_effects(effects);
-  const belts::Counting all(belts.points.size(), model::PerBelt<bool>{true, true, true, true});
+  const belts::Counting all(belts.points.size(), belts::kAllBelts);
   const auto check = check_lengths(
       {mechanism, fit.covariance_mm2, fit.residual_sigma_mm, static_cast<double>(fit.checks)},
       belts::readings_of(belts, all).readings(),

@@ -168,8 +168,7 @@ std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts) {
 }
 
 std::optional<belts::AnchorFit> frame_of_lengths(const MeasuredBelts& belts) {
-  MeasuredBelts untaped = belts;
-  untaped.distances.clear();
+  const MeasuredBelts untaped = without_distances(belts);
   auto frame = belts::fit_anchors_robustly(untaped);
   if (!frame || !frame->is_sound) return std::nullopt;
   return frame;
@@ -185,8 +184,7 @@ std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
     int rejected = 0;
     for (const Belt belt : kBelts) rejected += frame.counting[k][belt] ? 0 : 1;
     if (rejected < 2) continue;
-    const auto place = belts::nearest_place(
-        machine, belts.points[k], model::PerBelt<bool>{true, true, true, true});
+    const auto place = belts::nearest_place(machine, belts.points[k], belts::kAllBelts);
     double residual_mm = 0.0;
     for (const Belt belt : kBelts) {
       const auto reading = model::reading_at(machine, belt, place);
@@ -208,7 +206,7 @@ std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     for (const Belt belt : kBelts) {
       if (frame.counting[k][belt]) continue;
-      model::PerBelt<bool> others{true, true, true, true};
+      model::PerBelt<bool> others = belts::kAllBelts;
       others[belt] = false;
       const auto place = belts::nearest_place(machine, belts.points[k], others);
       const auto reading = model::reading_at(machine, belt, place);
@@ -325,8 +323,7 @@ std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
   constexpr double kFarForAll = 0.12;
   constexpr double kSigmas = 5.0;
   if (belts.distances.empty()) return {};
-  MeasuredBelts untaped = belts;
-  untaped.distances.clear();
+  const MeasuredBelts untaped = without_distances(belts);
   const belts::FitDiagnostics view(untaped, frame);
   const auto by_belts_mm = distances_by_belts(belts, frame);
   std::vector<DistanceQuestion> result;

@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <set>
+
+#include "grid/containers.hpp"
 
 namespace chaintrue::grid {
 
@@ -26,9 +27,14 @@ std::vector<model::Belt> pulled_after(model::Orientation orientation,
   return {Belt::bl, Belt::br};
 }
 
+MeasuredBelts without_distances(MeasuredBelts belts) {
+  belts.distances.clear();
+  return belts;
+}
+
 bool is_pulled(const BeltPoint& point, model::Belt belt) {
   if (!point.pulled) return !model::is_upper(belt);
-  return std::find(point.pulled->begin(), point.pulled->end(), belt) != point.pulled->end();
+  return contains(*point.pulled, belt);
 }
 
 model::PerBelt<bool> pulled_belts(const BeltPoint& point) {

@@ -86,6 +86,9 @@ inline constexpr std::size_t kMostBeltPoints = 20000;
                                                     model::BedPoint from,
                                                     model::BedPoint to,
                                                     std::size_t visit);
+/// The lengths alone.
+[[nodiscard]] MeasuredBelts without_distances(MeasuredBelts belts);
+
 /// Whether a motor pulled this belt at the reading.
 [[nodiscard]] bool is_pulled(const BeltPoint& point, model::Belt belt);
 /// The same of all four.

@@ -56,14 +56,13 @@ BeltPrediction predict_one_by_one(const MeasuredBelts& belts, const FitDiagnosti
 std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts,
                                                  const AnchorFit& frame) {
   if (belts.points.size() < 2 * kFewestBeltPoints) return std::nullopt;
-  MeasuredBelts untaped = belts;
-  untaped.distances.clear();
+  const MeasuredBelts untaped = without_distances(belts);
   const std::vector<std::size_t> order = in_order(belts);
   std::vector<double> residual_mm;
   for (const std::size_t half : {0UL, 1UL}) {
     Counting counting = frame.counting;
     for (std::size_t i = half; i < order.size(); i += 2) {
-      counting[order[i]] = {false, false, false, false};
+      counting[order[i]] = {};
     }
     const auto fitted = fit_anchors_from(untaped, frame.state, counting);
     if (!fitted || fitted->checks < 1) return std::nullopt;

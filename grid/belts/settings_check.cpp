@@ -20,8 +20,7 @@ std::optional<OtherFrame> suspected_other_frame(const MeasuredBelts& belts,
   constexpr double kSigmas = 5.0;
   constexpr std::array kNames = {"tl x", "tl y", "tr x", "tr y", "br x"};
   if (!belts.machine.anchors_known) return std::nullopt;
-  MeasuredBelts untaped = belts;
-  untaped.distances.clear();
+  const MeasuredBelts untaped = without_distances(belts);
   const belts::FitDiagnostics view(untaped, frame);
   const belts::AnchorVector stated = belts::anchors_of(belts.machine);
   const auto against = against_commands(belts);

@@ -2,9 +2,9 @@
 #include "grid/belts/two_frames.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "grid/belts/anchor_estimate.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -45,12 +45,12 @@ std::optional<belts::AnchorFit> fitted_frame(const MeasuredBelts& belts, std::si
 double apart_mm(const MeasuredBelts& belts, std::size_t end, std::size_t begin) {
   const auto before = fitted_frame(belts, 0, end);
   const auto after = fitted_frame(belts, begin, belts.points.size());
-  if (!before || !after) return std::numeric_limits<double>::infinity();
+  if (!before || !after) return kInfinity;
   // tl x and y, tr x and y, br x
   const belts::AnchorVector moved = (after->state.anchors - before->state.anchors).cwiseAbs();
   const int anchors = (moved.segment<2>(0).maxCoeff() > kStandsElsewhereMm) +
                       (moved.segment<2>(2).maxCoeff() > kStandsElsewhereMm) + (moved[4] > kStandsElsewhereMm);
-  if (anchors < 2) return std::numeric_limits<double>::infinity();
+  if (anchors < 2) return kInfinity;
   return std::max(before->residual_sigma_mm, after->residual_sigma_mm);
 }
 
@@ -60,8 +60,7 @@ std::optional<std::size_t> second_frame_begins(const MeasuredBelts& belts) {
   const std::size_t count = belts.points.size();
   if (count < 2 * kFewestBeltPoints) return std::nullopt;
   const auto together = fitted_frame(belts, 0, count);
-  const double together_mm =
-      together ? together->residual_sigma_mm : std::numeric_limits<double>::infinity();
+  const double together_mm = together ? together->residual_sigma_mm : kInfinity;
   if (together_mm < kOneFrameMm) return std::nullopt;
   const std::size_t last = count - kFewestBeltPoints;
   std::size_t best = 0;

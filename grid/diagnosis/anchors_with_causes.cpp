@@ -30,8 +30,7 @@ void find_places(const MeasuredBelts& belts, AnchorFit& frame) {
 
 /// Places, and the spread about them.
 void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, AnchorFit& frame) {
-  MeasuredBelts untaped = without_causes;
-  untaped.distances.clear();
+  const MeasuredBelts untaped = without_distances(without_causes);
   find_places(untaped, frame);
   frame.checks = std::max<Eigen::Index>(belts::checks_of(frame.counting) - as_index(sizes), 1);
   const belts::ReadingLines lines = belts::reading_lines(untaped, frame.state);
@@ -49,8 +48,7 @@ void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, Anc
 std::optional<Eigen::MatrixXd> take_distances(const MeasuredBelts& without_causes,
                                               const AveragedAnchors& averaged,
                                               AnchorFit& frame) {
-  MeasuredBelts untaped = without_causes;
-  untaped.distances.clear();
+  const MeasuredBelts untaped = without_distances(without_causes);
   const auto alone = belts::fit_anchors_from(untaped, frame.state, frame.counting);
   const auto taped = belts::fit_anchors_from(without_causes, frame.state, frame.counting);
   if (!alone || !taped || !taped->is_sound) return std::nullopt;

@@ -179,8 +179,7 @@ tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts
                                                       const DiagnosisOptions& options,
                                                       AnalysisDepth depth) {
   BeltsAnalysis a;
-  a.belts = belts;
-  a.belts.distances.clear();
+  a.belts = without_distances(belts);
   const auto alone = belts::fit_anchors_robustly(a.belts);
   if (!alone) {
     return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::contradictory_settings,

@@ -110,7 +110,7 @@ ToolError tool_error(const Explained& explained,
 /// Of all readings, none set aside.
 double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
   belts::AnchorFit from = given.frame;
-  from.counting.assign(belts.points.size(), {true, true, true, true});
+  from.counting.assign(belts.points.size(), belts::kAllBelts);
   const auto fitted = fit_given_causes(belts, given.causes, from);
   const FitGivenCauses& at = fitted ? *fitted : given;
   const MeasuredBelts without_causes = without_effects(belts, at.causes, at.frame.state);
@@ -141,8 +141,7 @@ std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
   std::vector<double> residual_mm;
   for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
     belts::AnchorFit from = explained.given.frame;
-    for (std::size_t i = half; i < count; i += 2)
-      from.counting[order[i]] = {false, false, false, false};
+    for (std::size_t i = half; i < count; i += 2) from.counting[order[i]] = {};
     const auto fitted = fit_given_causes(belts, explained.given.causes, from);
     if (!fitted || fitted->frame.checks < 1) return std::nullopt;
     const MeasuredBelts without_causes = without_effects(belts, fitted->causes, fitted->frame.state);

@@ -161,8 +161,7 @@ LinearisedBelts linearise(const MeasuredBelts& belts,
                           const belts::FrameState& state,
                           const belts::Counting& counting,
                           double sigma_mm) {
-  MeasuredBelts untaped = belts;
-  untaped.distances.clear();
+  const MeasuredBelts untaped = without_distances(belts);
   const auto mechanism = belts::mechanism_at(untaped, state);
   const auto readings = std::make_shared<const observation::BeltLengthReadings>(belts::readings_of(
       untaped, counting, sigma_mm, reachable(*mechanism, state.places)));
@@ -178,8 +177,7 @@ std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
   // Sizes and frame are nearly linear in each other: three rounds settle all but zeros of an arm's
   // length, which take six.
   constexpr int kMostRounds = 12;
-  MeasuredBelts untaped = belts;
-  untaped.distances.clear();
+  const MeasuredBelts untaped = without_distances(belts);
   FitGivenCauses given{from, std::move(causes)};
   const std::vector<FreeValue> free = free_values(given.causes);
   for (int round = 0; round < kMostRounds; ++round) {

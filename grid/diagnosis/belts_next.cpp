@@ -83,7 +83,7 @@ class Gathering {
     point.order = next_visit_;
     next_.belts.points.push_back(std::move(point));
     next_.state.frame.state.places.push_back(at);
-    next_.state.frame.counting.push_back({true, true, true, true});
+    next_.state.frame.counting.push_back(belts::kAllBelts);
     return true;
   }
   void count_visits() {

@@ -263,7 +263,7 @@ RegressorSystem system_of(const MeasuredBelts& belts,
   constexpr Eigen::Index kFewestChecks = 3;
   // Two bad readings of a place, and of neighbouring places, can mask one another.
   constexpr std::size_t kBeyondTheBest = 8;
-  const belts::Counting all(belts.points.size(), {true, true, true, true});
+  const belts::Counting all(belts.points.size(), belts::kAllBelts);
   LinearisedBelts linearised = linearise(belts, state.frame.state, all, sigma_mm);
   RegressorSystem system = std::move(linearised.system);
   bool ordered = false;

@@ -55,8 +55,7 @@ std::vector<CauseGivenLaw> causes_that_change(const Analysis& without_law, const
     for (SameCause& same : cause.same_as) changed.back().same_as.push_back(same.cause);
   }
   stable_sort(changed, descending(&CauseGivenLaw::probability));
-  for (const std::size_t index : without_law.decision.listed) {
-    const CauseId& cause = without_law.decision.classes[index].front();
+  for (const CauseId& cause : without_law.decision.leaders()) {
     if (holds(given_law, cause)) continue;
     changed.push_back(
         {cause, probability_of(given_law, cause), probability_of(without_law, cause), {}});
@@ -65,14 +64,10 @@ std::vector<CauseGivenLaw> causes_that_change(const Analysis& without_law, const
 }
 
 void take_names_back(const Analysis& given_law, Analysis& a) {
-  const auto is_lost = [&](std::size_t index) {
-    const CauseId& cause = a.decision.classes[index].front();
-    return !holds(given_law, cause) && probability_of(given_law, cause) < kLikelierThanNot;
-  };
-  std::vector<CauseId> lost;
-  for (const std::size_t index : a.decision.listed) {
-    if (is_lost(index)) lost.push_back(a.decision.classes[index].front());
-  }
+  std::vector<CauseId> lost = a.decision.leaders();
+  std::erase_if(lost, [&](const CauseId& cause) {
+    return holds(given_law, cause) || probability_of(given_law, cause) >= kLikelierThanNot;
+  });
   if (lost.empty()) return;
   if (lost.size() == a.decision.listed.size()) {
     withdraw_names(a.comparison, a.decision);
@@ -81,7 +76,9 @@ void take_names_back(const Analysis& given_law, Analysis& a) {
       return any_of(
           lost, [&](const CauseId& cause) { return same_class(a, regressor(a, k).cause, cause); });
     });
-    std::erase_if(a.decision.listed, is_lost);
+    std::erase_if(a.decision.listed, [&](std::size_t index) {
+      return contains(lost, a.decision.classes[index].front());
+    });
     if (a.decision.listed.size() == 1) a.decision.verdict = Verdict::named;
   }
   estimate_decided(a);

@@ -340,6 +340,12 @@ bool take_pattern_alone(const ModelComparison& comparison, Decision& decision) {
 
 }  // namespace
 
+std::vector<CauseId> Decision::leaders() const {
+  std::vector<CauseId> causes;
+  for (const std::size_t index : listed) causes.push_back(classes[index].front());
+  return causes;
+}
+
 void withdraw_names(const ModelComparison& comparison, Decision& decision) {
   if (decision.listed.empty() && decision.regressors.empty()) return;
   decision.listed.clear();

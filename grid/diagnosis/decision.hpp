@@ -38,6 +38,9 @@ struct Decision {
   int best_discrepancy = -1;
   bool discrepancy_left = false;
   std::size_t marginalised = 0;
+
+  /// Of each listed class the cause that gives it its name.
+  [[nodiscard]] std::vector<CauseId> leaders() const;
 };
 
 /// `detected`: the strongest effect is beyond what noise does (family-wise).

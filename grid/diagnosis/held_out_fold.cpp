@@ -91,7 +91,7 @@ Fold HeldOutFolds::without(const std::vector<std::size_t>& units) const {
   for (const std::size_t u : units) {
     if (!out[u]) fold.units.push_back(u);
   }
-  for (const std::size_t index : decision.listed) fold.named.push_back(decision.classes[index]);
+  fold.named = decision.leaders();
   fold.errors = FoldErrors(a, without, decision).at(fold.units);
   return fold;
 }

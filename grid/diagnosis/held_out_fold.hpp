@@ -44,7 +44,7 @@ struct Errors {
 struct Fold {
   std::vector<std::size_t> units;
   Errors errors;
-  std::vector<CauseClass> named;
+  std::vector<CauseId> named;
 };
 
 class HeldOutFolds {

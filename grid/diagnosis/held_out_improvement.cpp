@@ -20,17 +20,8 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 bool names_agree(const Fold& fold, const Analysis& a) {
-  const auto leader = [](const std::vector<CauseClass>& named) {
-    std::vector<CauseId> ids;
-    for (const CauseClass& one : named) ids.push_back(one.front());
-    return ids;
-  };
-  std::vector<CauseId> whole;
-  for (const std::size_t index : a.decision.listed)
-    whole.push_back(a.decision.classes[index].front());
-  const std::vector<CauseId> here = leader(fold.named);
-  if (whole.empty() || here.empty()) return whole.empty() && here.empty();
-  return contains(whole, here.front());
+  return fold.named.empty() ? a.decision.listed.empty()
+                            : contains(a.decision.leaders(), fold.named.front());
 }
 
 /// Root mean square of what noise alone does to a reading, at the tool.

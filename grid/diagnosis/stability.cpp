@@ -170,9 +170,7 @@ std::optional<Stability> examine_stability(const Analysis& a) {
     removal.at_mm = group.at_mm;
     removal.points = group.units.size();
     removal.verdict = decision.verdict;
-    for (const std::size_t index : decision.listed) {
-      removal.causes.push_back(decision.classes[index].front());
-    }
+    removal.causes = decision.leaders();
     removal.stands = still_named(a.decision, decision);
     removal.probability = probability_of(log_odds);
     removal.support = all - log_odds;

@@ -277,7 +277,7 @@ std::optional<model::BeltMachine> calibrated(const model::BeltMachine& machine,
   spec.hidden = {effect};
   const auto session = simulate_belts(machine, machine, spec);
   if (!session) return std::nullopt;
-  const belts::Counting all(session->points.size(), {true, true, true, true});
+  const belts::Counting all(session->points.size(), belts::kAllBelts);
   const auto found = belts::estimate_anchors(*session, all, belts::anchors_of(machine));
   if (!found) return std::nullopt;
   return belts::with_anchors(machine, found->mechanism->values().head<belts::kAnchorUnknowns>());
