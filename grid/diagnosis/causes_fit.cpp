@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "grid/diagnosis/acting_causes.hpp"
 #include "grid/diagnosis/causes_held_out.hpp"
@@ -93,38 +93,6 @@ CompensationMap with_errors_before(const CompensationMap& own, const Compensatio
   return CompensationMap(std::move(contents));
 }
 
-/// The tool's mean square by which one map differs from the other over the measured part, and what
-/// the latter expects there, mm^2.
-struct Apart {
-  double difference_mm2 = 0.0;
-  double expected_mm2 = 0.0;
-};
-
-Apart apart(const CompensationMap& map, const CompensationMap& other) {
-  constexpr int kColumns = 25;
-  constexpr int kRows = 13;
-  const interp::Rectangle& domain = map.contents().domain;
-  Apart sum;
-  int count = 0;
-  for (int iy = 0; iy < kRows; ++iy) {
-    for (int ix = 0; ix < kColumns; ++ix) {
-      const model::MarkPoint mark{domain.x_min + domain.width() * ix / (kColumns - 1),
-                                  domain.y_min + domain.height() * iy / (kRows - 1)};
-      if (map.status(mark) != MapStatus::inside) continue;
-      const auto here = map.query(mark);
-      const auto there = other.query(mark);
-      if (!here || !there) continue;
-      const Eigen::Vector2d chains(there->lengths.left_mm - here->lengths.left_mm,
-                                   there->lengths.right_mm - here->lengths.right_mm);
-      sum.difference_mm2 += (here->mark_jacobian.inverse() * chains).squaredNorm();
-      sum.expected_mm2 += here->tool_sigma_mm * here->tool_sigma_mm;
-      ++count;
-    }
-  }
-  const double n = std::max(count, 1);
-  return {sum.difference_mm2 / n, sum.expected_mm2 / n};
-}
-
 /// The largest sigma of a cause's size over that size.
 double least_known_size(const std::vector<Cause>& causes) {
   double largest = 0.0;
@@ -135,63 +103,77 @@ double least_known_size(const std::vector<Cause>& causes) {
   return largest;
 }
 
-/// A quarter of the square by which the maps differ that have an unsure place one sigma to either side.
-double square_of_places(const Measured& measured,
-                        const CausesFitOptions& options,
-                        const std::vector<Cause>& built_on) {
-  double sum = 0.0;
+/// Maps of the readings in which other causes act. The list keeps its maps where they are.
+class OtherMaps {
+ public:
+  OtherMaps(const Measured& measured, const JointFitOptions& options) : measured_(measured), options_(options) {}
+  /// Null where there is none.
+  const CompensationMap* with(const std::vector<ActingCause>& acting) {
+    auto fit = joint_fit(with_effects(measured_, acting), options_);
+    if (!fit) return nullptr;
+    return &maps_.emplace_back(std::move(fit->map));
+  }
+
+ private:
+  const Measured& measured_;
+  const JointFitOptions& options_;
+  std::deque<CompensationMap> maps_;
+};
+
+/// Those that are offered and move the tool, the likeliest first.
+std::vector<const Cause*> open_causes(const std::vector<OfferedCause>& offered) {
+  constexpr double kLeastProbability = 0.05;
+  constexpr std::size_t kMostMaps = 4;
+  std::vector<const Cause*> open;
+  for (const OfferedCause& one : offered) {
+    const bool is_of_machine = one.reason == OfferedCause::Reason::not_sure ||
+                               one.reason == OfferedCause::Reason::gains_nothing;
+    if (is_of_machine && !is_of_the_paper(one.cause.cause) && one.cause.probability >= kLeastProbability)
+      open.push_back(&one.cause);
+  }
+  std::stable_sort(open.begin(), open.end(), [](const Cause* a, const Cause* b) {
+    return a->probability > b->probability;
+  });
+  if (open.size() > kMostMaps) open.resize(kMostMaps);
+  return open;
+}
+
+/// (2)
+void count_what_is_left_open(const Measured& measured,
+                             const CausesFitOptions& options,
+                             const CompensationMap& plain,
+                             CausesFit& result) {
+  constexpr double kLeastFactor = 1.05;
+  const CompensationMap map = result.fit.map;
+  OtherMaps others(measured, options.fit);
+  std::vector<MapDifference> differences;
+  const std::vector<Cause>& built_on = result.built_on;
+  if (!built_on.empty()) differences.push_back({plain, map, least_known_size(built_on)});
   for (std::size_t k = 0; k < built_on.size(); ++k) {
     const ParameterEstimate* place = unsure_place(built_on[k]);
     if (place == nullptr) continue;
     const auto map_at = [&](double off) {
       std::vector<ActingCause> acting = over_places(built_on);
       acting[k].effects = {applied_at(built_on[k], *place, off, 1.0)};
-      return joint_fit(with_effects(measured, acting), options.fit);
+      return others.with(acting);
     };
-    const auto low = map_at(-place->sigma);
-    const auto high = map_at(place->sigma);
-    if (low && high) sum += 0.25 * apart(low->map, high->map).difference_mm2;
+    const auto* low = map_at(-place->sigma);
+    const auto* high = map_at(place->sigma);
+    if (low != nullptr && high != nullptr) differences.push_back({*low, *high, 0.5});
   }
-  return sum;
-}
-
-/// (2), of the likeliest of those that are offered and not of the paper, which moves no tool.
-void count_what_is_left_open(const Measured& measured,
-                             const CausesFitOptions& options,
-                             const CompensationMap& plain,
-                             CausesFit& result) {
-  constexpr double kLeastProbability = 0.05;
-  constexpr int kMostMaps = 4;
-  constexpr double kLeastFactor = 1.05;
-  std::vector<const Cause*> open;
-  for (const OfferedCause& offered : result.offered) {
-    const bool is_of_machine = offered.reason == OfferedCause::Reason::not_sure ||
-                               offered.reason == OfferedCause::Reason::gains_nothing;
-    if (is_of_machine && !is_of_the_paper(offered.cause.cause) &&
-        offered.cause.probability >= kLeastProbability)
-      open.push_back(&offered.cause);
-  }
-  std::stable_sort(open.begin(), open.end(), [](const Cause* a, const Cause* b) {
-    return a->probability > b->probability;
-  });
-  if (open.size() > kMostMaps) open.resize(kMostMaps);
-  if (open.empty() && result.built_on.empty()) return;
-  const Apart built = apart(result.fit.map, plain);
-  const double expected_mm2 = built.expected_mm2;
-  double variance_mm2 = std::pow(least_known_size(result.built_on), 2) * built.difference_mm2 +
-                        square_of_places(measured, options, result.built_on);
-  for (const Cause* cause : open) {
-    std::vector<Cause> acting = result.built_on;
+  for (const Cause* cause : open_causes(result.offered)) {
+    std::vector<Cause> acting = built_on;
     acting.push_back(*cause);
-    const auto other = joint_fit(with_effects(measured, over_places(acting)), options.fit);
-    if (!other) continue;
-    variance_mm2 += cause->probability * apart(result.fit.map, other->map).difference_mm2;
+    if (const auto* other = others.with(over_places(acting)))
+      differences.push_back({map, *other, std::sqrt(cause->probability)});
   }
-  if (!(expected_mm2 > 0.0)) return;
-  const double factor = std::sqrt(1.0 + variance_mm2 / expected_mm2);
-  if (factor < kLeastFactor) return;
-  result.left_open_mm = std::sqrt(variance_mm2);
-  result.fit.map = with_larger_error(result.fit.map, factor);
+  if (differences.empty()) return;
+  CompensationMap open = with_differences(map, differences);
+  const double known_mm = map.contents().accuracy.expected_tool.rms_mm;
+  const double open_mm = open.contents().accuracy.expected_tool.rms_mm;
+  if (open_mm < kLeastFactor * known_mm) return;
+  result.left_open_mm = std::sqrt(open_mm * open_mm - known_mm * known_mm);
+  result.fit.map = std::move(open);
 }
 
 /// The sentences stand in the map's file as well.

@@ -19,10 +19,10 @@
 ///
 /// A cause that may act and does not enter is part of the expected error, and so is the size of one
 /// that does. With f_i the map on cause i of probability p_i, f the map that is given, f_0 the plain
-/// one and s the largest sigma of a cause in f over its size, the tool's variance grows by
+/// one and s the largest sigma of a cause in f over its size, the covariance of the lengths grows by
 ///
-///   V = sum p_i |J^-1 (f_i - f)|^2 + s^2 |J^-1 (f - f_0)|^2 + sum |J^-1 (f_l - f_h)|^2 / 4,
-///       the mean over the measured part                                                           (2)
+///   V = sum p_i d_i d_i' + s^2 d_0 d_0' + sum d_k d_k' / 4,
+///       d_i = f_i - f,  d_0 = f - f_0,  d_k = f_h - f_l, of all places together                   (2)
 ///
 /// A step's or a bend's place is known to the gap between two marks. The map has the mean of such a cause over
 /// the places where it may stand, evenly within sqrt(3) sigmas of the likeliest: a single place that is wrong
@@ -83,7 +83,7 @@ struct CausesFit {
   std::vector<Cause> built_on;         ///< empty: the plain map
   std::vector<OfferedCause> offered;
   std::optional<HeldOutBlocksError> held_out;  ///< where causes were tried in a map
-  /// Root of (2), mm; zero where it is too small to be known, and nothing is added.
+  /// Rms of (2) at the tool over the measured part, mm; zero where it is too small to be known, and nothing is added.
   double left_open_mm = 0.0;
   /// Why nothing could be weighed; empty where it was.
   std::string not_weighed;

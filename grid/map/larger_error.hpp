@@ -1,26 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A map whose expected error is multiplied, where something says that it is larger than the fit
-/// itself can know. Its lengths stay.
+/// A map whose expected error is larger, where something says so that the fit itself cannot know. Its
+/// lengths stay.
+///
+/// \code
+///   // The truth may be another map, with probability p: variances about this one.
+///   const auto wider = with_differences(map, {{map, other, std::sqrt(p)}});
+/// \endcode
 #pragma once
 
-#include <stdexcept>
-#include <utility>
-#include <variant>
+#include <vector>
 
-#include "grid/map/map_parts.hpp"
+#include "grid/map/compensation_map.hpp"
 
 namespace chaintrue::grid {
 
 /// Everywhere, by a factor of at least 1. \throws std::invalid_argument for a map that knows no
 /// machine, or a smaller factor.
-[[nodiscard]] inline CompensationMap with_larger_error(const CompensationMap& map, double factor) {
-  MapContents contents = map.contents();
-  auto* surface = std::get_if<ModelSurface>(&contents.surface);
-  if (surface == nullptr || !(factor >= 1.0))
-    throw std::invalid_argument("a larger error of a direct map, or by a factor below 1");
-  surface->covariance_factor *= factor;
-  return with_expected_error(std::move(contents));
-}
+[[nodiscard]] CompensationMap with_larger_error(const CompensationMap& map, double factor);
+
+/// One sigma of one direction: `share` of what the lengths of `to` are more than those of `from`, at all places
+/// together.
+struct MapDifference {
+  const CompensationMap& from;
+  const CompensationMap& to;
+  double share;
+};
+/// The covariance of the map's lengths with that of such directions, as far as its splines can follow them.
+/// \throws std::invalid_argument for a map that knows no machine.
+[[nodiscard]] CompensationMap with_differences(const CompensationMap& map,
+                                               const std::vector<MapDifference>& differences);
 
 }  // namespace chaintrue::grid

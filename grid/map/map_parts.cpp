@@ -11,10 +11,6 @@
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
-namespace {
-
-/// C = F F'; rounding may leave C not quite semidefinite, so jitter on the diagonal lets it be
-/// factorised.
 Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& covariance) {
   constexpr double kJitter = 1e-12;
   Eigen::MatrixXd lifted = 0.5 * (covariance + covariance.transpose());
@@ -22,8 +18,6 @@ Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& covariance) {
   lifted.diagonal().array() += 1e-18;
   return linear::Cholesky(std::move(lifted)).lower();
 }
-
-}  // namespace
 
 ModelSurface model_surface(const estimation::Estimate& estimate) {
   return {estimate.machine,

@@ -10,6 +10,9 @@
 
 namespace chaintrue::grid {
 
+/// F of C = F F', lower triangular; rounding may leave C not quite semidefinite, so jitter on the diagonal lets it
+/// be factorised.
+[[nodiscard]] Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& covariance);
 /// The estimate's machine, its surface and what is known of both.
 [[nodiscard]] ModelSurface model_surface(const estimation::Estimate& estimate);
 /// `stated` is the machine that the estimate began with, `sheet` what was known of the first sheet:

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/map/larger_error.hpp"
+
+#include <utility>
+#include <variant>
+
+#include "grid/chain_rows.hpp"
+#include "grid/containers.hpp"
+#include "grid/linear_algebra.hpp"
+#include "grid/map/map_parts.hpp"
+#include "grid/precondition.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+ModelSurface& surface_of(MapContents& contents) {
+  auto* surface = std::get_if<ModelSurface>(&contents.surface);
+  if (surface == nullptr) throw precondition("a larger error of a map without a machine");
+  return *surface;
+}
+
+/// Differences of the lengths at one place, a row for each chain; empty where a map does not answer.
+Eigen::Matrix2Xd differences_at(const std::vector<MapDifference>& differences, model::MarkPoint mark) {
+  Eigen::Matrix2Xd at(2, std::ssize(differences));
+  for (std::size_t k = 0; k < differences.size(); ++k) {
+    const auto from = differences[k].from.lengths(mark);
+    const auto to = differences[k].to.lengths(mark);
+    if (!from || !to) return Eigen::Matrix2Xd(2, 0);
+    at.col(as_index(k)) << to->lengths.left_mm - from->lengths.left_mm,
+        to->lengths.right_mm - from->lengths.right_mm;
+    at.col(as_index(k)) *= differences[k].share;
+  }
+  return at;
+}
+
+/// Spline coefficients of the differences, left and right one below the other, a column each.
+Eigen::MatrixXd on_splines(const interp::BsplineBasis& basis, const std::vector<MapDifference>& differences) {
+  // Two places for each function of an axis determine the splines; the ridge holds those that no place is near.
+  constexpr Eigen::Index kPerFunction = 2;
+  constexpr double kRidge = 1e-6;
+  const interp::Rectangle& box = basis.rectangle();
+  const Eigen::Index columns = kPerFunction * basis.columns_x(), rows = kPerFunction * basis.columns_y();
+  const auto count = std::ssize(differences);
+  Eigen::MatrixXd design(columns * rows, basis.size()), response(columns * rows, 2 * count);
+  Eigen::Index used = 0;
+  for (Eigen::Index i = 0; i < columns * rows; ++i) {
+    const model::MarkPoint mark{
+        box.x_min + box.width() * static_cast<double>(i % columns) / static_cast<double>(columns - 1),
+        box.y_min + box.height() * static_cast<double>(i / columns) / static_cast<double>(rows - 1)};
+    const Eigen::Matrix2Xd at = differences_at(differences, mark);
+    if (at.cols() != count) continue;
+    design.row(used) = basis.row(mark.x_mm, mark.y_mm);
+    response.row(used++) = at.reshaped().transpose();
+  }
+  Eigen::MatrixXd normal = linear::gram(design.topRows(used));
+  normal.diagonal().array() += kRidge;
+  const Eigen::MatrixXd right = linear::product(linear::transposed(design.topRows(used)), response.topRows(used));
+  return linear::Cholesky(std::move(normal)).solve(right).reshaped(2 * basis.size(), count);
+}
+
+}  // namespace
+
+CompensationMap with_larger_error(const CompensationMap& map, double factor) {
+  if (!(factor >= 1.0)) throw precondition("an error {} times as large", factor);
+  MapContents contents = map.contents();
+  surface_of(contents).covariance_factor *= factor;
+  return with_expected_error(std::move(contents));
+}
+
+CompensationMap with_differences(const CompensationMap& map, const std::vector<MapDifference>& differences) {
+  MapContents contents = map.contents();
+  ModelSurface& surface = surface_of(contents);
+  const Eigen::MatrixXd splines = on_splines(surface.residual.basis, differences);
+  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(surface.columns.total(), splines.cols());
+  directions.middleRows(surface.columns.spline(model::Side::left), splines.rows()) = splines;
+  surface.covariance_factor =
+      lower_factor(linear::outer(surface.covariance_factor) + linear::outer(directions));
+  return with_expected_error(std::move(contents));
+}
+
+}  // namespace chaintrue::grid
