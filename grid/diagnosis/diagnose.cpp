@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "grid/containers.hpp"
 #include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/declared_answers.hpp"
 #include "grid/diagnosis/findings.hpp"
@@ -16,7 +15,7 @@
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/estimation/estimate.hpp"
 #include "grid/map/controller_error.hpp"
-#include "grid/map/joint_fit.hpp"
+#include "grid/map/map_accuracy.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -101,21 +100,18 @@ void state_input(const Measured& measured, Diagnosis& d) {
   d.stated_tape = StatedTape{set.tape.sigma_mm, set.hole_sigma_mm, set.noise_dof};
 }
 
-/// Uses the map that `fit` makes from the same readings. If something changed during the session, `fit`
-/// removes it from the readings although the machine still has it, so the plain map is used.
-std::optional<ErrorSummary> tool_today(const Measured& measured,
-                                       const Naming& naming,
-                                       const DiagnosisOptions& options) {
-  CausesFitOptions fit;
-  fit.accept_class = options.accept_class;
-  const auto own = fit_on_causes(measured, naming, fit);
-  if (!own) return std::nullopt;
-  const bool still_has = any_of(own->built_on, [](const Cause& cause) {
-    return depends_on_visit(*cause.cause.effect);
-  });
-  if (!still_has) return error_in_use(own->fit.map);
-  const auto plain = joint_fit(measured);
-  return plain ? error_in_use(plain->map) : std::nullopt;
+/// The error today and the noise of the readings are those of the map that `fit` makes of them.
+void take_from_map(const Measured& measured,
+                   const Naming& naming,
+                   const DiagnosisOptions& options,
+                   Diagnosis& d) {
+  CausesFitOptions own;
+  own.accept_class = options.accept_class;
+  const auto fit = fit_on_causes(measured, naming, own);
+  if (!fit) return;
+  d.tool_today = error_in_use(fit->fit.map);
+  if (d.improvement && d.observations == Observations::points)
+    d.improvement->noise_floor_mm = noise_at_tool_mm(fit->fit.map);
 }
 
 /// A map holds nothing that is shorter than the way between two marks: of a law that is claimed the tool
@@ -159,9 +155,9 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   d.bed_parts = bed_part_findings(a);
   d.sessions = session_findings(a, sessions);
   if (options.improvement) {
-    d.tool_today = tool_today(measured, *naming, options);
-    count_law(d);
     d.improvement = measure_improvement(a);
+    take_from_map(measured, *naming, options, d);
+    count_law(d);
   }
   tell(options.progress, kPlanning);
   apply_causes(a, d);

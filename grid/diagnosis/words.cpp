@@ -248,14 +248,10 @@ void put_into_words(const Analysis& a, Diagnosis& d) {
         "Calibrating had not come to rest after its last pass: the settings are less sure than their "
         "sigmas say. Look for a reading that is far off, or a wrong setting.");
   }
-  const auto chains = parts_of<observation::ChainLengthReadings>(session);
-  if (session.noise_from_repeats && !chains.empty()) {
-    const observation::PointNoise& noise = chains.front().second->noise();
+  if (session.noise_from_repeats && d.improvement) {
     d.notes.push_back(
-        fmt::format("By the marks that were measured twice, one sigma of a length is {:.2f} mm, and of "
-                    "each coordinate of a mark {:.2f} mm.",
-                    noise.length_mm,
-                    noise.position_mm));
+        fmt::format("Your readings look good to about {:.2f} mm, by the marks that were measured twice.",
+                    d.improvement->noise_floor_mm));
   }
   if (d.stability) d.notes.push_back(stability_in_words(d));
   for (std::string& note : parts_in_words(d)) d.notes.push_back(std::move(note));

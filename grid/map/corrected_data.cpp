@@ -105,7 +105,9 @@ tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid)
       if (auto done = correct_readings(corrected.grid, both, rest); !done)
         return tl::unexpected(done.error());
       corrected.notes.push_back(
-          fmt::format("What changed during the session was taken out of the readings ({}).", names_of(visit)));
+          fmt::format("What changed during the session was taken out of the readings ({}): the map, and the "
+                      "errors with it and without, are those of the machine as it was before.",
+                      names_of(visit)));
     } else {
       corrected.notes.push_back(
           fmt::format("{} could not be removed from the readings: the points do not give the order "

@@ -49,6 +49,24 @@ HeldOutError summarise(const std::vector<HeldOutResidual>& residuals) {
   return {chain.summary(), tool.summary(), x.rms(), y.rms()};
 }
 
+double noise_at_tool_mm(const CompensationMap& map) {
+  const MapNoise& noise = map.contents().noise;
+  double variance_mm2 = 0.0;
+  std::size_t count = 0;
+  for (const MapPoint& point : map.contents().points) {
+    const auto lengths = map.lengths(point.mark);
+    if (point.bad || !lengths) continue;
+    const Eigen::Matrix2d to_tool = lengths->mark_jacobian.inverse();
+    // What was stated stands as it is; what was not is known only by the factor that was found.
+    const double factor = noise.source == NoiseSource::stated ? 1.0 : noise.factor_found;
+    variance_mm2 += factor * factor *
+                    (to_tool.squaredNorm() * noise.length_mm * noise.length_mm +
+                     2.0 * noise.position_mm * noise.position_mm);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(variance_mm2 / static_cast<double>(count)) : 0.0;
+}
+
 MirrorTest test_mirror(const CompensationMap& map) {
   MirrorTest test;
   Tally tally;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "grid/map/controller_error.hpp"
+#include "grid/map/map_accuracy.hpp"
 #include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
@@ -84,7 +85,7 @@ Section remarks_section(const grid::CompensationMap& map, std::optional<double> 
   }
   if (map.machine() != nullptr && !contents.distances && contents.noise.source != grid::NoiseSource::stated) {
     say(fmt::format("Your readings look good to about {:.2f} mm{}.",
-                    noise_at_tool_mm(map),
+                    grid::noise_at_tool_mm(map),
                     contents.noise.source == grid::NoiseSource::repeats
                         ? ", by the marks that were measured twice"
                         : ""));

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/map/map_accuracy.hpp"
 #include "tools/cli/map_document.hpp"
 #include "tools/cli/map_words.hpp"
 
@@ -150,7 +151,7 @@ std::vector<ErrorStep> steps_of(const grid::CompensationMap& map, double noise_m
 }  // namespace
 
 report::MapPictures map_pictures(const grid::CompensationMap& map) {
-  const double noise_mm = noise_at_tool_mm(map);
+  const double noise_mm = grid::noise_at_tool_mm(map);
   report::MapPictures pictures;
   pictures.sheet = mapped_sheet(map);
   pictures.before_what = machine_before(map.contents());

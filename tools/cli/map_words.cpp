@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -100,24 +99,6 @@ std::string misses_sentence(std::optional<double> today_mm,
                      about_mm(*today_mm),
                      remedy.with,
                      about_mm(expected_mm));
-}
-
-double noise_at_tool_mm(const grid::CompensationMap& map) {
-  const grid::MapNoise& noise = map.contents().noise;
-  double variance_mm2 = 0.0;
-  std::size_t count = 0;
-  for (const grid::MapPoint& point : map.contents().points) {
-    const auto lengths = map.lengths(point.mark);
-    if (point.bad || !lengths) continue;
-    const Eigen::Matrix2d to_tool = lengths->mark_jacobian.inverse();
-    // What was stated stands as it is; what was not is known only by the factor that was found.
-    const double factor = noise.source == grid::NoiseSource::stated ? 1.0 : noise.factor_found;
-    variance_mm2 += factor * factor *
-                    (to_tool.squaredNorm() * noise.length_mm * noise.length_mm +
-                     2.0 * noise.position_mm * noise.position_mm);
-    ++count;
-  }
-  return count > 0 ? std::sqrt(variance_mm2 / static_cast<double>(count)) : 0.0;
 }
 
 std::string worst_sentence(double x_mm, double y_mm, double worst_mm) {

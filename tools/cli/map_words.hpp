@@ -31,9 +31,6 @@ struct Remedy {
 [[nodiscard]] std::string misses_sentence(std::optional<double> today_mm,
                                           double expected_mm,
                                           const Remedy& remedy);
-/// What one reading is good to: at the tool, both axes together, rms over the good points. Every page says
-/// this of the readings.
-[[nodiscard]] double noise_at_tool_mm(const grid::CompensationMap& map);
 /// "At worst it misses by about 0.7 mm, in 95 of 100 sessions. It is least sure near (1118, 508)."
 [[nodiscard]] std::string worst_sentence(double x_mm, double y_mm, double worst_mm);
 
