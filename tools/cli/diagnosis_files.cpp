@@ -35,14 +35,16 @@ std::string corrected_grid_text(const Diagnosis& found,
 }
 
 std::string extended_machine_text(const Diagnosis& found, const std::string& source) {
-  std::string named;
-  for (const auto& cause : found.causes) {
-    named += fmt::format("{}{}", named.empty() ? "" : "; ", cause_title(cause.cause));
+  std::vector<std::string> in_here;
+  for (const auto& effect : found.extended_machine.effects) {
+    if (effect.probability) in_here.push_back(cause_title(effect));
   }
   std::vector<std::string> comments = {
-      fmt::format("Made by chaintrue diagnose from {}: settings calibrated, named: {}.",
+      fmt::format("Made by chaintrue diagnose from {}: settings calibrated, causes put in: {}.",
                   source,
-                  named.empty() ? "nothing" : named)};
+                  in_here.empty() ? "none" : fmt::format("{}", fmt::join(in_here, "; ")))};
+  for (const auto& cause : causes_left_out(found))
+    comments.push_back(fmt::format("Named, and not in here: {}.", cause_title(cause.cause)));
   for (const auto& correction : found.data_corrections) {
     comments.push_back(
         fmt::format("Not in here, because it belongs to the data: {}.", cause_title(correction)));

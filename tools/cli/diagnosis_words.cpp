@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "grid/containers.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "model/effects/effect.hpp"
 
@@ -100,6 +101,18 @@ std::string cause_title(const grid::diagnosis::CauseId& cause) {
 
 std::string cause_title(const model::AppliedEffect& effect) {
   return title(effect.effect, effect.side);
+}
+
+std::vector<grid::diagnosis::Cause> causes_left_out(const grid::diagnosis::Diagnosis& found) {
+  std::vector<grid::diagnosis::Cause> left_out = found.causes;
+  std::erase_if(left_out, [&](const grid::diagnosis::Cause& cause) {
+    // What the machine's file stated has no probability.
+    const auto is_it = [&](const model::AppliedEffect& one) {
+      return one.probability && one.effect == cause.cause.effect->id && one.side == name(cause.cause.side);
+    };
+    return grid::any_of(found.extended_machine.effects, is_it) || grid::any_of(found.data_corrections, is_it);
+  });
+  return left_out;
 }
 
 std::string hypothesis_title(const Hypothesis& hypothesis) {

@@ -17,6 +17,9 @@ namespace chaintrue::cli {
 /// "chain pitch error, left"
 [[nodiscard]] std::string cause_title(const grid::diagnosis::CauseId& cause);
 [[nodiscard]] std::string cause_title(const model::AppliedEffect& effect);
+/// Causes that are named and that the diagnosis put neither into its machine nor into the corrected data: rivals of
+/// those that it did, and what may be the tape's as well.
+[[nodiscard]] std::vector<grid::diagnosis::Cause> causes_left_out(const grid::diagnosis::Diagnosis& found);
 /// Also for nothing, unknown, noise and bad_points.
 [[nodiscard]] std::string hypothesis_title(const grid::diagnosis::Hypothesis& hypothesis);
 

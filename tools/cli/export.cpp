@@ -25,6 +25,7 @@
 #include "grid/map/settings_to_type.hpp"
 #include "model/effects/catalogue.hpp"
 #include "tools/cli/anchors_sections.hpp"
+#include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/export_klipper.hpp"
 #include "tools/cli/export_linuxcnc.hpp"
 #include "tools/cli/export_plotter.hpp"
@@ -267,12 +268,8 @@ std::string left_out_in_words(const grid::diagnosis::Diagnosis& found) {
   const auto is_of_paper = [](const auto& same) {
     return same.cause.effect->station == model::effects::Station::paper;
   };
-  for (const grid::diagnosis::Cause& cause : found.causes) {
+  for (const grid::diagnosis::Cause& cause : causes_left_out(found)) {
     if (std::none_of(cause.same_as.begin(), cause.same_as.end(), is_of_paper)) continue;
-    const auto is_it = [&](const auto& one) { return one.effect == cause.cause.effect->id; };
-    if (std::any_of(found.extended_machine.effects.begin(), found.extended_machine.effects.end(), is_it) ||
-        std::any_of(found.data_corrections.begin(), found.data_corrections.end(), is_it))
-      continue;
     words += fmt::format(
         "These numbers leave out what may be {}{} or the tape that the marks were measured with. A map "
         "corrects it either way: export its numbers instead.\n",
