@@ -2,7 +2,7 @@
 /// \file
 /// Whole containers as arguments of the standard algorithms, and positions between the standard library,
 /// whose are unsigned, and Eigen, whose are signed. (std::ranges is missing in the library with which the
-/// page is built.) Counts enter formulas as doubles.
+/// page is built.) Counts enter formulas as doubles. The extremes of nothing are a broken precondition.
 ///
 /// \code
 ///   if (contains(members, cause)) ...
@@ -19,6 +19,8 @@
 #include <iterator>
 #include <numeric>
 #include <vector>
+
+#include "grid/precondition.hpp"
 
 namespace chaintrue::grid {
 
@@ -93,6 +95,27 @@ void sort_unique(Container& all) {
 template <class Container, class Other>
 void append_all(Container& all, const Other& more) {
   all.insert(all.end(), std::begin(more), std::end(more));
+}
+
+/// \throws std::invalid_argument where there is nothing.
+template <class Container>
+void require_some(const Container& all) {
+  if (std::size(all) == 0) throw precondition("the largest or the smallest of {} values", 0);
+}
+template <class Container, class... Less>
+[[nodiscard]] auto max_element(const Container& all, Less... less) {
+  require_some(all);
+  return std::max_element(std::begin(all), std::end(all), less...);
+}
+template <class Container, class... Less>
+[[nodiscard]] auto min_element(const Container& all, Less... less) {
+  require_some(all);
+  return std::min_element(std::begin(all), std::end(all), less...);
+}
+template <class Container, class... Less>
+[[nodiscard]] auto minmax_element(const Container& all, Less... less) {
+  require_some(all);
+  return std::minmax_element(std::begin(all), std::end(all), less...);
 }
 
 }  // namespace chaintrue::grid

@@ -96,16 +96,16 @@ Eigen::Matrix2d restricted(const Eigen::Matrix2d& hessian, const Theta& free) {
 // Newton's step with the Hessian's eigenvalues made positive, no longer than kLongestStep.
 Theta newton_step(const State& state, const Theta& free) {
   const SymmetricEigen solver(restricted(state.hessian, free));
-  const double floor = 1e-8 * std::max(1.0, solver.eigenvalues().cwiseAbs().maxCoeff());
+  const double floor = 1e-8 * std::max(1.0, solver.eigenvalues().lpNorm<Eigen::Infinity>());
   const Eigen::VectorXd turned = solver.eigenvectors().transpose() * free.cwiseProduct(state.gradient);
   const Theta step = -(solver.eigenvectors() *
                        turned.cwiseQuotient(solver.eigenvalues().cwiseAbs().cwiseMax(floor)));
-  const double longest = step.cwiseAbs().maxCoeff();
+  const double longest = step.lpNorm<Eigen::Infinity>();
   return longest > kLongestStep ? Theta(step * (kLongestStep / longest)) : step;
 }
 
 double largest_free_gradient(const Theta& theta, const State& state, const Limits& limits) {
-  return free_of(theta, state.gradient, limits).cwiseProduct(state.gradient).cwiseAbs().maxCoeff();
+  return free_of(theta, state.gradient, limits).cwiseProduct(state.gradient).lpNorm<Eigen::Infinity>();
 }
 
 // V determines theta only to the square root of its rounding; its gradient to its own. Near a minimum
@@ -116,7 +116,7 @@ void polish(const Likelihood& likelihood, const Limits& limits, Theta& theta, St
   constexpr double kNear = 1e-2;
   for (int i = 0; i < kMostSteps; ++i) {
     const Theta step = newton_step(state, free_of(theta, state.gradient, limits));
-    if (step.cwiseAbs().maxCoeff() > kNear) return;
+    if (step.lpNorm<Eigen::Infinity>() > kNear) return;
     const Theta next = limits.clamp(theta + step);
     auto there = likelihood.evaluate(next, Order::hessian);
     if (!there || largest_free_gradient(next, *there, limits) >=

@@ -121,7 +121,7 @@ Frame frame_of(const MeasuredBelts& belts) {
   frame.far_from_commands_mm = far_from_commands(belts, fitted->state.places);
   if (belts.machine.anchors_known) {
     frame.far_mm =
-        (fitted->state.anchors - belts::anchors_of(belts.machine)).cwiseAbs().maxCoeff();
+        (fitted->state.anchors - belts::anchors_of(belts.machine)).lpNorm<Eigen::Infinity>();
   } else {
     frame.far_mm = frame.far_from_commands_mm;
   }
@@ -366,7 +366,7 @@ std::optional<OtherUnit> suspected_unit(const MeasuredBelts& belts) {
   const OtherUnit units[] = {{"inches", input_checks::kMmPerInch, middle},
                              {"centimetres", 10.0, middle},
                              {"metres", 1000.0, middle}};
-  return *std::min_element(std::begin(units), std::end(units), [&](const auto& a, const auto& b) {
+  return *min_element(units, [&](const auto& a, const auto& b) {
     const auto off = [&](const OtherUnit& unit) {
       return std::abs(std::log(unit.factor * middle / usual_mm));
     };

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
@@ -40,8 +39,7 @@ tl::unexpected<BeltsFitFailure> not_determined(const MeasuredBelts& belts) {
 bool are_in_one_spot(const MeasuredBelts& belts) {
   constexpr double kSpotMm = 50.0;
   return all_of(kBelts, [&](Belt belt) {
-    const auto [least, most] = std::minmax_element(
-        belts.points.begin(), belts.points.end(), [&](const BeltPoint& a, const BeltPoint& b) {
+    const auto [least, most] = minmax_element(belts.points, [&](const BeltPoint& a, const BeltPoint& b) {
           return a.lengths_mm[belt] < b.lengths_mm[belt];
         });
     return most->lengths_mm[belt] - least->lengths_mm[belt] < kSpotMm;

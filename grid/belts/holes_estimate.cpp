@@ -101,7 +101,7 @@ std::optional<FrameState> HolesEstimate::converged_about_known(
     const Eigen::VectorXd change =
         linear::product(gain, whole.solve(about_the_belts(*rows, state)));
     const AnchorVector anchors = alone_.state.anchors + change.head<kAnchorUnknowns>();
-    const double moved_mm = (anchors - state.anchors).cwiseAbs().maxCoeff();
+    const double moved_mm = (anchors - state.anchors).lpNorm<Eigen::Infinity>();
     state.anchors = anchors;
     state.log_scale = alone_.state.log_scale + change[kAnchorUnknowns];
     if (!(moved_mm < kConvergedMm)) continue;

@@ -25,7 +25,7 @@ std::vector<std::size_t> outermost(const BeltsFit& fit) {
     const auto along = [&](const FittedPlace& place) {
       return std::cos(angle) * place.at.x_mm + std::sin(angle) * place.at.y_mm;
     };
-    const auto most = std::max_element(fit.places.begin(), fit.places.end(), ascending(along));
+    const auto most = max_element(fit.places, ascending(along));
     const auto index = as_size(most - fit.places.begin());
     const bool bad = contains(fit.bad_points, index);
     if (!bad && !contains(points, index)) points.push_back(index);

@@ -154,7 +154,7 @@ class Averaging {
     std::vector<double> log_weights;
     for (const CandidateModel& model : comparison_.models)
       log_weights.push_back(model.log_weight + log_prior_change(model));
-    const double most = *std::max_element(log_weights.begin(), log_weights.end());
+    const double most = *max_element(log_weights);
     for (std::size_t m = 0; m < log_weights.size(); ++m) {
       const double weight = std::exp(log_weights[m] - most);
       if (weight > kLeastWeight) add(comparison_.models[m], weight);

@@ -47,7 +47,7 @@ double NoiseDensity::log_density_as_stated(double quadratic) const {
 NoiseDensity::Averages NoiseDensity::averages(double quadratic) const {
   std::array<double, std::tuple_size_v<decltype(components_)>> log_parts;
   for (std::size_t k = 0; k < log_parts.size(); ++k) log_parts[k] = part(components_[k], quadratic);
-  const double most = *std::max_element(log_parts.begin(), log_parts.end());
+  const double most = *max_element(log_parts);
   double sum = 0.0;
   double squares = 0.0;
   double as_stated = 0.0;

@@ -221,7 +221,7 @@ struct Rival {
 double chance_of_all(const std::vector<Rival>& rivals) {
   const double odds = (1.0 - kNamedAlone) / kNamedAlone;
   const auto taken = [](const Rival& rival) { return rival.mean - 2.0 * std::sqrt(rival.variance); };
-  const auto most = std::min_element(rivals.begin(), rivals.end(), ascending(taken));
+  const auto most = min_element(rivals, ascending(taken));
   constexpr double kWidest = 4.0;  // sigmas
   constexpr int kSteps = 32;
   double chance = 0.0;

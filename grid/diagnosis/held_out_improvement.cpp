@@ -145,7 +145,7 @@ HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
   sort(sorted);
   const auto at = static_cast<std::size_t>(std::ceil(0.95 * as_double(sorted.size())));
   result.percentile_95_mm = sorted[std::max<std::size_t>(at, 1) - 1];
-  const std::size_t blocks = 1 + *std::max_element(block.begin(), block.end());
+  const std::size_t blocks = 1 + *max_element(block);
   std::vector<double> sum(blocks, 0.0);
   std::vector<double> count(blocks, 0.0);
   for (std::size_t i = 0; i < size.size(); ++i) {

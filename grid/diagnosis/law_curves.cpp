@@ -32,7 +32,7 @@ class CurveList {
     values_ = values_of_variable(system_, of, direction_rad);
     constexpr std::size_t kFewest = 8;  // places: fewer show no shape
     if (values_.size() < kFewest) return;
-    const auto [low, high] = std::minmax_element(values_.begin(), values_.end());
+    const auto [low, high] = minmax_element(values_);
     if (!(*high - *low > 1e-6)) return;
     start_ = {};
     start_.of = of;

@@ -184,8 +184,7 @@ class LawSearch {
     if (!is_continuous(curve.shape)) return;
     std::vector<LawPoint>& points = points_[c];
     for (int pass = 0; pass < 2; ++pass) {
-      const auto best = std::max_element(
-          points.begin(), points.end(), [](const LawPoint& a, const LawPoint& b) {
+      const auto best = max_element(points, [](const LawPoint& a, const LawPoint& b) {
             return a.weight < b.weight;
           });
       std::vector<double> finer;

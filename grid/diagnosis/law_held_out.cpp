@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/law_held_out.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "grid/containers.hpp"
@@ -101,7 +100,7 @@ class Predictor {
   const LawModel& likeliest(const Rows& kept) const {
     std::vector<double> density;
     for (const LawModel& model : with_) density.push_back(model.log_density(kept));
-    return with_[as_size(std::max_element(density.begin(), density.end()) - density.begin())];
+    return with_[as_size(max_element(density) - density.begin())];
   }
 
   double square_mm2(const LawModel& model, const Rows& kept, const Rows& out, const Units& units) const {

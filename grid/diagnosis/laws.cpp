@@ -201,8 +201,7 @@ std::optional<std::pair<Law, FoundPoint>> law_of(const Analysis& a,
     sum += p;
   }
   if (sum < kLeastLaw) return std::nullopt;
-  const auto likeliest = std::max_element(
-      shapes.begin(), shapes.end(), [](const auto& x, const auto& y) { return x.second < y.second; });
+  const auto likeliest = max_element(shapes, [](const auto& x, const auto& y) { return x.second < y.second; });
   const FoundPoint* best = nullptr;
   for (const FoundPoint& point : points) {
     if (point.curve().shape != likeliest->first) continue;

@@ -215,7 +215,7 @@ std::optional<VisitingOrderFound> find_visiting_order(const Measured& measured, 
   const std::vector<double> probabilities = order_probabilities(measured, analysis);
   const std::vector<VisitingOrder> orders = line_by_line_orders();
   const auto best =
-      as_size(std::max_element(probabilities.begin(), probabilities.end()) - probabilities.begin());
+      as_size(max_element(probabilities) - probabilities.begin());
   VisitingOrderFound found{orders[best], probabilities[best], true};
   if (found.probability < kLeastModelShare) return std::nullopt;
   // Corners differ in the few steps between lines, which marks measured again in between make others.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/regressor_places.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -104,7 +103,7 @@ std::vector<double> places_to_set_in(const RegressorSystem& system, CauseId caus
       if (own.ordered) result.push_back(own.order);
     }
     if (!cause.effect->at_one_visit && !result.empty())
-      std::erase(result, *std::min_element(result.begin(), result.end()));
+      std::erase(result, *min_element(result));
     return result;
   }
   const PlaceVariable variable = variable_of_place(*cause.effect, place);

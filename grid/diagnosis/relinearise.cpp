@@ -196,7 +196,7 @@ Relinearised relinearise(const Analysis& a) {
     const Round here(session, result.state, *about, std::move(there), discrepancy);
     const Eigen::Index settings = session.setting_columns();
     bool converged =
-        here.estimate().setting_change.head(settings).cwiseAbs().maxCoeff() < kConvergedSettingMm;
+        here.estimate().setting_change.head(settings).lpNorm<Eigen::Infinity>() < kConvergedSettingMm;
     std::vector<Regressor> moved = own;
     for (std::size_t k = 0; k < own.size(); ++k) {
       if (own[k].fixed) continue;

@@ -119,8 +119,7 @@ std::string stability_in_words(const Diagnosis& diagnosis) {
     changes += of_kind(stability, kind.what, true).size();
     tried.push_back(fmt::format("{} {}", all.size(), all.size() == 1 ? kind.one : kind.many));
   }
-  const auto weakest = std::min_element(
-      stability.removals.begin(), stability.removals.end(), [](const auto& a, const auto& b) {
+  const auto weakest = min_element(stability.removals, [](const auto& a, const auto& b) {
         return a.probability < b.probability;
       });
   const Kind& kind = kKinds[static_cast<std::size_t>(weakest->what)];

@@ -59,7 +59,7 @@ double length_on_bed_mm(const Analysis& a, const DiscrepancyField& field) {
     x.push_back(place.mark.x_mm);
   }
   const auto range = [](const std::vector<double>& all) {
-    const auto [low, high] = std::minmax_element(all.begin(), all.end());
+    const auto [low, high] = minmax_element(all);
     return *high - *low;
   };
   return field.length * range(x) / std::max(range(values), 1e-12);
@@ -249,7 +249,7 @@ double share_along(const Analysis& a, Coordinate coordinate) {
     chain.push_back(unit.unwhitened(a.estimate.left));
   }
   if (t.empty()) return 0.0;
-  const auto [low, high] = std::minmax_element(t.begin(), t.end());
+  const auto [low, high] = minmax_element(t);
   if (!(*high > *low)) return 0.0;
   const auto n = std::ssize(t);
   Eigen::MatrixXd basis(n, kDegree + 1);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "grid/containers.hpp"
 #include "grid/files/blanks.hpp"
 #include "grid/files/csv_numbers.hpp"
 
@@ -124,8 +125,7 @@ LineOfWords line_of_header(std::string_view text) {
     return !found_numbers && above.size() <= kMostAboveHeader;
   });
   if (above.empty()) return {};
-  const auto most = std::max_element(
-      above.begin(), above.end(), [](const LineOfWords& one, const LineOfWords& other) {
+  const auto most = max_element(above, [](const LineOfWords& one, const LineOfWords& other) {
         return one.filled < other.filled;
       });
   return found_numbers && most->filled > 1 ? *most : above.front();

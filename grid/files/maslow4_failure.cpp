@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "grid/belts/commands_check.hpp"
+#include "grid/containers.hpp"
 #include "grid/files/problems.hpp"
 
 namespace chaintrue::grid::files {
@@ -29,7 +30,7 @@ bool has(std::string_view line, std::string_view word) {
 
 double spread(const std::vector<double>& readings_mm) {
   if (readings_mm.size() < 2) return 0.0;
-  const auto [least, most] = std::minmax_element(readings_mm.begin(), readings_mm.end());
+  const auto [least, most] = minmax_element(readings_mm);
   return *most - *least;
 }
 

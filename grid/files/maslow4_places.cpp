@@ -11,6 +11,7 @@
 #include "grid/belts/belt_checks.hpp"
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/two_frames.hpp"
+#include "grid/containers.hpp"
 #include "grid/files/belts_checks.hpp"
 #include "grid/statistics.hpp"
 
@@ -30,7 +31,7 @@ std::optional<model::PerBelt<double>> agreed(
   for (const Belt belt : kBelts) {
     const auto& own = readings_mm[belt];
     if (own.empty()) return std::nullopt;
-    const auto [least, most] = std::minmax_element(own.begin(), own.end());
+    const auto [least, most] = minmax_element(own);
     if (*most - *least > kAgreeMm) return std::nullopt;
     lengths_mm[belt] = median(own);
   }

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "grid/containers.hpp"
 #include "grid/files/json_reader.hpp"
 #include "grid/files/effect_file.hpp"
 #include "grid/files/machine_file.hpp"
@@ -245,7 +245,7 @@ Json median_and_worst(const std::vector<sweep::CellResult>& done,
                       double sweep::CellResult::*member) {
   std::vector<double> values;
   for (const sweep::CellResult& result : done) values.push_back(result.*member);
-  return {{"median", median(values)}, {"worst", *std::max_element(values.begin(), values.end())}};
+  return {{"median", median(values)}, {"worst", *max_element(values)}};
 }
 
 }  // namespace

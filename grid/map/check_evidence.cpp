@@ -240,7 +240,7 @@ std::vector<CheckHypothesis> weighed_hypotheses(const CheckReadings& readings) {
     weights.push_back(evidence.weigh(proposal, unit));
     unit += proposal.hypothesis.what == model::Change::bad_point ? 1 : 0;
   }
-  const double most = *std::max_element(weights.begin(), weights.end());
+  const double most = *max_element(weights);
   double sum = 0.0;
   for (double& weight : weights) sum += weight = std::exp(weight - most);
   std::vector<CheckHypothesis> hypotheses;

@@ -18,7 +18,7 @@ void decide(Check& check) {
   for (const CheckHypothesis& h : check.hypotheses)
     check.probability[static_cast<std::size_t>(h.verdict)] += h.probability;
   stable_sort(check.hypotheses, descending(&CheckHypothesis::probability));
-  const auto best = std::max_element(check.probability.begin(), check.probability.end());
+  const auto best = max_element(check.probability);
   check.verdict = static_cast<CheckVerdict>(best - check.probability.begin());
   check.decided = *best >= kDecided;
   // What is reported first is what speaks most for the verdict.

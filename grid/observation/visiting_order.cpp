@@ -56,11 +56,11 @@ Visits visits_of(const std::vector<MeasuredPoint>& points, const VisitingOrder& 
 /// Side of the square that one mark has to itself.
 double usual_spacing_mm(const std::vector<MarkInLine>& marks) {
   const auto [low_a, high_a] =
-      std::minmax_element(marks.begin(), marks.end(), [](const MarkInLine& a, const MarkInLine& b) {
+      minmax_element(marks, [](const MarkInLine& a, const MarkInLine& b) {
         return a.across_mm < b.across_mm;
       });
   const auto [low_b, high_b] =
-      std::minmax_element(marks.begin(), marks.end(), [](const MarkInLine& a, const MarkInLine& b) {
+      minmax_element(marks, [](const MarkInLine& a, const MarkInLine& b) {
         return a.along_mm < b.along_mm;
       });
   const double area_mm2 = (high_a->across_mm - low_a->across_mm) * (high_b->along_mm - low_b->along_mm);

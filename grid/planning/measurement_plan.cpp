@@ -109,7 +109,7 @@ std::vector<double> whole_mm(std::vector<double> nodes) {
 /// row.
 void walk(std::vector<MarkPoint>& marks, const std::vector<double>& rows) {
   const auto row_of = [&rows](const MarkPoint& mark) {
-    const auto nearest = std::min_element(rows.begin(), rows.end(), [&](double a, double b) {
+    const auto nearest = min_element(rows, [&](double a, double b) {
       return std::abs(a - mark.y_mm) < std::abs(b - mark.y_mm);
     });
     return nearest - rows.begin();

@@ -71,7 +71,7 @@ class ErrorSum {
   void add(const Eigen::Vector2d& chain_mm, const Eigen::Vector2d& tool_mm) {
     chain_squares_ += chain_mm.squaredNorm();
     tool_squares_ += tool_mm.squaredNorm();
-    result_.chain_max_mm = std::max(result_.chain_max_mm, chain_mm.cwiseAbs().maxCoeff());
+    result_.chain_max_mm = std::max(result_.chain_max_mm, chain_mm.lpNorm<Eigen::Infinity>());
     result_.tool_max_mm = std::max(result_.tool_max_mm, tool_mm.norm());
     ++count_;
   }

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -63,7 +62,7 @@ std::optional<BeltsUnreachable> add_pass(const model::BeltMachine& stated,
   const auto effects = model::belts::resolve_belt_effects(spec.hidden);
   const std::vector<model::BedPoint> commands = commands_of(stated, spec);
   const double over_least =
-      pull ? pull->value / *std::min_element(spec.pulls.begin(), spec.pulls.end()) : 1.0;
+      pull ? pull->value / *min_element(spec.pulls) : 1.0;
   for (std::size_t i = 0; i < commands.size(); ++i) {
     const auto place = place_of(stated, truth, commands[i]);
     if (!place) return place.error().at(commands[i]);

@@ -9,7 +9,9 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
+#include "grid/containers.hpp"
 #include "grid/files/json_text.hpp"
 #include "grid/observation/single_readings.hpp"
 #include "grid/planning/holes_plan.hpp"
@@ -37,6 +39,13 @@ std::string words_of(const std::function<void()>& call) {
 TEST(Precondition, IsToldWithItsValues) {
   EXPECT_STREQ(precondition("{} of {} mm, {:.1f}", 3, kNan, -kInfinity).what(),
                "3 of nan mm, -inf");
+}
+
+TEST(Precondition, NothingHasNoExtremes) {
+  const std::vector<double> nothing;
+  EXPECT_THAT(words_of([&] { (void)max_element(nothing); }), ::testing::HasSubstr("0 values"));
+  EXPECT_THAT(words_of([&] { (void)min_element(nothing, std::greater<>()); }), ::testing::HasSubstr("0 values"));
+  EXPECT_THAT(words_of([&] { (void)minmax_element(nothing); }), ::testing::HasSubstr("0 values"));
 }
 
 struct Site {

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Holds the include graph: layers include downwards only, and folders of grid/ in no circle. And dense matrices of
-any size are decomposed in grid/linear_algebra.cpp alone.
+any size are decomposed in grid/linear_algebra.cpp alone, and extremes taken by grid/containers.hpp, which knows that
+nothing has none.
 
-    layers.py SOURCE        prints every include that breaks a layer, every circle and every decomposition elsewhere;
-                            1 where there is one
+    layers.py SOURCE        prints every include that breaks a layer, every circle, every decomposition and every extreme
+                            elsewhere; 1 where there is one
 """
 
 import pathlib
@@ -33,6 +34,7 @@ DECOMPOSING_CALL = re.compile(
     r"|completeOrthogonalDecomposition|bdcSvd|jacobiSvd|selfadjointView)\b")
 # Of a size known to the compiler, or of one with a bound.
 SMALL = re.compile(r"Matrix[234]d|Matrix<double, \d+, \d+>|FewByFew")
+EXTREME = re.compile(r"\bstd::(?:ranges::)?(?:min|max|minmax)_element\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
 
@@ -78,6 +80,14 @@ def decompositions(path, text):
             yield f"{path}:{number} {found[0]}: take grid/linear_algebra.hpp, or name the fixed size"
 
 
+def extremes(path, text):
+    """Iterators to the largest, dereferenced where there may be none."""
+    if path.parts[0] in ("grid", "tools") and str(path) != "grid/containers.hpp":
+        for number, line in enumerate(text.splitlines(), 1):
+            if EXTREME.search(line.split("//")[0]):
+                yield f"{path}:{number} an extreme: take grid/containers.hpp, which refuses an empty range"
+
+
 def circle(graph):
     """One circle of folders, in the order of includes; empty where there is none."""
     done = set()
@@ -108,6 +118,7 @@ def failures_of(root):
     for path in sources(root):
         text = (root / path).read_text(encoding="utf-8")
         failures += decompositions(path, text)
+        failures += extremes(path, text)
         for included in INCLUDE.findall(text):
             count += 1
             why = broken_layer(path, included)
@@ -132,6 +143,7 @@ def finds_what_is_broken():
         "grid/map/fit.hpp": '#include "grid/estimation/estimate.hpp"\n',
         "grid/estimation/estimate.hpp": '#include "grid/observation/observation.hpp"\n',
         "grid/observation/observation.hpp": '#include "grid/map/fit.hpp"\n',
+        "tools/cli/chart.cpp": "const double most = *std::max_element(all.begin(), all.end());\n",
         "tools/report/page.hpp": '#include "tools/cli/verb.hpp"\n#include "model/model.hpp"\n',
         "grid/map/covariance.cpp": "const Eigen::LLT<Eigen::MatrixXd> factor(m);\nauto x = m.ldlt().solve(b);\n"
                                    "const Eigen::LLT<Eigen::Matrix2d> small(n);\n",
@@ -143,7 +155,7 @@ def finds_what_is_broken():
             (root / name).write_text(text, encoding="utf-8")
         found = "\n".join(failures_of(root)[0])
     return "Matrix2d" not in found and all(word in found for word in (
-        "covariance.cpp:1 LLT<Eigen::MatrixXd>", "covariance.cpp:2 .ldlt",
+        "chart.cpp:1 an extreme", "covariance.cpp:1 LLT<Eigen::MatrixXd>", "covariance.cpp:2 .ldlt",
         "interp must not include model", "tools/report must not include tools/cli",
         "it is for users",
         "what lies in grid/ itself", "grid/estimation -> grid/observation -> grid/map -> grid/estimation"))

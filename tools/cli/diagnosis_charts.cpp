@@ -79,7 +79,7 @@ double rms(const Diagnosis& found, Eigen::Vector2d PointPicture::*residual, int 
 double largest(const Diagnosis& found, Eigen::Vector2d PointPicture::*residual) {
   double value = 0.0;
   for (const PointPicture& point : found.points) {
-    if (!point.bad) value = std::max(value, (point.*residual).cwiseAbs().maxCoeff());
+    if (!point.bad) value = std::max(value, (point.*residual).lpNorm<Eigen::Infinity>());
   }
   return value;
 }

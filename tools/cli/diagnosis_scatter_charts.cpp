@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "grid/chain_rows.hpp"
+#include "grid/containers.hpp"
 #include "model/effects/effect.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
@@ -45,7 +46,7 @@ std::vector<std::pair<double, double>> means_of(const Diagnosis& found, const Sc
   const std::size_t bins = found.points.size() >= 60 ? 10 : 6;
   std::vector<double> all;
   for (const PointPicture& point : found.points) all.push_back(scatter.x(point, scatter.chain));
-  const auto [low, high] = std::minmax_element(all.begin(), all.end());
+  const auto [low, high] = grid::minmax_element(all);
   std::vector<double> x(bins), y(bins), count(bins);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (found.points[i].bad) continue;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "grid/map/map_accuracy.hpp"
 #include "tools/cli/map_document.hpp"
+#include "grid/containers.hpp"
 #include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
@@ -36,12 +36,10 @@ report::Outline mapped_sheet(const grid::CompensationMap& map) {
                  half_height_mm = machine->bed.height_mm / 2;
     return {-half_width_mm, half_width_mm, -half_height_mm, half_height_mm};
   }
-  const auto [left, right] = std::minmax_element(
-      map.contents().hull.begin(), map.contents().hull.end(), [](const auto& a, const auto& b) {
+  const auto [left, right] = grid::minmax_element(map.contents().hull, [](const auto& a, const auto& b) {
         return a.x_mm < b.x_mm;
       });
-  const auto [low, high] = std::minmax_element(
-      map.contents().hull.begin(), map.contents().hull.end(), [](const auto& a, const auto& b) {
+  const auto [low, high] = grid::minmax_element(map.contents().hull, [](const auto& a, const auto& b) {
         return a.y_mm < b.y_mm;
       });
   return {left->x_mm, right->x_mm, low->y_mm, high->y_mm};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/residual_scatter.hpp"
+#include "grid/containers.hpp"
 
 #include <algorithm>
 
@@ -14,7 +15,7 @@ struct Window {
 /// With a margin, and never of no width.
 Window window_of(const std::vector<double>& values, double share, double least) {
   if (values.empty()) return {0.0, least};
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto [low, high] = grid::minmax_element(values);
   const double margin = std::max(share * (*high - *low), 0.5 * (least - (*high - *low)));
   return {*low - margin, *high + margin};
 }

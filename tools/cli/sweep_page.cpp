@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/sweep_page.hpp"
+#include "grid/containers.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -101,7 +101,7 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
   }
   if (grids.size() > 1) {
     const auto [fewest, most] =
-        std::minmax_element(grids.begin(), grids.end(), [&](const auto& a, const auto& b) {
+        grid::minmax_element(grids, [&](const auto& a, const auto& b) {
           return points_of(spec, a.grid) < points_of(spec, b.grid);
         });
     sentences.push_back(fmt::format(
@@ -114,7 +114,7 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
   for (std::size_t factor = 0; factor + 1 < sweep::kFactors; ++factor) {
     if (counts[factor] < 2) continue;
     const std::vector<double> rms = errors_of_levels(errors, factor, counts[factor]);
-    const auto [least, most] = std::minmax_element(rms.begin(), rms.end());
+    const auto [least, most] = grid::minmax_element(rms);
     const auto level = [&](auto at) {
       return sweep::level_name(spec, factor, static_cast<std::size_t>(at - rms.begin()));
     };
