@@ -109,8 +109,7 @@ bool RecordTable::open(const Cursor& at, bool is_root) const {
     if (is_root) version.missing(fmt::format("\"{}\"", format_->version));
   } else if (version.json() != format_->version) {
     version.expect(
-        fmt::format("\"{}\", the version that this program reads: use the chaintrue that wrote the file",
-                    format_->version),
+        fmt::format("\"{}\", the version that this program reads: {}", format_->version, format_->anew),
         ProblemKind::format_version);
     return false;
   }
