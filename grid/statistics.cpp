@@ -3,12 +3,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
 #include "grid/containers.hpp"
 
 namespace chaintrue::grid {
+namespace {
+
+/// Of the step; readings come with no more digits than a file's.
+constexpr double kShareOfStep = 1e-4;
+constexpr std::size_t kFewestReadings = 4;
+constexpr double kChosenPlacesMm = 5.0;
+
+bool are_multiples(const std::vector<double>& values, double step) {
+  return all_of(values, [step](double value) {
+    const double steps = value / step;
+    return std::abs(steps - std::round(steps)) < kShareOfStep;
+  });
+}
+
+}  // namespace
 
 double median(std::vector<double> values) {
   if (values.empty()) throw std::invalid_argument("the median of no values");
@@ -51,6 +67,20 @@ double log_sum(const std::vector<double>& terms) {
   double sum = 0.0;
   for (const double term : terms) sum += std::exp(term - high);
   return high + std::log(sum);
+}
+
+double rounding_sigma_mm(const std::vector<double>& readings_mm) {
+  constexpr double kInchMm = 25.4;
+  constexpr int kDecades = 6;
+  if (readings_mm.size() < kFewestReadings || are_multiples(readings_mm, kChosenPlacesMm)) return 0.0;
+  std::vector<double> steps{kInchMm / 16.0, kInchMm / 32.0, kInchMm / 64.0};
+  for (int decade = 0; decade < kDecades; ++decade) {
+    for (const double digit : {1.0, 0.5, 0.2}) steps.push_back(digit * std::pow(10.0, -decade));
+  }
+  sort(steps, std::greater<>());
+  const auto step = std::find_if(
+      steps.begin(), steps.end(), [&](double one) { return are_multiples(readings_mm, one); });
+  return step == steps.end() ? 0.0 : *step / std::sqrt(12.0);
 }
 
 }  // namespace chaintrue::grid

@@ -9,7 +9,6 @@
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/first_frames.hpp"
 #include "grid/containers.hpp"
-#include "grid/map/noise_from_repeats.hpp"
 #include "grid/statistics.hpp"
 #include "model/belts/belt_mechanism.hpp"
 

@@ -157,8 +157,10 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
   grid.machine = stated;
   const auto lengths = length_points(grid);
   if (!lengths) return failure(Reason::no_lengths, lengths.error().sentence());
-  std::optional<StatedNoise> noise = grid.noise;
-  if (!noise) {
+  std::optional<StatedNoise> noise;
+  if (grid.noise) {
+    noise = not_below_rounding(*grid.noise, grid);
+  } else {
     noise = noise_of_repeats(stated, grid, *lengths);
     so_far.noise_from_repeats = noise.has_value();
   }

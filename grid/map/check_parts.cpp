@@ -14,6 +14,7 @@
 #include "grid/estimation/placement_fit.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/corrected_data.hpp"
+#include "grid/map/noise_from_repeats.hpp"
 #include "grid/observation/chain_lengths.hpp"
 
 namespace chaintrue::grid {
@@ -125,7 +126,7 @@ tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
   part.points = merged(*points);
   if (part.points.size() > kMostCheckedPoints)
     return too_many(part.points.size(), kMostCheckedPoints, "points");
-  part.noise = grid.noise.value_or(StatedNoise{});
+  part.noise = not_below_rounding(grid.noise.value_or(StatedNoise{}), grid);
   for (const Repeated& one : part.points) part.marks.push_back(one.point.mark);
   if (grid.sheet) {
     part.sheet = observation::SheetPrior{std::max(grid.sheet->shift_mm, kLeastShiftMm),

@@ -4,41 +4,12 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "grid/containers.hpp"
 #include "grid/observation/length_points.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid {
-namespace {
-
-/// Of the step; readings come with no more digits than a file's.
-constexpr double kShareOfStep = 1e-4;
-constexpr std::size_t kFewestReadings = 4;
-constexpr double kChosenPlacesMm = 5.0;
-
-bool are_multiples(const std::vector<double>& values, double step) {
-  return all_of(values, [step](double value) {
-    const double steps = value / step;
-    return std::abs(steps - std::round(steps)) < kShareOfStep;
-  });
-}
-
-}  // namespace
-
-double rounding_sigma_mm(const std::vector<double>& readings_mm) {
-  constexpr double kInchMm = 25.4;
-  constexpr int kDecades = 6;
-  if (readings_mm.size() < kFewestReadings || are_multiples(readings_mm, kChosenPlacesMm)) return 0.0;
-  std::vector<double> steps{kInchMm / 16.0, kInchMm / 32.0, kInchMm / 64.0};
-  for (int decade = 0; decade < kDecades; ++decade) {
-    for (const double digit : {1.0, 0.5, 0.2}) steps.push_back(digit * std::pow(10.0, -decade));
-  }
-  sort(steps, std::greater<>());
-  auto* step = find_where(steps, [&](double one) { return are_multiples(readings_mm, one); });
-  return step == nullptr ? 0.0 : *step / std::sqrt(12.0);
-}
-
 observation::PointNoise rounding_noise(const MeasuredGrid& grid) {
   std::vector<double> lengths, marks;
   for (const MeasuredPoint& point : grid.points) {
@@ -49,6 +20,13 @@ observation::PointNoise rounding_noise(const MeasuredGrid& grid) {
     }
   }
   return {rounding_sigma_mm(lengths), rounding_sigma_mm(marks)};
+}
+
+StatedNoise not_below_rounding(StatedNoise stated, const MeasuredGrid& grid) {
+  const observation::PointNoise rounding = rounding_noise(grid);
+  stated.length_mm = std::max(stated.length_mm, rounding.length_mm);
+  stated.position_mm = std::max(stated.position_mm, rounding.position_mm);
+  return stated;
 }
 
 void RepeatScatter::add(const Eigen::Vector2d& residual_mm, const Eigen::Matrix2d& by_mark) {

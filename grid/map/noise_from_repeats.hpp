@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The size of the noise from points that were measured more than once, and the floor that rounding
-/// sets to it: second visits that agree exactly say only that the scatter is below the step of the rule.
+/// (grid/statistics.hpp) sets to it: second visits that agree exactly say only that the scatter is below
+/// the step of the rule.
 #pragma once
 
 #include <optional>
@@ -11,14 +12,10 @@
 
 namespace chaintrue::grid {
 
-/// Standard deviation of a value rounded to the step of these readings, step / sqrt(12). The step is
-/// the largest of which all are multiples: 1, 0.5 or 0.2 mm, 1/16, 1/32 or 1/64 inch, or a power of ten
-/// below of these millimetres. 0 for readings with all their digits, for fewer than four, and where
-/// all are multiples of 5 mm, which are places that somebody chose.
-[[nodiscard]] double rounding_sigma_mm(const std::vector<double>& readings_mm);
-
 /// Of the marks of points that give a command, and of the lengths of those that give lengths.
 [[nodiscard]] observation::PointNoise rounding_noise(const MeasuredGrid& grid);
+/// What was stated, not below it.
+[[nodiscard]] StatedNoise not_below_rounding(StatedNoise stated, const MeasuredGrid& grid);
 
 struct RepeatNoise {
   double factor = 1.0;  ///< the noise, as a multiple of the one the fit went in with

@@ -286,7 +286,8 @@ tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredGrid& g
   if (!corrected) return tl::unexpected(corrected.error());
   auto points = length_points(corrected->grid);
   if (!points) return failed(FitReason::no_lengths, points.error().sentence());
-  const MeasuredGrid& own = corrected->grid;
+  MeasuredGrid& own = corrected->grid;
+  if (states_noise(own)) own.noise = not_below_rounding(*own.noise, grid);
   if (auto possible = check_readings_of(*own.machine, own.readings, "grid's"); !possible)
     return tl::unexpected(possible.error());
   auto part = std::make_unique<PointsPart>(own, *std::move(points), rounding_noise(grid));

@@ -13,6 +13,7 @@
 #include "grid/containers.hpp"
 #include "grid/failed.hpp"
 #include "grid/observation/tape_zero.hpp"
+#include "grid/statistics.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/chains/chain_mechanism.hpp"
 #include "model/controllers/payout.hpp"
@@ -157,6 +158,17 @@ DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& g
   return noise;
 }
 
+/// No reading is better than the digits that it was read to.
+void raise_to_rounding(MeasuredHoles& set) {
+  std::vector<double> readings_mm;
+  for (const HoleDistance& distance : set.distances) readings_mm.push_back(distance.distance_mm);
+  const double least_mm = rounding_sigma_mm(readings_mm);
+  set.tape.sigma_mm = std::max(set.tape.sigma_mm, least_mm);
+  for (HoleDistance& distance : set.distances) {
+    if (distance.sigma_mm) distance.sigma_mm = std::max(*distance.sigma_mm, least_mm);
+  }
+}
+
 bool is_of_tape(const model::effects::Effect& effect, model::effects::EffectSide side) {
   if (effect.station != model::effects::Station::paper || side != model::effects::EffectSide::both)
     return false;
@@ -198,6 +210,7 @@ SheetPrior sheet_measured(const MeasuredHoles& set) {
 
 tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::in_given_order(MeasuredHoles set) {
   if (!set.machine) throw std::invalid_argument("holes without a machine predict no distances");
+  raise_to_rounding(set);
   TapeDistances result(std::move(set));
   const auto controller = model::make_controller_kinematics(*result.set_.machine);
   for (std::size_t i = 0; i < result.set_.holes.size(); ++i) {

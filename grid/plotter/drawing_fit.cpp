@@ -12,6 +12,7 @@
 #include "grid/estimation/estimate.hpp"
 #include "grid/failed.hpp"
 #include "grid/plotter/drawing_slips.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -61,6 +62,19 @@ tl::expected<estimation::Estimate, DrawingFailure> estimated(
       "the settings did not settle: no settings near those in the file make this drawing. "
       "Look whether the machine's kind, its pins' spacing and the crosses are those of the "
       "drawing");
+}
+
+/// A drawing that meets its readings better than they were read has not shown that they are better.
+void raise_to_rounding(const TestDrawing& drawing, estimation::Estimate& estimate) {
+  std::vector<double> readings_mm, sigmas_mm;
+  for (const DrawnMeasure& one : drawing.measures) {
+    readings_mm.push_back(one.value_mm);
+    sigmas_mm.push_back(one.sigma_mm);
+  }
+  const double least = rounding_sigma_mm(readings_mm) / rms(sigmas_mm);
+  if (!(estimate.noise_factor > 0.0) || estimate.noise_factor >= least) return;
+  estimate.covariance *= std::pow(least / estimate.noise_factor, 2);
+  estimate.noise_factor = least;
 }
 
 std::vector<PlotterSetting> settings_of(const estimation::Estimate& estimate) {
@@ -152,8 +166,9 @@ tl::expected<DrawingFit, DrawingFailure> fit_drawing(const TestDrawing& drawing)
   };
   if (auto slip = slip_of_drawing(drawing, drawn, *model::make_plotter_mechanism(drawing.machine)))
     return tl::unexpected(std::move(*slip));
-  const auto estimate = estimated(drawing.machine, readings);
+  auto estimate = estimated(drawing.machine, readings);
   if (!estimate) return tl::unexpected(estimate.error());
+  raise_to_rounding(drawing, *estimate);
 
   const Eigen::VectorXd found = in_file_order(*readings, estimate->observations.front().predicted);
   std::vector<bool> rejected(drawing.measures.size(), false);

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <random>
 
+#include "grid/statistics.hpp"
+
 namespace chaintrue::grid {
 namespace {
 
@@ -40,6 +42,17 @@ TEST(Rounding, IsOfWhatWasRead) {
   EXPECT_EQ(rounding_noise(commanded).length_mm, 0.0);
   EXPECT_GT(rounding_noise(lengths).length_mm, 0.1);
   EXPECT_EQ(rounding_noise(lengths).position_mm, 0.0);
+}
+
+TEST(Rounding, IsAFloorOfWhatIsStated) {
+  MeasuredGrid grid;
+  for (const double reading : rounded_readings(0.5, 1))
+    grid.points.push_back({{reading, reading + 1.0}, std::nullopt, model::BedPoint{0.0, 0.0}});
+  const StatedNoise fine = not_below_rounding({0.01, 0.01, 7.0}, grid);
+  EXPECT_EQ(fine.length_mm, 0.01) << "lengths that were paid out, not read";
+  EXPECT_DOUBLE_EQ(fine.position_mm, 0.5 / std::sqrt(12.0));
+  EXPECT_EQ(fine.dof, 7.0);
+  EXPECT_EQ(not_below_rounding({0.01, 0.3, 7.0}, grid).position_mm, 0.3);
 }
 
 /// Repeats say the scatter, but never less than rounding.
