@@ -58,6 +58,7 @@ inline constexpr double kMinusInfinity = -kInfinity;
   const double b = log_normal_upper(high);
   return b >= a ? kMinusInfinity : a + std::log1p(-std::exp(b - a));
 }
+
 /// Standard deviation of a value rounded to the step of these readings, step / sqrt(12). The step is
 /// the largest of which all are multiples: 1, 0.5 or 0.2 mm, 1/16, 1/32 or 1/64 inch, or a power of ten
 /// below of these millimetres. 0 for readings with all their digits, for fewer than four, and where

@@ -18,6 +18,8 @@ namespace {
 constexpr std::size_t kDeepest = 64;
 /// Five times those of the largest map.
 constexpr std::size_t kMostValues = 1'000'000;
+/// Of one object; no format has a hundred.
+constexpr std::size_t kMostMembers = 10'000;
 constexpr std::size_t kLineWidth = 100;
 
 bool is_word_character(char c) {
@@ -223,10 +225,13 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   [[nodiscard]] bool has_room() {
-    if (++values_ <= kMostValues) return true;
+    const bool is_full = !open_.empty() && open_.back().value->is_object() &&
+                         open_.back().value->size() >= kMostMembers;
+    if (++values_ <= kMostValues && !is_full) return true;
     problems_.add(pointer(),
                   "more values",
-                  fmt::format("at most {} values", kMostValues),
+                  is_full ? fmt::format("at most {} members", kMostMembers)
+                          : fmt::format("at most {} values", kMostValues),
                   ProblemKind::too_many);
     return false;
   }

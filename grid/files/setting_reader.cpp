@@ -25,6 +25,8 @@ constexpr std::size_t kMostNamed = 60;
 
 std::string line_place(std::size_t number) { return fmt::format("line {}", number); }
 
+std::string at_most_settings() { return fmt::format("at most {} lines of settings", kMostSettings); }
+
 }  // namespace
 
 std::string in_small_letters(std::string_view text) {
@@ -38,7 +40,9 @@ std::string in_small_letters(std::string_view text) {
 SettingReader::SettingReader(SettingTexts texts,
                              Problems& problems,
                              std::vector<std::string> folders)
-    : texts_(std::move(texts)), problems_(problems), folders_(std::move(folders)) {}
+    : texts_(std::move(texts)), problems_(problems), folders_(std::move(folders)) {
+  if (texts_.size() > kMostSettings) problems.add("", "more settings", at_most_settings());
+}
 
 const SettingText* SettingReader::look(const std::string& key) {
   asked_.insert(key);
@@ -130,7 +134,7 @@ SettingTexts yaml_texts(const std::string& text) {
   SettingTexts texts;
   std::istringstream lines(text);
   std::size_t number = 0;
-  for (std::string line; std::getline(lines, line);) {
+  for (std::string line; texts.size() <= kMostSettings && std::getline(lines, line);) {
     ++number;
     line.resize(std::min(line.find('#'), line.size()));
     const std::size_t indent = line.find_first_not_of(' ');
@@ -150,7 +154,7 @@ SettingTexts line_texts(const std::string& text, char separator, std::string_vie
   SettingTexts texts;
   std::istringstream lines(text);
   std::size_t number = 0;
-  for (std::string line; std::getline(lines, line);) {
+  for (std::string line; texts.size() <= kMostSettings && std::getline(lines, line);) {
     ++number;
     const std::size_t begin = before.empty() ? 0 : line.find(before);
     if (begin == std::string::npos || line.starts_with("#")) continue;
@@ -177,6 +181,7 @@ SettingTexts ini_texts(std::string_view text, Problems& problems) {
   }
   std::string section;
   std::size_t strange = 0;
+  std::size_t settings = 0;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = text.find('\n');
     const std::string_view line = trimmed(text.substr(0, end));
@@ -196,11 +201,8 @@ SettingTexts ini_texts(std::string_view text, Problems& problems) {
       if (++strange == kMostStrangeLines) break;
       continue;
     }
-    if (texts.size() == kMostSettings) {
-      problems.add(place,
-                   "more settings",
-                   fmt::format("at most {} lines of settings", kMostSettings),
-                   ProblemKind::too_many);
+    if (settings++ == kMostSettings) {
+      problems.add(place, "more settings", at_most_settings(), ProblemKind::too_many);
       break;
     }
     const auto [same, is_new] =
