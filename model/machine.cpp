@@ -113,6 +113,9 @@ void check_controller(const ControllerSettings& s, Checker& check) {
   optional("motorspacingx", s.motor_spacing_mm, 300, 40000, "mm");
   optional("motoroffsety", s.motor_offset_y_mm, 0, 10000, "mm");
   optional("rotationradius", s.rotation_radius_mm, 0, 1000, "mm");
+  optional("sledwidth", s.sled_width_mm, 20, 2000, "mm");
+  optional("sledheight", s.sled_height_mm, 0, 2000, "mm");
+  optional("sledcg", s.sled_cg_mm, 0, 2000, "mm");
   optional("chainsagcorrection", s.chain_sag_correction, -1000, 1000, "(1e-12 / mm^2)");
   optional("leftchaintolerance", s.left_chain_tolerance_percent, -10, 10, "percent");
   optional("rightchaintolerance", s.right_chain_tolerance_percent, -10, 10, "percent");
@@ -190,6 +193,9 @@ std::vector<MachineRange> machine_ranges() {
                                          &settings.motor_spacing_mm,
                                          &settings.motor_offset_y_mm,
                                          &settings.rotation_radius_mm,
+                                         &settings.sled_width_mm,
+                                         &settings.sled_height_mm,
+                                         &settings.sled_cg_mm,
                                          &settings.chain_sag_correction,
                                          &settings.left_chain_tolerance_percent,
                                          &settings.right_chain_tolerance_percent,

@@ -39,10 +39,6 @@ class Lines {
   void section(const std::string& name) {
     out_.text += fmt::format("{}[{}]\n", out_.text.empty() ? "" : "\n", name);
   }
-  /// The value of the file under a key that is not a setting of the controller.
-  void number(const std::string& key, double value) {
-    word(key, imported_ ? fmt::format("{}", value) : to_type(value));
-  }
   void number(const std::string& key,
               double value,
               std::optional<double> now,
@@ -75,14 +71,6 @@ class Lines {
   GroundcontrolText& out_;
 };
 
-void write_sled(const Machine& machine, Lines& lines) {
-  const auto* brackets = std::get_if<model::Brackets>(&machine.attachment);
-  if (brackets == nullptr) return;
-  lines.number("sledwidth", brackets->spacing_mm);
-  lines.number("sledheight", brackets->height_mm);
-  lines.number("sledcg", brackets->cg_below_bit_mm);
-}
-
 /// The pitch of a chain that its tolerance states.
 bool is_tolerance(const model::AppliedEffect& effect, const model::ControllerSettings& settings) {
   const auto size = effect.parameters.find("elongation");
@@ -109,6 +97,11 @@ model::ControllerSettings measures_as_settings(const Machine& machine) {
     // A parabola in place of the catenary; the firmware uses it with a ring only.
     if (!is_imported(machine.controller.settings))
       s.chain_sag_correction = model::equilibrium_parameters(machine).sag_correction;
+  } else {
+    const auto& brackets = std::get<model::Brackets>(machine.attachment);
+    s.sled_width_mm = brackets.spacing_mm;
+    s.sled_height_mm = brackets.height_mm;
+    s.sled_cg_mm = brackets.cg_below_bit_mm;
   }
   if (machine.controller.kind == model::ControllerKind::holey) {
     s.top_beam_tilt_deg = std::atan2(dy_mm, dx_mm) * 180.0 / std::numbers::pi;
@@ -155,14 +148,18 @@ GroundcontrolText write_groundcontrol_settings(const Machine& machine,
   const auto number = [&](const char* key, std::optional<double> S::*setting) {
     if (settings.*setting) lines.number(key, *(settings.*setting), now.*setting, by);
   };
+  const bool has_ring = std::holds_alternative<model::Ring>(machine.attachment);
   lines.section("Maslow Settings");
   number("bedwidth", &S::bed_width_mm);
   number("bedheight", &S::bed_height_mm);
   number("motorspacingx", &S::motor_spacing_mm);
   number("motoroffsety", &S::motor_offset_y_mm);
-  write_sled(machine, lines);
+  if (!has_ring) {
+    number("sledwidth", &S::sled_width_mm);
+    number("sledheight", &S::sled_height_mm);
+    number("sledcg", &S::sled_cg_mm);
+  }
   lines.section("Advanced Settings");
-  const bool has_ring = std::holds_alternative<model::Ring>(machine.attachment);
   lines.word("kinematicstype", has_ring ? "Triangular" : "Quadrilateral");
   if (has_ring) number("rotationradius", &S::rotation_radius_mm);
   number("chainsagcorrection", &S::chain_sag_correction);

@@ -31,7 +31,7 @@ constexpr double kDegreeRad = std::numbers::pi / 180.0;
 
 enum class Need { always, ring, brackets, never };
 
-/// A number of the ini file. `setting` is the controller's member for it, if there is one.
+/// A number of the ini file, and the controller's member for it.
 struct NumberKey {
   const char* key;
   Range range;
@@ -49,9 +49,9 @@ constexpr NumberKey kNumberKeys[] = {
     {"chainpitch", {"mm", 1, 50}, Need::always, &ControllerSettings::chain_pitch_mm},
     {"gearteeth", {"teeth", 3, 100}, Need::always, &ControllerSettings::gear_teeth},
     {"rotationradius", {"mm", 20, 500}, Need::ring, &ControllerSettings::rotation_radius_mm},
-    {"sledwidth", {"mm", 50, 1500}, Need::brackets, nullptr},
-    {"sledheight", {"mm", 20, 1000}, Need::brackets, nullptr},
-    {"sledcg", {"mm", 5, 1000}, Need::brackets, nullptr},
+    {"sledwidth", {"mm", 50, 1500}, Need::brackets, &ControllerSettings::sled_width_mm},
+    {"sledheight", {"mm", 20, 1000}, Need::brackets, &ControllerSettings::sled_height_mm},
+    {"sledcg", {"mm", 5, 1000}, Need::brackets, &ControllerSettings::sled_cg_mm},
     {"topbeamtilt", {"degrees", -20, 20}, Need::never, &ControllerSettings::top_beam_tilt_deg},
     {"chainsagcorrection",
      {"1e-12 / mm^2", -1000, 1000},
@@ -307,7 +307,7 @@ Machine machine_of(const SettingValues& numbers, bool has_brackets, bool over_to
   machine.controller.kind = model::ControllerKind::maslow_classic;
   for (const NumberKey& key : kNumberKeys) {
     const auto value = numbers.find(key.key);
-    if (key.setting != nullptr && value != numbers.end())
+    if (value != numbers.end())
       machine.controller.settings.*key.setting = value->second;
   }
   machine.controller.settings.chain_over_sprocket_top = over_top;

@@ -273,6 +273,9 @@ const Record<ControllerSettings>& controller_settings_record() {
           .optional("motorspacingx", &Settings::motor_spacing_mm, number_in("mm"))
           .optional("motoroffsety", &Settings::motor_offset_y_mm, number_in("mm"))
           .optional("rotationradius", &Settings::rotation_radius_mm, number_in("mm"))
+          .optional("sledwidth", &Settings::sled_width_mm, number_in("mm"))
+          .optional("sledheight", &Settings::sled_height_mm, number_in("mm"))
+          .optional("sledcg", &Settings::sled_cg_mm, number_in("mm"))
           .optional(
               "chainsagcorrection", &Settings::chain_sag_correction, number_in("1e-12 / mm^2"))
           .optional(

@@ -41,7 +41,7 @@ SettingReader::SettingReader(SettingTexts texts,
                              Problems& problems,
                              std::vector<std::string> folders)
     : texts_(std::move(texts)), problems_(problems), folders_(std::move(folders)) {
-  if (texts_.size() > kMostSettings) problems.add("", "more settings", at_most_settings());
+  if (texts_.size() > kMostSettings) problems.add("", "more settings", at_most_settings(), ProblemKind::too_many);
 }
 
 const SettingText* SettingReader::look(const std::string& key) {

@@ -56,14 +56,25 @@ std::vector<FreeSetting> free_settings(const Machine& machine) {
   const double pitch_percent = 100.0 * usual_size("chain_pitch_error");
   // Owners' calibrations ended between 20 and 35 where the chain's weight makes 6 to 8.
   constexpr double kSagSigma = 10.0;
+  // Brackets are measured as a ring is, a centre of gravity by balancing the sled on an edge.
+  constexpr double kBracketSigmaMm = 1.0, kBalanceSigmaMm = 5.0;
   std::vector<FreeSetting> all = {
       {&S::motor_spacing_mm, std::sqrt(2.0) * motor_mm, 0.1},
       {&S::motor_offset_y_mm, motor_mm / std::sqrt(2.0), 0.1},
-      {&S::rotation_radius_mm, machine.uncertainty.ring_radius_mm, 0.1},
-      {&S::chain_sag_correction, kSagSigma, 0.1},
-      {&S::left_chain_tolerance_percent, pitch_percent, 1e-3},
-      {&S::right_chain_tolerance_percent, pitch_percent, 1e-3},
   };
+  if (std::holds_alternative<model::Ring>(machine.attachment)) {
+    all.insert(all.end(),
+               {{&S::rotation_radius_mm, machine.uncertainty.ring_radius_mm, 0.1},
+                {&S::chain_sag_correction, kSagSigma, 0.1},
+                {&S::left_chain_tolerance_percent, pitch_percent, 1e-3},
+                {&S::right_chain_tolerance_percent, pitch_percent, 1e-3}});
+  } else {
+    // The firmware's quadrilateral has neither sag nor tolerances.
+    all.insert(all.end(),
+               {{&S::sled_width_mm, kBracketSigmaMm, 0.1},
+                {&S::sled_height_mm, kBracketSigmaMm, 0.1},
+                {&S::sled_cg_mm, kBalanceSigmaMm, 0.1}});
+  }
   if (is_holey(machine)) {
     const double tilt_deg = std::sqrt(2.0) * motor_mm / spacing_mm * 180.0 / std::numbers::pi;
     all.push_back({&S::top_beam_tilt_deg, tilt_deg, 1e-3});
@@ -233,11 +244,10 @@ tl::expected<SettingsToType, SettingsFailure> settings_for(const Truth& truth) {
   const std::vector<MeasuredPlace> places = truth.places(truth.machine);
   const ControllerSettings& in_force = truth.machine.controller.settings;
   const auto before = errors_with(truth.machine, in_force, places);
-  if (!maslow || !std::holds_alternative<model::Ring>(truth.machine.attachment) || !before ||
-      places.empty()) {
+  if (!maslow || !before || places.empty()) {
     return failed(SettingsFailure::Reason::another_controller,
-                  "the machine has no controller of a Maslow with a ring, whose settings could be "
-                  "fitted: compensate the G-code with a map");
+                  "the map's machine has no controller of a Maslow, whose settings could be fitted: "
+                  "compensate the G-code with the map");
   }
   SettingsToType result;
   result.settings = in_force;

@@ -50,7 +50,7 @@ struct SettingsToType {
 
 enum class SettingsReason {
   no_machine,          ///< a map of splines through the lengths
-  another_controller,  ///< whose settings are not a Maslow's, or a sled on brackets
+  another_controller,  ///< whose settings are not a Maslow's
 };
 using SettingsFailure = Failure<SettingsReason>;
 

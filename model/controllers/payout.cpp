@@ -65,6 +65,11 @@ EquilibriumParameters believed_parameters(const Machine& machine) {
   if (s.rotation_radius_mm && std::holds_alternative<Ring>(p.attachment)) {
     p.attachment = Ring{*s.rotation_radius_mm};
   }
+  if (auto* brackets = std::get_if<Brackets>(&p.attachment)) {
+    brackets->spacing_mm = s.sled_width_mm.value_or(brackets->spacing_mm);
+    brackets->height_mm = s.sled_height_mm.value_or(brackets->height_mm);
+    brackets->cg_below_bit_mm = s.sled_cg_mm.value_or(brackets->cg_below_bit_mm);
+  }
   if (s.chain_pitch_mm || s.gear_teeth) {
     p.sprocket_radius_mm = s.chain_pitch_mm.value_or(machine.sprocket.pitch_mm) *
                            s.gear_teeth.value_or(machine.sprocket.teeth) / (2.0 * std::numbers::pi);

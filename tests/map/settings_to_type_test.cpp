@@ -72,13 +72,8 @@ TEST(SettingsToType, OfAMachineThatIsRightStayAsTheyAre) {
   EXPECT_LT(typed->as_it_is.rms_mm, 2.0 * map->contents().accuracy.expected_tool.rms_mm);
 }
 
-TEST(SettingsToType, BringTheToolBack) {
-  const Machine machine = imported_machine();
-  ControllerSettings right = machine.controller.settings;
-  *right.motor_spacing_mm += 5.0;
-  *right.rotation_radius_mm -= 1.5;
-  *right.chain_sag_correction = 8.0;
-  *right.right_chain_tolerance_percent = 0.08;
+/// A machine whose controller runs with its own settings where `right` would be exact.
+void expect_brought_back(const Machine& machine, const ControllerSettings& right) {
   const auto map = fit(grid_of(machine, right));
   ASSERT_TRUE(map) << map.error().sentence();
   const auto typed = settings_to_type(*map);
@@ -103,6 +98,36 @@ TEST(SettingsToType, BringTheToolBack) {
     EXPECT_NEAR(went.x_mm, command.x_mm, 0.3);
     EXPECT_NEAR(went.y_mm, command.y_mm, 0.3);
   }
+}
+
+TEST(SettingsToType, BringTheToolBack) {
+  const Machine machine = imported_machine();
+  ControllerSettings right = machine.controller.settings;
+  *right.motor_spacing_mm += 5.0;
+  *right.rotation_radius_mm -= 1.5;
+  *right.chain_sag_correction = 8.0;
+  *right.right_chain_tolerance_percent = 0.08;
+  expect_brought_back(machine, right);
+}
+
+TEST(SettingsToType, BringASledOnBracketsBack) {
+  Machine machine = imported_machine();
+  machine.attachment = model::Brackets{};
+  machine.effects.clear();
+  ControllerSettings& settings = machine.controller.settings;
+  settings.rotation_radius_mm.reset();
+  settings.chain_sag_correction.reset();
+  settings.left_chain_tolerance_percent.reset();
+  settings.right_chain_tolerance_percent.reset();
+  settings.sled_width_mm = 310.0;
+  settings.sled_height_mm = 139.0;
+  settings.sled_cg_mm = 79.0;
+  ControllerSettings right = settings;
+  *right.motor_spacing_mm += 4.0;
+  *right.sled_width_mm += 2.0;
+  *right.sled_height_mm -= 3.0;
+  *right.sled_cg_mm += 6.0;
+  expect_brought_back(machine, right);
 }
 
 TEST(SettingsToType, AreNotMadeForOtherControllers) {

@@ -27,7 +27,7 @@ std::string corrected_grid_text(const Diagnosis& found,
                                    found.data_corrections.end());
   auto corrected = grid::corrected_data(measured);
   if (!corrected)
-    throw files::InputError({{"corrected grid", "", "", corrected.error().sentence()}});
+    throw files::InputError({{"corrected grid", "", "", "", corrected.error().sentence()}});
   for (auto& point : corrected->grid.points) {
     if (order_assumed) point.order.reset();
   }

@@ -180,7 +180,7 @@ Exported of_map(const grid::CompensationMap& map,
                 const std::string& file,
                 const ExportCommand& command) {
   const auto fail = [&file](const grid::SettingsFailure& why) {
-    throw files::InputError({{file, "", "this map", why.sentence()}});
+    throw files::InputError({{file, "", "", "", why.sentence()}});
   };
   if (map.machine() == nullptr) fail(grid::settings_to_type(map).error());
   model::Machine machine = *map.machine();
@@ -197,7 +197,7 @@ Exported of_map(const grid::CompensationMap& map,
     if (!typed->worth_typing && holds_numbers) return result;
     if (typed->worth_typing) result.words += map_after_in_words(command);
   } else {
-    // Of a sled on brackets its own measures are what can be typed in.
+    // Where none can be found, its own measures are what can be typed in.
     if (holds_numbers) fail(typed.error());
     result = {files::write_groundcontrol(*map.machine()), "", settings_page(command.input)};
   }
@@ -225,7 +225,7 @@ Exported of_machine(const model::Machine& stated,
   model::Machine machine = stated;
   machine.controller = controller_of(stated);
   const auto typed = grid::settings_to_type(machine, area);
-  // Of a sled on brackets its own measures are what can be typed in.
+  // Where none can be found, its own measures are what can be typed in.
   if (!typed) return {files::write_groundcontrol(stated), "", std::move(next)};
   const std::string today = fmt::format(
       "Were the machine as {} has it, the tool would be {:.2f} mm rms off with {}, {:.2f} mm at worst;",

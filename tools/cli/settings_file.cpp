@@ -105,10 +105,8 @@ model::Machine with_settings(const model::Machine& stated,
   model::Machine machine = stated;
   machine.controller.kind = kind_with(stated, now, in_place);
   machine.controller.settings = file.controller.settings;
-  // GroundControl's numbers of brackets are the machine's own.
-  if (!std::holds_alternative<model::Ring>(file.attachment) ||
-      !std::holds_alternative<model::Ring>(stated.attachment))
-    machine.attachment = file.attachment;
+  // The sled of another kind is another sled.
+  if (file.attachment.index() != stated.attachment.index()) machine.attachment = file.attachment;
   if (settings_of(machine.controller.kind) != SettingsOf::maslow) {
     machine.motors = file.motors;
     machine.bed = file.bed;
