@@ -288,5 +288,29 @@ TEST(Importers, HonourOrNameEveryNumber) {
   EXPECT_GT(tried, 200U);
 }
 
+/// Whatever it is given: an importer answers with numbers, or refuses by the file's name.
+TEST(Importers, AnswerOrRefuseEveryFileThereIs) {
+  std::size_t answered = 0, refused = 0;
+  static const std::regex no_number(R"(\b(nan|inf)\b)", std::regex::icase);
+  for (const auto& folder : {kFixtures, kReports, kReports.parent_path() / "gcode", kReports.parent_path() / "maslow4",
+                             kReports.parent_path() / "repro"}) {
+    if (!std::filesystem::exists(folder)) continue;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+      constexpr std::uintmax_t kLargest = 40'000;  // bytes: larger ones are maps, programs and their moves
+      if (!entry.is_regular_file() || entry.file_size() > kLargest) continue;
+      const std::string text = read_whole_file(entry.path());
+      for (const Importer* importer : {&kGroundcontrol, &kWebcontrol, &kFluidnc, &kPlotter, &kMaslow4Log, &kMaslow4Settings}) {
+        const Answer answer = (*importer)(text);
+        (answer.is_refused ? refused : answered) += 1;
+        EXPECT_EQ(answer.written.empty(), answer.is_refused) << entry.path();
+        EXPECT_TRUE(!answer.is_refused || answer.said.find("any") != std::string::npos) << entry.path() << ": " << answer.said;
+        EXPECT_FALSE(std::regex_search(answer.written, no_number)) << entry.path();
+      }
+    }
+  }
+  EXPECT_GT(answered, 20U);
+  EXPECT_GT(refused, 500U);
+}
+
 }  // namespace
 }  // namespace chaintrue::grid::files
