@@ -19,6 +19,9 @@ namespace {
 
 /// No formula of a Configuration.h is longer, once its names are replaced.
 constexpr std::size_t kLongestFormula = 500;
+/// Marlin's own has some two thousand names, and conditions five deep.
+constexpr std::size_t kMostNames = 20'000;
+constexpr std::size_t kDeepest = 100;
 
 bool is_of_a_name(char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; }
 bool begins_a_number(char c) { return c == '.' || std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -202,8 +205,14 @@ class Defines {
     for (std::string line; std::getline(lines, line);) {
       const std::size_t first = ++number;
       for (std::string next; trimmed(line).ends_with('\\') && std::getline(lines, next); ++number)
-        line = line.substr(0, line.rfind('\\')) + next;
-      take(line, fmt::format("line {}", first));
+        line.replace(line.rfind('\\'), std::string::npos, next);
+      const std::string place = fmt::format("line {}", first);
+      take(line, place);
+      if (branches_.size() <= kDeepest && defined_.size() <= kMostNames) continue;
+      problems_.add(place,
+                    "more names or conditions",
+                    fmt::format("at most {} names, and {} conditions within each other", kMostNames, kDeepest));
+      return;
     }
   }
 
