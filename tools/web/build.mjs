@@ -59,7 +59,7 @@ function licences() {
 
 const EVENINGS = ["worn_chain", "bent_beam", "long_tape", "slipped_tooth", "nothing_wrong"];
 
-function example() {
+export function example() {
   const evenings = Object.fromEntries(EVENINGS.map((name) => [name, read(join(root, `fixtures/start/${name}.csv`))]));
   evenings.maslow4 = read(join(root, "fixtures/good/maslow4_log.txt"));
   return {

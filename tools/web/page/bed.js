@@ -3,6 +3,7 @@
 import {svg} from "./dom.js";
 
 const MARGIN_MM = 60;
+const RADIUS_MM = 52;
 
 /** @param bed {width_mm, height_mm}; @param sheet a Sheet; @param pick(row) is called on a click */
 export function bedPicture(bed, sheet, pick) {
@@ -15,9 +16,10 @@ export function bedPicture(bed, sheet, pick) {
   picture.append(svg("rect", {class: "board", x: -width / 2, y: -height / 2, width, height}));
   picture.append(svg("path", {class: "axes", d: `M ${-width / 2} 0 H ${width / 2} M 0 ${-height / 2} V ${height / 2}`}));
   const named = Object.fromEntries(sheet.places.map((place) => [place.name, place]));
+  const spots = apart(sheet.places);
   const isDistances = !sheet.isOfPoints;
   const items = sheet.rows.map((row, index) =>
-    isDistances ? distance(named[row.cells[0]], named[row.cells[1]], index) : mark(sheet.places[index], index));
+    isDistances ? distance(named[row.cells[0]], named[row.cells[1]], index) : mark(spots[index], index));
   for (const [index, item] of items.entries()) {
     if (!item) continue;
     item.addEventListener("click", () => pick(index));
@@ -38,10 +40,21 @@ export function bedPicture(bed, sheet, pick) {
   };
 }
 
+/** Where marks are drawn: one that is measured again stands beside the first. */
+function apart(places) {
+  const drawn = [];
+  for (const place of places) {
+    let {x} = place;
+    while (drawn.some((other) => Math.hypot(other.x - x, other.y - place.y) < 1.7 * RADIUS_MM)) x += RADIUS_MM * (place.x > 0 ? -1 : 1);
+    drawn.push({...place, x});
+  }
+  return drawn;
+}
+
 function mark(place, index) {
   if (!place || !Number.isFinite(place.x)) return null;
   return svg("g", {"data-kind": "mark", transform: `translate(${place.x} ${-place.y})`},
-    svg("circle", {r: 52}), svg("text", {y: 19}, String(index + 1)));
+    svg("circle", {r: RADIUS_MM}), svg("text", {y: 19}, String(index + 1)));
 }
 
 function distance(from, to, index) {
@@ -52,5 +65,5 @@ function distance(from, to, index) {
 
 function hole(place) {
   return svg("g", {class: "hole", transform: `translate(${place.x} ${-place.y})`},
-    svg("circle", {r: 52}), svg("text", {y: 19}, place.name));
+    svg("circle", {r: RADIUS_MM}), svg("text", {y: 19}, place.name));
 }

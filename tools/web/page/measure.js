@@ -146,7 +146,7 @@ export async function chooseWay(page, path) {
 async function judge(page, readings, said) {
   const {sheet: path} = page.store.view;
   const text = page.store.folder[path];
-  if (!text) return;
+  if (!text || readings.isHalfTyped) return;
   const list = Sheet.of(textOf(text));
   if (list && list.filled === 0) {
     readings.mark(new Map());

@@ -4,7 +4,7 @@ import {bedPicture} from "./bed.js";
 import {problemOf} from "./command.js";
 import {h} from "./dom.js";
 import {inPage} from "./in_page.js";
-import {millimetresOf, shownIn} from "./sheet.js";
+import {millimetresOf, Sheet, shownIn} from "./sheet.js";
 
 const WORDS = {
   order: "mark", commanded_x_mm: "sent to x", commanded_y_mm: "sent to y", x_mm: "x", y_mm: "y", left_mm: "left chain",
@@ -98,9 +98,22 @@ export class Readings {
     this.#changed(text, `${row} ${column}`);
   }
 
+  /** A row that was left half typed is judged only now. */
   #enter(row) {
+    const was = this.#active;
     this.#active = row;
     this.#show();
+    if (was !== row && this.#isHalf(was)) this.#changed(this.#sheet.text(), null);
+  }
+
+  #isHalf(row) {
+    const filled = (this.#inputs[row] ?? []).filter(({value}) => value.trim() !== "").length;
+    return filled > 0 && filled < this.#inputs[row].length;
+  }
+
+  /** Whether a row is being typed of which a number is still missing: it is not judged yet. */
+  get isHalfTyped() {
+    return this.#isHalf(this.#active) && this.#inputs[this.#active].includes(document.activeElement);
   }
 
   #key(event, row, column) {
@@ -121,11 +134,16 @@ export class Readings {
     target.select();
   }
 
-  /** Pastes a block of a spreadsheet from this cell to the right and down; a single number into the cell. */
+  /** Pastes a block of a spreadsheet from this cell to the right and down; a whole list with its header over this one. */
   #paste(event, row, column) {
     const text = event.clipboardData.getData("text/plain").replace(/\r/g, "").replace(/\n+$/, "");
     if (!/[\n\t]/.test(text)) return;
     event.preventDefault();
+    const whole = this.#sheet.withValuesOf(Sheet.of(text.replace(/\t/g, ",")));
+    if (whole) {
+      this.#changed(whole, null);
+      return;
+    }
     let list = this.#sheet.text();
     for (const [down, line] of text.split("\n").entries()) {
       for (const [right, cell] of line.split("\t").entries()) {

@@ -62,6 +62,15 @@ export class Sheet {
     return this.text();
   }
 
+  /** The text of this list with the readings of another one of the same places, null for other places. */
+  withValuesOf(other) {
+    const placeOf = (sheet, row) => sheet.columns.flatMap((_, index) => (sheet.readColumns.includes(index) ? [] : [sheet.value(row, index)])).join();
+    if (!other || other.columns.join() !== this.columns.join() || other.rows.some((_, row) => !this.rows[row] || placeOf(other, row) !== placeOf(this, row))) return null;
+    const changed = new Sheet(this.text());
+    for (const row of other.rows.keys()) for (const column of this.readColumns) changed.set(row, column, other.value(row, column));
+    return changed.text();
+  }
+
   value(row, column) {
     return unquoted(this.rows[row].cells[column] ?? "");
   }
