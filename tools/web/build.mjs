@@ -13,7 +13,7 @@ const root = join(here, "../..");
 const read = (path) => readFileSync(path, "utf8");
 
 /** Largest size of a page in bytes: it must fit into a mail together with a few pictures. */
-const MOST_BYTES = 3e6;
+const MOST_BYTES = 2.7e6;
 
 /** Features that the compiler's output uses; browsers of 2023 have them. */
 const WASM_FEATURES = ["--enable-exception-handling", "--enable-simd", "--enable-bulk-memory", "--enable-sign-ext",
@@ -57,15 +57,14 @@ function licences() {
     .replaceAll("&", "&amp;").replaceAll("<", "&lt;");
 }
 
-const EVENINGS = ["worn_chain", "bent_beam", "long_tape", "slipped_tooth", "nothing_wrong"];
+const EXAMPLES = ["worn_chain", "bent_beam", "long_tape", "slipped_tooth", "nothing_wrong"];
 
 export function example() {
-  const evenings = Object.fromEntries(EVENINGS.map((name) => [name, read(join(root, `fixtures/start/${name}.csv`))]));
-  evenings.maslow4 = read(join(root, "fixtures/good/maslow4_log.txt"));
+  const examples = Object.fromEntries(EXAMPLES.map((name) => [name, read(join(root, `fixtures/start/${name}.csv`))]));
+  examples.maslow4 = read(join(root, "fixtures/machines/maslow.yaml")) + read(join(root, "fixtures/good/maslow4_log.txt"));
   return {
-    evenings,
+    examples, drawing: read(join(root, "fixtures/plotter/mural_drawing.json")),
     "groundcontrol.ini": read(join(root, "fixtures/good/groundcontrol_ring.ini")),
-    "marks.csv": read(join(root, "fixtures/start/marks.csv")),
     "bracket.nc": read(join(root, "fixtures/gcode/bracket.nc")),
   };
 }

@@ -6,9 +6,11 @@ import {decoded} from "./base85.js";
 import {Belts} from "./belts.js";
 import {Busy} from "./busy.js";
 import {cutStep} from "./cut.js";
-import {download, h} from "./dom.js";
-import {filesStep} from "./files.js";
-import {machineStep, mayReplace, openZip, replaceFolder} from "./machine.js";
+import {sentenceList} from "./command.js";
+import {download, fileButton, h} from "./dom.js";
+import {filesPart} from "./files.js";
+import {intake, takeDrops} from "./intake.js";
+import {machineStep, mayReplace, replaceFolder} from "./machine.js";
 import {measureStep} from "./measure.js";
 import {Plotter} from "./plotter.js";
 import {resultStep} from "./result.js";
@@ -17,7 +19,8 @@ import {Storage} from "./storage.js";
 import {Store} from "./store.js";
 import {zipOf} from "./zip.js";
 
-const STEPS = [["machine", "Machine"], ["measure", "Measure"], ["result", "Map and causes"], ["cut", "Cut"], ["files", "Files"]];
+/** The same for all machines. */
+const STEPS = [["machine", "Machine"], ["measure", "Measure"], ["result", "Result"], ["cut", "Programs"]];
 
 async function unpacked(id) {
   const bytes = decoded(document.getElementById(id).textContent.trim());
@@ -26,20 +29,32 @@ async function unpacked(id) {
 
 class Page {
   store = new Store();
-  storage = new Storage((problem) => this.#say("storage", problem));
+  storage = new Storage((problem) => {
+    this.#unstored.hidden = problem === null;
+    this.#unstored.textContent = problem ?? "";
+  });
   busy = new Busy(() => this.engine.cancel());
   engine = null;
   example = null;
-  #banners = {storage: h("p", {class: "banner", role: "alert", hidden: true}), problem: h("p", {class: "banner bad", role: "alert", hidden: true})};
-  /** The last fit of the readings: {headline, sentences, tables, code}, or null. */
+  #unstored = h("p", {class: "banner", role: "alert", hidden: true});
+  #said = h("div", {class: "banner", role: "status", hidden: true});
+  /** The last fit of the readings: {headline, sentences, tables, isWrong}, or null. */
   fit = null;
   #steps = null;
   #undo = h("button", {type: "button", onclick: () => this.store.undo()}, "Undo");
   #redo = h("button", {type: "button", onclick: () => this.store.redo()}, "Redo");
-  #zip = h("input", {type: "file", id: "zip", accept: ".zip", hidden: true, onchange: () => this.#opened()});
+  #download = h("button", {type: "button", onclick: () => download("my-machine.zip", zipOf(this.store.folder))}, "Download");
+  #anew = h("button", {type: "button", onclick: () => mayReplace(this) && (replaceFolder(this, {}, "machine"), this.say([]))}, "Begin anew");
+
+  /** What was done with what the user gave, or why not; nothing takes it away. */
+  say(sentences, isProblem = false) {
+    this.#said.className = isProblem ? "banner bad" : "banner";
+    this.#said.hidden = sentences.length === 0;
+    this.#said.replaceChildren(sentenceList(sentences));
+  }
 
   alert(sentence) {
-    this.#say("problem", sentence);
+    this.say([sentence], true);
   }
 
   async begin() {
@@ -47,7 +62,9 @@ class Page {
     this.belts = new Belts(this);
     this.plotter = new Plotter(this);
     this.machine = machineStep(this);
-    const made = {machine: this.machine, measure: measureStep(this), result: resultStep(this), cut: cutStep(this), files: filesStep(this)};
+    this.cut = cutStep(this);
+    this.files = filesPart(this);
+    const made = {machine: this.machine, measure: measureStep(this), result: resultStep(this), cut: this.cut};
     this.#steps = new Steps(STEPS.map(([id, label]) => [id, label, made[id]]), (step) => this.#go(step));
     this.#draw();
     this.#listenToKeys();
@@ -60,39 +77,25 @@ class Page {
   }
 
   #draw() {
-    const tools = h("div", {class: "tools"}, this.#undo, this.#redo,
-      h("button", {type: "button", onclick: () => download("my-machine.zip", zipOf(this.store.folder))}, "Download"),
-      h("button", {type: "button", onclick: () => this.#zip.click()}, "Open"), this.#zip,
-      h("button", {type: "button", onclick: () => mayReplace(this) && replaceFolder(this, {}, "machine")}, "Begin anew"));
-    this.#zip.setAttribute("aria-label", "A zip that Download has made");
-    document.querySelector("header").append(tools);
-    document.querySelector("main").replaceChildren(this.#banners.storage, this.#banners.problem, this.busy.element, this.#steps.element);
+    document.querySelector("header").append(h("div", {class: "tools"}, this.#undo, this.#redo, this.#download,
+      fileButton("any", "Open", "", (files) => intake(this, files)), this.#anew));
+    document.querySelector("main").replaceChildren(this.#unstored, this.#said, this.busy.element, this.#steps.element, this.files.element);
+    takeDrops(this);
   }
 
   #go(step) {
-    this.#say("problem", null);
+    this.say([]);
     this.store.show({step});
   }
 
   #changed() {
     const {folder, view} = this.store;
     this.#steps.update(view.step);
-    this.#undo.disabled = !this.store.canUndo;
-    this.#redo.disabled = !this.store.canRedo;
+    this.files.update();
+    this.#undo.hidden = !this.store.canUndo;
+    this.#redo.hidden = !this.store.canRedo;
+    this.#download.hidden = this.#anew.hidden = Object.keys(folder).length === 0;
     this.storage.keep({folder, view});
-  }
-
-  #say(which, sentence) {
-    const banner = this.#banners[which];
-    banner.hidden = sentence === null;
-    banner.textContent = sentence ?? "";
-  }
-
-  async #opened() {
-    const [file] = this.#zip.files;
-    this.#zip.value = "";
-    if (!file || !mayReplace(this)) return;
-    await openZip(this, new Uint8Array(await file.arrayBuffer()), (sentences) => this.#say("problem", sentences[0] ?? null));
   }
 
   #listenToKeys() {

@@ -6,9 +6,9 @@ import {bytesOf, h, textOf} from "./dom.js";
 import {ANCHORS, BELTS, filledIn, HOLES, isBelts, jsonOf, LOG, MASLOW_SETTINGS, NO_DIAGNOSIS, WITHOUT} from "./folder.js";
 import {hookOption} from "./hook.js";
 import {inPage} from "./in_page.js";
-import {mayReplace, replaceFolder} from "./machine.js";
-import {isOfPlotter} from "./plotter_text.js";
-import {wishWords} from "./wish.js";
+import {replaceFolder} from "./machine.js";
+import {fitParts} from "./verdict.js";
+import {isWish, wishWords} from "./wish.js";
 
 /** Delay between the last key and a run of the command: the time between two keys. */
 const PAUSE_MS = 350;
@@ -32,10 +32,8 @@ function chooser(id, options, changed) {
 }
 
 export class Belts {
-  /** What the last reading and the last fit said: {imported, fitted, isWrong}. */
-  said = {imported: [], fitted: [], isWrong: false};
+  #imported = [];
   #page;
-  #say = () => {};
   #analysed = null;
   #timer = null;
   #reading = null;
@@ -48,28 +46,9 @@ export class Belts {
     this.#page = page;
   }
 
-  /** The box for both texts. A paste is read at once; what is typed, with the button. */
-  pasteBox(say) {
-    this.#say = say;
-    const box = h("textarea", {id: "paste", rows: 4, spellcheck: "false", autocomplete: "off",
-      placeholder: "maslow.yaml and what the machine printed while it found its anchors, in any order",
-      onpaste: () => setTimeout(() => read(), 0)});
-    const read = async () => {
-      if (isOfPlotter(box.value)) {
-        if (mayReplace(this.#page) && await this.#page.plotter.take(box.value, "settings.txt", say)) box.value = "";
-        return;
-      }
-      const isNew = splitPasted(box.value).log !== null || !isBelts(this.#page.store.folder);
-      if (box.value.trim() === "" || (isNew && !mayReplace(this.#page))) return;
-      if (await this.take(box.value, say)) box.value = "";
-    };
-    return h("div", {class: "paste"}, h("label", {for: "paste"}, "Or paste, for a Maslow 4: its log, its maslow.yaml, or both; for a pen plotter: its settings"), box,
-      h("p", {class: "buttons"}, h("button", {type: "button", onclick: read}, "Read what is in the box")));
-  }
-
   /** What the log left open, and what was assumed of it. */
   readingPart() {
-    this.#reading = h("section", {hidden: true}, h("h3", {}, "How the log is read"), this.#assumed,
+    this.#reading = h("div", {hidden: true}, h("h4", {}, "How the log is read"), this.#assumed,
       h("p", {class: "choices"},
         h("span", {class: "pair"}, h("label", {for: "belt-lengths"}, "A length is"), this.#lengths),
         h("span", {class: "pair"}, h("label", {for: "belt-frame"}, "The frame"), this.#frame),
@@ -87,7 +66,7 @@ export class Belts {
   }
 
   /** A pasted or opened text: one part joins what the folder has of the other. True if it was read. */
-  async take(text, say = this.#say) {
+  async take(text) {
     const {folder} = this.#page.store;
     const {yaml, log} = splitPasted(text);
     const kept = isBelts(folder) ? folder : {};
@@ -95,18 +74,18 @@ export class Belts {
       .filter(([, bytes]) => bytes));
     if (!files[LOG]) {
       replaceFolder(this.#page, files, "machine");
-      say(["maslow.yaml is read. Now paste what the machine printed while it found its anchors."]);
+      this.#page.say(["maslow.yaml is read. Now open or paste what the machine printed while it found its anchors: drop the log anywhere on this page."]);
       return true;
     }
     const read = await this.#import(files, {});
     if (!read) return false;
     const sentences = sentencesOf(read).map(inPage);
     if (read.code !== DONE) {
-      say(sentences, true);
+      this.#page.say(sentences, true);
       return false;
     }
-    say([]);
-    this.said = {...this.said, imported: sentences, fitted: []};
+    this.#page.say([`The log${files[MASLOW_SETTINGS] ? " and maslow.yaml are" : " is"} read: ${jsonOf(read.files[BELTS]).points.length} places.`]);
+    this.#imported = sentences;
     if (log) {
       replaceFolder(this.#page, {...files, ...read.files}, "result");
       this.#page.store.show({runs: runsIn(sentences), run: null});
@@ -130,8 +109,8 @@ export class Belts {
     const {machine} = jsonOf(folder[BELTS]);
     const read = await this.#import(folder, {lengths: machine.lengths, orientation: machine.orientation, run: view.run, ...changed});
     if (!read) return;
-    this.said = {...this.said, imported: sentencesOf(read).map(inPage)};
-    this.#say(read.code === DONE ? [] : this.said.imported, read.code !== DONE);
+    this.#imported = sentencesOf(read).map(inPage);
+    this.#page.say(read.code === DONE ? [] : this.#imported, read.code !== DONE);
     if (read.code !== DONE) return;
     const isOtherRun = changed.run !== undefined;
     this.#page.store.change({[BELTS]: withTaped(read.files[BELTS], folder[BELTS]), ...NO_RESULTS, ...(isOtherRun ? {[WITHOUT]: null} : {})});
@@ -161,6 +140,8 @@ export class Belts {
     if (this.#analysed?.every((one, index) => one === made[index])) return;
     const isTyping = this.#analysed !== null && this.#analysed[2] !== holes;
     this.#analysed = made;
+    // What was said of another wish is no answer to this one.
+    if (this.#page.fit) this.#page.fit = {...this.#page.fit, sentences: this.#page.fit.sentences.filter((line) => !isWish(line))};
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => this.#analyse(made), isTyping ? PAUSE_MS : 0);
   }
@@ -169,7 +150,7 @@ export class Belts {
     this.#lengths.value = machine.lengths;
     this.#frame.value = machine.orientation;
     const assumed = [comment].flat().filter((line) => line?.startsWith("assumed"));
-    const imported = this.said.imported.filter((line) => !/^Assumed/.test(line) && !/^ /.test(line));
+    const imported = this.#imported.filter((line) => !/^Assumed/.test(line) && !/^ /.test(line));
     this.#assumed.replaceChildren(sentenceList([...assumed, ...imported].map((line) => inPage(line.charAt(0).toUpperCase() + line.slice(1)))));
     const runs = view.runs ?? 0;
     document.getElementById("belt-runs").hidden = runs < 2;
@@ -185,12 +166,12 @@ export class Belts {
     const isStale = () => made !== this.#analysed;
     const fit = await runVerb(page, ["fit", BELTS, ...withHoles, ...without, ...wishWords(page.store.view), "-o", ANCHORS, "--force"], {quiet: true, supersede: "belts"});
     if (!fit || isStale()) return;
-    this.said = {...this.said, fitted: sentencesOf(fit), isWrong: fit.code !== DONE};
+    page.fit = fitParts(sentencesOf(fit).map(inPage), fit.code !== DONE);
     page.store.derive(fit.code === DONE ? fit.files : NO_RESULTS);
     if (fit.code !== DONE) return;
     const diagnosis = await runVerb(page, ["diagnose", BELTS, ...without, "-o", "diagnosis.json", "--force"], {quiet: true, supersede: "belts"});
     if (!diagnosis || isStale()) return;
-    if (diagnosis.code !== DONE) this.said = {...this.said, fitted: [...this.said.fitted, ...sentencesOf(diagnosis)]};
+    if (diagnosis.code !== DONE) page.fit = {...page.fit, sentences: [...page.fit.sentences, ...sentencesOf(diagnosis)]};
     page.store.derive(diagnosis.code === DONE ? diagnosis.files : NO_DIAGNOSIS);
   }
 }

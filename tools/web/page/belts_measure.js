@@ -11,6 +11,7 @@ import {howToMeasure} from "./how.js";
 import {inPage, sheetInPage} from "./in_page.js";
 import {markRow, Readings} from "./readings.js";
 import {Sheet} from "./sheet.js";
+import {fitBox} from "./verdict.js";
 import {WishBox} from "./wish.js";
 
 /** From the outermost place that was measured to the outermost hole's sheet edge, as plan takes it on a small bed. */
@@ -44,16 +45,16 @@ export function beltsMeasure(page) {
       holes.update(page.store);
       wish.update(page.store);
       const known = frameOf(folder);
-      const now = [folder[ANCHORS], folder["diagnosis.json"], folder[BELTS], folder[WITHOUT], page.belts.said];
+      const now = [folder[ANCHORS], folder["diagnosis.json"], folder[BELTS], folder[WITHOUT], page.fit];
       if (now.every((one, index) => one === drawn[index]) || !known) return;
       // While the anchors are found anew the last picture stays.
-      if (!known.anchors && !page.belts.said.isWrong && places.firstChild) return;
+      if (!known.anchors && !page.fit?.isWrong && places.firstChild) return;
       if (now[2] !== drawn[2]) remembered.clear();
       drawn = now;
       const focused = document.activeElement?.id;
       places.replaceChildren(h("div", {class: "readings"}, h("div", {class: "table-box"}, placesTable(known, (point) => page.belts.toggle(point))),
         h("div", {class: "beside"}, known.anchors ? beltsPicture(known, (point) => page.belts.toggle(point), remembered)
-          : sentenceList(page.belts.said.fitted.map(inPage), {class: "said problem"}))));
+          : "", page.fit ? fitBox(page) : "")));
       if (focused?.startsWith("leave-")) document.getElementById(focused)?.focus({preventScroll: true});
     },
   };
@@ -108,14 +109,14 @@ class HolesPart {
     if (!sheet) return;
     this.#hook.update({view: {...view, sheet: HOLES}});
     this.#readings.draw(sheet, extentOf(folder), "mm");
-    const {said} = this.#page.belts;
-    if (this.#shown.bytes === bytes && this.#shown.said === said) return;
-    this.#shown = {bytes, said};
+    const {fit} = this.#page;
+    if (this.#shown.bytes === bytes && this.#shown.fit === fit) return;
+    this.#shown = {bytes, fit};
     const problems = new Map();
-    const about = sheet.filled === 0 ? [] : said.fitted.filter((line) => said.isWrong || /hole|tape|distance|Scale/i.test(line));
+    const about = sheet.filled === 0 || !fit ? [] : [...fit.sentences, ...fit.tables].filter((line) => /hole|tape|distance|Scale/i.test(line));
     for (const line of about) markRow(problems, sheet, line, HOLES);
     this.#readings.mark(problems);
-    this.#said.className = said.isWrong ? "said problem" : "said";
+    this.#said.className = fit?.isWrong ? "said bad" : "said";
     this.#said.replaceChildren(...(about.length > 0 ? [sentenceList(about.map(inPage))] : []));
   }
 

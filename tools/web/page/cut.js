@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fourth step: a program before and after.
-import {JOBS, NUMBERS, putAway, waysOf} from "./choice.js";
 import {DONE, runVerb, sentenceList, sentencesOf} from "./command.js";
-import {contentOf, download, fileDrop, h, unreadable} from "./dom.js";
-import {DRAWING, filledIn, HOLES, isBelts, isPlotter, jsonOf, mapOf, PASTED} from "./folder.js";
+import {download, fileButton, h, svg} from "./dom.js";
+import {DRAWING, filledIn, HOLES, isBelts, isPlotter, jsonOf, mapOf, PASTED, roadOf} from "./folder.js";
 import {reportFrame} from "./frame.js";
 import {inPage} from "./in_page.js";
-import {areTypedIn, settingsWords} from "./numbers.js";
+import {intake} from "./intake.js";
 import {readsGcode} from "./plotter_text.js";
+import {JOBS, NUMBERS, putAway} from "./result.js";
+import {areIn, settingsWords, typedTick} from "./type_in.js";
+import {isStopped, verdictBand} from "./verdict.js";
 
 const PROGRAMS = [".nc", ".gcode", ".ngc", ".tap", ".cnc", ".txt"];
 /** Programs that drive to the marks; they belong to the lists of marks. */
@@ -16,38 +18,40 @@ const SHEETS = ["marks.nc", "holes.nc", "lengths.nc", "five.nc", "page.gcode", "
 const TASK = "cut";
 
 /** What the controller holds now, where that is not what it was measured with. */
-const nowWords = (folder) => (isPlotter(folder) ? [] : !isBelts(folder) ? settingsWords(folder) : folder[PASTED] ? ["--machine", PASTED] : []);
-const areIn = (folder) => (isBelts(folder) ? Boolean(folder[PASTED]) : areTypedIn(folder));
+const nowWords = (folder) => ({plotter: [], chains: settingsWords(folder), belts: folder[PASTED] ? ["--machine", PASTED] : []})[roadOf(folder)];
 
-const isProgram = (path) => PROGRAMS.some((end) => path.toLowerCase().endsWith(end));
-
-/** Why a file of this name cannot be added to the folder as a program; null if it can. */
-function refusalOf(name, folder) {
-  if (!isProgram(name)) return `${name} is not opened: a G-code program's name ends in ${PROGRAMS.slice(0, -1).join(", ")} or ${PROGRAMS.at(-1)}.`;
-  if (name in folder && (SHEETS.includes(name) || name === "README.txt"))
-    return `${name} is not opened: the machine's folder has a file of that name. Give the program another name.`;
-  return null;
-}
+export const isProgram = (path) => PROGRAMS.some((end) => path.toLowerCase().endsWith(end));
 
 /** Where GroundControl's home is, as somebody typed it; other controllers have none. */
 const homeOf = ({folder, view}) => (isBelts(folder) || isPlotter(folder) ? "0,0"
   : (view.home ?? []).map((text) => text.trim().replace(",", ".") || "0").join(",") || "0,0");
 const homeWords = (store) => (homeOf(store) === "0,0" ? [] : ["--home", homeOf(store)]);
 
-/** Asked before a program is written: GroundControl adds its home to every place that it is sent. */
-function homeFields(page) {
-  const inputs = ["x", "y"].map((axis) => h("input", {id: `home-${axis}`, type: "text", inputmode: "decimal", size: 6,
+/** Asked before a program is written, with a picture: GroundControl adds its home to every place that it is sent. */
+function homeQuestion(page) {
+  const inputs = ["x", "y"].map((axis) => h("input", {id: `home-${axis}`, type: "text", inputmode: "decimal", size: 6, "aria-label": `home ${axis}, mm`,
     onchange: () => page.store.show({home: inputs.map(({value}) => value)})}));
-  const element = h("p", {class: "choices"}, inputs.map((input, index) =>
-    h("span", {class: "pair"}, h("label", {for: input.id}, ["Home is at x, mm", "y, mm"][index]), input)),
-  h("span", {class: "hint"}, "0, 0 is the sheet's middle; elsewhere if you have moved it with Define Home"));
+  const middle = h("input", {type: "radio", name: "home", id: "home-middle", onchange: () => page.store.show({home: ["0", "0"]})});
+  const elsewhere = h("input", {type: "radio", name: "home", id: "home-elsewhere", onchange: () => inputs[0].focus()});
+  const cross = svg("path", {class: "home"});
+  const element = h("section", {class: "home-part"}, h("h3", {}, "Where is home?"),
+    svg("svg", {viewBox: "-130 -70 260 140", class: "home-picture", role: "img", "aria-label": "The sheet with its middle lines, and home as a cross."},
+      svg("rect", {class: "board", x: -120, y: -60, width: 240, height: 120}), svg("path", {class: "axes", d: "M -120 0 H 120 M 0 -60 V 60"}), cross),
+    h("div", {}, h("p", {class: "pair"}, middle, h("label", {for: "home-middle"}, "in the sheet's middle")),
+      h("p", {class: "pair"}, elsewhere, h("label", {for: "home-elsewhere"}, "elsewhere, since Define Home was used. x, y in mm from the middle:"), inputs)));
   return {
     element,
+    /** Whether it still has to be answered. */
+    isOpen: ({folder, view}) => roadOf(folder) === "chains" && !view.home,
     update({folder, view}) {
-      element.hidden = isBelts(folder) || isPlotter(folder);
+      element.hidden = roadOf(folder) !== "chains";
+      middle.checked = view.home?.join() === "0,0";
+      elsewhere.checked = Boolean(view.home) && !middle.checked;
       inputs.forEach((input, index) => {
-        if (input !== document.activeElement) input.value = view.home?.[index] ?? "0";
+        if (input !== document.activeElement) input.value = view.home?.[index] ?? "";
       });
+      const [x, y] = (view.home ?? ["0", "0"]).map((text, index) => Math.max(-1, Math.min(1, Number(text.replace(",", ".")) / [1219, 610][index] || 0)) * [110, 50][index]);
+      cross.setAttribute("d", `M ${x - 9} ${-y} h 18 M ${x} ${-y - 9} v 18`);
     },
   };
 }
@@ -55,29 +59,21 @@ function homeFields(page) {
 export function cutStep(page) {
   const said = h("div", {class: "said", role: "status"});
   const outcome = h("div");
-  const none = h("p", {class: "hint"}, "There is no map yet: type readings in first.");
+  const stop = h("div");
   const jobs = h("p", {class: "buttons"});
   const settings = h("p", {class: "hint"});
-  const away = h("div");
-  const title = h("h3", {}, "Cut a part true");
-  const home = homeFields(page);
-  const open = h("div", {hidden: true},
-    h("section", {}, title,
-      h("p", {}, "The program is rewritten so that the machine as it is cuts what was drawn, and run " +
-        "on a simulated controller before you get it."),
-      settings, home.element,
-      fileDrop("program", "Open a G-code program", PROGRAMS.join(","), "Or drop it here.", ([file]) => take(file)), jobs),
-    said, outcome);
-  const all = h("div", {hidden: true}, away, open);
+  const home = homeQuestion(page);
+  const open = h("section", {}, h("h3", {}, "Correct a program"),
+    h("p", {}, "The program is rewritten for your machine, and run on a simulated controller before you get it."), settings,
+    h("p", {class: "buttons"}, fileButton("program", "Open a G-code program", PROGRAMS.join(","), (files) => intake(page, files)), jobs));
+  const all = h("div", {hidden: true}, home.element, open, said, outcome);
 
   /** Of several programs in sequence only the last is processed and shown. */
   let latest = 0;
-  /** Whether numbers were typed in when the program that is shown was compensated. */
-  let wereTypedIn = false;
-  /** Where home was then. */
-  let homeWas = "";
-  let awayFor = "";
+  /** What the program that is shown was compensated for: home, and whether numbers were in. */
+  let madeFor = "";
   let shownJobs = "";
+  const now = () => `${homeOf(page.store)} ${areIn(page.store)}`;
   function begin() {
     page.engine.cancel((job) => job.supersede === TASK);
     outcome.replaceChildren();
@@ -85,27 +81,38 @@ export function cutStep(page) {
     return ++latest;
   }
 
-  function say(sentences, isProblem) {
-    said.className = isProblem ? "said problem" : "said";
+  function say(sentences, tone) {
+    said.className = `said ${tone}`;
     said.replaceChildren(sentenceList(sentences.map(inPage)));
   }
 
-  async function take(file) {
-    const mine = begin();
-    const name = file.name.replace(/[^\w.-]/g, "_");
-    const refused = refusalOf(name, page.store.folder);
-    if (refused) {
-      say([refused], true);
-      return;
+  /** Why nothing can be compensated now, as elements; empty where it can. */
+  function stops({folder, view}) {
+    const part = (...children) => [h("section", {}, ...children)];
+    const go = (words, step) => h("p", {class: "buttons"}, h("button", {type: "button", class: "main", onclick: () => page.store.show({step})}, words));
+    if (isPlotter(folder) && !readsGcode(jsonOf(folder[DRAWING]))) return part(h("p", {}, "This plotter is sent pictures, not programs. It draws them right once the numbers are typed in."));
+    if (!folder[mapOf(folder)]) return part(h("p", {class: "hint"}, "There is no result yet: measure first."), go("Go to the readings", "measure"));
+    if (page.fit && isStopped(page)) return [verdictBand(page)];
+    if (view.way === NUMBERS && !areIn(page.store)) {
+      return part(h("h3", {}, "Are the numbers in?"), h("p", {}, "You chose to type numbers in. Programs stay as they are; what is left can be compensated after that."),
+        page.numbers ? typedTick(page, page.numbers) : "", go("Show the numbers", "result"), putAway(page, NUMBERS));
     }
-    const bytes = await contentOf(file);
-    if (mine !== latest) return;
-    if (!bytes) {
-      say([unreadable(file)], true);
+    if (isBelts(folder) && areIn(page.store) && filledIn(folder[HOLES]) === 0) return part(h("p", {}, "The lines are in the machine: cut your programs as they are. Holes and a tape show what is left; then programs can be compensated for it."), go("Measure nine holes", "measure"));
+    return [];
+  }
+
+  /** A program from anywhere on the page; it is kept until there is a result. */
+  async function take(name, bytes) {
+    const {folder} = page.store;
+    if (name in folder && (SHEETS.includes(name) || name === "README.txt")) {
+      page.say([`${name} is not opened: the machine's folder has a file of that name. Give the program another name.`], true);
       return;
     }
     page.store.change({[name]: bytes});
-    await compensate(name);
+    const isStoppedHere = stops(page.store).length > 0;
+    if (!isStoppedHere || folder[mapOf(folder)]) page.store.show({step: "cut"});
+    if (isStoppedHere || home.isOpen(page.store)) page.say([`${name} is a program, and is kept. ${isStoppedHere ? "It can be corrected once there is a result that you have read." : "Say where home is, then press its button."}`]);
+    else await compensate(name);
   }
 
   async function compensate(name) {
@@ -116,13 +123,12 @@ export function cutStep(page) {
       "-o", names.truth, "--report", names.report, "--force"], {supersede: TASK});
     if (mine !== latest) return;
     if (!result) {
-      say([`${name} was not compensated. Open it once more to try again.`], true);
+      say([`${name} was not compensated. Open it once more to try again.`], "bad");
       return;
     }
     const isDone = result.code === DONE;
-    wereTypedIn = areIn(page.store.folder);
-    homeWas = homeOf(page.store);
-    say(sentencesOf(result), !isDone);
+    madeFor = now();
+    say(sentencesOf(result), isDone ? "good" : "bad");
     page.store.derive(result.files);
     // Who compensates a program before the choice has chosen.
     if (isDone && !page.store.view.way) page.store.show({way: JOBS});
@@ -139,49 +145,28 @@ export function cutStep(page) {
       files[report] && reportFrame(`${name} before and after`, report, files[report], {onDownload: () => download(report, files[report])})));
   }
 
-  /** What stands here instead of the programs, where there is nothing to compensate. */
-  function drawAway(folder, view) {
-    const isChosen = view.way === NUMBERS && !areIn(folder);
-    const isAllIn = isBelts(folder) && areIn(folder) && filledIn(folder[HOLES]) === 0;
-    const key = isChosen ? "chosen" : isAllIn ? "all in" : "";
-    open.hidden = key !== "";
-    if (awayFor === key) return;
-    awayFor = key;
-    away.replaceChildren(...(isChosen ? [h("section", {}, putAway(page, waysOf(isBelts(folder)), NUMBERS))]
-      : isAllIn ? [h("section", {}, h("p", {}, "The lines are in the machine: cut programs as they are. What is left, holes and a tape show (under Measure); " +
-        "then programs can be compensated for it."))] : []));
-  }
-
   async function verify(name, truth, verdict) {
     const result = await runVerb(page, ["gcode", "verify", name, truth, "--map", mapOf(page.store.folder), ...nowWords(page.store.folder), ...homeWords(page.store)]);
     if (!result) return;
-    verdict.className = result.code === DONE ? "said" : "said problem";
+    verdict.className = `said ${result.code === DONE ? "good" : "bad"}`;
     verdict.replaceChildren(sentenceList([...result.stdout.split("\n").filter(Boolean), ...sentencesOf(result)]));
   }
 
   return {
-    element: h("div", {}, none, all),
+    element: h("div", {}, stop, all), take,
     given: () => done(page.store.folder),
-    label: () => (isPlotter(page.store.folder) ? "Draw" : "Cut"),
     update() {
       const {folder, view} = page.store;
-      const isOfPictures = isPlotter(folder) && !readsGcode(jsonOf(folder[DRAWING]));
-      const ready = Boolean(folder[mapOf(folder)]) && !isOfPictures;
-      none.hidden = ready;
-      title.textContent = isPlotter(folder) ? "Draw a picture true" : "Cut a part true";
-      none.textContent = isOfPictures ? "This plotter is sent pictures, not programs: it draws them true once the lines are typed in."
-        : isPlotter(folder) ? "Nothing is found yet: measure the test page first." : isBelts(folder) ? "The anchors are not found yet: paste the log first." : "There is no map yet: type readings in first.";
-      all.hidden = !ready;
-      drawAway(folder, view);
-      settings.textContent = settingsSentence(folder);
+      if (view.step !== "cut") return;
+      const why = stops(page.store);
+      stop.replaceChildren(...why);
+      all.hidden = why.length > 0;
+      settings.textContent = settingsSentence(page.store);
       home.update(page.store);
-      if (outcome.firstChild && homeWas !== homeOf(page.store)) {
+      open.hidden = home.isOpen(page.store);
+      if (outcome.firstChild && madeFor !== now()) {
         begin();
-        say(["Home was elsewhere when this program was compensated: compensate it again."], true);
-      }
-      if (outcome.firstChild && wereTypedIn !== areIn(folder)) {
-        begin();
-        say(["The controller holds other numbers than this program was compensated for: compensate it again."], true);
+        say(["Home or the machine's numbers have changed since this program was compensated: compensate it again."], "bad");
       }
       const programs = Object.keys(folder).filter((path) => isProgram(path) && !SHEETS.includes(path) && !/\.(true\.nc|txt)$/i.test(path));
       if (shownJobs === programs.join("/")) return;
@@ -191,16 +176,8 @@ export function cutStep(page) {
   };
 }
 
-function settingsSentence(folder) {
-  if (isPlotter(folder)) return "It is for the plotter with the numbers that it drew the test page with. Once you have typed the lines in, draw the second page first.";
-  if (isBelts(folder)) {
-    return areIn(folder) ? "It is for the machine with the lines that you pasted (see Map and causes)."
-      : "It is for the machine with the anchors that it had when the log was made. If you have pasted the lines since, say so under Map and causes.";
-  }
-  return areIn(folder) ? "It is for the controller with the numbers that you typed in (see Map and causes)."
-    : "It is for the controller with the settings that it was measured with. If you have typed in the better numbers since, " +
-      "say so under Map and causes.";
-}
+/** Which numbers a compensated program counts on. */
+const settingsSentence = (store) => `The machine must hold ${areIn(store) ? "the numbers that you typed in" : "the numbers that it was measured with"}; the Result step has a tick for that.`;
 
 /** The line of the folded step: the programs that were compensated. */
 function done(folder) {

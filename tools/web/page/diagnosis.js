@@ -1,63 +1,64 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Why the machine errs: the verdict, the causes by their probability with a picture each, what to do; and the map built on them.
+// Why the machine errs: the cause with its picture and one remedy, and folded the others, what to measure next, the diagnosis.
 import {causePicture} from "./cause_pictures.js";
 import {DONE, printed, runVerb, sentenceList, sentencesAbout} from "./command.js";
 import {bytesOf, folded, h, textOf} from "./dom.js";
-import {bedOf, fittedList, HOLES, jsonOf, NO_DIAGNOSIS} from "./folder.js";
+import {fittedList, HOLES, jsonOf, NO_DIAGNOSIS, ownEffects, roadOf} from "./folder.js";
 import {report} from "./frame.js";
 import {explained} from "./glossary.js";
 import {hookWords} from "./hook.js";
 import {inPage} from "./in_page.js";
 import {keepLaw, ownEffectPart, ownWords} from "./own_effect.js";
-import {errorPicture} from "./picture.js";
 import {Sheet} from "./sheet.js";
 
-/** Ranked causes that are shown at once: what is less likely than this is folded. */
-const SHOWN_FROM = 0.05;
+/** What a diagnosis adds that the result does not repeat: its own numbers. */
+const NUMBERS = / With it, the tool's error falls from .*$| What one belt's reading is off by falls from .*$/;
 
 export function causesPart(page) {
-  const noise = new NoiseFields(page);
-  const noiseBox = h("details", {}, h("summary", {}, "How well you read"), noise.element);
-  const causes = h("div");
-  const use = h("div");
+  const noise = new NoiseFields(page, () => diagnose(page, noise.words()));
   const own = ownEffectPart(page);
+  const cause = h("section", {class: "cause"});
+  const rest = h("div");
   const law = h("div");
   const next = h("div");
   const whole = folded("The whole diagnosis", (box) => report(page, "diagnosis.json", "diagnosis.html", "The diagnosis", box));
-  const ask = h("button", {type: "button", class: "main", onclick: () => diagnose(page, noise.words())}, "Find the cause");
-  const element = h("section", {}, h("h3", {}, "Why does it err?"),
-    h("p", {}, "Which of the known causes explains the readings, how sure that is, and what to do."),
-    noiseBox, own.element, h("p", {class: "buttons"}, ask), causes, use, law, next, whole.element);
+  const others = h("details", {}, h("summary", {}, "Other causes that were looked at"), rest);
+  const measureNext = h("details", {}, h("summary", {}, "What to measure next"), next);
   let shown = null;
-  let used = {};
+  let asked = null;
 
-  /** What the map says of causes, where that has changed. */
-  function drawUse(view) {
-    if (used.plain === view.plain && used.fit === page.fit) return;
-    used = {plain: view.plain, fit: page.fit};
-    const hadFocus = use.contains(document.activeElement);
-    use.replaceChildren(...usePart(page, view));
-    if (hadFocus) use.querySelector("button")?.focus({preventScroll: true});
+  /** Chains have their causes looked for once there is a map; belts and plotters with each fit. */
+  function askOnce(folder) {
+    const of = [folder["map.json"], ...ownEffects(folder).map((name) => folder[name])];
+    if (roadOf(folder) !== "chains" || folder["diagnosis.json"] || !of[0] || (asked?.length === of.length && of.every((one, index) => one === asked[index]))) return;
+    asked = of;
+    diagnose(page, noise.words());
   }
 
   return {
-    element,
-    update({folder, view}) {
+    cause, noise: noise.element, folds: [others, measureNext, own.element, whole.element],
+    update({folder}) {
       noise.update(page.store);
-      noiseBox.hidden = noise.element.hidden;
       own.update(page.store);
+      askOnce(folder);
+      const isChains = roadOf(folder) === "chains";
       const bytes = folder["diagnosis.json"];
-      whole.element.hidden = !bytes;
-      ask.classList.toggle("main", !bytes);
-      drawUse(view);
+      const found = jsonOf(bytes);
+      cause.hidden = others.hidden = whole.element.hidden = !found;
+      measureNext.hidden = !found || !isChains;
+      noise.element.hidden ||= !isChains;
+      own.element.hidden = !isChains;
       if (shown === bytes) return;
       shown = bytes;
-      next.replaceChildren(...(bytes ? [h("p", {class: "buttons"},
-        h("button", {type: "button", onclick: () => planNext(page, next)}, "What to measure next"))] : []));
       whole.forget();
-      causes.replaceChildren();
-      law.replaceChildren(...lawPart(page, jsonOf(bytes), () => keepLaw(page, diagnosisWords(page, noise.words()))));
-      if (bytes) drawCauses(page, jsonOf(bytes), causes);
+      for (const box of [cause, rest, next]) box.replaceChildren();
+      if (!found) return;
+      next.replaceChildren(sentenceList((found.what_to_do ?? []).slice(1).map((line) => inPage(capital(line)))),
+        h("p", {class: "buttons"}, h("button", {type: "button", onclick: () => planNext(page, next)}, "Plan more marks")));
+      law.replaceChildren(...lawPart(page, found, () => keepLaw(page, diagnosisWords(page, noise.words()))));
+      drawCause(page, found, cause);
+      cause.append(law);
+      drawRest(page, found, rest);
     },
   };
 }
@@ -81,60 +82,44 @@ function lawPart(page, found, keep) {
     h("span", {class: "hint"}, "then measure other points: they confirm or deny it"))];
 }
 
-const NOT_CAUSES = {nothing: "nothing is wrong", law: "a law that no listed cause has", unknown: "a pattern that no known cause makes", noise: "readings that are worse than they should be", bad_points: "readings that are wrong"};
+const NOT_CAUSES = {nothing: "nothing besides the settings", law: "a law that no listed cause has", unknown: "a pattern that no known cause makes", noise: "readings that are worse than they should be", bad_points: "readings that are wrong"};
 
-/** The hypotheses of a diagnosis as bars, likeliest first. `meanings` has sentences by effect, `pictures` figures by rank. */
-function causeBars(hypotheses, meanings, pictures = []) {
-  return h("ol", {class: "causes"}, hypotheses.map(({effect, side, probability}, rank) => {
+/** The hypotheses of a diagnosis as bars, likeliest first. `meanings` has sentences by effect. */
+function causeBars(hypotheses, meanings) {
+  return h("ol", {class: "causes"}, hypotheses.map(({effect, side, probability}) => {
     const percent = 100 * probability;
     const words = percent > 99.9 ? "above 99.9 %" : percent < 0.1 ? "below 0.1 %" : `${percent.toFixed(percent < 10 ? 1 : 0)} %`;
     return h("li", {}, h("span", {class: "bar"}, h("span", {style: `width: ${Math.max(percent, 0.5).toFixed(1)}%`})),
       h("b", {}, NOT_CAUSES[effect] ?? nameOf({effect, side})), h("span", {class: "percent"}, words),
-      meanings[effect] && h("span", {class: "hint"}, meanings[effect]), pictures[rank]);
+      meanings[effect] && h("span", {class: "hint"}, meanings[effect]));
   }));
 }
 
-const likelyOf = (hypotheses) => hypotheses.filter(({probability}, rank) => rank === 0 || probability >= SHOWN_FROM);
-
-/** The likely ones at once, at least one; the rest folded. */
-export function rankedCauses(hypotheses, meanings = {}, pictures = []) {
-  const likely = likelyOf(hypotheses);
-  const rest = hypotheses.slice(likely.length);
-  return [h("h4", {}, "Causes, likeliest first"), causeBars(likely, meanings, pictures),
-    rest.length > 0 && h("details", {}, h("summary", {}, `${rest.length} others that were looked at`), causeBars(rest, meanings))].filter(Boolean);
-}
 
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** What to do, and below it, folded, what the verdict does not prove. */
-export function remedies(found) {
-  return [
-    found.what_to_do?.length > 0 && h("h4", {}, "What to do"),
-    found.what_to_do?.length > 0 && h("ul", {class: "sentences"}, found.what_to_do.map((line) => h("li", {}, explained(inPage(capital(line)))))),
-    h("details", {}, h("summary", {}, "What this does not prove"),
-      sentenceList([found.not_proved, ...(found.notes ?? [])].filter(Boolean).map(inPage))),
-  ].filter(Boolean);
-}
-
-async function drawCauses(page, found, box) {
-  box.append(h("p", {class: "headline verdict"}, explained(inPage(found.sentence), 2)));
-  const bed = bedOf(page.store.folder);
-  const points = (found.points ?? []).filter(({before_mm: before, after_mm: after}) => before && after);
-  if (bed && points.length > 0 && found.causes?.length > 0) {
-    box.append(errorPicture(bed, points, ({before_mm: error}) => error, ({after_mm: error}) => error, {
-      label: `The bed with two arrows at each mark: its error, and what is left of it with ${found.causes.map(nameOf).join(" and ")}.`,
-      before: "with better numbers alone", after: `with ${found.causes.map(nameOf).join(" and ")}`,
-    }));
-  }
+/** The verdict, one remedy to tick off, and the picture of the likeliest cause. */
+async function drawCause(page, found, box) {
+  const [remedy] = found.what_to_do ?? [];
+  const needsNone = /^Your machine needs no map/.test(page.fit?.headline ?? "") || (found.causes?.length === 0 && roadOf(page.store.folder) === "plotter");
+  const tick = h("input", {type: "checkbox", checked: page.store.view.done === remedy, onchange: () => page.store.show({done: tick.checked ? remedy : null})});
+  const picture = h("div");
+  box.replaceChildren(h("h3", {}, "The cause"), h("p", {class: "verdict"}, explained(inPage(found.sentence).replace(NUMBERS, ""), 2)),
+    ...(remedy && !needsNone ? [h("p", {}, h("label", {class: "pair"}, tick, capital(inPage(remedy))))] : []), picture);
   if (found.declared?.length > 0)
     box.append(h("h4", {}, "Your own cause"), sentenceList(found.declared.map((one) => `${capital(nameOf(one))}: ${SAYS[one.says]}.`)));
-  const ranked = h("div", {}, rankedCauses(found.hypotheses));
-  box.append(ranked, ...remedies(found));
+  const [first] = found.hypotheses;
+  const drawn = first && await causePicture(page, found, first, NOT_CAUSES[first.effect] ?? nameOf(first));
+  if (drawn) picture.replaceChildren(drawn);
+}
+
+/** All hypotheses by their probability, and what the verdict does not prove. */
+async function drawRest(page, found, box) {
+  const draw = (meanings) => box.replaceChildren(h("p", {class: "hint"}, "Each probability is for itself, because causes can act together."), causeBars(found.hypotheses, meanings),
+    h("h4", {}, "What this does not prove"), sentenceList([found.not_proved, ...(found.notes ?? [])].filter(Boolean).map(inPage)));
+  draw({});
   const meanings = await meaningsOf(page);
-  ranked.replaceChildren(...rankedCauses(found.hypotheses, meanings));
-  const pictures = [];
-  for (const one of likelyOf(found.hypotheses)) pictures.push(await causePicture(page, found, one, NOT_CAUSES[one.effect] ?? nameOf(one)));
-  if (ranked.isConnected) ranked.replaceChildren(...rankedCauses(found.hypotheses, meanings, pictures));
+  if (jsonOf(page.store.folder["diagnosis.json"]) === found) draw(meanings);
 }
 
 let catalogue = null;
@@ -149,41 +134,25 @@ async function meaningsOf(page) {
   return catalogue;
 }
 
-/** What the map says of causes, and the button that builds it without them, or again with them. */
-function usePart(page, view) {
-  const about = page.fit?.sentences.filter((sentence) => /^(Found, |Probable cause|Possible cause|What changed)/.test(sentence)) ?? [];
-  if (!view.plain && about.length === 0) return [];
-  const button = h("button", {type: "button", onclick: () => buildPlain(page, !view.plain)},
-    view.plain ? "Build the map with the causes that are found" : "Build the map without causes");
-  return [h("div", {id: "use-causes"}, changes(page, view, about), h("p", {class: "buttons"}, button))];
-}
-
-/** Before and after, with the command's own sentences on the causes. */
-function changes(page, {plain, before}, about) {
-  if (page.fit?.isPlain !== plain) return h("p", {class: "hint"}, "The map is built again ...");
-  const now = before && (before === page.fit.headline ? "Now: the same." : page.fit.headline && `Now: ${page.fit.headline}`);
-  return h("div", {class: "said", role: "status"}, sentenceList([before && `Before: ${before}`, now, ...about].filter(Boolean)));
-}
-
-/** The measure step fits the readings again. */
-function buildPlain(page, plain) {
-  page.store.show({plain, before: page.fit?.headline ?? null, sheet: fittedList(page.store.view)});
-}
-
 const NOISE = [["--noise-length-mm", "A chain length is good to, mm"], ["--noise-position-mm", "A place that you read is good to, mm"]];
 
 /** How well the user reads. */
 class NoiseFields {
   #page;
+  #changed;
   #inputs = NOISE.map(([option]) => h("input", {
     id: option.slice(2), type: "text", inputmode: "decimal", size: 5,
-    onchange: () => this.#page.store.show({noise: this.#inputs.map(({value}) => value)}),
+    onchange: () => {
+      this.#page.store.show({noise: this.#inputs.map(({value}) => value)});
+      this.#changed();
+    },
   }));
   element = h("p", {class: "choices"}, NOISE.map(([option, label], index) =>
     h("span", {class: "pair"}, h("label", {for: option.slice(2)}, label), this.#inputs[index])));
 
-  constructor(page) {
+  constructor(page, changed) {
     this.#page = page;
+    this.#changed = changed;
   }
 
   update({folder, view}) {

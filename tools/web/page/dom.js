@@ -42,26 +42,14 @@ export function download(name, bytes) {
   setTimeout(() => URL.revokeObjectURL(url), 60_000);
 }
 
-/** A button that opens the browser's file dialog, and an area to drop files. */
-export function fileDrop(id, label, accept, hint, take, {multiple = false} = {}) {
-  const input = h("input", {type: "file", id, accept, multiple, onchange: async () => {
+/** A button that opens the browser's file dialog. `id` is that of the input. */
+export function fileButton(id, label, accept, take) {
+  const input = h("input", {type: "file", id, accept, multiple: true, class: "unseen", onchange: async () => {
     const files = [...input.files];
     input.value = "";
     if (files.length > 0) await take(files);
   }});
-  const zone = h("div", {class: "drop"}, h("label", {for: id}, label), input, h("p", {class: "hint"}, hint));
-  zone.addEventListener("dragover", (event) => {
-    event.preventDefault();
-    zone.classList.add("over");
-  });
-  zone.addEventListener("dragleave", () => zone.classList.remove("over"));
-  zone.addEventListener("drop", async (event) => {
-    event.preventDefault();
-    zone.classList.remove("over");
-    const files = [...event.dataTransfer.files];
-    if (files.length > 0) await take(multiple ? files : files.slice(0, 1));
-  });
-  return zone;
+  return h("span", {class: "file"}, input, h("label", {for: id}, label));
 }
 
 /** Text that `draw` fills when it is first opened. `forget` empties it, and fills it anew if it is open. */

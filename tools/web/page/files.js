@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The folder's files, one by one, as the command wrote them.
-import {download, h} from "./dom.js";
+import {download, folded, h} from "./dom.js";
 
-export function filesStep(page) {
+export function filesPart(page) {
   const rows = h("tbody");
-  return {
-    element: h("section", {}, h("h3", {}, "The folder"),
-      h("p", {}, "Everything that this page knows of your machine. The buttons Download and Open above give and take it " +
-        "as one zip; the command chaintrue works on the same files."),
-      h("div", {class: "table-box"}, h("table", {}, h("thead", {}, h("tr", {}, h("th", {scope: "col"}, "file"),
-        h("th", {scope: "col", class: "number"}, "bytes"), h("th", {scope: "col"}, ""))), rows))),
-    given: () => {
-      const count = Object.keys(page.store.folder).length;
-      return count > 0 ? `${count} files` : "";
-    },
-    update() {
-      const {folder, view} = page.store;
-      if (view.step !== "files") return;
-      rows.replaceChildren(...Object.keys(folder).sort().map((path) => h("tr", {}, h("th", {scope: "row"}, path),
-        h("td", {class: "number"}, String(folder[path].length)),
-        h("td", {}, h("button", {type: "button", onclick: () => download(path, folder[path])}, "Download"), ))));
-    },
-  };
+  const part = folded("All files of this machine", (box) => {
+    box.append(h("p", {}, "The command chaintrue works on the same files. The button Download above gives all of them as one zip."),
+      h("div", {class: "table-box"}, h("table", {}, rows)));
+    draw();
+  });
+  function draw() {
+    const {folder} = page.store;
+    rows.replaceChildren(...Object.keys(folder).sort().map((path) => h("tr", {}, h("th", {scope: "row"}, path),
+      h("td", {class: "number"}, `${folder[path].length} bytes`),
+      h("td", {}, h("button", {type: "button", onclick: () => download(path, folder[path])}, "Download")))));
+  }
+  return {element: part.element, update: () => {
+    part.element.hidden = Object.keys(page.store.folder).length === 0;
+    if (part.element.open) draw();
+  }};
 }

@@ -39,8 +39,10 @@ export const NO_DIAGNOSIS = {"diagnosis.json": null, "diagnosis.html": null};
 
 export const isBelts = (folder) => Boolean(folder[BELTS] || folder[MASLOW_SETTINGS]);
 export const isPlotter = (folder) => Boolean(folder[DRAWING]);
+/** Which of the three machines it is. */
+export const roadOf = (folder) => (isBelts(folder) ? "belts" : isPlotter(folder) ? "plotter" : "chains");
 /** What a program is compensated with. */
-export const mapOf = (folder) => (isBelts(folder) ? ANCHORS : isPlotter(folder) ? FOUND : "map.json");
+export const mapOf = (folder) => ({belts: ANCHORS, plotter: FOUND, chains: "map.json"})[roadOf(folder)];
 export const programOf = (sheet) => sheet.replace(/\.csv$/, ".nc");
 
 /** The list of readings for the map: the one shown, or the one shown last. */
@@ -75,5 +77,5 @@ export const filledIn = (bytes) => (bytes ? Sheet.of(textOf(bytes))?.filled ?? 0
 /** True if readings were typed into a list: they are not discarded without a question. */
 export function hasReadings(folder) {
   const isRuled = (jsonOf(folder[DRAWING])?.measures ?? []).some(({value_mm: value}) => value !== null && value !== undefined);
-  return isRuled || Object.entries(folder).some(([path, bytes]) => path.endsWith(".csv") && filledIn(bytes) > 0);
+  return isRuled || Boolean(folder[BELTS]) || Object.entries(folder).some(([path, bytes]) => path.endsWith(".csv") && filledIn(bytes) > 0);
 }

@@ -5,16 +5,15 @@ import {beltsMeasure} from "./belts_measure.js";
 import {bytesOf, download, folded, h, textOf} from "./dom.js";
 import {bedOf, fittedList, HOLES, isBelts, isPlotter, MARKS, NEW_POINTS, NO_DIAGNOSIS, programOf} from "./folder.js";
 import {reportFrame} from "./frame.js";
-import {explained} from "./glossary.js";
 import {howToMeasure} from "./how.js";
 import {hookTick, hookWords} from "./hook.js";
 import {inPage, sheetInPage} from "./in_page.js";
-import {fitParts} from "./measure_words.js";
-import {settingsWords} from "./numbers.js";
 import {ownWords} from "./own_effect.js";
 import {plotterMeasure} from "./plotter_measure.js";
 import {markRow, Readings} from "./readings.js";
 import {Sheet} from "./sheet.js";
+import {settingsWords} from "./type_in.js";
+import {fitBox, fitParts} from "./verdict.js";
 import {WishBox, wishWords} from "./wish.js";
 
 const WAYS = [
@@ -27,7 +26,7 @@ const CHECK = [NEW_POINTS, "New points: does the map still hold?"];
 const PAUSE_MS = 350;
 
 export function measureStep(page) {
-  const said = h("div", {class: "said", role: "status", "aria-live": "polite"});
+  const said = h("div");
   const readings = new Readings((text, name) => {
     page.store.change({[page.store.view.sheet]: bytesOf(text), ...NO_DIAGNOSIS}, name && `${page.store.view.sheet} ${name}`);
     fitSoon();
@@ -77,10 +76,10 @@ export function measureStep(page) {
   let shown = null;
   let shownHow = null;
   let fittedWith = "";
+  let shownRead = null;
   return {
     element,
     given: () => (isBelts(page.store.folder) ? ofBelts.given() : isPlotter(page.store.folder) ? ofPlotter.given() : given(page.store)),
-    label: () => (isPlotter(page.store.folder) ? "Draw and measure" : "Measure"),
     update() {
       const {folder, view} = page.store;
       ofBelts.update();
@@ -105,11 +104,13 @@ export function measureStep(page) {
       readings.element.hidden = sheet === null;
       if (sheet) readings.draw(sheet, bed, view.unit);
       wish.update(page.store);
-      const fitWith = [...choiceWords(view), ...hookWords(page.store)].join(" ");
+      const fitWith = [view.sheet, ...wishWords(view), ...hookWords(page.store)].join(" ");
+      if (view.read !== shownRead && page.fit && view.sheet !== NEW_POINTS) said.replaceChildren(...fitBox(page));
+      shownRead = view.read;
       if (shown === bytes && shown !== null && fittedWith === fitWith) return;
       shown = bytes;
       fittedWith = fitWith;
-      page.fit = null;
+      if (view.sheet !== NEW_POINTS) page.fit = null;
       if (sheet) {
         fitSoon();
         return;
@@ -126,9 +127,6 @@ function given({folder, view}) {
   if (!sheet || sheet.filled === 0) return "";
   return `${sheet.filled} of ${sheet.rows.length} ${sheet.isOfPoints ? "marks" : "distances"} typed in`;
 }
-
-/** What the user chose about the fit. */
-const choiceWords = (view) => [...(view.plain ? ["--plain"] : []), ...wishWords(view)];
 
 export async function chooseWay(page, path) {
   if (!page.store.folder[path] && page.store.folder["machine.json"]) {
@@ -153,11 +151,16 @@ async function judge(page, readings, said) {
     said.replaceChildren(h("p", {class: "hint"}, "Nothing is typed in yet."));
     return;
   }
+  const added = list?.withPlacesAdded();
+  if (added) {
+    said.replaceChildren(h("div", {class: "said caution", role: "status"}, h("p", {}, "These numbers look like errors, not like places. Type where each mark is, counted from the middle lines."),
+      h("p", {class: "buttons"}, h("button", {type: "button", onclick: () => page.store.change({[path]: bytesOf(added)})}, "They are errors: add the places that were sent"))));
+    return;
+  }
   const isCheck = path === NEW_POINTS;
-  const isPlain = Boolean(page.store.view.plain);
   const words = isCheck ? ["check", "map.json", path, "--machine", "machine.json", ...settingsWords(page.store.folder)]
     : ["fit", path, "--machine", "machine.json", "-o", "map.json", "--force", "--verbose",
-      ...choiceWords(page.store.view), ...(isPlain ? [] : ownWords(page.store.folder)), ...hookWords(page.store)];
+      ...wishWords(page.store.view), ...ownWords(page.store.folder), ...hookWords(page.store)];
   const result = await runVerb(page, words, {quiet: true, supersede: "judge"});
   if (!result || page.store.folder[path] !== text) return;
   const sentences = sentencesOf(result);
@@ -166,32 +169,21 @@ async function judge(page, readings, said) {
   readings.mark(problems);
   const withRows = (sentence) => inPage(list?.withRows(sentence) ?? sentence);
   if (isCheck) {
-    showVerdict(said, result, sentences.map(withRows), withRows);
+    showCheck(page, said, result, sentences.map(withRows), withRows);
     return;
   }
   const isDone = result.code === DONE;
-  page.fit = {...fitParts(sentences.map(withRows)), code: result.code, isPlain};
-  if (isDone) page.store.derive(result.files);
-  else page.store.derive({"map.json": null, ...NO_DIAGNOSIS});
-  said.className = isDone ? "said" : "said problem";
-  said.replaceChildren(...outcome(page));
+  page.fit = fitParts(sentences.map(withRows), !isDone);
+  said.replaceChildren(...fitBox(page));
+  page.store.derive(isDone ? result.files : {"map.json": null, ...NO_DIAGNOSIS});
 }
 
-/** The output of a check: the verdict on the first line, the numbers below. */
-function showVerdict(said, {code, stdout}, sentences, withRows) {
+/** A check's verdict, the next step, and the numbers below. */
+function showCheck(page, said, {code, stdout}, sentences, withRows) {
   const [verdict, ...numbers] = withRows(stdout).split("\n").filter((line) => line !== "");
-  said.className = code === DONE ? "said" : "said problem";
-  said.replaceChildren(sentenceList([verdict, ...sentences].filter(Boolean)),
-    code === DONE || code === CHECK_FAILED ? h("pre", {tabindex: "0", "aria-label": "Measured less map"}, numbers.join("\n")) : "");
-}
-
-function outcome(page) {
-  const {headline, sentences, tables, code} = page.fit;
-  return [
-    headline && h("p", {class: "headline"}, explained(headline)),
-    sentenceList(sentences),
-    tables.length > 0 && h("details", {}, h("summary", {}, "The numbers"), h("pre", {tabindex: "0"}, tables.join("\n"))),
-    code === DONE && h("p", {class: "buttons"},
-      h("button", {type: "button", class: "main", onclick: () => page.store.show({step: "result"})}, "See the map and the causes")),
-  ].filter(Boolean);
+  const again = () => chooseWay(page, fittedList(page.store.view));
+  const go = (words, onclick) => h("p", {class: "buttons"}, h("button", {type: "button", class: "main", onclick}, words));
+  said.replaceChildren(h("div", {class: `said ${code === DONE ? "good" : "bad"}`, role: "status"}, sentenceList([verdict, ...sentences].filter(Boolean)),
+    code === DONE ? go("Go on to your programs", () => page.store.show({step: "cut"})) : code === CHECK_FAILED ? go("Measure the whole bed again", again) : ""),
+  code === DONE || code === CHECK_FAILED ? h("details", {}, h("summary", {}, "The numbers"), h("pre", {tabindex: "0", "aria-label": "Measured less map"}, numbers.join("\n"))) : "");
 }

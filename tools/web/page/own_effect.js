@@ -72,7 +72,7 @@ export function ownEffectPart(page) {
     element,
     update({folder}) {
       weighed.replaceChildren(...ownEffects(folder).map((name) => h("p", {class: "buttons"},
-        `Weighed: ${jsonOf(folder[name])?.cause ?? "a cause of your own"}. Find the cause again to see what the readings say of it. `,
+        `Weighed: ${jsonOf(folder[name])?.cause ?? "a cause of your own"}. `,
         h("button", {type: "button", onclick: () => download(name, folder[name])}, "Download it"),
         h("button", {type: "button", onclick: () => page.store.change({[name]: null, ...NO_DIAGNOSIS})}, "Take it away"))));
       draw();

@@ -34,7 +34,7 @@ function scaleBar(bed, factor) {
 }
 
 /**
- * @param bed {width_mm, height_mm}; @param points [{x_mm, y_mm, bad}]; @param before(point), after(point) errors in mm;
+ * @param bed {width_mm, height_mm}; @param points [{x_mm, y_mm, bad}]; @param before(point), after(point) errors in mm, the second may be null;
  * @param words {label, before, after}: what the picture is, and what its two colours are
  */
 export function errorPicture(bed, points, before, after, words) {
@@ -46,7 +46,7 @@ export function errorPicture(bed, points, before, after, words) {
     class: "errors", role: "img", "aria-label": words.label,
     viewBox: `${-width / 2 - MARGIN_MM} ${-height / 2 - MARGIN_MM} ${width + 2 * MARGIN_MM} ${height + 2 * MARGIN_MM}`,
   }, svg("rect", {class: "board", x: -width / 2, y: -height / 2, width, height}),
-  good.map((point) => [arrow("before", point, before(point), factor, head), arrow("after", point, after(point), factor, head)]).flat(), scaleBar(bed, factor),
+  good.map((point) => [arrow("before", point, before(point), factor, head), after && arrow("after", point, after(point), factor, head)]).flat(), after && scaleBar(bed, factor),
   points.filter(({bad}) => bad).map(({x_mm: x, y_mm: y}) => svg("path", {class: "left-out", d: `M ${x - 25} ${-y - 25} l 50 50 m 0 -50 l -50 50`})));
   return h("figure", {class: "picture"}, picture, h("figcaption", {class: "legend"},
     h("span", {class: "key before"}, words.before), h("span", {class: "key after"}, words.after),

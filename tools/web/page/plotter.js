@@ -6,6 +6,7 @@ import {DRAWING, FOUND, isPlotter, jsonOf, NO_DIAGNOSIS, PLOTTER} from "./folder
 import {inPage} from "./in_page.js";
 import {replaceFolder} from "./machine.js";
 import {isDrawingText} from "./plotter_text.js";
+import {fitParts} from "./verdict.js";
 
 /** Delay between the last key and a run of the command: the time between two keys. */
 const PAUSE_MS = 350;
@@ -15,8 +16,6 @@ const NO_RESULTS = {[FOUND]: null, ...NO_DIAGNOSIS};
 const FOLDER = "plotter";
 
 export class Plotter {
-  /** What the last fit said: {sentences, isWrong}; null while there is none. */
-  said = null;
   #page;
   #fitted = null;
   #timer = null;
@@ -26,40 +25,40 @@ export class Plotter {
   }
 
   /** Settings, a chaintrue_plotter or a filled-in drawing. True if they were read. */
-  async take(text, name, say) {
+  async take(text, name) {
     if (isDrawingText(text)) {
       replaceFolder(this.#page, {[DRAWING]: bytesOf(text)}, "measure");
-      say([]);
+      this.#page.say([`${name} is read: ${measuredIn(bytesOf(text))} measures are filled in.`]);
       return true;
     }
     const isOurs = /^\s*\{/.test(text);
-    return this.#start(isOurs ? PLOTTER : name, bytesOf(text), say);
+    return this.#start(isOurs ? PLOTTER : name, bytesOf(text));
   }
 
   /** FluidNC's yaml, where somebody says that it hangs a pen. */
-  async takeWallPlotter(name, bytes, say) {
+  async takeWallPlotter(name, bytes) {
     const result = await runVerb(this.#page, ["import", "plotter", name, "-o", PLOTTER, "--force"], {files: {[name]: bytes}});
     if (!result) return false;
     if (result.code !== DONE) {
-      say(sentencesOf(result).map(inPage), true);
+      this.#page.say(sentencesOf(result).map(inPage), true);
       return false;
     }
-    return this.#start(PLOTTER, result.files[PLOTTER], say, sentencesOf(result));
+    return this.#start(PLOTTER, result.files[PLOTTER], sentencesOf(result));
   }
 
   /** `chaintrue start`: the page to draw, and the list of what to measure on it. */
-  async #start(name, bytes, say, before = []) {
+  async #start(name, bytes, before = []) {
     const result = await runVerb(this.#page, ["start", name, FOLDER], {files: {[name]: bytes}});
     if (!result) return false;
     const sentences = [...before, ...sentencesOf(result)].filter((line) => !/holds the test page/.test(line)).map((line) => inPage(line.replace(`${name}: `, "")));
     if (result.code !== DONE) {
-      say(sentences, true);
+      this.#page.say(sentences, true);
       return false;
     }
     const made = Object.fromEntries(Object.entries(result.files).map(([path, content]) => [path.replace(`${FOLDER}/`, ""), content]));
     replaceFolder(this.#page, {[name]: bytes, ...made}, "machine");
     this.#page.store.show({assumed: sentences});
-    say([]);
+    this.#page.say([`${name} is read. Check what was assumed, then go on to measuring.`]);
     return true;
   }
 
@@ -85,7 +84,7 @@ export class Plotter {
     const drawing = isPlotter(folder) ? folder[DRAWING] : null;
     if (drawing === this.#fitted) return;
     this.#fitted = drawing;
-    this.said = null;
+    if (drawing) this.#page.fit = null;
     clearTimeout(this.#timer);
     if (!drawing || measuredIn(drawing) === 0) return;
     this.#timer = setTimeout(() => this.#fit(drawing), PAUSE_MS);
@@ -95,15 +94,11 @@ export class Plotter {
     const page = this.#page;
     const isStale = () => drawing !== this.#fitted;
     if (isStale()) return;
-    if (measuredIn(drawing) < FEWEST) {
-      this.said = {sentences: [`${measuredIn(drawing)} of ${FEWEST} measures at least: type on.`], isWrong: false};
-      page.store.derive({});
-      return;
-    }
+    if (measuredIn(drawing) < FEWEST) return;
     const fit = await runVerb(page, ["fit", DRAWING, "-o", FOUND, "--force"], {quiet: true, supersede: "plotter"});
     if (!fit || isStale()) return;
     const isDone = fit.code === DONE;
-    this.said = {sentences: headOf(fit), isWrong: !isDone};
+    page.fit = fitParts(sentencesOf(fit).map((line) => capital(inPage(line.replace(`${DRAWING}: `, "")))), !isDone);
     page.store.derive(isDone ? fit.files : {[FOUND]: null});
     // A slip of the hand has no cause in the plotter; settings that fit nothing may have one.
     if (!isDone && !fit.stderr.includes("no settings make this drawing")) return;
@@ -123,18 +118,11 @@ export class Plotter {
     }
     const made = Object.fromEntries(Object.entries(result.files).map(([path, content]) => [path.replace(`${FOLDER}/`, ""), content]));
     page.store.change({...made, ...NO_RESULTS});
-    page.store.show({step: "measure"});
+    page.store.show({step: "measure", typed: false, way: null});
   }
 }
 
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
-
-/** The sentences above the tables of a fit, or those of a refusal. */
-function headOf(result) {
-  const lines = sentencesOf(result);
-  const end = lines.findIndex((line) => line === "Settings");
-  return (end < 0 ? lines : lines.slice(0, end)).map((line) => capital(inPage(line.replace(`${DRAWING}: `, ""))));
-}
 
 /** How many measures have a value. */
 export const measuredIn = (bytes) => (jsonOf(bytes)?.measures ?? []).filter(({value_mm: value}) => value !== null && value !== undefined).length;

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The test page to draw, and the table of what a ruler and a string read on it.
-import {sentenceList} from "./command.js";
 import {download, folded, h} from "./dom.js";
 import {DRAWING, isPlotter, jsonOf} from "./folder.js";
 import {FEWEST, measuredIn, sheetText} from "./plotter.js";
 import {pagePicture} from "./plotter_picture.js";
 import {millimetresTyped, wordsOf} from "./plotter_text.js";
+import {fitBox} from "./verdict.js";
 
 export function plotterMeasure(page) {
   const files = h("p", {class: "buttons"});
   const how = folded("How to measure", (box) => box.append(h("pre", {tabindex: "0", "aria-label": "What to measure"}, sheetText(page.store.folder))));
   const rows = h("tbody");
   const picture = h("div", {class: "beside"});
-  const said = h("div", {class: "said", role: "status", "aria-live": "polite"});
+  const said = h("div");
   const element = h("div", {hidden: true},
     h("section", {}, h("h3", {}, "Draw the test page"),
-      h("p", {}, "At 100 %, never fitted to the sheet. It has nine crosses and eight lines."), files, how.element),
+      h("p", {}, "Draw it at 100 %, never fitted to the sheet. It has nine crosses and eight lines."), files, how.element),
     h("section", {}, h("h3", {}, "Measure it"),
       h("p", {}, `Lengths with a ruler, from the middle of one cross to the middle of the other. For a bow hold a string from the line's first cross to its last, and measure from the string across to the line: plus where the line lies to the left of who walks from the first to the last. ${FEWEST} measures at least.`),
       h("div", {class: "readings"}, h("div", {class: "table-box"}, h("table", {class: "list"}, h("caption", {}, "Enter goes to the next measure; what is left empty is left out."),
@@ -76,10 +76,8 @@ export function plotterMeasure(page) {
         if (typeof value === "string") inputs[index].setAttribute("aria-invalid", "true");
         else inputs[index].removeAttribute("aria-invalid");
       });
-      const {sentences, isWrong} = page.plotter.said ?? {sentences: [], isWrong: false};
-      said.className = isWrong ? "said problem" : "said";
-      said.replaceChildren(...(sentences.length > 0 ? [sentenceList(sentences), !isWrong && folder["found.json"] &&
-        h("p", {class: "buttons"}, h("button", {type: "button", class: "main", onclick: () => page.store.show({step: "result"})}, "On to the numbers"))].filter(Boolean) : []));
+      const filled = measuredIn(folder[DRAWING]);
+      said.replaceChildren(...(filled > 0 && filled < FEWEST ? [h("p", {class: "hint"}, `${filled} of ${FEWEST} measures at least: type on.`)] : page.fit ? fitBox(page) : []));
     },
   };
 }

@@ -195,5 +195,5 @@ export function markRow(problems, list, sentence, path) {
   const between = /\b([A-Z]\d*)-([A-Z]\d*)\b/.exec(sentence);
   const row = point ? list.rowOfPoint(Number(point[1]))
     : between ? list.rows.findIndex(({cells}) => cells[0] === between[1] && cells[1] === between[2]) : -1;
-  if (row >= 0) problems.set(row, {column: null, text: inPage(list.withRows(sentence))});
+  if (row >= 0 && !problems.has(row)) problems.set(row, {column: null, text: inPage(list.withRows(sentence))});
 }

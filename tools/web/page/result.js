@@ -1,92 +1,155 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The third step: the two numbers and their picture, the one choice, the causes, and whether it still holds later.
-import {beltsResult} from "./belts_result.js";
-import {Choice, JOBS, NUMBERS, waysOf} from "./choice.js";
+// The third step, for every machine: verdict, picture, cause, one recommended way, the check; the rest is folded.
+import {beltsPicture, frameOf} from "./belts_picture.js";
 import {sentenceList} from "./command.js";
 import {causesPart} from "./diagnosis.js";
 import {folded, h} from "./dom.js";
-import {bedOf, isBelts, isPlotter, jsonOf, NEW_POINTS} from "./folder.js";
+import {bedOf, BELTS, DRAWING, hasReadings, jsonOf, mapOf, NEW_POINTS, roadOf} from "./folder.js";
 import {report} from "./frame.js";
-import {explained} from "./glossary.js";
 import {chooseWay} from "./measure.js";
-import {Numbers} from "./numbers.js";
 import {errorPicture} from "./picture.js";
-import {plotterResult} from "./plotter_result.js";
-import {wishSaid} from "./wish.js";
+import {pagePicture} from "./plotter_picture.js";
+import {readsGcode} from "./plotter_text.js";
+import {Tape} from "./tape.js";
+import {areIn, numbersOf, typeInPart} from "./type_in.js";
+import {isStopped, verdictBand, verdictOf} from "./verdict.js";
+
+export const NUMBERS = "numbers";
+export const JOBS = "jobs";
+const WAYS = {
+  [NUMBERS]: {title: "Type numbers in", away: "Compensating is put away: a program compensated for the old numbers comes out wrong with the new ones."},
+  [JOBS]: {title: "Compensate each program", away: "Typing numbers in is put away: with other numbers in the machine, programs compensated for the present ones come out wrong."},
+};
+
+/** Why the other way is put away, and the button that takes it instead. */
+export function putAway(page, way) {
+  const other = way === NUMBERS ? JOBS : NUMBERS;
+  return h("p", {class: "put-away"}, `${WAYS[way].away} `,
+    h("button", {type: "button", onclick: () => page.store.show({way: other})}, `${WAYS[other].title} instead`));
+}
+
+/** The way to recommend and its reason: numbers where they take off about what a map would. */
+function recommended(page, {headline, tone}, {rows, leaves}) {
+  const road = roadOf(page.store.folder);
+  if (tone === "bad") return {way: null, reason: "Measure again first. What was computed from this session may not hold for the machine as it is now."};
+  if (road !== "chains") return {way: NUMBERS, reason: "A few numbers, once: your programs stay as they are."};
+  if (/^Your machine needs no map/.test(headline ?? "")) return {way: null, reason: "Cut your programs as they are."};
+  const map = Number(/With this map it misses by about ([\d.]+) mm/.exec(headline ?? "")?.[1] ?? NaN);
+  if (rows.length > 0 && leaves <= Math.max(1.5 * map, map + 0.1)) return {way: NUMBERS, reason: "A few numbers, once: they take off as much as a map would, and your programs stay as they are."};
+  return {way: JOBS, reason: rows.length > 0 && leaves > 0 ? `Numbers alone would leave ${leaves.toFixed(1)} mm, so let every program be rewritten before it is cut.` : "Every program is rewritten before it is cut."};
+}
 
 export function resultStep(page) {
-  const first = h("div");
-  const whole = folded("The whole report", (box) => report(page, "map.json", "map.html", "The map", box));
-  const numbers = new Numbers(page);
-  const choice = new Choice(page, isBelts, {[NUMBERS]: numbers.element, [JOBS]: jobsPart(page)});
+  const none = h("section", {});
+  const band = h("div");
+  const way = h("section", {id: "way-part"});
+  const check = h("section");
+  const tape = new Tape(page);
   const causes = causesPart(page);
-  const none = h("p", {class: "hint"}, "There is no map yet: type readings in first.");
-  const all = h("div", {hidden: true},
-    h("section", {}, h("h3", {}, "How true it cuts"), first, whole.element),
-    choice.element,
-    causes.element,
-    h("section", {}, h("h3", {}, "Later: does it still hold?"),
-      h("p", {}, "Chains stretch and zeros slip. A few new points, set where they tell most, say whether the map is still valid."),
-      h("p", {class: "buttons"}, h("button", {type: "button", onclick: () => planCheck(page)}, "Set new points"))));
-  const ofBelts = beltsResult(page);
-  const ofPlotter = plotterResult(page);
-  let shown = {};
+  const more = h("div");
+  const moreFold = h("details", {}, h("summary", {}, "More about these readings"), more, causes.noise);
+  const whole = folded("The whole report", (box) => report(page, "map.json", "map.html", "The map", box));
+  const all = h("div", {hidden: true}, band, causes.cause, way, tape.element, check,
+    h("section", {class: "folds"}, moreFold, causes.folds, whole.element));
+  const remembered = new Map();
+  let drawn = [];
+  let numbersOfMap = null;
+
+  /** The numbers to type in are exported once for each map. */
+  async function askNumbers(source) {
+    numbersOfMap = source;
+    page.numbers = null;
+    const numbers = await numbersOf(page);
+    if (numbersOfMap !== source) return;
+    page.numbers = numbers;
+    page.store.show({});
+  }
+
+  function drawNone(folder) {
+    const isRead = hasReadings(folder);
+    none.replaceChildren(h("p", {class: "hint", role: "status"}, page.fit?.isWrong ? "The readings make no result yet:" : isRead && !page.fit ? "Being computed ..." : "There is no result yet: measure first."),
+      page.fit?.isWrong ? sentenceList(page.fit.sentences) : "",
+      h("p", {class: "buttons"}, h("button", {type: "button", class: "main", onclick: () => page.store.show({step: folder["machine.json"] || folder[BELTS] || folder[DRAWING] ? "measure" : "machine"})}, "Go to the readings")));
+  }
+
+  function drawWay({folder, view}, verdict) {
+    const {numbers} = page;
+    if (!numbers) return [h("h3", {}, "What to do"), h("p", {class: "hint"}, "The numbers are being computed ...")];
+    const disabled = isStopped(page, verdict);
+    const {way: best, reason} = recommended(page, verdict, numbers);
+    const isPossible = {[NUMBERS]: numbers.rows.length > 0 || numbers.isWrong, [JOBS]: roadOf(folder) !== "plotter" || readsGcode(jsonOf(folder[DRAWING]))};
+    if (disabled || !view.way) {
+      return [h("h3", {}, "What to do"), h("p", {}, reason), disabled && h("p", {class: "hint"}, "First read what is said above, and tick it."),
+        h("p", {class: "buttons"}, verdict.tone === "bad" && h("button", {type: "button", class: "main", onclick: () => page.store.show({step: "measure"})}, "Measure again"), [best, ...[NUMBERS, JOBS].filter((one) => one !== best)].filter((one) => isPossible[one]).map((one) =>
+          h("button", {type: "button", class: one === best ? "main" : "", disabled, onclick: () => page.store.show({way: one})}, WAYS[one].title)))];
+    }
+    return [h("h3", {}, WAYS[view.way].title), view.way === NUMBERS ? typeInPart(page, numbers)
+      : h("p", {class: "buttons"}, h("button", {type: "button", class: "main", onclick: () => page.store.show({step: "cut"})}, "Open a program")),
+    isPossible[JOBS] && putAway(page, view.way)];
+  }
+
+  /** How to see whether it was worth it, on every road. */
+  function drawCheck({folder}) {
+    const [words, title, go] = {
+      chains: ["Measure five new marks. They show whether the machine now cuts as computed, and later whether it still does.", "Set five new marks", () => planCheck(page)],
+      belts: ["Cut nine holes and tape them. They show where the tool really is, and how large everything comes out.", "Measure nine holes", () => page.store.show({step: "measure"})],
+      plotter: ["Draw a second page with the new numbers. Its lines are straight, or what still bends them is no setting.", "Draw the second page", () => page.plotter.secondPage()],
+    }[roadOf(folder)];
+    return [h("h3", {}, "Then check"), h("p", {}, words), h("p", {class: "buttons"}, h("button", {type: "button", class: areIn(page.store) ? "main" : "", onclick: go}, title))];
+  }
+
+  function pictureOf(folder, road) {
+    if (road === "belts") {
+      const known = frameOf(folder);
+      return known?.anchors ? beltsPicture(known, (point) => page.belts.toggle(point), remembered) : null;
+    }
+    if (road === "plotter") {
+      return h("figure", {class: "picture"}, pagePicture(jsonOf(folder[DRAWING]), true).element, h("figcaption", {class: "legend"}, h("span", {class: "key before"}, "as drawn, bows made larger")));
+    }
+    const bed = bedOf(folder);
+    const points = (jsonOf(folder["map.json"])?.points ?? []).filter(({as_stated_mm: before, left_out_mm: after}) => before && after);
+    return bed && points.length > 0 ? errorPicture(bed, points, ({as_stated_mm: error}) => error, ({left_out_mm: error}) => error, {
+      label: "The bed with an arrow at each mark: how far off the tool is there today, and with the map.",
+      before: "today", after: "with the map, each mark left out of it in turn"}) : null;
+  }
 
   return {
-    element: h("div", {}, none, all, ofBelts.element, ofPlotter.element),
-    given: () => (isBelts(page.store.folder) ? ofBelts.given() : isPlotter(page.store.folder) ? ofPlotter.given() : given(page)),
-    label: () => (isPlotter(page.store.folder) ? "Numbers and causes" : "Map and causes"),
+    element: h("div", {}, none, all),
+    given: () => [page.fit?.headline, page.store.view.way && `${WAYS[page.store.view.way].title}.`].filter(Boolean).join(" "),
     update() {
       const {folder, view} = page.store;
-      ofBelts.update();
-      ofPlotter.update();
-      const ready = !isBelts(folder) && !isPlotter(folder) && Boolean(folder["map.json"]);
-      none.hidden = ready || isBelts(folder) || isPlotter(folder);
-      all.hidden = !ready;
-      if (!ready || view.step !== "result") return;
-      choice.update(page.store);
-      if (view.way === NUMBERS) numbers.update(page.store);
-      causes.update(page.store);
-      if (shown.map === folder["map.json"] && shown.fit === page.fit) return;
-      if (shown.map !== folder["map.json"]) {
-        numbers.clear();
-        whole.forget();
+      const road = roadOf(folder);
+      const source = folder[mapOf(folder)];
+      const isReady = Boolean(source && page.fit && !page.fit.isWrong);
+      if (view.step !== "result") return;
+      all.hidden = !isReady;
+      none.hidden = isReady;
+      if (!isReady) {
+        drawNone(folder);
+        drawn = [];
+        return;
       }
-      shown = {map: folder["map.json"], fit: page.fit};
-      first.replaceChildren(...firstLook(page));
+      const verdict = verdictOf(page);
+      causes.update(page.store);
+      tape.element.hidden = road !== "belts";
+      if (road === "belts") tape.update(page.store);
+      whole.element.hidden = road !== "chains";
+      const exported = road === "belts" ? folder["diagnosis.json"] ?? source : source;
+      if (numbersOfMap !== exported) askNumbers(exported);
+      const now = [source, folder["diagnosis.json"], page.fit, view.read, view.way, areIn(page.store), page.numbers];
+      if (now.every((one, index) => one === drawn[index])) return;
+      if (source !== drawn[0]) whole.forget();
+      if (folder[BELTS] === undefined) remembered.clear();
+      drawn = now;
+      const focused = document.activeElement?.id;
+      const picture = pictureOf(folder, road);
+      band.replaceChildren(verdictBand(page, verdict), picture ? h("section", {}, picture) : "");
+      way.replaceChildren(...drawWay(page.store, verdict).filter(Boolean));
+      check.replaceChildren(...drawCheck(page.store));
+      more.replaceChildren(sentenceList(verdict.others), page.fit.tables.length > 0 ? h("pre", {tabindex: "0"}, page.fit.tables.join("\n")) : "");
+      if (focused) document.getElementById(focused)?.focus({preventScroll: true});
     },
   };
-}
-
-/** The line of the folded step: the two numbers and the choice. */
-function given(page) {
-  const {folder, view} = page.store;
-  if (!folder["map.json"]) return "";
-  return [page.fit?.headline ?? "There is a map.", view.way && `${waysOf(false)[view.way].title}.`].filter(Boolean).join(" ");
-}
-
-function firstLook(page) {
-  const {folder} = page.store;
-  const {headline, sentences} = page.fit ?? {headline: null, sentences: []};
-  const wish = wishSaid(sentences);
-  const more = sentences.filter((line) => line !== wish);
-  const map = jsonOf(folder["map.json"]);
-  const bed = bedOf(folder);
-  const points = (map?.points ?? []).filter(({as_stated_mm: before, left_out_mm: after}) => before && after);
-  return [
-    headline && h("p", {class: "headline"}, explained(headline)),
-    wish && h("p", {class: "wish"}, wish),
-    bed && points.length > 0 && errorPicture(bed, points, ({as_stated_mm: error}) => error, ({left_out_mm: error}) => error, {
-      label: "The bed with an arrow at each mark: how far off the tool is there today, and with the map.",
-      before: "as it is today", after: "with the map, each mark by a map made without it",
-    }),
-    more.length > 0 && h("details", {}, h("summary", {}, "More about these readings"), sentenceList(more)),
-  ].filter(Boolean);
-}
-
-function jobsPart(page) {
-  return h("div", {}, h("p", {}, "Open a program in the next step. It comes back compensated and checked on a simulated controller."),
-    h("p", {class: "buttons"}, h("button", {type: "button", class: "main", onclick: () => page.store.show({step: "cut"})}, "Open a program to cut")));
 }
 
 async function planCheck(page) {

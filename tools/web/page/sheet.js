@@ -12,6 +12,9 @@ const quoted = (text) => (/[",]/.test(text) ? `"${text.replaceAll('"', '""')}"` 
 const unquoted = (cell) => (cell.startsWith('"') ? cell.slice(1, -1).replaceAll('""', '"') : cell);
 const isHeader = (cells) => cells.some((cell) => cell.endsWith("_mm"));
 
+/** Larger numbers in a list are positions. */
+const LARGEST_ERROR_MM = 60;
+
 export class Sheet {
   /** Rows to fill in: {line (from 0), cells}. */
   rows = [];
@@ -68,6 +71,19 @@ export class Sheet {
     if (!other || other.columns.join() !== this.columns.join() || other.rows.some((_, row) => !this.rows[row] || placeOf(other, row) !== placeOf(this, row))) return null;
     const changed = new Sheet(this.text());
     for (const row of other.rows.keys()) for (const column of this.readColumns) changed.set(row, column, other.value(row, column));
+    return changed.text();
+  }
+
+  /** The text with the places added to readings that are errors, not positions; null where they are positions. */
+  withPlacesAdded() {
+    if (!this.isOfPoints || !this.columns.includes("x_mm")) return null;
+    const number = (row, column) => Number(this.value(row, column));
+    const rows = this.rows.map((_, row) => row).filter((row) => !this.isBlank(row));
+    const isError = (row) => this.readColumns.every((column) => Math.abs(number(row, column)) <= LARGEST_ERROR_MM);
+    const isFar = (row) => this.readColumns.some((column) => Math.abs(number(row, column - 2)) > 2 * LARGEST_ERROR_MM);
+    if (rows.length < 4 || !rows.every(isError) || !rows.some(isFar)) return null;
+    const changed = new Sheet(this.text());
+    for (const row of rows) for (const column of this.readColumns) changed.set(row, column, plain(number(row, column) + number(row, column - 2), 3));
     return changed.text();
   }
 

@@ -8,8 +8,7 @@ export class Steps {
   #shown = null;
 
   /**
-   * @param steps [[id, label, {element, update(), given(), label?()}]]: given() is the line of a folded step, "" if there is
-   *   nothing yet; label() takes the label's place where a machine has its own word
+   * @param steps [[id, label, {element, update(), given()}]]: given() is the line of a folded step, "" if there is nothing yet
    * @param open(id) is called on a click on a title
    */
   constructor(steps, open) {
@@ -33,8 +32,6 @@ export class Steps {
       // One step is always open: its title folds nothing.
       title.setAttribute("aria-disabled", String(isOpen));
       step.update();
-      const named = step.label?.();
-      if (named && title.textContent !== named) title.textContent = named;
       const line = step.given();
       given.textContent = line;
       given.hidden = isOpen || line === "";

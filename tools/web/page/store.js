@@ -35,6 +35,7 @@ export class Store {
     }
     this.#last = name;
     this.#future = [];
+    this.view = {...this.view, isExample: false};
     this.#put(files);
   }
 

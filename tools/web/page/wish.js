@@ -23,5 +23,5 @@ export function wishWords({wish}) {
   return mm > 0 ? ["--wish-mm", String(mm)] : [];
 }
 
-/** What a fit says of the wish; null where there is none. */
-export const wishSaid = (sentences) => sentences.find((line) => line.startsWith("You wish for")) ?? null;
+/** What a fit says of the wish. */
+export const isWish = (line) => line.startsWith("You wish for");

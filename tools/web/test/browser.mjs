@@ -7,6 +7,7 @@ import {dirname, join} from "node:path";
 import {after} from "node:test";
 import {fileURLToPath, pathToFileURL} from "node:url";
 import puppeteer from "puppeteer-core";
+import {folderOf} from "../page/zip.js";
 
 export const root = join(dirname(fileURLToPath(import.meta.url)), "../../..");
 export const built = join(root, "build/page");
@@ -107,7 +108,7 @@ export class Visit {
   async click(text) {
     for (let trial = 1; ; ++trial) {
       const button = await this.page.waitForFunction((wanted) =>
-        [...document.querySelectorAll("button")].find((one) => one.textContent === wanted && one.checkVisibility()), {}, text);
+        [...document.querySelectorAll("button")].find((one) => (one.getAttribute("aria-label") ?? one.textContent) === wanted && one.checkVisibility()), {}, text);
       try {
         await button.asElement().click();
         return;
@@ -132,14 +133,31 @@ export class Visit {
     if (!await found.evaluate((one) => one.parentElement.open)) await found.asElement().click();
   }
 
-  /** Pastes a text into the box of this selector. */
+  /** Pastes a text into a box. */
   async paste(selector, text) {
     await this.page.waitForSelector(selector, {visible: true});
     await this.page.$eval(selector, (box, pasted) => {
       box.focus();
-      box.value = pasted;
-      box.dispatchEvent(new ClipboardEvent("paste", {bubbles: true, cancelable: true}));
+      const data = new DataTransfer();
+      data.setData("text/plain", pasted);
+      const isTaken = !box.dispatchEvent(new ClipboardEvent("paste", {clipboardData: data, bubbles: true, cancelable: true}));
+      if (!isTaken) box.value = pasted;
     }, text);
+  }
+
+  /** Drops files {name: text} on the page. */
+  drop(files) {
+    return this.page.evaluate((dropped) => {
+      const data = new DataTransfer();
+      for (const [name, text] of Object.entries(dropped)) data.items.add(new File([text], name));
+      document.querySelector("footer").dispatchEvent(new DragEvent("drop", {dataTransfer: data, bubbles: true, cancelable: true}));
+    }, files);
+  }
+
+  /** The folder as Download gives it: {path: bytes}. */
+  async folder() {
+    await this.click("Download");
+    return folderOf(await this.downloaded("my-machine.zip"));
   }
 
   async upload(selector, path) {

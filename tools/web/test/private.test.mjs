@@ -56,9 +56,8 @@ for (const browser of browsers) {
     const visit = await Visit.to(browser);
     try {
       await visit.page.evaluate(tryEveryWayOut, server.url);
-      await visit.click("Try an example machine");
-      await visit.text(".said", "With this map it misses by");
-      await visit.click("See the map and the causes");
+      await visit.click("A worn chain");
+      await visit.text("#way-part", "Type numbers in");
       await visit.unfold("The whole report");
       const report = await visit.report("The map");
       await report.evaluate(tryEveryWayOut, server.url);
@@ -93,8 +92,7 @@ for (const browser of browsers) {
         await visit.openSettings(fixture("good/groundcontrol_ring.ini"));
         await visit.type(0, 0, "-1113");
         assert.match(await visit.text(".banner", "keeps nothing"), name === "full" ? /storage is full/ : /private window/);
-        await visit.click("Download");
-        const folder = folderOf(await visit.downloaded("my-machine.zip"));
+        const folder = await visit.folder();
         assert.match(new TextDecoder().decode(folder["marks.csv"]), /^1,-1119,-509,-1113,$/m);
       } finally {
         await visit.close();
@@ -109,17 +107,8 @@ describe("files", () => {
     try {
       await visit.openSettings(fixture("good/groundcontrol_ring.ini"));
       await visit.cell(0, 0);
-      await visit.click("Machine");
-      await visit.upload("#settings", fixture("bad/groundcontrol_wrong_types.ini"));
-      const said = await visit.text(".said.problem", "expected");
-      assert.match(said, /groundcontrol_wrong_types\.ini: line \d+/);
-      await visit.upload("#settings", fixture("gcode/bracket.nc"));
-      await visit.text(".said.problem", "bracket.nc");
-      const zip = join(temporaryFolder(), "wrong.zip");
-      writeFileSync(zip, "this is no zip");
-      await visit.upload("#settings", zip);
-      await visit.text(".said.problem", "This zip cannot be read");
-      await visit.click("Measure");
+      await visit.upload("#any", fixture("bad/groundcontrol_wrong_types.ini"));
+      assert.match(await visit.text(".banner.bad", "expected"), /groundcontrol_wrong_types\.ini: line \d+/);
       assert.equal((await visit.values()).length, 64);
       assert.deepEqual(visit.problems, []);
     } finally {
@@ -130,8 +119,9 @@ describe("files", () => {
   test("the zip that is given is taken back", async () => {
     const visit = await Visit.to("chrome");
     try {
-      await visit.click("Try an example machine");
-      await visit.text(".said", "With this map it misses by about 0.2 mm");
+      await visit.click("A worn chain");
+      await visit.text("#step-result .said", "With this map it misses by about 0.2 mm");
+      await visit.text("#step-result .cause", "links");
       const before = await visit.values();
       await visit.click("Download");
       const bytes = await visit.downloaded("my-machine.zip");
@@ -139,29 +129,38 @@ describe("files", () => {
       writeFileSync(zip, bytes);
       await visit.click("Begin anew");
       await visit.upload("#settings", zip);
-      await visit.text(".said", "With this map it misses by about 0.2 mm");
+      await visit.text("#step-measure .said", "With this map it misses by about 0.2 mm");
       assert.deepEqual(await visit.values(), before);
-      assert.deepEqual(Object.keys(folderOf(bytes)).sort(), ["README.txt", "bracket.nc", "groundcontrol.ini", "holes.csv", "holes.html",
+      assert.deepEqual(Object.keys(folderOf(bytes)).sort(), ["README.txt", "bracket.nc", "diagnosis.json", "groundcontrol.ini", "holes.csv", "holes.html",
         "holes.nc", "machine.json", "map.json", "marks.csv", "marks.html", "marks.nc"]);
     } finally {
       await visit.close();
     }
   });
 
-  test("a program of 5 MB is compensated, shown and given, and can be stopped", async () => {
+  test("a program of 5 MB can be stopped, gives way to the next one, and is compensated", async () => {
     const visit = await Visit.to("chrome");
     try {
       const program = join(temporaryFolder(), "relief.nc");
       writeFileSync(program, reliefOf(5e6));
-      await visit.click("Try an example machine");
-      await visit.text(".said", "With this map it misses by about 0.2 mm");
-      await visit.click("Cut");
+      await visit.click("A worn chain");
+      await visit.text("#way-part", "Type numbers in");
+      await visit.click("Programs");
+      await visit.page.click("#home-middle");
       await visit.upload("#program", program);
       await visit.text(".busy", "gcode");
       await visit.click("Stop");
-      await visit.page.waitForFunction(() => document.querySelector(".busy").hidden);
+      await visit.text("#step-cut .said.bad", "relief.nc was not compensated. Open it once more to try again.");
       await visit.click("Compensate relief.nc");
-      await visit.text(".said", "the tool stays within");
+      await visit.text(".busy", "gcode");
+      await visit.drop({"other.nc": readFileSync(fixture("gcode/bracket.nc"), "utf8")});
+      await visit.report("other.nc before and after");
+      await visit.page.waitForFunction(() => document.querySelector(".busy").hidden);
+      assert.equal((await visit.page.$$("#step-cut iframe.report")).length, 1);
+      await visit.drop({"README.txt": "G0 X1\n"});
+      await visit.text(".banner.bad", "README.txt is not opened: the machine's folder has a file of that name.");
+      await visit.click("Compensate relief.nc");
+      await visit.text("#step-cut .said", "the tool stays within");
       await visit.click("Download relief.true.nc");
       assert.ok((await visit.downloaded("relief.true.nc")).length > 5e6);
       assert.deepEqual(visit.problems, []);
@@ -179,14 +178,15 @@ describe("files", () => {
       };
     })});
     try {
-      await visit.click("Try an example machine");
+      await visit.click("A worn chain");
       await visit.text(".banner.bad", "The engine stopped unexpectedly");
-      assert.equal((await visit.values())[0], "-1113");
+      await visit.click("Measure");
+      assert.equal((await visit.values())[0], "-1125.5");
       await visit.page.evaluate(() => {
         globalThis.healthy = true;
       });
-      await visit.type(0, 0, "-1113.5");
-      await visit.text(".said", "With this map it misses by");
+      await visit.type(0, 0, "-1124.5");
+      await visit.text("#step-measure .said", "With this map it misses by");
     } finally {
       await visit.close();
     }
@@ -200,14 +200,15 @@ describe("for everybody", () => {
     test(`axe-core finds nothing serious, and nothing stands out of the screen, at ${width} px ${dark ? "dark" : "light"}`, async () => {
       const visit = await Visit.to("chrome", {width, dark});
       try {
-        await visit.click("Try an example machine");
-        await visit.text(".said", "With this map it misses by about 0.2 mm");
+        await visit.click("A worn chain");
+        await visit.text("#step-result .said", "With this map it misses by about 0.2 mm");
+        await visit.click("Measure");
         await visit.type(11, 1, "-230.5");
-        await visit.text("tr.note", "was left out");
+        await visit.text("tr.note", "rather than -230.5");
         await visit.page.evaluate(axe);
-        for (const step of ["Machine", "Measure", "Map and causes", "Cut", "Files"]) {
+        for (const step of ["Machine", "Measure", "Result", "Programs"]) {
           await visit.click(step);
-          if (step === "Map and causes") {
+          if (step === "Result") {
             await visit.unfold("The whole report");
             await visit.report("The map");
           }
@@ -223,16 +224,41 @@ describe("for everybody", () => {
     });
   }
 
-  test("a step begins at its top, also while its picture grows", async () => {
+  test("an evening goes by keyboard alone, a word says its meaning, and a step begins at its top", async () => {
     const visit = await Visit.to("chrome", {width: 400});
     try {
-      await visit.click("Try an example machine");
-      await visit.text(".said", "With this map it misses by");
-      await visit.click("See the map and the causes");
-      await visit.text("#step-result .headline", "With this map it misses by");
+      await press(visit, "A worn chain");
+      await visit.text("#way-part button", "Type numbers in");
+      const word = await visit.page.waitForSelector("#step-result .word", {visible: true});
+      await word.focus();
+      await visit.page.keyboard.press("Enter");
+      await visit.text(".meaning", "A table of how far off the machine is");
+      const {left, right} = await visit.page.$eval(".meaning", (meaning) => meaning.getBoundingClientRect().toJSON());
+      assert.ok(left >= 0 && right <= 400, `${left} to ${right} px`);
+      await visit.page.keyboard.press("Escape");
+      assert.equal(await visit.page.$eval(".meaning", (meaning) => meaning.checkVisibility()), false);
+      await press(visit, "Compensate each program");
+      await press(visit, "Open a program");
+      await visit.page.waitForSelector("#home-middle", {visible: true});
+      assert.equal(await visit.page.evaluate(() => document.activeElement.id), "title-cut");
       assert.equal(await visit.page.evaluate(() => scrollY), 0);
     } finally {
       await visit.close();
     }
   });
 });
+
+/** More than there are places to stop at on a page. */
+const MOST_TABS = 200;
+
+/** Goes on by Tab until the button of this name has the focus, and presses Enter. */
+async function press(visit, name) {
+  for (let tab = 0; tab < MOST_TABS; ++tab) {
+    if (await visit.page.evaluate((wanted) => document.activeElement.tagName === "BUTTON" && (document.activeElement.getAttribute("aria-label") ?? document.activeElement.textContent) === wanted, name)) {
+      await visit.page.keyboard.press("Enter");
+      return;
+    }
+    await visit.page.keyboard.press("Tab");
+  }
+  assert.fail(`no Tab leads to the button ${name}`);
+}
