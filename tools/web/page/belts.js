@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A Maslow 4: its log and its maslow.yaml from one box, and from them the belts, the anchors and the causes.
 import {splitPasted, runsIn} from "./belts_text.js";
-import {DONE, runVerb, sentenceList, sentencesOf} from "./command.js";
+import {CHECK_FAILED, DONE, runVerb, sentenceList, sentencesOf} from "./command.js";
 import {bytesOf, h, textOf} from "./dom.js";
 import {ANCHORS, BELTS, filledIn, HOLES, isBelts, jsonOf, LOG, MASLOW_SETTINGS, NO_DIAGNOSIS, WITHOUT} from "./folder.js";
 import {hookOption} from "./hook.js";
@@ -166,9 +166,11 @@ export class Belts {
     const isStale = () => made !== this.#analysed;
     const fit = await runVerb(page, ["fit", BELTS, ...withHoles, ...without, ...wishWords(page.store.view), "-o", ANCHORS, "--force"], {quiet: true, supersede: "belts"});
     if (!fit || isStale()) return;
-    page.fit = fitParts(sentencesOf(fit).map(inPage), fit.code !== DONE);
-    page.store.derive(fit.code === DONE ? fit.files : NO_RESULTS);
-    if (fit.code !== DONE) return;
+    // Anchors that are not good enough to paste are a result all the same, with a warning that stops.
+    const isWrong = fit.code !== DONE && fit.code !== CHECK_FAILED;
+    page.fit = fitParts(sentencesOf(fit).map(inPage), isWrong);
+    page.store.derive(isWrong ? NO_RESULTS : fit.files);
+    if (isWrong) return;
     const diagnosis = await runVerb(page, ["diagnose", BELTS, ...without, "-o", "diagnosis.json", "--force"], {quiet: true, supersede: "belts"});
     if (!diagnosis || isStale()) return;
     if (diagnosis.code !== DONE) page.fit = {...page.fit, sentences: [...page.fit.sentences, ...sentencesOf(diagnosis)]};

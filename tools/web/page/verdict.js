@@ -8,6 +8,7 @@ import {Sheet} from "./sheet.js";
 
 const HEADLINE = /^(Your machine (misses|needs)|With these (anchors|lines)|The lines bow)\b/;
 const SESSION = /^What changed during the session/;
+const STOP = /^What changed during the session|^Do not paste these anchors/;
 /** Sentences about single readings, and about what the readings leave undecided. */
 const WARNING = /^\S+\.(csv|json|txt|yaml): |was left out|^Left out: |cannot tell which/;
 const LINK_MM = 6.35;
@@ -48,15 +49,15 @@ export function verdictOf(page) {
   const {headline, sentences, isWrong} = page.fit ?? {headline: null, sentences: []};
   if (isWrong) return {tone: "bad", headline: null, warnings: sentences, others: []};
   const list = folder["machine.json"] && folder[fittedList(view)] ? Sheet.of(textOf(folder[fittedList(view)])) : null;
-  const stops = sentences.filter((line) => SESSION.test(line));
+  const stops = sentences.filter((line) => STOP.test(line));
   const warnings = [
-    ...stops.map(() => "Something moved while you measured. The map below allows for it, but the machine may not be where it was: set the chains anew, and measure again before you rely on this."),
+    ...stops.map((line) => (!SESSION.test(line) ? line : "Something moved while you measured. The map below allows for it, but the machine may not be where it was: set the chains anew, and measure again before you rely on this.")),
     ...sentences.filter((line) => WARNING.test(line)).map((line) => twice(line, list) ?? line.replace(/^\S+\.(csv|json): (line \d+, column \d+: |\/\S+: )?/, "")), atLeftOut(jsonOf(folder["map.json"])),
   ].filter(Boolean);
   // A mark with a hint at the wrong digit needs no second sentence.
   const hinted = new Set(warnings.map((line) => /^Mark (\d+) lies/.exec(line)?.[1]).filter(Boolean));
   const told = warnings.filter((line) => !hinted.has(/^Point \d+ \(row (\d+)\)|^Point (\d+) at/.exec(line)?.slice(1).find(Boolean)));
-  const shown = (line) => SESSION.test(line) || WARNING.test(line);
+  const shown = (line) => STOP.test(line) || WARNING.test(line);
   return {tone: stops.length > 0 ? "bad" : told.length > 0 ? "caution" : "good", headline, warnings: told, others: sentences.filter((line) => !shown(line))};
 }
 

@@ -198,8 +198,9 @@ for (const browser of browsers) {
       await visit.text("#step-measure .list");
       const about = await visit.page.$$eval("#step-measure .list tbody tr[data-row]", (rows) => rows.map((row, place) => Number(row.lastChild.textContent) + 0.2 * (place % 4)));
       await visit.paste('#step-measure tr[data-row="0"] input', about.join("\n"));
-      await visit.text("#step-measure .said", "distances");
+      await visit.text("#step-measure .said.bad", "Do not paste these anchors");
       await visit.click("Programs");
+      await visit.page.click("#step-cut .read");
       await visit.click("Compensate each program instead");
       await visit.upload("#program", fixture("gcode/bracket.nc"));
       await visit.text("#step-cut .said", "the tool stays within");
