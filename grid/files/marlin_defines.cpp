@@ -211,7 +211,8 @@ class Defines {
       if (branches_.size() <= kDeepest && defined_.size() <= kMostNames) continue;
       problems_.add(place,
                     "more names or conditions",
-                    fmt::format("at most {} names, and {} conditions within each other", kMostNames, kDeepest));
+                    fmt::format("at most {} names, and {} conditions within each other", kMostNames, kDeepest),
+                    ProblemKind::too_many);
       return;
     }
   }
