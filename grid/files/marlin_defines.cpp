@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kLongestFormula = 500;
 /// Marlin's own has some two thousand names, and conditions five deep.
 constexpr std::size_t kMostNames = 20'000;
-constexpr std::size_t kDeepest = 100;
+constexpr std::size_t kMostConditions = 100;
 
 bool is_of_a_name(char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; }
 bool begins_a_number(char c) { return c == '.' || std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -208,10 +208,10 @@ class Defines {
         line.replace(line.rfind('\\'), std::string::npos, next);
       const std::string place = fmt::format("line {}", first);
       take(line, place);
-      if (branches_.size() <= kDeepest && defined_.size() <= kMostNames) continue;
+      if (branches_.size() <= kMostConditions && defined_.size() <= kMostNames) continue;
       problems_.add(place,
                     "more names or conditions",
-                    fmt::format("at most {} names, and {} conditions within each other", kMostNames, kDeepest),
+                    fmt::format("at most {} names, and {} conditions within each other", kMostNames, kMostConditions),
                     ProblemKind::too_many);
       return;
     }
