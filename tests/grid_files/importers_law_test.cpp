@@ -74,6 +74,7 @@ const Importer kPlotter = importer([](const std::string& text) {
 
 Answer of_maslow4(const std::string& log, const std::string& settings) {
   Maslow4Options options;
+  options.settings_file = "any";
   if (!settings.empty()) options.settings = settings;
   const Maslow4Import read = parse_maslow4(log, "any", options);
   std::string said = sentences_of(read.warnings);
