@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -24,6 +25,9 @@ namespace chaintrue::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Titles to choose from at a glance.
+constexpr std::ptrdiff_t kMostFolds = 6;
 
 /// Inside a script element no text may contain its end tag or the start of a comment.
 std::string script_json(const Json& json) {
@@ -135,7 +139,7 @@ class HtmlWriter {
         "not.</p></noscript>\n");
   }
 
-  /// The open ones, then the folded ones.
+  /// The open ones, then the folded ones; where these are many, the last ones share a fold.
   void write_sections(const Document& page) {
     std::vector<const Section*> sections;
     for (const Section& section : page.sections) sections.push_back(&section);
@@ -146,7 +150,17 @@ class HtmlWriter {
         std::stable_partition(sections.begin(), sections.end(), [](const Section* section) {
           return !section->is_folded;
         });
-    for (const Section* section : sections) write_section(*section);
+    const auto shared =
+        sections.end() - folded > kMostFolds ? folded + (kMostFolds - 1) : sections.end();
+    std::for_each(sections.begin(), shared, [this](const Section* one) { write_section(*one); });
+    if (shared != sections.end()) {
+      add("<section class=\"folded\">\n<details>\n<summary><h2>Everything else</h2></summary>\n");
+      std::for_each(shared, sections.end(), [this](const Section* one) {
+        add("<h2>{}</h2>\n", set(one->title));
+        write_blocks(*one);
+      });
+      add("</details>\n</section>\n");
+    }
     if (folded == sections.end()) return;
     add("<p class=\"on-paper\">What is folded on the screen is not printed: open there first what "
         "is "
@@ -160,6 +174,11 @@ class HtmlWriter {
     } else {
       add("<section>\n{}\n", heading);
     }
+    write_blocks(section);
+    add("{}</section>\n", section.is_folded ? "</details>\n" : "");
+  }
+
+  void write_blocks(const Section& section) {
     for (const Block& block : section.blocks) {
       std::visit(Overloaded{
                      [&](const Paragraph& text) {
@@ -178,7 +197,6 @@ class HtmlWriter {
                  },
                  block);
     }
-    add("{}</section>\n", section.is_folded ? "</details>\n" : "");
   }
 
   void write_figures(const Figures& figures) {
