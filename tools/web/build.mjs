@@ -59,7 +59,7 @@ function licences() {
 
 const EXAMPLES = ["worn_chain", "bent_beam", "long_tape", "slipped_tooth", "nothing_wrong"];
 
-export function example() {
+function example() {
   const examples = Object.fromEntries(EXAMPLES.map((name) => [name, read(join(root, `fixtures/start/${name}.csv`))]));
   examples.maslow4 = read(join(root, "fixtures/machines/maslow.yaml")) + read(join(root, "fixtures/good/maslow4_log.txt"));
   return {

@@ -12,7 +12,7 @@ const GCODE = /^\s*(?:N\d+\s*)?[GM]\d+\b/mi;
 const EXPECTED = "Expected: groundcontrol.ini, webcontrol.json, a Maslow 4's log or maslow.yaml, a plotter's settings, readings (marks.csv), a G-code program, or a zip from Download.";
 
 /** What a file is, by its content first and its name second. */
-export function kindOf(name, text) {
+function kindOf(name, text) {
   if (/^PK\u0003\u0004/.test(text) || /\.zip$/i.test(name)) return "zip";
   if (text.trim() === "") return "empty";
   if (/^\s*(<\?xml[^>]*>\s*)?(<!--[^]*?-->\s*)?<svg\b/i.test(text)) return "picture";

@@ -83,7 +83,7 @@ export function mayReplace(page) {
 }
 
 /** What was chosen for one machine is not for the next. */
-const NEW_VIEW = {sheet: MARKS, fitted: MARKS, way: null, hook: false, home: null, noise: undefined, assumed: [], runs: 0, run: null, read: null, done: []};
+const NEW_VIEW = {sheet: MARKS, fitted: MARKS, way: null, hook: false, home: null, noise: undefined, assumed: [], runs: 0, run: null, read: null, done: null, typed: false};
 
 /** Replaces the whole folder by `files`, in one step. */
 export function replaceFolder(page, files, step) {

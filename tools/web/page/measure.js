@@ -109,6 +109,8 @@ export function measureStep(page) {
       shownRead = view.read;
       if (shown === bytes && shown !== null && fittedWith === fitWith) return;
       shown = bytes;
+      // What was said of another wish is no answer to this one.
+      if (fittedWith !== fitWith) said.replaceChildren(h("p", {class: "hint"}, "Being computed ..."));
       fittedWith = fitWith;
       if (view.sheet !== NEW_POINTS) page.fit = null;
       if (sheet) {

@@ -13,6 +13,7 @@ import {readsGcode} from "./plotter_text.js";
 import {Tape} from "./tape.js";
 import {areIn, numbersOf, typeInPart} from "./type_in.js";
 import {isStopped, verdictBand, verdictOf} from "./verdict.js";
+import {isWish} from "./wish.js";
 
 export const NUMBERS = "numbers";
 export const JOBS = "jobs";
@@ -146,7 +147,7 @@ export function resultStep(page) {
       band.replaceChildren(verdictBand(page, verdict), picture ? h("section", {}, picture) : "");
       way.replaceChildren(...drawWay(page.store, verdict).filter(Boolean));
       check.replaceChildren(...drawCheck(page.store));
-      more.replaceChildren(sentenceList(verdict.others), page.fit.tables.length > 0 ? h("pre", {tabindex: "0"}, page.fit.tables.join("\n")) : "");
+      more.replaceChildren(sentenceList(verdict.others.filter((line) => !isWish(line))), page.fit.tables.length > 0 ? h("pre", {tabindex: "0"}, page.fit.tables.join("\n")) : "");
       if (focused) document.getElementById(focused)?.focus({preventScroll: true});
     },
   };

@@ -5,6 +5,7 @@ import {h, textOf} from "./dom.js";
 import {fittedList, jsonOf} from "./folder.js";
 import {explained} from "./glossary.js";
 import {Sheet} from "./sheet.js";
+import {isWish} from "./wish.js";
 
 const HEADLINE = /^(Your machine (misses|needs)|With these (anchors|lines)|The lines bow)\b/;
 const SESSION = /^What changed during the session/;
@@ -73,9 +74,10 @@ export function fitBox(page) {
 
 /** The band with the verdict, its warnings, and the tick that says they were read. */
 export function verdictBand(page, verdict = verdictOf(page)) {
-  const {tone, headline, warnings} = verdict;
+  const {tone, headline, warnings, others} = verdict;
+  const wish = others.find(isWish);
   const tick = h("input", {type: "checkbox", class: "read", checked: !isStopped(page, verdict), onchange: () => page.store.show({read: tick.checked ? keyOf(verdict) : null})});
   return h("div", {class: `said ${tone}`, role: "status"}, headline && h("p", {class: "headline"}, explained(headline)),
-    warnings.length > 0 && sentenceList(warnings),
+    wish && h("p", {}, wish), warnings.length > 0 && sentenceList(warnings),
     warnings.length > 0 && !page.fit.isWrong && h("p", {}, h("label", {class: "pair"}, tick, "I have read this and go on")));
 }

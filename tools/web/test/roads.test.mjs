@@ -188,8 +188,7 @@ for (const browser of browsers) {
       await visit.page.type("#belts-wish", "0,5");
       await visit.page.keyboard.press("Tab");
       await visit.click("Result");
-      await visit.unfold("More about these readings");
-      await visit.text("#step-result .sentences", "You wish for 0.5 mm: reached");
+      await visit.text("#step-result .said", "You wish for 0.5 mm: reached");
       await visit.click("Measure");
       await visit.page.click("#leave-7");
       await visit.text("#step-measure tr.out th", "7");
