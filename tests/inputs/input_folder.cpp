@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 
 namespace chaintrue::inputs {
@@ -53,22 +54,6 @@ std::string as_csv(const std::string& grid) {
   return text;
 }
 
-/// A plotter over a sheet of a router's size.
-constexpr const char* kWidePlotter = R"({
-  "file_type": "chaintrue_plotter", "format_version": "1.0",
-  "set": {
-    "firmware": "fluidnc",
-    "machine": {"pin_spacing_mm": 3000, "motors": "wall", "gondola": {"mass_kg": 2},
-                "area": {"left_mm": -1200, "right_mm": 1200, "top_mm": -300, "bottom_mm": -1500}},
-    "home": {"x_mm": 0, "y_mm": -900},
-    "pins_middle": {"x_mm": 0, "y_mm": 900}},
-  "found": {
-    "pin_spacing_mm": {"value": 3003, "sigma": 0.5}, "pin_rise_mm": {"value": 2, "sigma": 1},
-    "zero_left_mm": {"value": 6, "sigma": 0.4}, "zero_right_mm": {"value": -4, "sigma": 0.4},
-    "scale_left_mm_per_m": {"value": 1, "sigma": 0.2},
-    "scale_right_mm_per_m": {"value": -0.5, "sigma": 0.2},
-    "correlations": [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]}})";
-
 /// Files of the folder and the fixtures that they are copies of.
 std::map<std::string, std::string> copied_files() {
   return {
@@ -89,37 +74,6 @@ std::map<std::string, std::string> copied_files() {
       {"scan.csv", "good/optical_scan.csv"}};
 }
 
-/// Files that the command makes, and the line that makes each.
-std::map<std::string, std::string> made_files() {
-  return {
-      // Marks on part of the bed, on a sheet that was laid by hand.
-      {"placed.json",
-       "simulate --machine @classic.json --grid 7x5 --margin-mm 250 --length-noise-mm 0.2 "
-       "--position-noise-mm 0.3 --sheet-shift-mm 8 --sheet-rotation-mrad 4 --effect "
-       "chain_pitch_error:left:elongation=0.003 --seed 5 -o @placed.json"},
-      {"worn.json",
-       "simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
-       "--effect chain_pitch_error:left:elongation=0.0016 --seed 5 -o @worn.json"},
-      // Worn equally on both sides, or a tape that is long: one class.
-      {"worn_both.json",
-       "simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
-       "--effect chain_pitch_error:both:elongation=0.003 --seed 5 -o @worn_both.json"},
-      {"holes2.json", "simulate --machine @classic.json --holes 9 --seed 4 -o @holes2.json"},
-      {"few_belts.json",
-       "simulate --belts @anchors.json --grid 4x3 --length-noise-mm 0.6 --seed 2 -o "
-       "@few_belts.json"},
-      {"map.json", "fit @placed.json -o @map.json"},
-      {"anchors.json", "fit @belts.json -o @anchors.json"},
-      {"diagnosis.json", "diagnose @grid.json -o @diagnosis.json"},
-      {"worn_diagnosis.json", "diagnose @worn.json -o @worn_diagnosis.json"},
-      {"holes_diagnosis.json", "diagnose @holes.json -o @holes_diagnosis.json"},
-      {"belts_diagnosis.json", "diagnose @belts.json -o @belts_diagnosis.json"},
-      {"true.nc", "gcode compensate @simple.nc --map @map.json -o @true.nc"},
-      {"belts_true.nc", "gcode compensate @simple.nc --map @anchors.json -o @belts_true.nc"},
-      {"plotter_true.nc",
-       "gcode compensate @simple.nc --map @wide_plotter.json -o @plotter_true.nc"}};
-}
-
 }  // namespace
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -133,13 +87,27 @@ std::string content_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-InputFolder::InputFolder() : folder_(temporary_folder()), lines_(made_files()) {
+Rows rows_of(const std::string& table) {
+  Rows rows;
+  std::ifstream file(CHAINTRUE_FIXTURES "/../tests/" + table);
+  if (!file) throw std::runtime_error("no table " + table);
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with('#')) continue;
+    std::istringstream cells(line);
+    for (rows.emplace_back(); std::getline(cells, line, '\t');) rows.back().push_back(line);
+  }
+  return rows;
+}
+
+InputFolder::InputFolder() : folder_(temporary_folder()) {
+  add_made_files("inputs/made_files.tsv");
   const std::string fixtures = CHAINTRUE_FIXTURES "/";
   for (const auto& [name, source] : copied_files()) fs::copy_file(fixtures + source, folder_ / name);
   write("grid.csv", as_csv(text_of("grid.json")));
   write("few.csv", as_csv(text_of("few.json")));
   write("belt_holes.json", belt_holes(text_of("belts.json")));
-  write("wide_plotter.json", kWidePlotter);
+  // A plotter over a sheet of a router's size.
+  write("wide_plotter.json", content_of(fixtures + "../tests/inputs/wide_plotter.json"));
   write("sweep.json",
         replaced(content_of(fixtures + "sweeps/quick.json"), "../machines/", ""));
   write("marks.csv", "x_mm,y_mm\n-900,-400\n0,-380\n900,-390\n-880,410\n20,400\n910,380\n");
@@ -182,8 +150,8 @@ void InputFolder::write(const std::string& file, const std::string& text) const 
   std::ofstream(folder_ / file, std::ios::binary) << text;
 }
 
-void InputFolder::add_made_file(const std::string& file, const std::string& line) {
-  lines_[file] = line;
+void InputFolder::add_made_files(const std::string& table) {
+  for (const auto& row : rows_of(table)) lines_[row[0].substr(row[0].rfind('@') + 1)] = row[0];
 }
 
 Ran InputFolder::run(const std::string& lines) const {

@@ -18,6 +18,11 @@ struct Ran {
   std::map<std::string, std::string> files;  ///< name and content of what was written
 };
 
+using Rows = std::vector<std::vector<std::string>>;
+/// The cells, between tabs, of a table in tests/; its lines with # are comments. Empty last cells may lack.
+/// \throws std::runtime_error without the table.
+[[nodiscard]] Rows rows_of(const std::string& table);
+
 class InputFolder {
  public:
   /// Files that the command makes are made once a run names them.
@@ -33,8 +38,8 @@ class InputFolder {
   [[nodiscard]] std::vector<std::string> names() const;
   [[nodiscard]] std::string text_of(const std::string& file) const;
   void write(const std::string& file, const std::string& text) const;
-  /// One more file that the command makes.
-  void add_made_file(const std::string& file, const std::string& line);
+  /// Further files that the command makes: a table of the lines, each with its "-o @name" at the end.
+  void add_made_files(const std::string& table);
 
  private:
   void make_missing_files(const std::string& lines) const;

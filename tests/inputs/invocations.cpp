@@ -3,138 +3,43 @@
 
 #include <map>
 #include <set>
+#include <sstream>
+
+#include "tests/inputs/input_folder.hpp"
 
 namespace chaintrue::inputs {
 
 namespace facts = cli::facts;
 
+namespace {
+
+/// Of names with "|" between.
+cli::Facts facts_of(const std::string& names) {
+  static const std::map<std::string, cli::Facts> all = {
+      {"anchors", facts::anchors}, {"any", facts::any}, {"belt_holes", facts::belt_holes},
+      {"belts", facts::belts}, {"causes", facts::causes}, {"check", facts::check},
+      {"diagnosis", facts::diagnosis}, {"direct", facts::direct}, {"drawing", facts::drawing},
+      {"drilled", facts::drilled}, {"fade", facts::fade}, {"follow_up", facts::follow_up},
+      {"grid", facts::grid}, {"holes", facts::holes}, {"lattice", facts::lattice},
+      {"machine", facts::machine}, {"map", facts::map}, {"marks", facts::marks}, {"no_map", facts::no_map},
+      {"one_grid", facts::one_grid}, {"places", facts::places}, {"plotter", facts::plotter},
+      {"program", facts::program}, {"residual", facts::residual}, {"scattered", facts::scattered},
+      {"table", facts::table}, {"tape", facts::tape}};
+  cli::Facts sum = 0;
+  std::istringstream rest(names);
+  for (std::string name; std::getline(rest, name, '|');) sum |= all.at(name);
+  return sum;
+}
+
+}  // namespace
+
 const std::vector<Invocation>& invocations() {
-  static const std::vector<Invocation> all = {
-      {"fit", "grid", facts::grid | facts::one_grid | facts::residual | facts::causes,
-       "fit @placed.json -o map.json"},
-      {"fit", "csv",
-       facts::grid | facts::one_grid | facts::residual | facts::causes | facts::table,
-       "fit @grid.csv --machine @classic.json -o map.json"},
-      {"fit", "plain", facts::grid | facts::one_grid | facts::residual,
-       "fit @placed.json --plain -o map.json"},
-      {"fit", "direct", facts::grid | facts::one_grid | facts::direct | facts::table,
-       "fit @lattice.csv --surface direct -o map.json"},
-      {"fit", "fade",
-       facts::grid | facts::one_grid | facts::residual | facts::causes | facts::fade,
-       "fit @placed.json --outside fade -o map.json"},
-      {"fit", "holes", facts::holes | facts::residual | facts::causes,
-       "fit @holes.json -o map.json"},
-      {"fit", "mix", facts::grid | facts::holes | facts::residual | facts::causes,
-       "fit @grid.json --with @holes.json -o map.json"},
-      {"fit", "belts", facts::belts | facts::residual | facts::causes,
-       "fit @belts.json -o anchors.json"},
-      {"fit", "belts_and_holes",
-       facts::belts | facts::belt_holes | facts::residual | facts::causes,
-       "fit @belts.json --with @belt_holes.json -o anchors.json"},
-      {"fit", "belt_holes", facts::belt_holes | facts::residual | facts::causes,
-       "fit @belt_holes.json -o anchors.json"},
-      {"fit", "drawing", facts::drawing, "fit @drawing.json -o found.json"},
-      {"diagnose", "grid", facts::grid | facts::one_grid, "diagnose @worn.json -o d.json"},
-      {"diagnose", "csv", facts::grid | facts::one_grid | facts::table,
-       "diagnose @grid.csv --machine @classic.json -o d.json"},
-      {"diagnose", "holes", facts::holes, "diagnose @holes.json -o d.json"},
-      {"diagnose", "mix", facts::grid | facts::holes,
-       "diagnose @grid.json --with @holes.json -o d.json"},
-      {"diagnose", "belts", facts::belts, "diagnose @belts.json -o d.json"},
-      {"diagnose", "drawing", facts::drawing, "diagnose @drawing.json -o d.json"},
-      {"check", "grid", facts::map | facts::grid, "check @map.json @few.json"},
-      {"check", "csv", facts::map | facts::grid | facts::table, "check @map.json @few.csv"},
-      {"check", "holes", facts::map | facts::holes, "check @map.json @holes.json"},
-      {"check", "mix", facts::map | facts::grid | facts::holes,
-       "check @map.json @few.json --with @holes.json"},
-      {"check", "belts", facts::anchors, "check @anchors.json @few_belts.json"},
-      {"plan", "marks", facts::lattice, "plan --machine @classic.json --points 12"},
-      {"plan", "program", facts::lattice | facts::program | facts::drilled,
-       "plan --machine @classic.json --points 12 --measure places --gcode marks.nc"},
-      {"plan", "holes", facts::tape, "plan --machine @classic.json --holes 6"},
-      {"plan", "check", facts::check, "plan --check @map.json"},
-      {"plan", "after_grid", facts::follow_up | facts::grid,
-       "plan @worn.json --after @worn_diagnosis.json"},
-      {"plan", "after_holes", facts::follow_up | facts::holes,
-       "plan @holes.json --after @holes_diagnosis.json"},
-      {"plan", "after_belts", facts::follow_up | facts::belts,
-       "plan @belts.json --after @belts_diagnosis.json"},
-      {"simulate", "grid", facts::lattice,
-       "simulate --machine @classic.json --grid 4x3 --length-noise-mm 0.2 --position-noise-mm 0.3"},
-      {"simulate", "random", facts::scattered,
-       "simulate --machine @classic.json --random 9 --length-noise-mm 0.2 --position-noise-mm 0.3"},
-      {"simulate", "marks", facts::marks,
-       "simulate --machine @classic.json --marks @marks.csv --length-noise-mm 0.2 "
-       "--position-noise-mm 0.3"},
-      {"simulate", "places", facts::places, "simulate --machine @classic.json --points @marks.csv"},
-      {"simulate", "holes", facts::tape, "simulate --machine @classic.json --holes 6"},
-      {"simulate", "belts", facts::belts,
-       "simulate --belts @anchors.json --grid 4x3 --length-noise-mm 0.5"},
-      {"query", "map", facts::map, "query @map.json 0 0 900 400 1200 600"},
-      {"query", "fade", facts::map | facts::fade, "query @map.json 0 0 1200 600 --outside fade"},
-      {"query", "anchors", facts::anchors, "query @anchors.json 0 0 400 300"},
-      {"query", "plotter", facts::plotter, "query @wide_plotter.json 0 0 400 300"},
-      {"report", "map", facts::map, "report @map.json -o page.html"},
-      {"report", "diagnosis", facts::diagnosis, "report @diagnosis.json -o page.html"},
-      {"report", "anchors", facts::anchors, "report @anchors.json -o page.html"},
-      {"export groundcontrol", "machine", facts::machine, "export groundcontrol @stated.json"},
-      {"export groundcontrol", "map", facts::map, "export groundcontrol @map.json"},
-      {"export groundcontrol", "diagnosis", facts::diagnosis,
-       "export groundcontrol @diagnosis.json"},
-      {"export maslow4", "anchors", facts::anchors, "export maslow4 @anchors.json"},
-      {"export maslow4", "diagnosis", facts::diagnosis, "export maslow4 @belts_diagnosis.json"},
-      {"export plotter", "plotter", facts::any, "export plotter @plotter.json"},
-      {"export linuxcnc", "map", facts::any, "export linuxcnc @map.json -o kins.c"},
-      {"export klipper", "map", facts::any, "export klipper @map.json -o chaintrue.py"},
-      {"export fluidnc", "map", facts::any, "export fluidnc @map.json"},
-      {"export grblhal", "map", facts::any, "export grblhal @map.json"},
-      {"square", "plotter", facts::plotter, "square --map @wide_plotter.json"},
-      {"square", "plotter_program", facts::plotter | facts::program,
-       "square --map @wide_plotter.json --gcode square.gcode"},
-      {"square", "map", facts::map, "square --map @map.json"},
-      {"square", "program", facts::map | facts::program,
-       "square --map @map.json --gcode square.nc"},
-      {"square", "machines", facts::machine,
-       "square --machine @classic.json --controller-machine @stated.json"},
-      {"gcode check", "none", facts::no_map, "gcode check @simple.nc"},
-      {"gcode check", "map", facts::map, "gcode check @simple.nc --map @map.json"},
-      {"gcode check", "anchors", facts::anchors, "gcode check @simple.nc --map @anchors.json"},
-      {"gcode check", "plotter", facts::plotter, "gcode check @simple.nc --map @wide_plotter.json"},
-      {"gcode lengths", "map", facts::map, "gcode lengths @simple.nc --map @map.json"},
-      {"gcode lengths", "anchors", facts::anchors, "gcode lengths @simple.nc --map @anchors.json"},
-      {"gcode lengths", "plotter", facts::plotter,
-       "gcode lengths @simple.nc --map @wide_plotter.json"},
-      {"gcode compensate", "map", facts::map,
-       "gcode compensate @simple.nc --map @map.json -o true.nc"},
-      {"gcode compensate", "anchors", facts::anchors,
-       "gcode compensate @simple.nc --map @anchors.json -o true.nc"},
-      {"gcode compensate", "plotter", facts::plotter,
-       "gcode compensate @simple.nc --map @wide_plotter.json -o true.nc"},
-      {"gcode verify", "map", facts::map, "gcode verify @simple.nc @true.nc --map @map.json"},
-      {"gcode verify", "anchors", facts::anchors,
-       "gcode verify @simple.nc @belts_true.nc --map @anchors.json"},
-      {"gcode verify", "plotter", facts::plotter,
-       "gcode verify @simple.nc @plotter_true.nc --map @wide_plotter.json"},
-      {"gcode explain", "none", facts::no_map, "gcode explain @simple.nc:6"},
-      {"gcode explain", "map", facts::map, "gcode explain @simple.nc:6 --map @map.json"},
-      {"gcode explain", "anchors", facts::anchors,
-       "gcode explain @simple.nc:6 --map @anchors.json"},
-      {"gcode explain", "plotter", facts::plotter,
-       "gcode explain @simple.nc:6 --map @wide_plotter.json"},
-      {"start", "settings", facts::any, "start @settings.ini start_folder"},
-      {"import groundcontrol", "settings", facts::any,
-       "import groundcontrol @settings.ini -o machine.json"},
-      {"import optical", "scan", facts::any,
-       "import optical @scan.csv --machine @stated.json -o grid.json"},
-      {"import maslow4", "log", facts::any,
-       "import maslow4 @log.txt --settings @maslow.yaml -o belts.json"},
-      {"import maslow4", "notes", facts::any, "import maslow4 @notes.txt -o belts.json"},
-      {"import plotter", "settings", facts::any, "import plotter @mural.txt -o plotter.json"},
-      {"effects", "one", facts::any, "effects chain_stretch --machine @classic.json"},
-      {"formats", "one", facts::any, "formats machine"},
-      {"sweep", "shard", facts::any, "sweep @sweep.json -o results --shard 1/4"},
-      {"completion", "bash", facts::any, "completion bash"},
-      {"man", "fit", facts::any, "man fit"}};
+  static const std::vector<Invocation> all = [] {
+    std::vector<Invocation> read;
+    for (const auto& row : rows_of("inputs/invocations.tsv"))
+      read.push_back({row.at(0), row.at(1), facts_of(row.at(2)), row.at(3)});
+    return read;
+  }();
   return all;
 }
 

@@ -12,12 +12,12 @@
 
 namespace chaintrue::inputs {
 
-/// A verb on one kind of input.
+/// A verb on one kind of input: a row of invocations.tsv.
 struct Invocation {
-  const char* verb;  ///< "fit", "gcode check"
-  const char* name;  ///< of the kind of input
+  std::string verb;  ///< "fit", "gcode check"
+  std::string name;  ///< of the kind of input
   cli::Facts facts;  ///< what option_rules.def knows of it
-  const char* line;
+  std::string line;
 };
 [[nodiscard]] const std::vector<Invocation>& invocations();
 

@@ -81,7 +81,7 @@ TEST(Invocations, AnswerTheSameBytesTwice) {
     EXPECT_EQ(again.out, answer_of(call).out) << call.line;
     EXPECT_EQ(again.err, answer_of(call).err) << call.line;
     // Threads write the cells of a sweep as they finish; its results are in one order (tests/sweep).
-    if (std::string_view(call.verb) == "sweep") continue;
+    if (call.verb == "sweep") continue;
     EXPECT_EQ(again.files, answer_of(call).files) << call.line;
   }
 }
@@ -129,7 +129,7 @@ TEST(OptionRules, RefuseWhatWouldDoNothing) {
       for (const Refusal& refusal : refusals) {
         if (is_refused(together, refusal)) continue;
         // Options that exclude each other for the parser already, or that are checked one by one.
-        const std::string line = call.line + (" " + refusal.words);
+        const std::string line = call.line + " " + refusal.words;
         const Ran ran = folder().run(line);
         EXPECT_TRUE(ran.code == 2 || is_refused(ran, refusal)) << line << "\n" << ran.err;
         EXPECT_THAT(ran.err, HasSubstr(std::string(refusal.rule->option))) << line;
@@ -143,9 +143,9 @@ TEST(OptionRules, RefuseWhatWouldDoNothing) {
 TEST(Force, ReplacesFilesOfOthers) {
   std::set<std::string> tried;
   for (const Invocation& call : invocations()) {
-    const std::string line = call.line;
+    const std::string& line = call.line;
     const std::size_t output = line.find(" -o ");
-    if (output == std::string::npos || std::string_view(call.verb) == "sweep" ||  // into a folder
+    if (output == std::string::npos || call.verb == "sweep" ||  // into a folder
         !tried.insert(call.verb).second)
       continue;
     SCOPED_TRACE(line);

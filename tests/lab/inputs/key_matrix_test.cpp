@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every number in a file of measurements or of a machine affects every verb that accepts the file:
-// a change of it changes numbers of the answer, or is rejected with a message. The table below
-// gives the reasons for keys without effect on a verb; a key that is not in it and changes nothing
-// fails.
+// a change of it changes numbers of the answer, or is rejected with a message. idle_keys.tsv gives
+// the reasons for keys without effect on a verb; a key that is not in it and changes nothing fails.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,55 +29,10 @@ struct Reader {
   const char* line;
 };
 
-/// Keys without effect on a verb, and why; keys by the beginning of their pointer.
-struct Idle {
-  const char* kind;
-  const char* verb;
-  const char* key;
-  const char* why;
-};
-
-constexpr Idle kIdle[] = {
-    {"grid", "fit", "/points/0/order", "no effect of this machine depends on the visit"},
-    {"grid", "fit", "/readings/1/sigma", "a link is taken to be as long as it was read; what is left is in the chains' scales"},
-    {"holes", "fit", "/readings/1/sigma", "a link is taken to be as long as it was read; what is left is in the chains' scales"},
-    {"grid", "check", "/points/0/order", "no effect of this machine depends on the visit"},
-    {"grid", "check", "/noise/dof", "a check takes the noise as known"},
-    {"grid", "check", "/readings", "readings of the machine say nothing of a map"},
-    {"holes", "check", "/noise_dof", "a check takes the noise as known"},
-    {"holes", "check", "/readings", "readings of the machine say nothing of a map"},
-    {"belts", "check", "/machine", "the anchors that are checked have their own machine"},
-    {"belts", "check", "/points/0/commanded", "a check goes by lengths alone"},
-    {"belts", "fit", "/points/0/order", "a fit of anchors knows no effect of the visit"},
-    {"belts", "check", "/points/0/order", "a check goes by lengths alone"},
-    {"belts", "check", "/distances", "a check goes by lengths alone"},
-    {"belts", "check", "/firmware_fit", "what the firmware said of its own fit is for comparison"},
-    {"belts", "fit", "/firmware_fit", "what the firmware said of its own fit is for comparison"},
-    {"belts", "fit", "/machine/anchors/tl/z_mm", "lengths that are level have no height"},
-    {"belts", "fit", "/machine/anchors/tr/z_mm", "lengths that are level have no height"},
-    {"belts", "fit", "/machine/anchors/bl/z_mm", "lengths that are level have no height"},
-    {"belts", "fit", "/machine/anchors/br/z_mm", "lengths that are level have no height"},
-    {"belts", "fit", "/machine/arm_mm", "lengths that are level reach to the tool"},
-    {"belts", "fit", "/machine/end_extension_mm", "lengths that are level reach to the tool"},
-    {"belts", "fit", "/machine/surface_mm", "lengths that are level have no height"},
-    {"belts", "fit", "/machine/belt/turn_mm", "only a reading off by whole turns is told by it"},
-    {"belts", "fit", "/machine/scale_", "a fit goes by lengths; commands say where the tool was sent"},
-    {"belts", "fit", "/points/0/commanded", "a fit goes by lengths; commands only tell where a mirror is"},
-    {"belts", "diagnose", "/machine/scale_y", "commands only tell which of two mirrors the frame is"},
-    {"belts", "diagnose", "/points/0/commanded", "commands tell contradictions, and where a place is measured once more if that is proposed"},
-    {"belts", "simulate", "/machine/belt/turn_mm", "nothing of a simulation slips by a turn"},
-    {"belts", "simulate", "/machine/anchors/bl/z_mm", "the height of the origin shifts all lengths less than they are written to"},
-    {"belts", "simulate", "/points", "what is simulated goes by the machine"},
-    {"belts", "simulate", "/distances", "what is simulated goes by the machine"},
-    {"belts", "simulate", "/firmware_fit", "what is simulated goes by the machine"},
-    {"machine", "simulate", "/sprocket/teeth", "the radius is stated"},
-    {"machine", "simulate", "/sprocket/pitch_mm", "the radius is stated"},
-    {"machine", "simulate", "/uncertainty/ring_radius_mm", "brackets have no ring"},
-    {"machine", "simulate", "/controller", "marks are measured where they are, whatever was commanded"}};
-
 bool is_idle(const std::string& kind, const std::string& verb, const std::string& key) {
-  return std::any_of(std::begin(kIdle), std::end(kIdle), [&](const Idle& idle) {
-    return idle.kind == kind && idle.verb == verb && key.starts_with(idle.key);
+  static const inputs::Rows idle = inputs::rows_of("lab/inputs/idle_keys.tsv");
+  return std::any_of(idle.begin(), idle.end(), [&](const auto& row) {
+    return row.at(0) == kind && row.at(1) == verb && key.starts_with(row.at(2));
   });
 }
 

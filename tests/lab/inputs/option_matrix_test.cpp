@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every option that is not refused (tests/inputs) changes the answer of every kind of input that its
-// verb takes. The options are those of --help: one without a telling value in tellings.cpp fails.
+// verb takes. The options are those of --help: one without a telling value in tellings.tsv fails.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace chaintrue::inputs {
 namespace {
 
 std::string line_of(const Invocation& use, const Telling& telling) {
-  const std::string instead = telling.instead;
+  const std::string& instead = telling.instead;
   if (!instead.empty() && instead.front() != '@') return instead;
   std::string line = use.line;
   if (instead.empty()) return line;
@@ -42,7 +42,7 @@ std::string fault_of(const InputFolder& folder, const Invocation& use, const Ran
   const bool by_itself = telling->shows == Shows::as_file || telling->shows == Shows::in_words;
   const std::string then = by_itself || then_of(use).empty() ? "" : "; " + then_of(use);
   Ran ran = folder.run(line + then);
-  Ran before = *telling->instead == '\0' ? base : folder.run(line_of(use, *telling) + then);
+  Ran before = telling->instead.empty() ? base : folder.run(line_of(use, *telling) + then);
   if (ran.code == 2 || ran.code == 3) {
     // A sentence that says why it cannot, by what the file holds.
     if (ran.err.empty()) return "is refused without a sentence";
@@ -53,13 +53,13 @@ std::string fault_of(const InputFolder& folder, const Invocation& use, const Ran
   switch (telling->shows) {
     case Shows::in_numbers: {
       std::vector<std::string> echoes = kEchoes;
-      if (std::string(use.verb) != "simulate") echoes.emplace_back("noise");
+      if (use.verb != "simulate") echoes.emplace_back("noise");
       if (!then_of(use).empty()) {
         before.files.clear();
         ran.files.clear();
       }
       // What is wrong with a program is said on standard error.
-      const bool says_more = std::string_view(use.verb).starts_with("gcode") && before.err != ran.err;
+      const bool says_more = use.verb.starts_with("gcode") && before.err != ran.err;
       return numbers_of(before, echoes) == numbers_of(ran, echoes) && !says_more
                  ? "changes no number: " + line
                  : "";
@@ -88,7 +88,7 @@ InputFolder& folder() {
 }
 
 bool writes_a_file(const Telling* telling) {
-  return telling != nullptr && telling->shows == Shows::as_file && *telling->instead == '\0';
+  return telling != nullptr && telling->shows == Shows::as_file && telling->instead.empty();
 }
 
 /// What is wrong with the options that write a file: one run is given all of them, and one file of each is expected.
@@ -98,7 +98,7 @@ std::string fault_of_files(const InputFolder& folder, const Invocation& use, con
   for (const std::string& option : options) {
     const Telling* telling = telling_of(use.verb, option, use.name);
     if (!writes_a_file(telling) || cli::refusal_of(use.verb, option, use.facts) != nullptr) continue;
-    const std::string words = telling->words;
+    const std::string& words = telling->words;
     line = without(line, option) + " " + words;
     expected.emplace_back(option, words.substr(words.rfind(' ') + 1));
   }

@@ -64,55 +64,10 @@ std::string as_commands(const std::string& csv) {
   return text;
 }
 
-/// Further files that the command makes, and the line that makes each.
-std::map<std::string, std::string> more_made_files() {
-  return {
-      {"map2.json", "fit @placed.json --machine @other.json -o @map2.json"},
-      // With a wave that no listed cause makes.
-      {"wave.json",
-       "simulate --machine @classic.json --effects @half_turn.json --grid 9x6 --repeats 6 --order random "
-       "--length-noise-mm 0.05 --position-noise-mm 0.05 "
-       "--effect second_harmonic:left:amplitude_mm=0.2,phase_rad=1.2 --seed 3 -o @wave.json"},
-      {"wave_holes.json",
-       "simulate --machine @classic.json --effects @half_turn.json --holes 24 --distances 100 "
-       "--tape-sigma-mm 0.1 --hole-sigma-mm 0.05 --effect second_harmonic:left:amplitude_mm=0.3,phase_rad=1.2 "
-       "--seed 3 -o @wave_holes.json"},
-      {"lattice.json",
-       "simulate --machine @classic.json --grid 5x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
-       "--seed 9 -o @lattice.json"},
-      {"worn_holes.json",
-       "simulate --machine @classic.json --holes 9 --effect chain_pitch_error:both:elongation=0.003 "
-       "--seed 5 -o @worn_holes.json"},
-      {"commanded_diagnosis.json",
-       "diagnose @commanded.csv --machine @classic.json --noise-length-mm 0.2 --noise-position-mm 0.3 "
-       "-o @commanded_diagnosis.json"},
-      {"mixed_diagnosis.json",
-       "diagnose @commanded.csv --with @holes.json --machine @classic.json --noise-length-mm 0.2 "
-       "--noise-position-mm 0.3 -o @mixed_diagnosis.json"},
-      {"rapid_true.nc",
-       "gcode compensate @rapid.nc --map @map.json --tolerance-mm 0.01 --keep-rapids-whole -o "
-       "@rapid_true.nc"},
-      {"rapid_belts_true.nc",
-       "gcode compensate @rapid.nc --map @anchors.json --tolerance-mm 0.01 --keep-rapids-whole -o "
-       "@rapid_belts_true.nc"},
-      {"short_true.nc", "gcode compensate @short.nc --map @map.json --tolerance-mm 0.02 -o @short_true.nc"},
-      {"short_belts_true.nc",
-       "gcode compensate @short.nc --map @anchors.json --tolerance-mm 0.02 -o @short_belts_true.nc"},
-      {"rapid_plotter_true.nc",
-       "gcode compensate @rapid.nc --map @wide_plotter.json --tolerance-mm 0.01 --keep-rapids-whole -o "
-       "@rapid_plotter_true.nc"},
-      {"short_plotter_true.nc",
-       "gcode compensate @short.nc --map @wide_plotter.json --tolerance-mm 0.02 -o @short_plotter_true.nc"},
-      {"slow_plotter_true.nc",
-       "gcode compensate @slow.nc --map @wide_plotter.json -o @slow_plotter_true.nc"},
-      {"slow_true.nc", "gcode compensate @slow.nc --map @map.json -o @slow_true.nc"},
-      {"slow_belts_true.nc", "gcode compensate @slow.nc --map @anchors.json -o @slow_belts_true.nc"}};
-}
-
 }  // namespace
 
 void add_telling_files(InputFolder& folder) {
-  for (const auto& [name, line] : more_made_files()) folder.add_made_file(name, line);
+  folder.add_made_files("lab/inputs/made_files.tsv");
   const std::string fixtures = CHAINTRUE_FIXTURES "/";
   folder.write("every.json", content_of(fixtures + "good/machine_every_key.json"));
   folder.write("half_turn.json", content_of(fixtures + "effects/second_harmonic.json"));

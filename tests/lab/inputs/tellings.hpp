@@ -19,16 +19,15 @@ enum class Shows {
   in_words,    ///< what is said on standard error, or the exit code
 };
 
-/// The option at a value that tells, with what it needs. `where` is an invocation's name, or empty for all.
+/// The option at a value that tells, with what it needs: a row of tellings.tsv. `where` is an
+/// invocation's name, or empty for all.
 struct Telling {
-  const char* verb;
-  const char* option;
-  const char* words;
-  Shows shows = Shows::in_numbers;
-  const char* where = "";
+  std::string verb, option, words;
+  Shows shows;
+  std::string where;
   /// Where the invocation's own files leave the option nothing to do: a program (@...) in place of simple.nc
   /// and of what was made of it, or a whole line.
-  const char* instead = "";
+  std::string instead;
 };
 /// The one for this invocation if there is one; null where the option has none at all.
 [[nodiscard]] const Telling* telling_of(const std::string& verb,
