@@ -87,28 +87,6 @@ generator::SealedSet set_of_start(const Hidden& hidden, std::uint64_t seed) {
   return generator::draw_set(recipe, seed);
 }
 
-TEST(Road, AZeroThatMovesOnTheWayIsTakenOutOfTheReadings) {
-  for (const Hidden& hidden : {Hidden{Cause::zero_shift, Where::left, 6.0, 15.0},
-                               Hidden{Cause::zero_shift, Where::left, 10.0, 17.0}}) {
-    const generator::SealedSet set = set_of_start(hidden, 1);
-    const grid::Measured measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid);
-    const auto plain = grid::joint_fit(measured);
-    const auto own = grid::diagnosis::fit_with_causes(measured);
-    ASSERT_TRUE(plain && own) << hidden.size;
-    const auto before = map_errors(set, plain->map);
-    const auto after = map_errors(set, own->fit.map);
-    ASSERT_TRUE(before && after);
-    ASSERT_THAT(own->built_on, SizeIs(1)) << hidden.size;
-    const auto& cause = own->built_on.front();
-    EXPECT_TRUE(cause.cause.effect->id == "zero_shift" ||
-                (cause.cause.effect->id == "tooth_skip" && cause.same_as.size() == 1));
-    // Most of a shift of half the readings is left to a map that does not know of it.
-    EXPECT_GT(before->true_rms_mm, 0.25 * hidden.size);
-    // 32 readings of half a millimetre make a map of some 0.25 mm; twice that.
-    EXPECT_LT(after->true_rms_mm, 0.5);
-  }
-}
-
 TEST(Road, ASessionWithAnotherZeroDoesNotPullTheMap) {
   generator::Recipe recipe = recipe_of_start();
   recipe.kind = generator::Mix::nothing;
