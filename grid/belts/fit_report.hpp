@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A BeltsFit from anchors, places and what is known of them. Private to grid/belts and what reads its
+/// A BeltsFit from anchors, places and what is known of them, with how well the upper two belts predict the
+/// lower ones at places that the anchors were not fitted to. Private to grid/belts and what reads its
 /// fits.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
 
+#include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/fit_diagnostics.hpp"
 
@@ -16,5 +21,25 @@ namespace chaintrue::grid::belts {
 [[nodiscard]] BeltsFit fit_report(const MeasuredBelts& belts,
                                   const FitDiagnostics& view,
                                   const Eigen::MatrixXd& covariance);
+
+/// Residuals of the lower belts of a point from the prediction by the upper ones; nothing where a belt
+/// that it takes does not count.
+void predict_point(const MeasuredBelts& belts,
+                   std::size_t point,
+                   const AnchorVector& anchors,
+                   const model::PerBelt<bool>& counting,
+                   std::vector<double>& residual_mm);
+[[nodiscard]] BeltPrediction summed(const std::vector<double>& residual_mm);
+/// Points in the order of their visits, of the file where that is not known.
+[[nodiscard]] std::vector<std::size_t> in_order(const MeasuredBelts& belts);
+
+/// Each place by the anchors without it. Rejected readings neither predict nor are
+/// predicted.
+[[nodiscard]] BeltPrediction predict_one_by_one(const MeasuredBelts& belts,
+                                                const FitDiagnostics& view);
+/// Every second place, in the order of the visits, by the others, and those by these. Empty where a
+/// half has fewer than kFewestBeltPoints, or does not converge.
+[[nodiscard]] std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts,
+                                                              const AnchorFit& frame);
 
 }  // namespace chaintrue::grid::belts

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "grid/belts/fit_report.hpp"
-#include "grid/belts/prediction.hpp"
 #include "grid/containers.hpp"
 #include "grid/diagnosis/belts_report.hpp"
 #include "grid/linear_algebra.hpp"

@@ -51,7 +51,7 @@ struct Regressor {
   double highest = 0.0;
   /// Of a cause with whole numbers: visits at which it may be.
   double visits = 0.0;
-  /// Share of this side, place and whole number within the effect (whole numbers: link_priors.hpp).
+  /// Share of this side, place and whole number within the effect (whole numbers: analysis.cpp).
   double log_prior = 0.0;
 };
 

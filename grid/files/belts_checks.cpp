@@ -10,7 +10,7 @@
 
 #include "grid/belts/belt_checks.hpp"
 #include "grid/belts/belts_fit.hpp"
-#include "grid/belts/settings_check.hpp"
+#include "grid/belts/commands_check.hpp"
 #include "grid/belts/two_frames.hpp"
 
 namespace chaintrue::grid::files {

@@ -4,6 +4,7 @@
 /// paper and to the visit, and laid on the map. Private to grid/map.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <tl/expected.hpp>
@@ -13,6 +14,7 @@
 #include "grid/map/compensation_map.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/observation/tape_distances.hpp"
+#include "grid/progress.hpp"
 
 namespace chaintrue::grid {
 
@@ -49,5 +51,21 @@ struct CheckedPart {
 /// Holes lie where the map puts what their controller paid out.
 [[nodiscard]] tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
                                                                    const MeasuredHoles& set);
+
+/// The map at N places of new readings: d(lengths)/d(mark), and what it does not know of its lengths there: F F',
+/// all places together, or each for itself.
+struct MapAt {
+  std::vector<model::ChainLengths> lengths;
+  std::vector<Eigen::Matrix2d> by_mark;
+  Eigen::MatrixXd factor;                   ///< F, 2 N x any
+  std::vector<Eigen::Matrix2d> covariance;  ///< of each place; empty where F has it
+  /// 2 N x p, by the settings of the machine; no columns of a map without one.
+  Eigen::MatrixXd by_parameter;
+};
+
+/// Fails where the map has no answer at a mark, or its machine no pose.
+[[nodiscard]] tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
+                                                       const std::vector<model::MarkPoint>& marks,
+                                                       const Progress& progress = {});
 
 }  // namespace chaintrue::grid

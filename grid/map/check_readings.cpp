@@ -11,7 +11,6 @@
 #include "grid/containers.hpp"
 #include "grid/failed.hpp"
 #include "grid/map/check_parts.hpp"
-#include "grid/map/map_at.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/tape_zero.hpp"
 #include "model/chains/chain_mechanism.hpp"

@@ -119,7 +119,7 @@ FAULTS = [
           "readings.lengths_mm[i]",
           "map_?check|check_?map|anchors_?check"),
     # grid/diagnosis
-    Fault("links_without_magnitude", "grid/diagnosis/link_priors.cpp",
+    Fault("links_without_magnitude", "grid/diagnosis/analysis.cpp",
           "(std::abs(links) - 1.0)",
           "(links - 1.0)",
           "links|tooth"),
