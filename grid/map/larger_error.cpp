@@ -4,7 +4,6 @@
 #include <utility>
 #include <variant>
 
-#include "grid/chain_rows.hpp"
 #include "grid/containers.hpp"
 #include "grid/linear_algebra.hpp"
 #include "grid/map/map_parts.hpp"
