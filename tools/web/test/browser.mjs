@@ -64,6 +64,8 @@ export function runNative(words, folder) {
 /** A visit to the page. Errors that the page logs or throws are collected in `problems`. */
 export class Visit {
   problems = [];
+  /** How often the page asked before it replaced something; the answer is yes. */
+  questions = 0;
 
   static async to(browserName, {width = 1280, height = 900, dark = false, patience = PATIENCE_MS, prepare, url = pathToFileURL(join(built, "chaintrue.html")).href} = {}) {
     const visit = new Visit();
@@ -88,7 +90,10 @@ export class Visit {
     visit.page.on("console", (message) => {
       if (message.type() === "error") visit.problems.push(message.text());
     });
-    visit.page.on("dialog", (dialog) => dialog.accept());
+    visit.page.on("dialog", (dialog) => {
+      ++visit.questions;
+      return dialog.accept();
+    });
     if (prepare) await prepare(visit.page);
     await visit.page.goto(url);
     await visit.ready();

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
 import {join} from "node:path";
-import {describe, test} from "node:test";
+import {test} from "node:test";
 import {browsers, fixture, runNative, temporaryFolder, Visit, writeFolder} from "./browser.mjs";
 
 const read = (path) => readFileSync(fixture(path), "utf8");
@@ -70,194 +70,196 @@ async function nativeFolder(visit) {
 }
 
 for (const browser of browsers) {
-  describe("roads", () => {
-    walk("the first screen shows three machines, where their files are, and examples", browser, async (visit) => {
-      assert.deepEqual(await visit.page.$$eval(".tile h3", (titles) => titles.map((title) => title.textContent)), ["Two chains", "Four belts", "A pen"]);
-      for (const where of ["groundcontrol.ini is in your home folder", "maslow.yaml is in the machine's own file list", "Marlin answers M503"]) await visit.text(".tile", where);
-      assert.equal((await visit.page.$$(".hero svg.part")).length, 2, "a part before and after");
-      assert.equal((await visit.page.$$(".gallery svg")).length, 7);
-      const tools = await visit.page.$$eval("header button", (buttons) => buttons.filter((one) => one.checkVisibility()).map((one) => one.textContent));
-      assert.deepEqual(tools, [], "nothing to undo or to download yet");
-      assert.deepEqual(await visit.page.$$eval(".step h2", (titles) => titles.map((title) => title.textContent)), ["Machine", "Measure", "Result", "Programs"]);
-      await assertFits(visit, "the first screen");
-    });
+  walk("the first screen shows three machines, where their files are, and examples", browser, async (visit) => {
+    assert.deepEqual(await visit.page.$$eval(".tile h3", (titles) => titles.map((title) => title.textContent)), ["Two chains", "Four belts", "A pen"]);
+    for (const where of ["groundcontrol.ini is in your home folder", "maslow.yaml is in the machine's own file list", "Marlin answers M503"]) await visit.text(".tile", where);
+    assert.equal((await visit.page.$$(".hero svg.part")).length, 2, "a part before and after");
+    assert.equal((await visit.page.$$(".gallery svg")).length, 7);
+    const tools = await visit.page.$$eval("header button", (buttons) => buttons.filter((one) => one.checkVisibility()).map((one) => one.textContent));
+    assert.deepEqual(tools, [], "nothing to undo or to download yet");
+    assert.deepEqual(await visit.page.$$eval(".step h2", (titles) => titles.map((title) => title.textContent)), ["Machine", "Measure", "Result", "Programs"]);
+    await assertFits(visit, "the first screen");
+  });
 
-    walk("two chains: from the settings file to numbers that are typed in, a program and a check", browser, async (visit) => {
-      await visit.upload("#settings", fixture("good/groundcontrol_ring.ini"));
-      await visit.text(".banner", "groundcontrol_ring.ini is read");
-      await visit.text("#machine-sled-assumed", "assumed 11.6 kg");
-      assert.equal(await visit.page.$eval(".tiles", (tiles) => tiles.checkVisibility()), false, "the machine has taken the place of the first screen");
-      await assertFits(visit, "the machine");
-      await visit.click("On to measuring");
-      await typeReadings(visit);
-      await visit.text("#step-measure .said.good", "With this map it misses by about 0.2 mm");
-      await visit.type(11, 1, "-230.5");
-      await visit.text("tr.note", "is it -250.5 rather than -230.5?");
-      await visit.text("#step-measure .said.caution", "Mark 12 lies 20 mm off");
-      await visit.click("Undo");
-      await visit.text("#step-measure .said.good", "With this map");
-      await assertFits(visit, "the readings");
-      await visit.reload();
-      assert.deepEqual(await visit.values(), READINGS.flat(), "a reload loses nothing");
-      await visit.click("See the result");
-      await result(visit, "links");
-      await assertPlain(visit);
-      assert.ok((await visit.page.$$("#step-result .errors .before")).length >= 28, "an arrow at each mark");
-      await visit.text("#step-result .scale", "mm");
-      await assertFits(visit, "the result");
-      await visit.click("Type numbers in");
-      const rows = await visit.text("#way-part .changes", "Distance Between Motors");
-      assert.match(rows, /Chain Tolerance, Right Chain0\.170\.\d+Copy/, "label, old, new and a button");
-      await visit.click("Programs");
-      await visit.text("#step-cut", "Are the numbers in?");
-      await visit.page.click("#step-cut .typed");
-      await visit.text("#step-cut", "Where is home?");
-      assert.equal(await visit.page.$eval("#program", (input) => input.checkVisibility()), false, "home is asked first");
-      await visit.page.click("#home-middle");
-      await visit.upload("#program", fixture("gcode/bracket.nc"));
-      await visit.text("#step-cut .said", "the tool stays within");
-      await visit.report("bracket.nc before and after");
-      await visit.click("Verify it once more");
-      await visit.text("#step-cut .said", "holds: the tool strays at most");
-      await assertFits(visit, "a program");
-      await compareChains(visit);
-      await visit.click("Result");
-      await visit.click("Set five new marks");
-      await visit.page.waitForFunction(() => document.querySelectorAll(".list input").length === 10);
-      for (const [row, [x, y]] of [["-1113", "508"], ["1114", "507"], ["-1113", "254"], ["-1112", "-508"], ["1114", "-508"]].entries()) {
-        await visit.type(row, 0, x);
-        await visit.type(row, 1, y);
-      }
-      await visit.page.keyboard.press("Tab");
-      await visit.text("#step-measure .said", "The map ");
-      assert.match(await visit.text("#step-measure button.main"), /Go on to your programs|Measure the whole bed again/);
-      await assertFits(visit, "a check");
-    }, {patience: 90_000});
+  walk("two chains: from the settings file to numbers that are typed in, a program and a check", browser, async (visit) => {
+    await visit.upload("#settings", fixture("good/groundcontrol_ring.ini"));
+    await visit.text(".banner", "groundcontrol_ring.ini is read");
+    await visit.text("#machine-sled-assumed", "assumed 11.6 kg");
+    assert.equal(await visit.page.$eval(".tiles", (tiles) => tiles.checkVisibility()), false, "the machine has taken the place of the first screen");
+    await assertFits(visit, "the machine");
+    await visit.click("On to measuring");
+    await typeReadings(visit);
+    await visit.text("#step-measure .said.good", "With this map it misses by about 0.2 mm");
+    await visit.type(11, 1, "-230.5");
+    await visit.text("tr.note", "is it -250.5 rather than -230.5?");
+    await visit.text("#step-measure .said.caution", "Mark 12 lies 20 mm off");
+    await visit.click("Undo");
+    await visit.text("#step-measure .said.good", "With this map");
+    await assertFits(visit, "the readings");
+    await visit.reload();
+    assert.deepEqual(await visit.values(), READINGS.flat(), "a reload loses nothing");
+    await visit.click("See the result");
+    await result(visit, "links");
+    await assertPlain(visit);
+    assert.ok((await visit.page.$$("#step-result .errors .before")).length >= 28, "an arrow at each mark");
+    await visit.text("#step-result .scale", "mm");
+    await assertFits(visit, "the result");
+    await visit.click("Type numbers in");
+    const rows = await visit.text("#way-part .changes", "Distance Between Motors");
+    assert.match(rows, /Chain Tolerance, Right Chain0\.170\.\d+Copy/, "label, old, new and a button");
+    await visit.click("Programs");
+    await visit.text("#step-cut", "Are the numbers in?");
+    await visit.page.click("#step-cut .typed");
+    await visit.text("#step-cut", "Where is home?");
+    assert.equal(await visit.page.$eval("#program", (input) => input.checkVisibility()), false, "home is asked first");
+    await visit.page.click("#home-middle");
+    await visit.upload("#program", fixture("gcode/bracket.nc"));
+    await visit.text("#step-cut .said", "the tool stays within");
+    await visit.report("bracket.nc before and after");
+    await visit.click("Verify it once more");
+    await visit.text("#step-cut .said", "holds: the tool strays at most");
+    await assertFits(visit, "a program");
+    await compareChains(visit);
+    await visit.click("Result");
+    await visit.click("Set five new marks");
+    await visit.page.waitForFunction(() => document.querySelectorAll(".list input").length === 10);
+    for (const [row, [x, y]] of [["-1113", "508"], ["1114", "507"], ["-1113", "254"], ["-1112", "-508"], ["1114", "-508"]].entries()) {
+      await visit.type(row, 0, x);
+      await visit.type(row, 1, y);
+    }
+    await visit.page.keyboard.press("Tab");
+    await visit.text("#step-measure .said", "The map ");
+    assert.match(await visit.text("#step-measure button.main"), /Go on to your programs|Measure the whole bed again/);
+    await assertFits(visit, "a check");
+  }, {patience: 90_000});
 
-    walk("a chain that jumped a tooth stops until it is read", browser, async (visit) => {
-      await visit.click("A chain that jumped a tooth");
-      await result(visit, "jumped over teeth");
-      await visit.text("#step-result .said.bad", "Mark 32 is mark 1 again, yet 6 mm lower: about one link. Did a chain jump?");
-      await visit.text("#way-part", "Measure again first");
-      assert.ok(await isDisabled(visit, "Type numbers in") && await isDisabled(visit, "Compensate each program"));
-      await visit.click("Programs");
-      await visit.text("#step-cut .said.bad", "Something moved while you measured");
-      assert.equal(await visit.page.$eval("#program", (input) => input.checkVisibility()), false);
-      await visit.page.click("#step-cut .read");
-      await visit.text("#step-cut", "Where is home?");
-      await visit.reload();
-      await visit.click("Result");
-      await visit.page.waitForFunction(() => document.querySelector("#step-result .read")?.checked);
-      await visit.click("Compensate each program");
-      await visit.text(".put-away", "with other numbers in the machine");
-      await visit.click("Measure");
-      await visit.type(0, 0, "-1095");
-      await visit.page.keyboard.press("Tab");
-      await visit.page.waitForFunction(() => document.querySelector("#step-measure .read")?.checked === false, {}, "another warning is read anew");
-    });
+  walk("a chain that jumped a tooth stops until it is read", browser, async (visit) => {
+    await visit.click("A chain that jumped a tooth");
+    await result(visit, "jumped over teeth");
+    await visit.text("#step-result .said.bad", "Mark 32 is mark 1 again, yet 6 mm lower: about one link. Did a chain jump?");
+    await visit.text("#way-part", "Measure again first");
+    assert.ok(await isDisabled(visit, "Type numbers in") && await isDisabled(visit, "Compensate each program"));
+    await visit.click("Programs");
+    await visit.text("#step-cut .said.bad", "Something moved while you measured");
+    assert.equal(await visit.page.$eval("#program", (input) => input.checkVisibility()), false);
+    await visit.page.click("#step-cut .read");
+    await visit.text("#step-cut", "Where is home?");
+    await visit.reload();
+    await visit.click("Result");
+    await visit.page.waitForFunction(() => document.querySelector("#step-result .read")?.checked);
+    await visit.click("Compensate each program");
+    await visit.text(".put-away", "with other numbers in the machine");
+    await visit.click("Measure");
+    await visit.type(0, 0, "-1095");
+    await visit.page.keyboard.press("Tab");
+    await visit.page.waitForFunction(() => document.querySelector("#step-measure .read")?.checked === false, {}, "another warning is read anew");
+  });
 
-    walk("a tape that is too long asks which of two causes it is; nothing wrong asks for nothing", browser, async (visit) => {
-      await visit.click("A tape that is too long");
-      await visit.text("#step-result .said.caution", "marks cannot tell which");
-      await visit.text("#way-part button", "Type numbers in");
-      assert.ok(await isDisabled(visit, "Type numbers in"));
-      await visit.click("Machine");
-      await visit.unfold("Another machine, or an example");
-      await visit.click("Nothing wrong");
-      await visit.text("#step-result .said.good", "needs no map");
-      await visit.text("#way-part", "Cut your programs as they are");
-      await visit.text("#step-result .cause", "as large as the readings can err");
-      assert.doesNotMatch(await visit.text("#step-result .cause"), /Type in/);
-    });
+  walk("a tape that is too long asks which of two causes it is; nothing wrong asks for nothing", browser, async (visit) => {
+    await visit.click("A tape that is too long");
+    await visit.text("#step-result .said.caution", "marks cannot tell which");
+    await visit.text("#way-part button", "Type numbers in");
+    assert.ok(await isDisabled(visit, "Type numbers in"));
+    await visit.click("Machine");
+    await visit.unfold("Another machine, or an example");
+    await visit.click("Nothing wrong");
+    await visit.text("#step-result .said.good", "needs no map");
+    await visit.text("#way-part", "Cut your programs as they are");
+    await visit.text("#step-result .cause", "as large as the readings can err");
+    assert.doesNotMatch(await visit.text("#step-result .cause"), /Type in/);
+  });
 
-    walk("four belts: from one paste to numbers, places left out, a wish, holes and a program", browser, async (visit) => {
-      await visit.paste("#paste", MASLOW4);
-      await result(visit, "Most likely");
-      assert.match(await visit.text("#step-result .headline"), /^Your machine misses by about 2\.5 mm\. With these anchors it misses by about 0\.1 mm\./);
-      await assertPlain(visit);
-      await visit.click("Type numbers in");
-      await visit.text("#way-part .changes", "Top left X");
-      await assertFits(visit, "the result");
-      const {folder} = await nativeFolder(visit);
-      for (const line of runNative(["export", "maslow4", "diagnosis.json"], folder).stdout.trim().split("\n")) await visit.text("#way-part .changes", line.split("=")[1]);
-      await visit.page.type("#tape-tl-br", "3720");
-      await visit.page.keyboard.press("Tab");
-      await visit.text("#step-result", "was the tape held at its 100 mm mark?");
-      await visit.click("Undo");
-      await visit.click("Measure");
-      await visit.page.type("#belts-wish", "0,5");
-      await visit.page.keyboard.press("Tab");
-      await visit.click("Result");
-      await visit.text("#step-result .said", "You wish for 0.5 mm: reached");
-      await visit.click("Measure");
-      await visit.page.click("#leave-7");
-      await visit.text("#step-measure tr.out th", "7");
-      assert.equal(textOf((await visit.folder())["without.txt"]), "7");
-      await visit.click("Plan nine holes");
-      await visit.text("#step-measure .list");
-      const about = await visit.page.$$eval("#step-measure .list tbody tr[data-row]", (rows) => rows.map((row, place) => Number(row.lastChild.textContent) + 0.2 * (place % 4)));
-      await visit.paste('#step-measure tr[data-row="0"] input', about.join("\n"));
-      await visit.text("#step-measure .said.bad", "Do not paste these anchors");
-      await visit.click("Programs");
-      await visit.page.click("#step-cut .read");
-      await visit.click("Compensate each program instead");
-      await visit.upload("#program", fixture("gcode/bracket.nc"));
-      await visit.text("#step-cut .said", "the tool stays within");
-      assert.match(textOf((await visit.folder())["anchors.json"]), /"scale"/);
-    });
+  walk("four belts: from one paste to numbers, places left out, a wish, holes and a program", browser, async (visit) => {
+    await visit.paste("#paste", MASLOW4);
+    await result(visit, "Most likely");
+    assert.match(await visit.text("#step-result .headline"), /^Your machine misses by about 2\.5 mm\. With these anchors it misses by about 0\.1 mm\./);
+    await assertPlain(visit);
+    await visit.click("Type numbers in");
+    await visit.text("#way-part .changes", "Top left X");
+    await assertFits(visit, "the result");
+    const {folder} = await nativeFolder(visit);
+    for (const line of runNative(["export", "maslow4", "diagnosis.json"], folder).stdout.trim().split("\n")) await visit.text("#way-part .changes", line.split("=")[1]);
+    await visit.page.type("#tape-tl-br", "3720");
+    await visit.page.keyboard.press("Tab");
+    await visit.text("#step-result", "was the tape held at its 100 mm mark?");
+    await visit.click("Undo");
+    await visit.click("Measure");
+    await visit.page.type("#belts-wish", "0,5");
+    await visit.page.keyboard.press("Tab");
+    await visit.click("Result");
+    await visit.text("#step-result .said", "You wish for 0.5 mm: reached");
+    await visit.click("Measure");
+    await visit.page.click("#leave-7");
+    await visit.text("#step-measure tr.out th", "7");
+    assert.equal(textOf((await visit.folder())["without.txt"]), "7");
+    await visit.click("Plan nine holes");
+    await visit.text("#step-measure .list");
+    const about = await visit.page.$$eval("#step-measure .list tbody tr[data-row]", (rows) => rows.map((row, place) => Number(row.lastChild.textContent) + 0.2 * (place % 4)));
+    await visit.paste('#step-measure tr[data-row="0"] input', about.join("\n"));
+    await visit.text("#step-measure .said.bad", "Do not paste these anchors");
+    await visit.click("Programs");
+    await visit.page.click("#step-cut .read");
+    await visit.click("Compensate each program instead");
+    await visit.upload("#program", fixture("gcode/bracket.nc"));
+    await visit.text("#step-cut .said", "the tool stays within");
+    assert.match(textOf((await visit.folder())["anchors.json"]), /"scale"/);
+  });
 
-    walk("four belts: one wrong reading stops until it is read, and maslow.yaml waits for its log", browser, async (visit) => {
-      await visit.paste("#paste", read("machines/maslow.yaml"));
-      await visit.text(".banner", "maslow.yaml is read. Now open or paste");
-      await visit.drop({"log.txt": read("good/maslow4_log.txt").replace("{bl:2344.38", "{bl:2324.38")});
-      await visit.text("#step-result .said.caution", "is it 2342.38 rather than 2324.38?");
-      await visit.text("#way-part button", "Type numbers in");
-      assert.ok(await isDisabled(visit, "Type numbers in"));
-      assert.deepEqual(await visit.page.$$eval("#step-result .spot.wrong", (spots) => spots.map(({dataset}) => dataset.point)), ["30"]);
-      await visit.drop({"notes.log": "G0 X1\nG1 Y2\n"});
-      await visit.text(".banner", "is a program, and is kept");
-    });
+  walk("four belts: one wrong reading stops until it is read, and maslow.yaml waits for its log", browser, async (visit) => {
+    await visit.paste("#paste", read("machines/maslow.yaml"));
+    await visit.text(".banner", "maslow.yaml is read. Now open or paste");
+    await visit.drop({"log.txt": read("good/maslow4_log.txt").replace("{bl:2344.38", "{bl:2324.38")});
+    await visit.text("#step-result .said.caution", "is it 2342.38 rather than 2324.38?");
+    await visit.text("#way-part button", "Type numbers in");
+    assert.ok(await isDisabled(visit, "Type numbers in"));
+    assert.deepEqual(await visit.page.$$eval("#step-result .spot.wrong", (spots) => spots.map(({dataset}) => dataset.point)), ["30"]);
+    await visit.drop({"notes.log": "G0 X1\nG1 Y2\n"});
+    await visit.text(".banner", "is a program, and is kept");
+    assert.equal(visit.questions, 0, "nothing was replaced so far");
+    await visit.drop({"groundcontrol.ini": read("good/groundcontrol_ring.ini")});
+    await visit.text(".banner", "groundcontrol.ini is read");
+    assert.equal(visit.questions, 1, "a machine with its readings is replaced after a question");
+  });
 
-    walk("a pen: from a mural's settings and a ruler to numbers and the second page", browser, async (visit) => {
-      await visit.paste("#paste-plotter", read("plotter/mural.txt"));
-      await visit.text("#step-machine", "Assumed is a mural");
-      await visit.click("On to measuring");
-      await visit.click("Download page.svg");
-      assert.match(textOf(await visit.downloaded("page.svg")), /<svg/);
-      await visit.drop({"drawing.json": JSON.stringify({...DRAWING, measures: DRAWING.measures.map((measure) => ({...measure, value_mm: null}))})});
-      const first = 'tr[data-measure="0"] input';
-      await visit.paste(first, VALUES.map((value) => (value / 25.4).toFixed(3)).join("\n"));
-      await visit.text("#step-measure .said.bad", "inches");
-      await visit.paste(first, VALUES.join("\n"));
-      await visit.text("#step-measure .said.good", "The lines bow by up to 17.9 mm");
-      await visit.click("See the result");
-      await result(visit, "Settings are off");
-      assert.equal((await visit.page.$$("#step-result .plotter-page .before")).length, 8, "eight bowed lines");
-      await assertPlain(visit);
-      await assertFits(visit, "the result");
-      await visit.click("Type numbers in");
-      const shown = await visit.text("#way-part .changes", "top distance");
-      const {folder} = await nativeFolder(visit);
-      for (const line of runNative(["export", "plotter", "found.json"], folder).stdout.trim().split("\n")) assert.ok(shown.includes(line.split(": ")[1]), line);
-      await visit.click("Programs");
-      await visit.text("#step-cut", "This plotter is sent pictures");
-      await visit.click("Result");
-      await visit.click("Draw the second page");
-      await visit.page.waitForFunction(() => [...document.querySelectorAll("tr[data-measure] input")].every(({value}) => value === ""));
-    });
+  walk("a pen: from a mural's settings and a ruler to numbers and the second page", browser, async (visit) => {
+    await visit.paste("#paste-plotter", read("plotter/mural.txt"));
+    await visit.text("#step-machine", "Assumed is a mural");
+    await visit.click("On to measuring");
+    await visit.click("Download page.svg");
+    assert.match(textOf(await visit.downloaded("page.svg")), /<svg/);
+    await visit.drop({"drawing.json": JSON.stringify({...DRAWING, measures: DRAWING.measures.map((measure) => ({...measure, value_mm: null}))})});
+    const first = 'tr[data-measure="0"] input';
+    await visit.paste(first, VALUES.map((value) => (value / 25.4).toFixed(3)).join("\n"));
+    await visit.text("#step-measure .said.bad", "inches");
+    await visit.paste(first, VALUES.join("\n"));
+    await visit.text("#step-measure .said.good", "The lines bow by up to 17.9 mm");
+    await visit.click("See the result");
+    await result(visit, "Settings are off");
+    assert.equal((await visit.page.$$("#step-result .plotter-page .before")).length, 8, "eight bowed lines");
+    await assertPlain(visit);
+    await assertFits(visit, "the result");
+    await visit.click("Type numbers in");
+    const shown = await visit.text("#way-part .changes", "top distance");
+    const {folder} = await nativeFolder(visit);
+    for (const line of runNative(["export", "plotter", "found.json"], folder).stdout.trim().split("\n")) assert.ok(shown.includes(line.split(": ")[1]), line);
+    await visit.click("Programs");
+    await visit.text("#step-cut", "This plotter is sent pictures");
+    await visit.click("Result");
+    await visit.click("Draw the second page");
+    await visit.page.waitForFunction(() => [...document.querySelectorAll("tr[data-measure] input")].every(({value}) => value === ""));
+  });
 
-    walk("whatever is dropped is sorted and said, and a file of no use names what is expected", browser, async (visit) => {
-      for (const [name, text, said] of [["empty.yaml", " \n", "empty.yaml is empty. Expected: groundcontrol.ini"], ["page.svg", "<svg xmlns='x'/>", "page.svg is a picture"],
-        ["notes.txt", "buy chain oil", "notes.txt is neither settings nor readings nor a program"], ["marks.csv", MARKS, "Open its settings first"],
-        ["a.ini", "nonsense\n", "expected [a section] or key = value"], ["wrong.zip", "no zip", "This zip cannot be read"]]) {
-        await visit.drop({[name]: text});
-        await visit.text(".banner.bad", said);
-      }
-      await visit.drop({"marks.csv": MARKS, "bracket.nc": read("gcode/bracket.nc"), "groundcontrol.ini": read("good/groundcontrol_ring.ini")});
-      await visit.text("#step-measure .said.good, #step-cut .said.good, .banner", "bracket.nc is a program, and is kept");
-      await visit.click("Measure");
-      assert.deepEqual(await visit.values(), READINGS.flat(), "settings, readings and a program at once");
-    });
+  walk("whatever is dropped is sorted and said, and a file of no use names what is expected", browser, async (visit) => {
+    for (const [name, text, said] of [["empty.yaml", " \n", "empty.yaml is empty. Expected: groundcontrol.ini"], ["page.svg", "<svg xmlns='x'/>", "page.svg is a picture"],
+      ["notes.txt", "buy chain oil", "notes.txt is neither settings nor readings nor a program"], ["marks.csv", MARKS, "Open its settings first"],
+      ["a.ini", "nonsense\n", "expected [a section] or key = value"], ["wrong.zip", "no zip", "This zip cannot be read"]]) {
+      await visit.drop({[name]: text});
+      await visit.text(".banner.bad", said);
+    }
+    await visit.drop({"marks.csv": MARKS, "bracket.nc": read("gcode/bracket.nc"), "groundcontrol.ini": read("good/groundcontrol_ring.ini")});
+    await visit.text("#step-measure .said.good, #step-cut .said.good, .banner", "bracket.nc is a program, and is kept");
+    await visit.click("Measure");
+    assert.deepEqual(await visit.values(), READINGS.flat(), "settings, readings and a program at once");
   });
 }
 
