@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/causes_fit.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "sealed/judge/map_errors.hpp"
