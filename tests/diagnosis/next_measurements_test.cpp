@@ -163,7 +163,7 @@ TEST(NextMeasurements, OfAClassEachCauseIsForetoldByItself) {
 class WithCandidate {
  public:
   WithCandidate(const Measured& measured, const Analysis& a, const NextCandidates& next)
-      : measured_(measured), next_(next), system_(linearise(next.session, a.state, {}).value()) {
+      : measured_(measured), next_(next), system_(linearise(next.session, a.state).value()) {
     for (const ObservationPart& part : next.session.parts) {
       const Eigen::VectorXd own = part.observation->predicted(a.state.view(part)).value();
       predicted_.conservativeResize(part.first_row + own.size());

@@ -35,8 +35,8 @@ TEST(Rounding, IsFoundFromTheReadingsDigits) {
 TEST(Rounding, IsOfWhatWasRead) {
   MeasuredGrid commanded, lengths;
   for (const double reading : rounded_readings(0.5, 1)) {
-    commanded.points.push_back({{reading, reading + 1.0}, std::nullopt, model::BedPoint{0.0, 0.0}});
-    lengths.points.push_back({{100.0, 200.0}, model::ChainLengths{1500.0 + reading, 1501.0}});
+    commanded.points.push_back({{reading, reading + 1.0}, std::nullopt, model::BedPoint{0.0, 0.0}, {}});
+    lengths.points.push_back({{100.0, 200.0}, model::ChainLengths{1500.0 + reading, 1501.0}, {}, {}});
   }
   EXPECT_GT(rounding_noise(commanded).position_mm, 0.1);
   EXPECT_EQ(rounding_noise(commanded).length_mm, 0.0);
@@ -47,7 +47,7 @@ TEST(Rounding, IsOfWhatWasRead) {
 TEST(Rounding, IsAFloorOfWhatIsStated) {
   MeasuredGrid grid;
   for (const double reading : rounded_readings(0.5, 1))
-    grid.points.push_back({{reading, reading + 1.0}, std::nullopt, model::BedPoint{0.0, 0.0}});
+    grid.points.push_back({{reading, reading + 1.0}, std::nullopt, model::BedPoint{0.0, 0.0}, {}});
   const StatedNoise fine = not_below_rounding({0.01, 0.01, 7.0}, grid);
   EXPECT_EQ(fine.length_mm, 0.01) << "lengths that were paid out, not read";
   EXPECT_DOUBLE_EQ(fine.position_mm, 0.5 / std::sqrt(12.0));
