@@ -15,7 +15,9 @@ namespace {
 /// Of the step; readings come with no more digits than a file's.
 constexpr double kShareOfStep = 1e-4;
 constexpr std::size_t kFewestReadings = 4;
-constexpr double kChosenPlacesMm = 5.0;
+constexpr double kInchMm = 25.4;
+/// Steps of places that somebody chose.
+constexpr double kChosenMm[] = {5.0, kInchMm / 4.0};
 
 bool are_multiples(const std::vector<double>& values, double step) {
   return all_of(values, [step](double value) {
@@ -70,9 +72,10 @@ double log_sum(const std::vector<double>& terms) {
 }
 
 double rounding_sigma_mm(const std::vector<double>& readings_mm) {
-  constexpr double kInchMm = 25.4;
   constexpr int kDecades = 6;
-  if (readings_mm.size() < kFewestReadings || are_multiples(readings_mm, kChosenPlacesMm)) return 0.0;
+  if (readings_mm.size() < kFewestReadings) return 0.0;
+  for (const double chosen : kChosenMm)
+    if (are_multiples(readings_mm, chosen)) return 0.0;
   std::vector<double> steps{kInchMm / 16.0, kInchMm / 32.0, kInchMm / 64.0};
   for (int decade = 0; decade < kDecades; ++decade) {
     for (const double digit : {1.0, 0.5, 0.2}) steps.push_back(digit * std::pow(10.0, -decade));

@@ -62,7 +62,7 @@ inline constexpr double kMinusInfinity = -kInfinity;
 /// Standard deviation of a value rounded to the step of these readings, step / sqrt(12). The step is
 /// the largest of which all are multiples: 1, 0.5 or 0.2 mm, 1/16, 1/32 or 1/64 inch, or a power of ten
 /// below of these millimetres. 0 for readings with all their digits, for fewer than four, and where
-/// all are multiples of 5 mm, which are places that somebody chose.
+/// all are multiples of 5 mm or of a quarter of an inch, which are places that somebody chose.
 [[nodiscard]] double rounding_sigma_mm(const std::vector<double>& readings_mm);
 
 }  // namespace chaintrue::grid

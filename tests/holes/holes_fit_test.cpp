@@ -92,6 +92,8 @@ TEST(HolesFit, TheSheetIsFoundFromItsEdges) {
 
 TEST(HolesFit, ASheetThatIsLargerMovesEachEdgeByHalfOfThat) {
   MeasuredHoles set = with_edges();
+  set.sheet.width_mm = 2440.0;
+  set.sheet.height_mm = 1220.0;
   const auto places = synthetic::simulate_holes(set, usual_holes(7))->places;
   const observation::DistanceGeometry as_said = observation::distance_geometry(set, places);
   for (const auto& [size, axis] :

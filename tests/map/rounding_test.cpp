@@ -28,6 +28,7 @@ TEST(Rounding, IsFoundFromTheReadingsDigits) {
     EXPECT_DOUBLE_EQ(rounding_sigma_mm(rounded_readings(step, kSeed)), step / std::sqrt(12.0)) << step;
   EXPECT_EQ(rounding_sigma_mm(rounded_readings(1e-9, kSeed)), 0.0) << "readings with all their digits";
   EXPECT_EQ(rounding_sigma_mm(rounded_readings(50.0, kSeed)), 0.0) << "places that somebody chose";
+  EXPECT_EQ(rounding_sigma_mm(rounded_readings(76.2, kSeed)), 0.0) << "a banner in steps of three inches";
   EXPECT_EQ(rounding_sigma_mm({1.0, 2.0, 3.0}), 0.0) << "too few to tell";
   EXPECT_EQ(rounding_sigma_mm({}), 0.0);
 }

@@ -36,7 +36,7 @@ std::string what_words(const BudgetLine& line) {
     case BudgetLine::What::unexplained:
       return "a pattern that no listed cause makes";
     case BudgetLine::What::noise:
-      return "left over at these points";
+      return "left over in these readings";
     case BudgetLine::What::inseparable:
       break;
   }
