@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The joint estimate: any mix of observations, one loop of reweighting.
 #include "grid/estimation/estimate.hpp"
+#include "grid/estimation/reading_shifts.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -232,6 +233,20 @@ TEST(FitTogether, TheMapSaysWhatCameFromWhere) {
   EXPECT_THAT(notes, testing::Contains(HasSubstr("20 distances between 9 holes of holes.json (1 left out)")));
   EXPECT_THAT(notes,
               testing::Contains(HasSubstr("holes.json: " + words_of(own.holes, own.holes.distances[5]))));
+}
+
+TEST(NormalDeviate, HasTheChanceOfStudentsT) {
+  // Two-sided quantiles of 5 % and of 0.1 %: M. Abramowitz and I. Stegun, Handbook of Mathematical
+  // Functions (1964), table 26.10.
+  struct Quantile {
+    double dof, t, normal;
+  };
+  for (const Quantile& q : {Quantile{5.0, 2.571, 1.960},
+                            {10.0, 2.228, 1.960},
+                            {30.0, 2.042, 1.960},
+                            {10.0, 4.587, 3.291}})
+    EXPECT_NEAR(estimation::normal_deviate(q.t, q.dof), q.normal, 0.01)
+        << q.dof << " degrees of freedom; Wallace's bound there";
 }
 
 }  // namespace
