@@ -61,7 +61,7 @@ void stable_sort(Container& all, Less... less) {
   std::stable_sort(std::begin(all), std::end(all), less...);
 }
 
-/// The first of which it holds; null for none.
+/// The first element that satisfies the predicate; null if none does.
 template <class Container, class Predicate>
 [[nodiscard]] auto* find_where(Container& all, Predicate holds) {
   const auto found = std::find_if(std::begin(all), std::end(all), holds);

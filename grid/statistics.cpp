@@ -12,7 +12,7 @@
 namespace chaintrue::grid {
 namespace {
 
-/// Of the step; readings come with no more digits than a file's.
+/// Tolerance of a multiple, as a share of the step: readings are rounded to a file's digits.
 constexpr double kShareOfStep = 1e-4;
 constexpr std::size_t kFewestReadings = 4;
 constexpr double kInchMm = 25.4;

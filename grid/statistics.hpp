@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Medians, root mean squares, sums of exponentials, and what rounding does to readings.
+/// Medians, root mean squares, sums of exponentials, normal tails and the noise of rounding.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +32,7 @@ inline constexpr double kMinusInfinity = -kInfinity;
 /// log(sum exp(t)); minus infinity for no terms.
 [[nodiscard]] double log_sum(const std::vector<double>& terms);
 
-/// Chance of a standard normal beyond z.
+/// Probability that a standard normal variable exceeds z.
 [[nodiscard]] inline double normal_upper(double z) {
   return 0.5 * std::erfc(z / std::numbers::sqrt2);
 }
@@ -45,7 +45,7 @@ inline constexpr double kMinusInfinity = -kInfinity;
 
 /// log of the chance between low < high, in sigmas about the mean.
 [[nodiscard]] inline double log_normal_mass(double low, double high) {
-  // The tails beyond are below half of a double's last digit of one.
+  // Beyond, both tails are below half a unit in the last place of 1.
   constexpr double kNoTail = 8.3;
   if (low < -kNoTail && high > kNoTail) return 0.0;
   if (high < 0.0) return log_normal_mass(-high, -low);
@@ -59,7 +59,7 @@ inline constexpr double kMinusInfinity = -kInfinity;
   return b >= a ? kMinusInfinity : a + std::log1p(-std::exp(b - a));
 }
 
-/// Standard deviation of a value rounded to the step of these readings, step / sqrt(12). The step is
+/// Standard deviation of the rounding error of these readings, step / sqrt(12). The step is
 /// the largest of which all are multiples: 1, 0.5 or 0.2 mm, 1/16, 1/32 or 1/64 inch, or a power of ten
 /// below of these millimetres. 0 for readings with all their digits, for fewer than four, and where
 /// all are multiples of 5 mm or of a quarter of an inch, which are places that somebody chose.

@@ -28,7 +28,7 @@ struct BeltsState {
 /// 1000 and more; the fourth does not tell.
 [[nodiscard]] double share_of_expected(std::string_view effect);
 
-/// Of what these data cannot show, what would show it.
+/// What would show the causes that these data cannot.
 [[nodiscard]] Candidates candidates(const MeasuredBelts& belts);
 
 /// With a regressor for each of `causes` at every place where it may set in.

@@ -120,7 +120,7 @@ class OtherMaps {
   std::deque<CompensationMap> maps_;
 };
 
-/// Those that are offered and move the tool, the likeliest first.
+/// The offered ones that move the tool, most probable first.
 std::vector<const Cause*> open_causes(const std::vector<OfferedCause>& offered) {
   constexpr double kLeastProbability = 0.05;
   constexpr std::size_t kMostMaps = 4;

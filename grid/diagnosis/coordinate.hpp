@@ -50,7 +50,7 @@ enum class Coordinate {
 [[nodiscard]] std::string_view name(Coordinate of);
 /// "mm", "rad", "n", "visit": what a parameter's name ends in.
 [[nodiscard]] std::string_view unit_of(Coordinate of);
-/// The chain or the belt that it belongs to, if any.
+/// The chain or belt that it belongs to, if any.
 [[nodiscard]] std::optional<model::Side> chain_of(Coordinate of);
 [[nodiscard]] std::optional<model::Belt> belt_of(Coordinate of);
 

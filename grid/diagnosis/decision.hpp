@@ -39,7 +39,7 @@ struct Decision {
   bool discrepancy_left = false;
   std::size_t marginalised = 0;
 
-  /// Of each listed class the cause that gives it its name.
+  /// The cause that names each listed class.
   [[nodiscard]] std::vector<CauseId> leaders() const;
 };
 

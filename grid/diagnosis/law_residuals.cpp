@@ -55,7 +55,7 @@ void take_laws(std::vector<Law> laws, Diagnosis& d) {
   d.unexplained->laws = std::move(laws);
   if (some_law <= 0.0) return;
   some_law = std::min(some_law, 1.0);
-  // Where a law acts it is not nothing, nor the readings alone.
+  // Where a law acts, the residual is neither zero nor noise alone.
   for (Hypothesis& one : d.hypotheses) {
     if (one.effect == "nothing" || one.effect == "noise" || one.effect == "bad_points")
       one.probability *= 1.0 - some_law;

@@ -17,7 +17,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Distances that are all longer, or all shorter, by the same.
+/// Distances that are all too long, or all too short, by the same amount.
 std::optional<DiagnosisFailure> suspected_tape_zero(const MeasuredHoles& set) {
   const auto tape_zero_mm = suspected_tape_zero_offset_mm(set);
   if (!tape_zero_mm) return std::nullopt;
@@ -53,7 +53,7 @@ std::optional<DiagnosisFailure> suspected_slip(const Measured& measured) {
   }
   for (const MeasuredGrid* grid : measured.grids()) {
     const auto whole = input_checks::check_points(*grid).whole;
-    // A turned sheet looks like axes that are not square and a law beside it.
+    // A rotated sheet looks like axes that are not square, plus a law.
     if (!whole || (whole->is_doubtful && whole->kind != ProblemKind::axes)) continue;
     return DiagnosisFailure{DiagnosisFailure::Reason::contradictory_settings, whole->sentence()};
   }

@@ -225,7 +225,7 @@ double p_of_structure(const Analysis& a) {
   return (as_double(above) + 1.0) / (kLeftOverDraws + 1.0);
 }
 
-/// Of coordinates that explain the same the first is named.
+/// Of coordinates that explain the same, the first is named.
 constexpr Coordinate kAlong[] = {Coordinate::angle_left,
                                  Coordinate::angle_right,
                                  Coordinate::length_left,

@@ -15,7 +15,7 @@ namespace chaintrue::grid::files {
 
 struct Format {
   std::string_view file_type;
-  /// How a file of this version is had; empty for formats that only other programs read.
+  /// How to make a file of this version; empty for formats that only other programs read.
   std::string_view anew = "";
   std::string_view version = "1.0";
 };

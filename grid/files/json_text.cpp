@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kDeepest = 64;
 /// Five times those of the largest map.
 constexpr std::size_t kMostValues = 1'000'000;
-/// Of one object; no format has a hundred.
+/// Largest number of members of an object; no format has a hundred.
 constexpr std::size_t kMostMembers = 10'000;
 constexpr std::size_t kLineWidth = 100;
 

@@ -57,7 +57,7 @@ double noise_at_tool_mm(const CompensationMap& map) {
     const auto lengths = map.lengths(point.mark);
     if (point.bad || !lengths) continue;
     const Eigen::Matrix2d to_tool = lengths->mark_jacobian.inverse();
-    // What was stated stands as it is; what was not is known only by the factor that was found.
+    // Stated noise is kept; unstated noise is known only through the estimated factor.
     const double factor = noise.source == NoiseSource::stated ? 1.0 : noise.factor_found;
     variance_mm2 += factor * factor *
                     (to_tool.squaredNorm() * noise.length_mm * noise.length_mm +

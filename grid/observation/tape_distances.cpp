@@ -158,7 +158,7 @@ DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& g
   return noise;
 }
 
-/// No reading is better than the digits that it was read to.
+/// A reading is no more accurate than its last digit.
 void raise_to_rounding(MeasuredHoles& set) {
   std::vector<double> readings_mm;
   for (const HoleDistance& distance : set.distances) readings_mm.push_back(distance.distance_mm);

@@ -106,7 +106,7 @@ std::string cause_title(const model::AppliedEffect& effect) {
 std::vector<grid::diagnosis::Cause> causes_left_out(const grid::diagnosis::Diagnosis& found) {
   std::vector<grid::diagnosis::Cause> left_out = found.causes;
   std::erase_if(left_out, [&](const grid::diagnosis::Cause& cause) {
-    // What the machine's file stated has no probability.
+    // Effects stated in the machine file have no probability.
     const auto is_it = [&](const model::AppliedEffect& one) {
       return one.probability && one.effect == cause.cause.effect->id && one.side == name(cause.cause.side);
     };

@@ -197,7 +197,7 @@ Exported of_map(const grid::CompensationMap& map,
     if (!typed->worth_typing && holds_numbers) return result;
     if (typed->worth_typing) result.words += map_after_in_words(command);
   } else {
-    // Where none can be found, its own measures are what can be typed in.
+    // If none can be found, the machine's own dimensions are the settings.
     if (holds_numbers) fail(typed.error());
     result = {files::write_groundcontrol(*map.machine()), "", settings_page(command.input)};
   }
@@ -225,7 +225,7 @@ Exported of_machine(const model::Machine& stated,
   model::Machine machine = stated;
   machine.controller = controller_of(stated);
   const auto typed = grid::settings_to_type(machine, area);
-  // Where none can be found, its own measures are what can be typed in.
+  // If none can be found, the machine's own dimensions are the settings.
   if (!typed) return {files::write_groundcontrol(stated), "", std::move(next)};
   const std::string today = fmt::format(
       "Were the machine as {} has it, the tool would be {:.2f} mm rms off with {}, {:.2f} mm at worst;",

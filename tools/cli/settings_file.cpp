@@ -105,7 +105,7 @@ model::Machine with_settings(const model::Machine& stated,
   model::Machine machine = stated;
   machine.controller.kind = kind_with(stated, now, in_place);
   machine.controller.settings = file.controller.settings;
-  // The sled of another kind is another sled.
+  // A ring and brackets do not share a sled.
   if (file.attachment.index() != stated.attachment.index()) machine.attachment = file.attachment;
   if (settings_of(machine.controller.kind) != SettingsOf::maslow) {
     machine.motors = file.motors;

@@ -140,7 +140,7 @@ export class Belts {
     if (this.#analysed?.every((one, index) => one === made[index])) return;
     const isTyping = this.#analysed !== null && this.#analysed[2] !== holes;
     this.#analysed = made;
-    // What was said of another wish is no answer to this one.
+    // An answer to an earlier wish does not answer this one.
     if (this.#page.fit) this.#page.fit = {...this.#page.fit, sentences: this.#page.fit.sentences.filter((line) => !isWish(line))};
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => this.#analyse(made), isTyping ? PAUSE_MS : 0);

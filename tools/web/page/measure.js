@@ -109,7 +109,7 @@ export function measureStep(page) {
       shownRead = view.read;
       if (shown === bytes && shown !== null && fittedWith === fitWith) return;
       shown = bytes;
-      // What was said of another wish is no answer to this one.
+      // An answer to an earlier wish does not answer this one.
       if (fittedWith !== fitWith) said.replaceChildren(h("p", {class: "hint"}, "Being computed ..."));
       fittedWith = fitWith;
       if (view.sheet !== NEW_POINTS) page.fit = null;

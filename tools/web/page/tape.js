@@ -44,7 +44,7 @@ export class Tape {
     const belts = jsonOf(this.#page.store.folder[BELTS]);
     const others = (belts.distances ?? []).filter(({from, to}) => !DISTANCES.some(([one, other]) => one === from && other === to));
     const typed = DISTANCES.map(([from, to], index) => ({from, to, text: millimetresOf(this.#inputs[index].value, "mm")})).filter(({text}) => text !== "");
-    // What is no number goes into the file as it is, so that the command reports it.
+    // Text that is not a number goes into the file unchanged, so that the command reports it.
     const taped = typed.map(({from, to, text}) => ({from, to, distance_mm: Number.isFinite(Number(text)) ? Number(text) : text}));
     const {distances: _, ...rest} = belts;
     const all = [...others, ...taped];
