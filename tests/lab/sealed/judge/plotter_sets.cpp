@@ -153,14 +153,15 @@ double measured(const DrawnMeasure& m, const std::vector<Eigen::Vector2d>& pens)
   return (way.x() * out.y() - way.y() * out.x()) / way.norm();
 }
 
+Eigen::Vector2d pen_of(const TruePlotter& plotter, model::ChainLengths counted) {
+  return pen_at_rest(
+      plotter.hung, cord_out(plotter, 0, counted.left_mm), cord_out(plotter, 1, counted.right_mm));
+}
+
 Eigen::VectorXd drawn(const TestDrawing& drawing, const TruePlotter& plotter) {
   const auto crosses = grid::drawn_measures_of(drawing).value();
   std::vector<Eigen::Vector2d> pens;
-  for (const auto& cross : crosses.points()) {
-    pens.push_back(pen_at_rest(plotter.hung,
-                               cord_out(plotter, 0, cross.paid_out.left_mm),
-                               cord_out(plotter, 1, cross.paid_out.right_mm)));
-  }
+  for (const auto& cross : crosses.points()) pens.push_back(pen_of(plotter, cross.paid_out));
   Eigen::VectorXd values(std::ssize(drawing.measures));
   for (Eigen::Index i = 0; i < values.size(); ++i)
     values[i] = measured(drawing.measures[static_cast<std::size_t>(i)], pens);
@@ -223,17 +224,18 @@ PlotterSet plotter_set(PlotterKind kind,
                        double most_strength,
                        std::uint64_t seed) {
   constexpr int kDraws = 200, kScalings = 12;
-  PlotterSet set{cause, 0.0, grid::planned_drawing(machine_of(kind), firmware_of(kind))};
+  PlotterSet set{cause, 0.0, grid::planned_drawing(machine_of(kind), firmware_of(kind)), {}};
   Dice settings(seed, "settings of a plotter"), sizes(seed, "size of a cause"), ruler(seed, "ruler");
   const TruePlotter sound = true_plotter(set.drawing.machine, settings);
   const Eigen::VectorXd without = drawn(set.drawing, sound);
   Eigen::VectorXd values = without;
+  TruePlotter plotter = sound;
   if (acts_on_links(cause)) {
     // What such a cause does grows with its size: scaled to a strength that is drawn, in place of draws.
     const double wanted = sizes.log_uniform(least_strength, most_strength);
     double size = 1.0;
     for (int scaling = 0; scaling < kScalings; ++scaling) {
-      TruePlotter plotter = sound;
+      plotter = sound;
       hide(cause, size, 0.0, plotter);
       values = drawn(set.drawing, plotter);
       set.strength = strength_of(set.drawing, values - without);
@@ -242,7 +244,7 @@ PlotterSet plotter_set(PlotterKind kind,
     }
   }
   for (int draw = 0; draw < kDraws && !cause.effect.empty() && !acts_on_links(cause); ++draw) {
-    TruePlotter plotter = sound;
+    plotter = sound;
     const double size = sizes.sign() * sizes.log_uniform(0.3, 12.0);
     hide(cause, size, sizes.uniform(-std::numbers::pi, std::numbers::pi), plotter);
     values = drawn(set.drawing, plotter);
@@ -253,6 +255,7 @@ PlotterSet plotter_set(PlotterKind kind,
   for (std::size_t i = 0; i < set.drawing.measures.size(); ++i)
     set.drawing.measures[i].value_mm =
         values[static_cast<Eigen::Index>(i)] + kRulerMm * ruler.normal();
+  set.pen = [plotter](model::ChainLengths counted) { return pen_of(plotter, counted); };
   return set;
 }
 

@@ -12,7 +12,9 @@
 /// Causes that stretch or weigh down the cords are of the light pen alone.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,8 @@ struct PlotterSet {
   /// Length of the cause's signature in units of noise, the settings' share taken out.
   double strength = 0.0;
   grid::TestDrawing drawing;
+  /// Where the hidden plotter's pen is when its controller has counted these, in the frame of its pins.
+  std::function<Eigen::Vector2d(model::ChainLengths)> pen;
 };
 /// With 24 readings of 0.5 mm. Sizes are drawn until the strength is in the range.
 [[nodiscard]] PlotterSet plotter_set(PlotterKind kind,

@@ -20,9 +20,12 @@
 #include "grid/map/controller_error.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/settings_to_type.hpp"
+#include "grid/plotter/plotter_map.hpp"
 #include "interp/measured_region.hpp"
 #include "sealed/judge/belts_trial.hpp"
 #include "sealed/judge/map_errors.hpp"
+#include "sealed/judge/plotter_sets.hpp"
+#include "tools/gcode/expected_error.hpp"
 
 namespace chaintrue::sealed {
 namespace {
@@ -79,6 +82,7 @@ constexpr std::string_view kWornChain = "a worn chain";
 constexpr std::string_view kBendingBeam = "a beam that bends";
 constexpr std::string_view kWrongSettings = "settings three times as far off";
 constexpr std::string_view kBelts = "four belts";
+constexpr std::string_view kPlotters = "plotters";
 
 generator::Recipe recipe_of(const PromisedSession& session) {
   generator::Recipe recipe;
@@ -109,35 +113,78 @@ struct Place {
   bool is_on_edge = false;
 };
 
-/// What the marks span: squares of 75 mm, and its edge every 50 mm.
-std::vector<Place> places_of(const generator::SealedSet& set, const grid::CompensationMap& map) {
-  std::vector<interp::PlanePoint> marks;
-  for (const model::MarkPoint corner : map.contents().hull) marks.push_back({corner.x_mm, corner.y_mm});
-  const interp::ConvexHull hull(marks);
+/// With what the hidden machine needs to be there.
+std::vector<Place> places_at(const std::vector<Vec2>& within,
+                             const std::vector<Vec2>& edge,
+                             const generator::SealedSet& set,
+                             const grid::CompensationMap& map) {
   std::vector<Place> places;
+  std::vector<generator::Visit> visits;
   const auto add = [&](Vec2 at, bool is_on_edge) {
     const auto here = map.lengths({at.x, at.y});
     if (!here) throw std::runtime_error("a map without lengths within its points");
+    visits.push_back({at, static_cast<int>(visits.size())});
     places.push_back({at, {}, here->mark_jacobian.inverse(), is_on_edge});
   };
+  for (const Vec2 at : within) add(at, false);
+  for (const Vec2 at : edge) add(at, true);
+  const auto exact = set.machine.exact(visits);
+  if (!exact) throw std::runtime_error("a hidden machine that does not reach its bed");
+  for (std::size_t i = 0; i < places.size(); ++i) places[i].needed = (*exact)[i];
+  return places;
+}
+
+/// What the marks span: squares of 75 mm, and its edge every 50 mm.
+std::vector<Place> measured_area(const generator::SealedSet& set, const grid::CompensationMap& map) {
+  std::vector<interp::PlanePoint> marks;
+  for (const model::MarkPoint corner : map.contents().hull) marks.push_back({corner.x_mm, corner.y_mm});
+  const interp::ConvexHull hull(marks);
+  std::vector<Vec2> within, edge;
   constexpr double kSquareMm = 75.0, kEdgeMm = 50.0;
   for (double x = -0.5 * kBedWidthMm; x <= 0.5 * kBedWidthMm; x += kSquareMm) {
     for (double y = -0.5 * kBedHeightMm; y <= 0.5 * kBedHeightMm; y += kSquareMm)
-      if (hull.contains(x, y)) add({x, y}, false);
+      if (hull.contains(x, y)) within.push_back({x, y});
   }
   const auto& corners = hull.corners();
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const interp::PlanePoint from = corners[i], to = corners[(i + 1) % corners.size()];
     const double length = std::hypot(to.x - from.x, to.y - from.y);
     for (double at = 0.0; at < length; at += kEdgeMm)
-      add({from.x + (to.x - from.x) * at / length, from.y + (to.y - from.y) * at / length}, true);
+      edge.push_back({from.x + (to.x - from.x) * at / length, from.y + (to.y - from.y) * at / length});
   }
-  std::vector<generator::Visit> visits;
-  for (const Place& place : places) visits.push_back({place.at, static_cast<int>(visits.size())});
-  const auto exact = set.machine.exact(visits);
-  if (!exact) throw std::runtime_error("a hidden machine that does not reach its bed");
-  for (std::size_t i = 0; i < places.size(); ++i) places[i].needed = (*exact)[i];
-  return places;
+  return places_at(within, edge, set, map);
+}
+
+/// A circle of 50 to 300 mm in chords, where all of it was measured.
+std::vector<Vec2> circle_within(const grid::LengthMap& map, std::uint64_t seed) {
+  constexpr double kLeastMm = 50.0, kMostMm = 300.0;
+  constexpr int kAttempts = 1000, kChords = 72;
+  generator::Dice dice(seed, "a circle to cut");
+  const interp::Rectangle& area = map.domain();
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const double radius = dice.log_uniform(kLeastMm, kMostMm);
+    const Vec2 middle{dice.uniform(area.x_min, area.x_max), dice.uniform(area.y_min, area.y_max)};
+    std::vector<Vec2> corners;
+    for (int k = 0; k <= kChords; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kChords;
+      corners.push_back({middle.x + radius * std::cos(angle), middle.y + radius * std::sin(angle)});
+      if (map.status({corners.back().x, corners.back().y}) != grid::MapStatus::inside) break;
+    }
+    if (corners.size() == kChords + 1 &&
+        map.status({corners.back().x, corners.back().y}) == grid::MapStatus::inside)
+      return corners;
+  }
+  throw std::runtime_error("no circle fits into what was measured");
+}
+
+/// Of a program that cuts along these.
+grid::ErrorSummary expected_along(const std::vector<Vec2>& corners, const grid::LengthMap& map) {
+  gcode::CutPlaces cuts;
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    cuts.add(i, {corners[i - 1].x, corners[i - 1].y, 0.0}, {corners[i].x, corners[i].y, 0.0});
+  const auto expected = cuts.expected(map);
+  if (!expected) throw std::runtime_error("a map that does not know its error");
+  return {expected->measured.rms_mm, expected->measured.largest_mm};
 }
 
 grid::ErrorSummary true_error(const std::vector<Place>& places,
@@ -237,6 +284,40 @@ std::optional<PromisedRow> promised_by_belts(const PromisedSession& session, std
   return row;
 }
 
+/// The page is laid as its crosses are drawn with the map: a drawing does not say where it hangs.
+std::optional<PromisedRow> promised_by_plotter(const PromisedSession& session, std::uint64_t seed) {
+  const auto kind = std::ranges::find(kPlotterKinds, session.way, [](PlotterKind one) { return name(one); });
+  const PlotterSet set = plotter_set(*kind, {}, 0.0, 0.0, seed);
+  const auto fit = grid::fit_drawing(set.drawing);
+  if (!fit) return std::nullopt;
+  const grid::PlotterMap map({set.drawing, grid::found_by(*fit)});
+  const auto pens_of = [&](const Eigen::Matrix2Xd& commands) {
+    Eigen::Matrix2Xd pens(2, commands.cols());
+    for (Eigen::Index i = 0; i < commands.cols(); ++i)
+      pens.col(i) = set.pen(map.lengths({commands(0, i), commands(1, i)}).value());
+    return pens;
+  };
+  Eigen::Matrix2Xd crosses(2, std::ssize(set.drawing.crosses));
+  for (Eigen::Index i = 0; i < crosses.cols(); ++i) {
+    const model::BedPoint at = set.drawing.crosses[static_cast<std::size_t>(i)].commanded;
+    crosses.col(i) << at.x_mm + set.drawing.pins_middle.x_mm, at.y_mm + set.drawing.pins_middle.y_mm;
+  }
+  const Eigen::Matrix3d laid = Eigen::umeyama(pens_of(crosses), crosses, false);
+  const std::vector<Vec2> circle = circle_within(map, seed);
+  Eigen::Matrix2Xd commands(2, std::ssize(circle));
+  for (std::size_t i = 0; i < circle.size(); ++i)
+    commands.col(static_cast<Eigen::Index>(i)) << circle[i].x, circle[i].y;
+  const Eigen::RowVectorXd squares = (((laid.topLeftCorner<2, 2>() * pens_of(commands)).colwise() +
+                                       laid.topRightCorner<2, 1>()) -
+                                      commands)
+                                         .colwise()
+                                         .squaredNorm();
+  PromisedRow row{session, {}};
+  row.of[static_cast<std::size_t>(Promise::cuts)] =
+      Promised{expected_along(circle, map), {std::sqrt(squares.mean()), std::sqrt(squares.maxCoeff())}};
+  return row;
+}
+
 }  // namespace
 
 std::vector<PromisedSession> promised_sessions() {
@@ -245,11 +326,13 @@ std::vector<PromisedSession> promised_sessions() {
     for (const std::string_view way : {"28", "60", "117", "start"}) sessions.push_back({machine, way});
   }
   sessions.push_back({kBelts, "places"});
+  for (const PlotterKind kind : kPlotterKinds) sessions.push_back({kPlotters, name(kind)});
   return sessions;
 }
 
 std::optional<PromisedRow> promised_row(const PromisedSession& session, std::uint64_t seed) {
   if (session.machine == kBelts) return promised_by_belts(session, seed);
+  if (session.machine == kPlotters) return promised_by_plotter(session, seed);
   const generator::SealedSet set = generator::draw_set(recipe_of(session), seed);
   const ControllerSettings in_force = settings_of(set.machine.stated());
   grid::MeasuredGrid measured = grid::files::parse_grid(set.grid_text, "sealed.json").grid;
@@ -262,7 +345,9 @@ std::optional<PromisedRow> promised_row(const PromisedSession& session, std::uin
   if (!today || !typed) return std::nullopt;
   const grid::CompensationMap after =
       grid::map_for_settings(map, {model::ControllerKind::maslow_classic, typed->settings}, "");
-  const std::vector<Place> places = places_of(set, map);
+  const std::vector<Place> places = measured_area(set, map);
+  const grid::MapInFrame in_frame(map);
+  const std::vector<Vec2> circle = circle_within(in_frame, seed);
   const auto by_settings = [&places](const ControllerSettings& settings) {
     return true_error(places, [&settings](Vec2 at) { return firmware(settings, at); });
   };
@@ -271,12 +356,14 @@ std::optional<PromisedRow> promised_row(const PromisedSession& session, std::uin
                      {Promised{*today, by_settings(in_force)},
                       Promised{expected_of(map), true_error(places, by_map(map))},
                       Promised{typed->typed, by_settings(typed->settings)},
-                      Promised{expected_of(after), true_error(places, by_map(after))}}};
+                      Promised{expected_of(after), true_error(places, by_map(after))},
+                      Promised{expected_along(circle, in_frame),
+                               true_error(places_at(circle, {}, set, map), by_map(map))}}};
 }
 
 std::string promised_table(const std::vector<PromisedRow>& rows) {
   std::string text = "| machine | sessions ";
-  for (const char* what : {"today", "map", "typed numbers", "with map.after"})
+  for (const char* what : {"today", "map", "typed numbers", "with map.after", "cuts"})
     text += fmt::format("| {}: stated | true | worst: stated | true | exceeded ", what);
   text += "|\n|---|---" ;
   for (std::size_t i = 0; i < 5 * kPromises; ++i) text += "|---";
@@ -302,7 +389,7 @@ std::string promised_table(const std::vector<PromisedRow>& rows) {
     }
     text += fmt::format("| {} | {} {}|\n", what, sessions, cells);
   };
-  for (const std::string_view machine : {kWornChain, kBendingBeam, kWrongSettings, kBelts})
+  for (const std::string_view machine : {kWornChain, kBendingBeam, kWrongSettings, kBelts, kPlotters})
     pooled(machine, [&](const PromisedRow& row) { return row.session.machine == machine; });
   for (const std::string_view way : {"28", "60", "117", "start"})
     pooled(fmt::format("chains, {}", way), [&](const PromisedRow& row) { return row.session.way == way; });

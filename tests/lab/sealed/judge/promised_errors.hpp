@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// What an owner is promised of the tool's error, rms and at worst, against what it is: today, with the
-/// map, with numbers typed in, and with the map that belongs to these. Hidden machines, whose controller
-/// is GroundControl's, by its formulas written here a second time.
+/// map, with numbers typed in, with the map that belongs to these, and along the cuts of a program that
+/// the map compensates. Hidden machines, whose controller is GroundControl's, by its formulas written
+/// here a second time; plotters by theirs.
 ///
 /// \code
 ///   std::vector<PromisedRow> rows;
@@ -28,12 +29,13 @@ struct PromisedSession {
   std::string_view way;
 };
 /// Chains that are worn, on a beam that bends, with settings three times as far off as usual: 28, 60 or
-/// 117 marks with lengths read, or the list of start; and four belts.
+/// 117 marks with lengths read, or the list of start; four belts; and plotters with nothing hidden, of
+/// which there is a promise along cuts alone.
 [[nodiscard]] std::vector<PromisedSession> promised_sessions();
 
 /// In the order of a row. Belts have no map apart from their anchors.
-enum class Promise { today, map, typed, map_after };
-inline constexpr std::size_t kPromises = 4;
+enum class Promise { today, map, typed, map_after, cuts };
+inline constexpr std::size_t kPromises = 5;
 
 struct Promised {
   grid::ErrorSummary stated;
