@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 
 #include "grid/diagnosis/acting_causes.hpp"
 #include "grid/diagnosis/causes_held_out.hpp"
@@ -15,6 +14,7 @@
 #include "grid/diagnosis/order_search.hpp"
 #include "grid/diagnosis/regressors.hpp"
 #include "grid/map/larger_error.hpp"
+#include "grid/parallel.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -103,22 +103,16 @@ double least_known_size(const std::vector<Cause>& causes) {
   return largest;
 }
 
-/// Maps of the readings in which other causes act. The list keeps its maps where they are.
-class OtherMaps {
- public:
-  OtherMaps(const Measured& measured, const JointFitOptions& options) : measured_(measured), options_(options) {}
-  /// Null where there is none.
-  const CompensationMap* with(const std::vector<ActingCause>& acting) {
-    auto fit = joint_fit(with_effects(measured_, acting), options_);
-    if (!fit) return nullptr;
-    return &maps_.emplace_back(std::move(fit->map));
-  }
-
- private:
-  const Measured& measured_;
-  const JointFitOptions& options_;
-  std::deque<CompensationMap> maps_;
-};
+/// Of the readings in which other causes act, a set of these each; empty where there is no such map.
+std::vector<std::optional<CompensationMap>> other_maps(const Measured& measured,
+                                                       const JointFitOptions& options,
+                                                       const std::vector<std::vector<ActingCause>>& sets) {
+  std::vector<std::optional<CompensationMap>> maps(sets.size());
+  for_each_index(sets.size(), [&](std::size_t k) {
+    if (auto fit = joint_fit(with_effects(measured, sets[k]), options)) maps[k] = std::move(fit->map);
+  });
+  return maps;
+}
 
 /// The offered ones that move the tool, most probable first.
 std::vector<const Cause*> open_causes(const std::vector<OfferedCause>& offered) {
@@ -145,27 +139,34 @@ void count_what_is_left_open(const Measured& measured,
                              CausesFit& result) {
   constexpr double kLeastFactor = 1.05;
   const CompensationMap map = result.fit.map;
-  OtherMaps others(measured, options.fit);
-  std::vector<MapDifference> differences;
   const std::vector<Cause>& built_on = result.built_on;
-  if (!built_on.empty()) differences.push_back({plain, map, least_known_size(built_on)});
+  // Two for each place that is unsure, one sigma to either side, and one for each cause that is left open.
+  std::vector<std::vector<ActingCause>> sets;
   for (std::size_t k = 0; k < built_on.size(); ++k) {
     const ParameterEstimate* place = unsure_place(built_on[k]);
     if (place == nullptr) continue;
-    const auto map_at = [&](double off) {
-      std::vector<ActingCause> acting = over_places(built_on);
-      acting[k].effects = {applied_at(built_on[k], *place, off, 1.0)};
-      return others.with(acting);
-    };
-    const auto* low = map_at(-place->sigma);
-    const auto* high = map_at(place->sigma);
-    if (low != nullptr && high != nullptr) differences.push_back({*low, *high, 0.5});
+    for (const double off : {-place->sigma, place->sigma}) {
+      sets.push_back(over_places(built_on));
+      sets.back()[k].effects = {applied_at(built_on[k], *place, off, 1.0)};
+    }
   }
-  for (const Cause* cause : open_causes(result.offered)) {
+  const std::size_t of_places = sets.size();
+  const std::vector<const Cause*> open_now = open_causes(result.offered);
+  for (const Cause* cause : open_now) {
     std::vector<Cause> acting = built_on;
     acting.push_back(*cause);
-    if (const auto* other = others.with(over_places(acting)))
-      differences.push_back({map, *other, std::sqrt(cause->probability)});
+    sets.push_back(over_places(acting));
+  }
+  JointFitOptions quiet = options.fit;
+  quiet.progress = {};
+  const auto others = other_maps(measured, quiet, sets);
+  std::vector<MapDifference> differences;
+  if (!built_on.empty()) differences.push_back({plain, map, least_known_size(built_on)});
+  for (std::size_t k = 0; k < of_places; k += 2)
+    if (others[k] && others[k + 1]) differences.push_back({*others[k], *others[k + 1], 0.5});
+  for (std::size_t k = 0; k < open_now.size(); ++k) {
+    const auto& other = others[of_places + k];
+    if (other) differences.push_back({map, *other, std::sqrt(open_now[k]->probability)});
   }
   if (differences.empty()) return;
   CompensationMap open = with_differences(map, differences);
@@ -190,28 +191,29 @@ void offer(const std::vector<Cause>& causes, OfferedCause::Reason reason, Causes
 
 tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
                                                     const CausesFitOptions& options) {
-  const auto without_causes = [&](std::string why) -> tl::expected<CausesFit, FitFailure> {
-    auto plain = joint_fit(measured, options.fit);
+  const auto without_causes = [](tl::expected<JointFit, FitFailure> plain,
+                                 std::string why) -> tl::expected<CausesFit, FitFailure> {
     if (!plain) return tl::unexpected(plain.error());
     return noted({*std::move(plain), {}, {}, std::nullopt, 0.0, std::move(why)});
   };
   if (const std::size_t count = readings_of(measured); count > kMostWeighed)
-    return without_causes(fmt::format("{} readings are more than are weighed ({})", count, kMostWeighed));
+    return without_causes(joint_fit(measured, options.fit),
+                          fmt::format("{} readings are more than are weighed ({})", count, kMostWeighed));
   DiagnosisOptions weighed;
   weighed.seed = options.seed;
   weighed.accept_class = options.accept_class;
   weighed.progress = options.fit.progress;
-  const auto found = name_causes(measured, weighed, NamingFor::causes);
-  if (!found) return without_causes(found.error().sentence());
-  return fit_on_causes(measured, *found, options);
+  auto [found, plain] = name_and_fit(measured, weighed, NamingFor::causes, options.fit);
+  if (!found) return without_causes(std::move(plain), found.error().sentence());
+  if (!plain) return tl::unexpected(plain.error());
+  return fit_on_causes(measured, *found, *std::move(plain), options);
 }
 
-tl::expected<CausesFit, FitFailure> fit_on_causes(const Measured& measured,
-                                                  const Naming& naming,
-                                                  const CausesFitOptions& options) {
-  auto plain = joint_fit(measured, options.fit);
-  if (!plain) return tl::unexpected(plain.error());
-  CausesFit result{*std::move(plain), {}, {}, std::nullopt, 0.0, {}};
+CausesFit fit_on_causes(const Measured& measured,
+                        const Naming& naming,
+                        JointFit plain,
+                        const CausesFitOptions& options) {
+  CausesFit result{std::move(plain), {}, {}, std::nullopt, 0.0, {}};
   // What depends on the visit is taken out in the order that was found.
   const Measured ordered =
       naming.order ? visited_in(measured, naming.order->order).value_or(measured) : measured;

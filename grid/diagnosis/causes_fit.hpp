@@ -92,10 +92,11 @@ struct CausesFit {
 /// Fails where joint_fit() fails on the machine as stated.
 [[nodiscard]] tl::expected<CausesFit, FitFailure> fit_with_causes(
     const Measured& measured, const CausesFitOptions& options = {});
-/// The same, with causes that were named already.
-[[nodiscard]] tl::expected<CausesFit, FitFailure> fit_on_causes(const Measured& measured,
-                                                                const Naming& naming,
-                                                                const CausesFitOptions& options);
+/// The same, with causes that were named and the plain map that was made already.
+[[nodiscard]] CausesFit fit_on_causes(const Measured& measured,
+                                      const Naming& naming,
+                                      JointFit plain,
+                                      const CausesFitOptions& options);
 
 /// What the map was built on and what is offered, whole sentences for its owner.
 [[nodiscard]] std::vector<std::string> in_words(const CausesFit& fit);

@@ -103,15 +103,15 @@ void state_input(const Measured& measured, Diagnosis& d) {
 /// The error today and the noise of the readings are those of the map that `fit` makes of them.
 void take_from_map(const Measured& measured,
                    const Naming& naming,
+                   JointFit plain,
                    const DiagnosisOptions& options,
                    Diagnosis& d) {
   CausesFitOptions own;
   own.accept_class = options.accept_class;
-  const auto fit = fit_on_causes(measured, naming, own);
-  if (!fit) return;
-  d.tool_today = error_in_use(fit->fit.map);
+  const CausesFit fit = fit_on_causes(measured, naming, std::move(plain), own);
+  d.tool_today = error_in_use(fit.fit.map);
   if (d.improvement && d.observations == Observations::points)
-    d.improvement->noise_floor_mm = noise_at_tool_mm(fit->fit.map);
+    d.improvement->noise_floor_mm = noise_at_tool_mm(fit.fit.map);
 }
 
 /// A map holds nothing that is shorter than the way between two marks: of a law that is claimed the tool
@@ -130,7 +130,11 @@ void count_law(Diagnosis& d) {
 
 tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
                                                    const DiagnosisOptions& options) {
-  auto naming = name_causes(measured, options, NamingFor::report);
+  auto [naming, plain] =
+      options.improvement
+          ? name_and_fit(measured, options, NamingFor::report, {})
+          : NamingAndPlainFit{name_causes(measured, options, NamingFor::report),
+                              tl::unexpected(FitFailure(FitReason::not_converged, "no map was asked for"))};
   if (!naming) return tl::unexpected(naming.error());
   const Analysis& a = naming->analysis;
   const LawsFound& laws = naming->laws;
@@ -156,7 +160,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   d.sessions = session_findings(a, sessions);
   if (options.improvement) {
     d.improvement = measure_improvement(a);
-    take_from_map(measured, *naming, options, d);
+    if (plain) take_from_map(measured, *naming, *std::move(plain), options, d);
     count_law(d);
   }
   tell(options.progress, kPlanning);

@@ -9,6 +9,7 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/ties.hpp"
 #include "grid/linear_algebra.hpp"
+#include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -116,14 +117,19 @@ Downdating::Downdating(const RegressorSystem& system,
       score_(system,
              comparison.marginalised_systems[comparison.best().marginalised],
              system.noise_dof) {
-  for (auto& [key, models] : models_to_follow(system, comparison, limits)) {
-    add_factorisation(key.first, key.second, std::move(models));
-  }
+  auto followed = models_to_follow(system, comparison, limits);
+  std::vector<std::pair<const FactorisationKey, std::vector<CandidateModel>>*> all;
+  for (auto& one : followed) all.push_back(&one);
+  factorisations_.resize(all.size());
+  for_each_index(all.size(), [&](std::size_t k) {
+    auto& [key, models] = *all[k];
+    factorisations_[k] = factorisation_of(key.first, key.second, std::move(models));
+  });
 }
 
-void Downdating::add_factorisation(std::size_t number,
-                                   int discrepancy,
-                                   std::vector<CandidateModel> models) {
+Downdating::Factorisation Downdating::factorisation_of(std::size_t number,
+                                                       int discrepancy,
+                                                       std::vector<CandidateModel> models) const {
   const MarginalisedSystem& marginalised = comparison_.marginalised_systems[number];
   Factorisation factorised;
   factorised.marginalised = number;
@@ -172,7 +178,7 @@ void Downdating::add_factorisation(std::size_t number,
     factorised.sets.push_back(std::move(set));
   }
   factorised.models = std::move(models);
-  factorisations_.push_back(std::move(factorised));
+  return factorised;
 }
 
 NormalEquations Downdating::downdated_equations(const Factorisation& factorised,

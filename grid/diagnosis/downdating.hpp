@@ -86,9 +86,9 @@ class Downdating {
   };
   [[nodiscard]] Downdated downdated(const Factorisation& factorised,
                                     const std::vector<std::size_t>& units) const;
-  void add_factorisation(std::size_t marginalised,
-                         int discrepancy,
-                         std::vector<CandidateModel> models);
+  [[nodiscard]] Factorisation factorisation_of(std::size_t marginalised,
+                                               int discrepancy,
+                                               std::vector<CandidateModel> models) const;
   /// Inner products with these rows of the marginalised system gone.
   [[nodiscard]] NormalEquations downdated_equations(
       const Factorisation& factorised, const std::vector<Eigen::Index>& out) const;

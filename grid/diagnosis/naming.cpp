@@ -13,6 +13,7 @@
 #include "grid/diagnosis/single_reading.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/input_checks/point_checks.hpp"
+#include "grid/parallel.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -131,6 +132,23 @@ tl::expected<Naming, DiagnosisFailure> name_causes(const Measured& measured,
   naming.causes_given_law = name_given_law(naming.laws, a);
   if (naming.stability && a.decision.listed.size() != named) naming.stability = examine_stability(a);
   return naming;
+}
+
+NamingAndPlainFit name_and_fit(const Measured& measured,
+                               const DiagnosisOptions& options,
+                               NamingFor use,
+                               JointFitOptions fit_options) {
+  // One of the two may tell how far it is.
+  fit_options.progress = {};
+  std::optional<tl::expected<Naming, DiagnosisFailure>> naming;
+  std::optional<tl::expected<JointFit, FitFailure>> plain;
+  for_each_index(2, [&](std::size_t k) {
+    if (k == 0)
+      naming = name_causes(measured, options, use);
+    else
+      plain = joint_fit(measured, fit_options);
+  });
+  return {*std::move(naming), *std::move(plain)};
 }
 
 }  // namespace chaintrue::grid::diagnosis

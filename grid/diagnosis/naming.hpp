@@ -11,6 +11,7 @@
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/laws.hpp"
 #include "grid/diagnosis/visiting_order_found.hpp"
+#include "grid/map/joint_fit.hpp"
 #include "grid/observation/measured.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -31,5 +32,15 @@ enum class NamingFor { report, causes };
 [[nodiscard]] tl::expected<Naming, DiagnosisFailure> name_causes(const Measured& measured,
                                                                  const DiagnosisOptions& options,
                                                                  NamingFor use);
+
+/// name_causes() and joint_fit() of the same readings, at the same time where there are two cores.
+struct NamingAndPlainFit {
+  tl::expected<Naming, DiagnosisFailure> naming;
+  tl::expected<JointFit, FitFailure> plain;
+};
+[[nodiscard]] NamingAndPlainFit name_and_fit(const Measured& measured,
+                                             const DiagnosisOptions& options,
+                                             NamingFor use,
+                                             JointFitOptions fit_options);
 
 }  // namespace chaintrue::grid::diagnosis
