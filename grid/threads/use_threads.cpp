@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/threads/use_threads.hpp"
 
+#include <cstdlib>  // says whether this is glibc
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #ifdef CHAINTRUE_HAS_TBB
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -29,5 +34,14 @@ void use_threads(int count) {
 void use_threads(int /*count*/) {}
 
 #endif
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kNeverTrim = -1, kGrowByBytes = 1 << 24;
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, kNeverTrim);
+  mallopt(M_TOP_PAD, kGrowByBytes);
+#endif
+}
 
 }  // namespace chaintrue::grid

@@ -11,6 +11,7 @@
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/drawing_file.hpp"
+#include "grid/threads/use_threads.hpp"
 #include "tools/cli/assumed_order.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/option_rules.hpp"
@@ -135,6 +136,7 @@ DiagnosisOutcome diagnosed(const DiagnoseCommand& command, grid::Measured& measu
     return tl::unexpected(
         fmt::format("{}: {}", files::name_in_messages(command.input.grid), sentence));
   }
+  grid::keep_freed_memory();
   auto found = diagnosis_of(command, measured);
   if (!found) return found;
   note_fine_readings(measured, *found);

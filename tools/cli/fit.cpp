@@ -17,6 +17,7 @@
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/joint_fit.hpp"
+#include "grid/threads/use_threads.hpp"
 #include "tools/cli/fit_the_belts.hpp"
 #include "tools/cli/fit_the_drawing.hpp"
 #include "tools/cli/grid_input.hpp"
@@ -170,6 +171,7 @@ std::vector<report::Section> distances_of(const grid::Measured& measured,
 /// On the machine with the causes that are found, or as stated.
 tl::expected<grid::JointFit, grid::FitFailure> fit_of(const FitCommand& command,
                                                       const grid::Measured& measured) {
+  grid::keep_freed_memory();
   const grid::JointFitOptions options{.outside = rule_of(command.outside, {}),
                                       .progress = shown_progress()};
   if (command.plain) return grid::joint_fit(measured, options);
