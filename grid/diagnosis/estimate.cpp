@@ -176,7 +176,7 @@ Estimate estimate(const RegressorSystem& system,
     const auto at = as_index(k);
     const bool is_fixed = system.regressor(regressors[k]).fixed;
     if (is_fixed || result.coefficient_sigma(at) > 0.0) continue;
-    const double length = std::max(marginalised.g.col(regressors[k]).norm(), 1e-12);
+    const double length = std::max(reduced_length(system, marginalised, regressors[k]), 1e-12);
     result.coefficient_sigma(at) = std::sqrt(result.noise_square) / length;
   }
   return result;

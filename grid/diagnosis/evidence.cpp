@@ -85,8 +85,7 @@ double log_price_of_outliers(const RegressorSystem& system, const std::vector<bo
   return rejected[0] * log_price_of_outlier(1) + rejected[1] * log_price_of_outlier(2);
 }
 
-MarginalisedSystem marginalise(const RegressorSystem& system,
-                               const std::vector<bool>& outliers) {
+MarginalisedSystem marginalise_rows(const RegressorSystem& system, const std::vector<bool>& outliers) {
   MarginalisedSystem marginalised;
   marginalised.outliers = outliers;
   marginalised.kept = KeptRows(system, outliers);
@@ -97,6 +96,11 @@ MarginalisedSystem marginalise(const RegressorSystem& system,
   marginalised.root = CovarianceRoot(linear::scaled_columns(a, system.sigma));
   marginalised.log_det = marginalised.root.log_det();
   marginalised.e = marginalised.root.solve(e);
+  return marginalised;
+}
+
+MarginalisedSystem marginalise(const RegressorSystem& system, const std::vector<bool>& outliers) {
+  MarginalisedSystem marginalised = marginalise_rows(system, outliers);
   marginalised.g = system.g.mapped([&](const auto& columns) {
     return marginalised.root.solve(marginalised.kept.of(columns));
   });
@@ -127,12 +131,19 @@ Eigen::VectorXd reduced(const MarginalisedSystem& marginalised, const Eigen::Vec
   return marginalised.root.solve(marginalised.kept(column));
 }
 
+double reduced_length(const RegressorSystem& system,
+                      const MarginalisedSystem& marginalised,
+                      int regressor) {
+  return marginalised.g.cols() > 0 ? marginalised.g.col(regressor).norm()
+                                   : reduced(marginalised, system.g.col(regressor)).norm();
+}
+
 double wide_coefficient_sigma(const RegressorSystem& system,
                               const MarginalisedSystem& marginalised,
                               int regressor) {
   const double usual = system.regressor(regressor).coefficient_sigma;
   if (usual > 0.0) return usual * kWideSignalToNoise / kUsualSignalToNoise;
-  return kWideSignalToNoise / std::max(marginalised.g.col(regressor).norm(), 1e-12);
+  return kWideSignalToNoise / std::max(reduced_length(system, marginalised, regressor), 1e-12);
 }
 
 Eigen::Index NormalEquations::position(int column) const {

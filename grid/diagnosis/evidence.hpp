@@ -77,7 +77,7 @@ struct MarginalisedSystem {
   KeptRows kept;                   ///< N rows
   CovarianceRoot root;             ///< N x N, R of V = R R
   Eigen::VectorXd e;               ///< N, R^-1 times the residual
-  RegressorColumns g;              ///< N x a column a regressor, R^-1 times it
+  RegressorColumns g;              ///< N x a column a regressor, R^-1 times it; none where an estimate is all that is made
   double log_det = 0.0;            ///< log |V|
   double log_outliers = 0.0;       ///< prior and density of the points set aside
   /// Per kernel: trace of its covariance in this marginalised system, for a discrepancy of 1 mm.
@@ -90,6 +90,13 @@ struct MarginalisedSystem {
                                            const std::vector<bool>& outliers);
 [[nodiscard]] MarginalisedSystem marginalise(const RegressorSystem& system,
                                              const std::vector<bool>& outliers);
+/// The same without g.
+[[nodiscard]] MarginalisedSystem marginalise_rows(const RegressorSystem& system,
+                                                  const std::vector<bool>& outliers);
+/// Length of R^-1 times a regressor's column.
+[[nodiscard]] double reduced_length(const RegressorSystem& system,
+                                    const MarginalisedSystem& marginalised,
+                                    int regressor);
 /// The kept rows' covariance with the nuisances unknown but for their sigmas: the
 /// noise as a person sees it. Empty where there are none.
 [[nodiscard]] linear::Cholesky nuisance_noise(const RegressorSystem& system, const KeptRows& kept);

@@ -8,6 +8,7 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/linear_algebra.hpp"
+#include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -204,7 +205,7 @@ std::vector<Alternative> alternatives_about(const Analysis& a,
                                             const RegressorSystem& next,
                                             const ColumnOf& column) {
   std::vector<Alternative> alternatives = alternatives_of_best(a);
-  for (Alternative& one : alternatives) predict(a, next, column, one);
+  for_each_index(alternatives.size(), [&](std::size_t k) { predict(a, next, column, alternatives[k]); });
   return alternatives;
 }
 

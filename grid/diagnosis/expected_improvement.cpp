@@ -89,7 +89,7 @@ MarginalisedSystem without_slips(const Analysis& a, const MarginalisedSystem& ma
   std::vector<bool> outliers = marginalised.outliers;
   reject_slips(a, outliers);
   return outliers == marginalised.outliers ? marginalised
-                                           : marginalise(a.system, outliers);
+                                           : marginalise_rows(a.system, outliers);
 }
 
 ExpectedImprovement expected_improvement(const Analysis& a) {

@@ -16,7 +16,7 @@ class FoldErrors {
       : a_(analysis),
         comparison_(without.comparison),
         decision_(decision),
-        marginalised_(marginalise(
+        marginalised_(marginalise_rows(
             a_.system, comparison_.marginalised_systems[decision.marginalised].outliers)) {}
 
   [[nodiscard]] Errors at(const std::vector<std::size_t>& units) const {

@@ -32,7 +32,7 @@ class Placed {
     RegressorSystem system = sheet_;
     system.e = left;
     const auto outliers = outlier_sets(system, nothing_rejected(system), {{}}).front();
-    return estimate(system, marginalise(system, outliers), {}, -1).left;
+    return estimate(system, marginalise_rows(system, outliers), {}, -1).left;
   }
 
  private:
