@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
 
 #include "interp/reml_search.hpp"
 
@@ -27,8 +26,7 @@ void PenalisedProblem::add_rows(const Eigen::Ref<const Eigen::MatrixXd>& x,
                                             y.size(),
                                             columns()));
   }
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
-  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+  linear::add_gram(gram, 1.0, x);
   moment.noalias() += x.transpose() * y;
   response_square += y.squaredNorm();
   rows += x.rows();
@@ -109,14 +107,14 @@ tl::expected<PenalisedFit, FitFailure> fit_with_smoothing(const PenalisedProblem
 namespace {
 
 // The Cholesky factor of I - H_gg.
-tl::expected<Eigen::LLT<Eigen::MatrixXd>, FitFailure> without_group(
+tl::expected<linear::Cholesky, FitFailure> without_group(
     const Eigen::Ref<const Eigen::MatrixXd>& spread, double sigma2) {
   const Eigen::Index m = spread.rows();
-  Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(m, m) - spread / sigma2);
+  linear::Cholesky factor(Eigen::MatrixXd::Identity(m, m) - spread / sigma2);
   // The rounding of covariance * gram is about 1e-12.
   constexpr double kSmallestPivot = 1e-9;
-  if (factor.info() != Eigen::Success ||
-      factor.matrixLLT().diagonal().array().square().minCoeff() < kSmallestPivot) {
+  if (!factor.is_positive_definite() ||
+      factor.lower().diagonal().array().square().minCoeff() < kSmallestPivot) {
     return tl::unexpected(FitFailure{FitFailure::Reason::rank_deficient,
                                      "the other points do not determine the fit without these"});
   }
@@ -135,8 +133,8 @@ tl::expected<Eigen::VectorXd, FitFailure> held_out_residual(
                                             spread.rows(),
                                             spread.cols()));
   }
-  return without_group(spread, sigma2).map([&](const Eigen::LLT<Eigen::MatrixXd>& factor) {
-    return Eigen::VectorXd(factor.solve(residual));
+  return without_group(spread, sigma2).map([&](const linear::Cholesky& factor) {
+    return factor.solve(residual);
   });
 }
 
@@ -149,14 +147,11 @@ tl::expected<Eigen::VectorXd, FitFailure> held_out_residual_by_root(
         fmt::format("{} held-out residuals with a root of {} rows", residual.size(), root.rows()));
   }
   if (root.rows() <= root.cols()) {
-    return held_out_residual(residual, root * root.transpose(), sigma2);
+    return held_out_residual(residual, linear::outer(root), sigma2);
   }
   // (I - W W' / s2)^-1 = I + W (s2 I - W' W)^-1 W'; one is positive definite if and only if the
   // other is.
-  Eigen::MatrixXd inner = Eigen::MatrixXd::Zero(root.cols(), root.cols());
-  inner.selfadjointView<Eigen::Lower>().rankUpdate(root.transpose());
-  inner.triangularView<Eigen::StrictlyUpper>() = inner.transpose();
-  return without_group(inner, sigma2).map([&](const Eigen::LLT<Eigen::MatrixXd>& factor) {
+  return without_group(linear::gram(root), sigma2).map([&](const linear::Cholesky& factor) {
     return Eigen::VectorXd(residual + root * factor.solve(root.transpose() * residual) / sigma2);
   });
 }

@@ -7,10 +7,6 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
-
-#include "interp/symmetric_eigen.hpp"
 
 namespace chaintrue::interp::reml {
 namespace {
@@ -60,25 +56,23 @@ ScaledCholesky::ScaledCholesky(const Eigen::MatrixXd& matrix, const Eigen::Vecto
   constexpr double kZeroPivot = 1e-12;
   if (!(diagonal.array() > 0.0).all()) return;
   scale_ = diagonal.array().rsqrt();
-  const Eigen::LLT<Eigen::MatrixXd> factor(scale_.asDiagonal() * matrix * scale_.asDiagonal());
-  lower_ = factor.matrixLLT();
-  positive_ = factor.info() == Eigen::Success &&
-              (lower_.diagonal().array().square() >= kZeroPivot * static_cast<double>(matrix.rows()))
+  factor_ = linear::Cholesky(scale_.asDiagonal() * matrix * scale_.asDiagonal());
+  positive_ = factor_.is_positive_definite() &&
+              (factor_.lower().diagonal().array().square() >=
+               kZeroPivot * static_cast<double>(matrix.rows()))
                   .all();
 }
 
 double ScaledCholesky::log_determinant() const {
-  return 2.0 * (lower_.diagonal().array().log().sum() - scale_.array().log().sum());
+  return factor_.log_det() - 2.0 * scale_.array().log().sum();
 }
 
 Eigen::MatrixXd ScaledCholesky::solve(const Eigen::MatrixXd& right) const {
-  const auto lower = lower_.triangularView<Eigen::Lower>();
-  return scale_.asDiagonal() * lower.transpose().solve(lower.solve(scale_.asDiagonal() * right));
+  return scale_.asDiagonal() * factor_.solve(Eigen::MatrixXd(scale_.asDiagonal() * right));
 }
 
 Eigen::MatrixXd ScaledCholesky::inverse_root() const {
-  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(lower_.rows(), lower_.rows());
-  return scale_.asDiagonal() * lower_.triangularView<Eigen::Lower>().transpose().solve(unit);
+  return scale_.asDiagonal() * factor_.root_of_inverse();
 }
 
 Likelihood::Likelihood(const PenalisedProblem& problem, SmoothingPrior prior)
@@ -120,25 +114,25 @@ void Likelihood::diagonalise() {
   const auto in_ridge = Eigen::seqN(first_, m);
   if (problem_.keeps_rows && problem_.rows <= m) {
     const Eigen::MatrixXd f = problem_.design.middleCols(first_, m);
-    const SymmetricEigen solver(f * f.transpose());
+    const linear::SymmetricEigen solver(linear::outer(f));
     const Eigen::MatrixXd q = solver.eigenvectors().rowwise().reverse();
     const Eigen::VectorXd g = solver.eigenvalues().reverse().cwiseMax(0.0);
     // The columns of F'Q are orthogonal, of squares g. Householder's Q of them is R: orthonormal to
     // rounding also where g is not above it, and it holds what the rows do not reach.
-    const Eigen::MatrixXd turned = f.transpose() * q;
-    basis_ = Eigen::HouseholderQR<Eigen::MatrixXd>(turned).householderQ();
+    const Eigen::MatrixXd turned = linear::product(linear::transposed(f), q);
+    basis_ = linear::qr(turned).q;
     eigenvalues_ = Eigen::VectorXd::Zero(m);
     eigenvalues_.head(g.size()) = g;
     rows_ = TurnedRows{g,
-                       q.transpose() * problem_.design(Eigen::all, shared_),
-                       q.transpose() * problem_.response,
-                       basis_.transpose() * turned};
+                       linear::product(linear::transposed(q), problem_.design(Eigen::all, shared_)),
+                       linear::product(linear::transposed(q), problem_.response),
+                       linear::product(linear::transposed(basis_), turned)};
   } else {
-    const SymmetricEigen solver(problem_.gram(in_ridge, in_ridge));
+    const linear::SymmetricEigen solver(problem_.gram(in_ridge, in_ridge));
     basis_ = solver.eigenvectors();
     eigenvalues_ = solver.eigenvalues().cwiseMax(0.0);
   }
-  coupling_ = basis_.transpose() * problem_.gram(in_ridge, shared_);
+  coupling_ = linear::product(linear::transposed(basis_), problem_.gram(in_ridge, shared_));
   Eigen::VectorXd moment(problem_.columns());
   moment << basis_.transpose() * problem_.moment.segment(first_, m), moment_;
   moment_ = std::move(moment);
@@ -174,10 +168,10 @@ std::optional<Likelihood::Factor> Likelihood::factor(const Theta& theta) const {
   if (rows_) {
     of_rows = (std::exp(theta[1]) + rows_->eigenvalues.array() / lambda).inverse();
     h = shared_prior_;
-    h.noalias() += rows_->shared.transpose() * (of_rows.asDiagonal() * rows_->shared);
+    linear::add_product(h, 1.0, linear::transposed(rows_->shared), of_rows.asDiagonal() * rows_->shared);
     diagonal = h.diagonal();
   } else {
-    h.noalias() -= (per_sigma2 * coupling_.transpose()) * u;
+    linear::add_product(h, -per_sigma2, linear::transposed(coupling_), u);
   }
   ScaledCholesky corner(h, diagonal);
   if (!corner.positive()) return std::nullopt;
@@ -240,12 +234,12 @@ void Likelihood::add_derivatives(State& state, const Factor& factor, double devi
 
   // Traces of A^-1 D and of A^-1 D A^-1 D', for D and D' of lambda J (0) and S0 (1).
   const Eigen::MatrixXd root = factor.corner.inverse_root();
-  const Eigen::MatrixXd corner = root * root.transpose();
+  const Eigen::MatrixXd corner = linear::outer(root);
   const Eigen::VectorXd plain = factor.lambda * factor.inverse;
   const Eigen::VectorXd extra =
-      factor.lambda * (factor.u * corner).cwiseProduct(factor.u).rowwise().sum();
-  const Eigen::MatrixXd of_ridge = factor.lambda * corner * (factor.u.transpose() * factor.u);
-  const Eigen::MatrixXd of_prior = corner * shared_prior_;
+      factor.lambda * linear::product(factor.u, corner).cwiseProduct(factor.u).rowwise().sum();
+  const Eigen::MatrixXd of_ridge = factor.lambda * linear::product(corner, linear::gram(factor.u));
+  const Eigen::MatrixXd of_prior = linear::product(corner, shared_prior_);
   const auto trace_of_product = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
     return a.cwiseProduct(b.transpose()).sum();
   };
@@ -269,8 +263,7 @@ void Likelihood::add_derivatives(State& state, const Factor& factor, double devi
   Eigen::MatrixXd halves(p, 2);
   halves << -root.transpose() * of_v, root.transpose() * (force - of_v);
   const double in_ridge = factor.lambda * v.dot(plain.cwiseProduct(v));
-  const Eigen::Matrix2d square =
-      halves.transpose() * halves + Eigen::Matrix2d::Constant(in_ridge);
+  const Eigen::Matrix2d square = linear::gram(halves) + Eigen::Matrix2d::Constant(in_ridge);
 
   // The second derivative of exp(+-theta) adds the first derivative once more, with its sign.
   const Theta twice(first + trace);
@@ -295,15 +288,13 @@ Eigen::MatrixXd Likelihood::covariance(const std::vector<Node>& nodes, const Sta
     const Factor a = factor(node.theta).value();
     const Eigen::MatrixXd root = std::sqrt(node.weight) * a.corner.inverse_root();
     diagonal += node.weight * a.inverse;
-    wide.block(0, k * p, m, p).noalias() = -a.u * root;
+    wide.block(0, k * p, m, p) = -linear::product(a.u, root);
     wide.block(m, k * p, p, p) = root;
     wide.col(count * p + k) =
         std::sqrt(node.weight) * (solve(a).coefficients - centre.coefficients);
   }
-  Eigen::MatrixXd working = Eigen::MatrixXd::Zero(problem_.columns(), problem_.columns());
-  working.selfadjointView<Eigen::Lower>().rankUpdate(wide);
+  Eigen::MatrixXd working = linear::outer(wide);
   working.diagonal().head(m) += diagonal;
-  working.triangularView<Eigen::StrictlyUpper>() = working.transpose();
   Eigen::MatrixXd result = to_columns(to_columns(working).transpose());
   result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
   return result;
@@ -312,7 +303,7 @@ Eigen::MatrixXd Likelihood::covariance(const std::vector<Node>& nodes, const Sta
 Eigen::MatrixXd Likelihood::to_columns(const Eigen::MatrixXd& working) const {
   const Eigen::Index m = eigenvalues_.size();
   Eigen::MatrixXd result(working.rows(), working.cols());
-  result.middleRows(first_, m).noalias() = basis_ * working.topRows(m);
+  result.middleRows(first_, m) = linear::product(basis_, working.topRows(m));
   result(shared_, Eigen::all) = working.bottomRows(working.rows() - m);
   return result;
 }

@@ -25,6 +25,7 @@
 #include <optional>
 #include <vector>
 
+#include "interp/linear_algebra.hpp"
 #include "interp/reml.hpp"
 
 namespace chaintrue::interp::reml {
@@ -56,7 +57,7 @@ class ScaledCholesky {
 
  private:
   Eigen::VectorXd scale_;
-  Eigen::MatrixXd lower_;
+  linear::Cholesky factor_;
   bool positive_ = false;
 };
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "interp/symmetric_eigen.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::interp::reml {
 namespace {
@@ -95,7 +95,7 @@ Eigen::Matrix2d restricted(const Eigen::Matrix2d& hessian, const Theta& free) {
 
 // Newton's step with the Hessian's eigenvalues made positive, no longer than kLongestStep.
 Theta newton_step(const State& state, const Theta& free) {
-  const SymmetricEigen solver(restricted(state.hessian, free));
+  const linear::SymmetricEigen solver(restricted(state.hessian, free));
   const double floor = 1e-8 * std::max(1.0, solver.eigenvalues().lpNorm<Eigen::Infinity>());
   const Eigen::VectorXd turned = solver.eigenvectors().transpose() * free.cwiseProduct(state.gradient);
   const Theta step = -(solver.eigenvectors() *
@@ -139,7 +139,7 @@ Theta standard_errors(const SearchResult& found) {
   const bool lambda_inside =
       found.low[0] < found.high[0] &&
       ends_inside(found.theta[0], found.low[0], found.high[0], found.state.hessian(0, 0));
-  const SymmetricEigen solver(
+  const linear::SymmetricEigen solver(
       restricted(0.5 * found.state.hessian,
                  {lambda_inside ? 1.0 : 0.0, found.low[1] < found.high[1] ? 1.0 : 0.0}));
   // A flat direction would have an unbounded variance: ten decades of lambda are the limit.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 #include "model/belts/belt_mechanism.hpp"
 #include "model/calibration/sheet_placement.hpp"

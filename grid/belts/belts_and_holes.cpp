@@ -12,7 +12,7 @@
 #include "grid/belts/taped_state.hpp"
 #include "grid/containers.hpp"
 #include "grid/failed.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/precondition.hpp"
 #include "grid/statistics.hpp"

@@ -7,7 +7,7 @@
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/containers.hpp"
 #include "grid/estimation/reading_shifts.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 #include "model/belts/belt_kinematics.hpp"
 

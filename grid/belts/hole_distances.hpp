@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "grid/belts/belt_holes.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/observation/observation.hpp"
 
 namespace chaintrue::grid::belts {

@@ -4,7 +4,7 @@
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/belts_and_holes.hpp"
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/belts/belt_mechanism.hpp"
 
 namespace chaintrue::grid::belts {

@@ -7,7 +7,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/estimation/estimate.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::belts {

@@ -7,7 +7,7 @@
 #include "grid/belts/fit_report.hpp"
 #include "grid/containers.hpp"
 #include "grid/diagnosis/belts_report.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -8,7 +8,7 @@
 #include "grid/belts/fit_report.hpp"
 #include "grid/containers.hpp"
 #include "grid/diagnosis/belts_report.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/belts/belt_kinematics.hpp"
 #include "model/belts/belt_readings.hpp"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/belts/belt_readings.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -8,7 +8,7 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/estimate.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
 

@@ -13,7 +13,7 @@
 
 #include <Eigen/Core>
 
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

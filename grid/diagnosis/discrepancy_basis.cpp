@@ -7,7 +7,7 @@
 #include <map>
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 
 namespace chaintrue::grid::diagnosis {

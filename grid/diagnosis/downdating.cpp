@@ -8,7 +8,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/ties.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

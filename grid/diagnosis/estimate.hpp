@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "grid/diagnosis/model_comparison.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

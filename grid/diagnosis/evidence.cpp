@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -7,7 +7,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/best_model.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"

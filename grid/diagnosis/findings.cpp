@@ -10,7 +10,7 @@
 #include "grid/diagnosis/best_model.hpp"
 #include "grid/diagnosis/cause_parameters.hpp"
 #include "grid/diagnosis/constants.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/observation/drawn_measures.hpp"
 #include "model/effects/catalogue.hpp"
 

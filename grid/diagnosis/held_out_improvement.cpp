@@ -11,7 +11,7 @@
 #include "grid/diagnosis/expected_improvement.hpp"
 #include "grid/diagnosis/held_out_fold.hpp"
 #include "grid/diagnosis/observations.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 #include "grid/random.hpp"
 #include "grid/statistics.hpp"

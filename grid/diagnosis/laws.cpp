@@ -14,7 +14,7 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/law_held_out.hpp"
 #include "grid/diagnosis/law_residuals.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 #include "grid/statistics.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/parallel.hpp"
 #include "grid/random.hpp"
 

@@ -12,7 +12,7 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/regressors.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/statistics.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -9,7 +9,7 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/given_discrepancies.hpp"
 #include "grid/diagnosis/ties.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -7,7 +7,7 @@
 #include "grid/diagnosis/held_out_improvement.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/estimation/spatial_blocks.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

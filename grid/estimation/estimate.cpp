@@ -10,7 +10,7 @@
 #include "grid/estimation/estimator.hpp"
 #include "grid/estimation/left_out.hpp"
 #include "grid/estimation/unknowns.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::estimation {

@@ -3,7 +3,7 @@
 #include "grid/estimation/free_sheet.hpp"
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 
 
 namespace chaintrue::grid::estimation {

@@ -5,7 +5,7 @@
 #include "grid/containers.hpp"
 #include "grid/estimation/joint_problem.hpp"
 #include "grid/estimation/unknowns.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::estimation {

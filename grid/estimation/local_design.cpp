@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::estimation {
 

@@ -2,7 +2,7 @@
 #include "grid/estimation/observed_subspace.hpp"
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 
 
 namespace chaintrue::grid {

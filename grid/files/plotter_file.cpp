@@ -8,7 +8,7 @@
 #include "grid/files/provenance_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid::files {
 namespace {

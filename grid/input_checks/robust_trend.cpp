@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::input_checks {

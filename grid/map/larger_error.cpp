@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/map/map_parts.hpp"
 #include "grid/precondition.hpp"
 

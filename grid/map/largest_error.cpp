@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 #include "grid/random.hpp"
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 namespace {

@@ -22,7 +22,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 

@@ -10,7 +10,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/failed.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/map/controller_error.hpp"
 #include "grid/map/mechanism_map.hpp"
 #include "model/chains/chain_mechanism.hpp"

@@ -6,7 +6,7 @@
 
 #include "grid/chain_rows.hpp"
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/map/controller_error.hpp"
 
 namespace chaintrue::grid {

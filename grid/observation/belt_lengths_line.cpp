@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/observation/belt_lengths.hpp"
 
 namespace chaintrue::grid::observation {

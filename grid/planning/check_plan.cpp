@@ -10,7 +10,7 @@
 
 #include "grid/containers.hpp"
 #include "grid/failed.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/map/check_readings.hpp"
 #include "grid/precondition.hpp"
 #include "model/chains/chain_mechanism.hpp"

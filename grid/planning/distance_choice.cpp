@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/observation/tape_distances.hpp"
 
 namespace chaintrue::grid {

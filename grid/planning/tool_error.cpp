@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 
 namespace chaintrue::grid {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "grid/containers.hpp"
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 #include "grid/precondition.hpp"
 #include "grid/synthetic/design.hpp"
 #include "model/calibration/setting.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,12 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "grid/linear_algebra_kernels.hpp"
+#include "interp/linear_algebra_kernels.hpp"
 #include "grid/random.hpp"
 
-namespace chaintrue::grid::linear {
+namespace chaintrue::linear {
 namespace {
 
+using grid::Random;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -388,4 +389,4 @@ TEST(Kernels, GiveTheSameBytesWhereverTheNumbersLie) {
 }
 
 }  // namespace
-}  // namespace chaintrue::grid::linear
+}  // namespace chaintrue::linear

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Holds the include graph: layers include downwards only, and folders of grid/ in no circle. And dense matrices of
-any size are decomposed in grid/linear_algebra.cpp alone, and extremes taken by grid/containers.hpp, which knows that
+any size are decomposed in interp/linear_algebra.cpp alone, and extremes taken by grid/containers.hpp, which knows that
 nothing has none.
 
     layers.py SOURCE        prints every include that breaks a layer, every circle, every decomposition and every extreme
@@ -25,7 +25,8 @@ FOR_USERS = ("interp/interp.hpp", "model/model.hpp", "grid/grid.hpp")
 # Libraries of tools/ that are independent of the command line.
 WITHOUT_COMMAND_LINE = ("tools/gcode", "tools/report")
 # Decompositions are templates that take seconds to compile, and code for one processor (linear_algebra_kernels.hpp).
-DECOMPOSING = ("grid/linear_algebra.cpp", "grid/linear_algebra_kernels.cpp")
+# The quintic spline, which no fit uses, has an LU factorisation of its own.
+DECOMPOSING = ("interp/linear_algebra.cpp", "interp/linear_algebra_kernels.cpp", "interp/quintic_spline.cpp")
 DECOMPOSITION = re.compile(
     r"\b(LLT|LDLT|PartialPivLU|FullPivLU|HouseholderQR|ColPivHouseholderQR|FullPivHouseholderQR|Tridiagonalization"
     r"|CompleteOrthogonalDecomposition|BDCSVD|JacobiSVD|(?:Generalized)?SelfAdjointEigenSolver|EigenSolver)<([^<>]*(?:<[^<>]*>)?[^<>]*)>")
@@ -69,15 +70,15 @@ def broken_layer(path, included):
 
 def decompositions(path, text):
     """What decomposes matrices of any size where it must not."""
-    if path.parts[0] != "grid" or str(path) in DECOMPOSING:
+    if path.parts[0] not in ("interp", "grid") or str(path) in DECOMPOSING:
         return
     for number, line in enumerate(text.splitlines(), 1):
         code = line.split("//")[0]
         for found in DECOMPOSITION.finditer(code):
             if not SMALL.search(found[2]):
-                yield f"{path}:{number} {found[0]}: take grid/linear_algebra.hpp"
+                yield f"{path}:{number} {found[0]}: take interp/linear_algebra.hpp"
         for found in DECOMPOSING_CALL.finditer(code):
-            yield f"{path}:{number} {found[0]}: take grid/linear_algebra.hpp, or name the fixed size"
+            yield f"{path}:{number} {found[0]}: take interp/linear_algebra.hpp, or name the fixed size"
 
 
 def extremes(path, text):

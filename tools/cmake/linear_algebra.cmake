@@ -1,4 +1,4 @@
-# chaintrue_add_linear_algebra_kernels(target): grid/linear_algebra_kernels.cpp, compiled for every x86-64 and
+# chaintrue_add_linear_algebra_kernels(target): interp/linear_algebra_kernels.cpp, compiled for every x86-64 and
 # for those with AVX2 and FMA; which of them runs is decided when the program starts. The second sees Eigen
 # under a name of its own, so that it shares no inline function with anything else: the linker keeps one of
 # each, and code for AVX2 would run where there is none. For the same reason neither gets the precompiled

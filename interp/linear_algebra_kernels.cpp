@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Compiled once for each table (tools/cmake/linear_algebra.cmake), CHAINTRUE_KERNELS its name. Nothing
 // from the standard library but what Eigen takes from it, nothing from the project but the tables.
-#include "grid/linear_algebra_kernels.hpp"
+#include "interp/linear_algebra_kernels.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
-namespace chaintrue::grid::kernels {
+namespace chaintrue::linear::kernels {
 namespace {
 
 using Columns = Eigen::OuterStride<>;
@@ -140,4 +140,4 @@ void rotate(Input a, const double* reflections, Output x) {
 const Table CHAINTRUE_KERNELS = {
     add_product, add_square, factorise, solve_triangle, tridiagonalise, rotate};
 
-}  // namespace chaintrue::grid::kernels
+}  // namespace chaintrue::linear::kernels

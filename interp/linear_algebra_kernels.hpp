@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What grid/linear_algebra.hpp spends its time in, compiled for several processors. Only raw
+/// What interp/linear_algebra.hpp spends its time in, compiled for several processors. Only raw
 /// pointers pass: the translation units behind the tables share no template with any other, so the
 /// linker cannot put code for one processor in the place of code for another
 /// (tests/layers/kernel_symbols.py).
@@ -8,7 +8,7 @@
 
 #include <cstddef>
 
-namespace chaintrue::grid::kernels {
+namespace chaintrue::linear::kernels {
 
 /// Column major, `stride` numbers from one column to the next.
 struct Input {
@@ -50,4 +50,4 @@ extern const Table avx2;  ///< with FMA; only of builds for x86-64
 /// The best for this processor; the baseline where CHAINTRUE_BASELINE=1 stands in the environment.
 [[nodiscard]] const Table& chosen();
 
-}  // namespace chaintrue::grid::kernels
+}  // namespace chaintrue::linear::kernels

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Dense matrices: products and decompositions, compiled once. Elsewhere in grid/ nothing
+/// Dense matrices: products and decompositions, compiled once. Elsewhere in interp/ and grid/ nothing
 /// instantiates Eigen's decompositions of dynamic matrices (tests/layers), and products of such go
 /// through these functions, which take the instructions of the processor at hand
 /// (linear_algebra_kernels.hpp).
@@ -16,9 +16,7 @@
 
 #include <Eigen/Core>
 
-#include "interp/symmetric_eigen.hpp"
-
-namespace chaintrue::grid::linear {
+namespace chaintrue::linear {
 
 /// An argument: a matrix or, of one column, a vector.
 template <int kColumns>
@@ -115,8 +113,18 @@ class PivotedCholesky {
   Eigen::Transpositions<Eigen::Dynamic> exchanged_;
 };
 
-/// eigenvalues() ascending, eigenvectors().
-using interp::SymmetricEigen;
+/// M = V diag(values) V' of a symmetric matrix of which the lower triangle is read; values ascending, the columns
+/// of V orthonormal.
+class SymmetricEigen {
+ public:
+  explicit SymmetricEigen(const Eigen::MatrixXd& matrix);
+  [[nodiscard]] const Eigen::VectorXd& eigenvalues() const { return values_; }
+  [[nodiscard]] const Eigen::MatrixXd& eigenvectors() const { return vectors_; }
+
+ private:
+  Eigen::VectorXd values_;
+  Eigen::MatrixXd vectors_;
+};
 /// F with F F' = C of a covariance, which may be semidefinite but for rounding; a column for each
 /// direction, the widest last.
 [[nodiscard]] Eigen::MatrixXd covariance_root(const Eigen::MatrixXd& covariance);
@@ -170,4 +178,4 @@ struct ThinSvd {
 /// A^-1 of any square matrix that has one.
 [[nodiscard]] Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);
 
-}  // namespace chaintrue::grid::linear
+}  // namespace chaintrue::linear

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/linear_algebra.hpp"
+#include "interp/linear_algebra.hpp"
+
+#include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
-#include "grid/linear_algebra_kernels.hpp"
-#include "grid/precondition.hpp"
+#include "interp/linear_algebra_kernels.hpp"
 
-namespace chaintrue::grid {
+namespace chaintrue::linear {
 
 const kernels::Table* kernels::avx2_here() {
 #ifdef CHAINTRUE_HAS_AVX2
@@ -33,7 +36,6 @@ const kernels::Table& kernels::chosen() {
   return best;
 }
 
-namespace linear {
 namespace {
 
 using Eigen::MatrixXd;
@@ -58,13 +60,13 @@ Eigen::Index columns_of(const kernels::Input& a) { return a.transposed ? a.rows 
 
 void add(kernels::Output c, double scale, const kernels::Input& a, const kernels::Input& b) {
   if (c.rows != rows_of(a) || c.columns != columns_of(b) || columns_of(a) != rows_of(b)) {
-    throw precondition("a product {} x {} of {} x {} and {} x {}",
+    throw std::invalid_argument(fmt::format("a product {} x {} of {} x {} and {} x {}",
                        c.rows,
                        c.columns,
                        rows_of(a),
                        columns_of(a),
                        rows_of(b),
-                       columns_of(b));
+                       columns_of(b)));
   }
   if (c.rows > 0 && c.columns > 0 && columns_of(a) > 0) kernels::chosen().add_product(c, scale, a, b);
 }
@@ -84,8 +86,8 @@ VectorXd vector_of(const kernels::Input& a, const kernels::Input& x) {
 /// c += scale a a', of a symmetric c
 void add_square(MatrixXd& c, double scale, const kernels::Input& a) {
   if (c.rows() != rows_of(a) || c.cols() != rows_of(a)) {
-    throw precondition(
-        "{} x {} and a square of {} x {}", c.rows(), c.cols(), rows_of(a), rows_of(a));
+    throw std::invalid_argument(fmt::format(
+        "{} x {} and a square of {} x {}", c.rows(), c.cols(), rows_of(a), rows_of(a)));
   }
   if (c.size() == 0 || columns_of(a) == 0) return;
   kernels::chosen().add_square(output(c), scale, a);
@@ -101,7 +103,7 @@ MatrixXd square(const kernels::Input& a, double diagonal) {
 
 void solve_triangle(const MatrixXd& lower, bool transposed, kernels::Output x) {
   if (lower.rows() != x.rows) {
-    throw precondition("{} equations of {} unknowns", x.rows, lower.rows());
+    throw std::invalid_argument(fmt::format("{} equations of {} unknowns", x.rows, lower.rows()));
   }
   if (x.rows == 0 || x.columns == 0) return;
   kernels::Input l = input(lower);
@@ -148,7 +150,7 @@ void add_gram(MatrixXd& c, double scale, const MatrixArgument& a) {
 void add_outer(MatrixXd& c, double scale, const MatrixArgument& a) { add_square(c, scale, input(a)); }
 void add_outer(MatrixXd& c, double scale, const VectorArgument& x) {
   if (c.rows() != x.size() || c.cols() != x.size()) {
-    throw precondition("{} x {} and a square of {} x {}", c.rows(), c.cols(), x.size(), x.size());
+    throw std::invalid_argument(fmt::format("{} x {} and a square of {} x {}", c.rows(), c.cols(), x.size(), x.size()));
   }
   for (Eigen::Index k = 0; k < x.size(); ++k) c.col(k) += (scale * x[k]) * x;
 }
@@ -163,7 +165,7 @@ MatrixXd scaled_columns(const MatrixArgument& a, const VectorArgument& s) {
 
 Cholesky::Cholesky(MatrixXd matrix) : lower_(std::move(matrix)) {
   if (lower_.rows() != lower_.cols())
-    throw precondition("a symmetric matrix of {} x {}", lower_.rows(), lower_.cols());
+    throw std::invalid_argument(fmt::format("a symmetric matrix of {} x {}", lower_.rows(), lower_.cols()));
   if (lower_.size() == 0) return;
   is_positive_definite_ = kernels::chosen().factorise(output(lower_));
   for (Eigen::Index k = 0; k < lower_.cols(); ++k) {
@@ -242,6 +244,13 @@ MatrixXd PivotedCholesky::root(double least) const {
   return exchanged_.transpose() * scaled_columns(kept, scale);
 }
 
+SymmetricEigen::SymmetricEigen(const MatrixXd& matrix) {
+  if (matrix.rows() == 0) return;  // the solver would take a vector of -1 entries
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(matrix);
+  values_ = solver.eigenvalues();
+  vectors_ = solver.eigenvectors();
+}
+
 MatrixXd covariance_root(const MatrixXd& covariance) {
   const SymmetricEigen parts(covariance);
   const VectorXd scale = parts.eigenvalues().cwiseMax(0.0).cwiseSqrt();
@@ -260,7 +269,7 @@ Tridiagonal::Tridiagonal(MatrixXd matrix)
 
 void Tridiagonal::rotate_in_place(MatrixXd& x) const {
   if (x.rows() != reflections_.rows())
-    throw precondition("{} rows to rotate, of {}", x.rows(), reflections_.rows());
+    throw std::invalid_argument(fmt::format("{} rows to rotate, of {}", x.rows(), reflections_.rows()));
   if (x.size() == 0) return;
   kernels::chosen().rotate(input(reflections_), coefficients_.data(), output(x));
 }
@@ -306,5 +315,4 @@ ThinSvd thin_svd(const MatrixXd& a) {
 
 MatrixXd inverse(const MatrixXd& a) { return a.inverse(); }
 
-}  // namespace linear
-}  // namespace chaintrue::grid
+}  // namespace chaintrue::linear
