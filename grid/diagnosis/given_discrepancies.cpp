@@ -124,9 +124,8 @@ class GivenDiscrepancySearch {
     }
     const std::vector<WeighedSet> alone = parents;
     for (std::size_t size = 2; size <= kMostCauses; ++size) {
-      stable_sort(parents, heavier);
-      if (parents.empty() || parents.front().weight < collector_.best() - kGrowWithin) return;
-      parents.resize(count_with_ties(parents, kBeamGivenDiscrepancy, weight_of));
+      narrow(parents, collector_.best(), kBeamGivenDiscrepancy);
+      if (parents.empty()) return;
       for (const WeighedSet& parent : parents) extend(parent.set, alone);
       parents = grown_[size];
     }
@@ -141,20 +140,9 @@ class GivenDiscrepancySearch {
 
   void extend(const ColumnSet& parent, const std::vector<WeighedSet>& alone) {
     for (const WeighedSet& one : alone) {
-      const Eigen::Index own = one.set.front();
-      const bool fits = all_of(parent, [&](Eigen::Index p) {
-        return compatible(regressor(p), regressor(own), limits_);
-      });
-      if (!fits) continue;
-      ColumnSet set = parent;
-      set.insert(std::lower_bound(set.begin(), set.end(), own), own);
-      if (known_.contains(set)) continue;
-      grown_[set.size()].push_back({consider(set), set});
+      const auto set = with_column(system_, equations_, limits_, parent, one.set.front());
+      if (set && !known_.contains(*set)) grown_[set->size()].push_back({consider(*set), *set});
     }
-  }
-
-  [[nodiscard]] const Regressor& regressor(Eigen::Index i) const {
-    return system_.regressor(equations_.columns[as_size(i)]);
   }
 
   const RegressorSystem& system_;

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "grid/containers.hpp"
+#include "grid/diagnosis/constants.hpp"
+#include "grid/diagnosis/ties.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -84,6 +86,29 @@ double ModelCollector::log_prior_of(const std::vector<int>& regressors, int disc
   return value;
 }
 
+void narrow(std::vector<WeighedSet>& parents, double best, std::size_t most) {
+  stable_sort(parents, descending(&WeighedSet::weight));
+  if (!parents.empty() && parents.front().weight < best - kGrowWithin) parents.clear();
+  parents.resize(
+      count_with_ties(parents, most, [](const WeighedSet& one) { return one.weight; }));
+}
+
+std::optional<ColumnSet> with_column(const RegressorSystem& system,
+                                     const NormalEquations& equations,
+                                     const SearchLimits& limits,
+                                     ColumnSet set,
+                                     Eigen::Index column) {
+  const auto regressor = [&](Eigen::Index i) -> const Regressor& {
+    return system.regressor(equations.columns[as_size(i)]);
+  };
+  const bool fits = all_of(set, [&](Eigen::Index other) {
+    return compatible(regressor(column), regressor(other), limits);
+  });
+  if (!fits) return std::nullopt;
+  set.insert(std::lower_bound(set.begin(), set.end(), column), column);
+  return set;
+}
+
 void search_by_beam(const RegressorSystem& system,
                     const NormalEquations& equations,
                     int discrepancy,
@@ -91,9 +116,6 @@ void search_by_beam(const RegressorSystem& system,
                     ModelCollector& collector) {
   // Sets of none, one, two and three that are extended.
   constexpr std::array<std::size_t, kMostCauses> kExtended = {1, 12, 6, 4};
-  const auto regressor = [&](Eigen::Index i) -> const Regressor& {
-    return system.regressor(equations.columns[as_size(i)]);
-  };
   collector.consider({}, discrepancy, equations);
   std::vector<WeighedSet> parents = {{0.0, {}}};
   for (std::size_t size = 1; size <= kMostCauses; ++size) {
@@ -101,18 +123,13 @@ void search_by_beam(const RegressorSystem& system,
     std::set<ColumnSet> found;
     for (const WeighedSet& parent : parents) {
       for (Eigen::Index i = 0; i < equations.ge.size(); ++i) {
-        const bool fits = all_of(parent.set, [&](Eigen::Index other) {
-          return compatible(regressor(i), regressor(other), limits);
-        });
-        if (!fits) continue;
-        ColumnSet set = parent.set;
-        set.insert(std::lower_bound(set.begin(), set.end(), i), i);
-        if (!found.insert(set).second) continue;
-        const double weight = collector.consider(set, discrepancy, equations);
-        if (std::isfinite(weight)) children.push_back({weight, std::move(set)});
+        auto set = with_column(system, equations, limits, parent.set, i);
+        if (!set || !found.insert(*set).second) continue;
+        const double weight = collector.consider(*set, discrepancy, equations);
+        if (std::isfinite(weight)) children.push_back({weight, *std::move(set)});
       }
     }
-    stable_sort(children, heavier);
+    stable_sort(children, descending(&WeighedSet::weight));
     if (size < kMostCauses && children.size() > kExtended.at(size)) children.resize(kExtended.at(size));
     parents = std::move(children);
   }

@@ -3,6 +3,7 @@
 /// Weighs sets of causes in one marginalised system and keeps those that matter.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "grid/diagnosis/model_comparison.hpp"
@@ -15,14 +16,19 @@ struct WeighedSet {
   double weight = 0.0;
   ColumnSet set;
 };
-[[nodiscard]] inline bool heavier(const WeighedSet& a, const WeighedSet& b) {
-  return a.weight > b.weight;
-}
-[[nodiscard]] inline double weight_of(const WeighedSet& one) { return one.weight; }
+/// The heaviest sets, those that tie with the last of `most` among them; none where no set of them is within
+/// reach of the best.
+void narrow(std::vector<WeighedSet>& parents, double best, std::size_t most);
 
 /// May two regressors act together: one cause acts at one place, an effect that acts on both chains
 /// equally not also on one of them, and of what sets in at one visit of one chain there is one.
 [[nodiscard]] bool compatible(const Regressor& a, const Regressor& b, const SearchLimits& limits);
+/// The set with a column more; nothing where that may not act together with it.
+[[nodiscard]] std::optional<ColumnSet> with_column(const RegressorSystem& system,
+                                                   const NormalEquations& equations,
+                                                   const SearchLimits& limits,
+                                                   ColumnSet set,
+                                                   Eigen::Index column);
 
 class ModelCollector {
  public:

@@ -118,7 +118,7 @@ class SetSearch::Search {
 
   std::vector<CandidateModel> run_given_discrepancies(const std::vector<std::size_t>& kernels,
                                                        std::vector<double>& kernel_weight) {
-    stable_sort(scored_, heavier);
+    stable_sort(scored_, descending(&WeighedSet::weight));
     std::vector<std::vector<int>> likeliest;
     std::array<std::size_t, kMostCauses + 1> taken{};
     std::array<double, kMostCauses + 1> last{};
@@ -278,9 +278,8 @@ class SetSearch::Search {
       for (const WeighedSet& s : scored_) {
         if (s.set.size() == size - 1 && std::isfinite(s.weight)) parents.push_back(s);
       }
-      stable_sort(parents, heavier);
-      if (parents.empty() || parents.front().weight < collector_.best() - kGrowWithin) return;
-      parents.resize(count_with_ties(parents, kBeam, weight_of));
+      narrow(parents, collector_.best(), kBeam);
+      if (parents.empty()) return;
       std::set<std::vector<Eigen::Index>> found;
       for (const WeighedSet& parent : parents) extend(parent.set, found);
     }
