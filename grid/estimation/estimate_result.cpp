@@ -35,15 +35,10 @@ void Estimator::fill_units(Estimate& estimate) const {
     own.left_out_covariance = back * conditioned.covariance * back.transpose();
     estimate.units.push_back(std::move(own));
   }
-  const Eigen::VectorXd residual = problem_->response() - problem_->design() * fit_.coefficients;
-  const FittedRows rows{problem_->design(), residual, fit_, problem_->dof(fit_)};
-  for (std::size_t u = 0; u < problem_->units().size(); ++u) {
-    const SystemUnit& unit = problem_->units()[u];
-    for (const Eigen::Index i : problem_->rejected(u)) {
-      const ReadingShift shift = shift_of(rows, unit, problem_->rejected(u), i);
-      estimate.rejected_readings.push_back(
-          {unit.observation, {unit.unit, i}, shift.residual_mm, shift.sigmas});
-    }
+  for (const Shift& one : shifts(true)) {
+    const SystemUnit& unit = problem_->units()[one.at.unit];
+    estimate.rejected_readings.push_back(
+        {unit.observation, {unit.unit, one.at.reading}, one.residual_mm, one.sigmas});
   }
   for (const UnitGroup& group : input_.held_out_together) {
     const auto residuals = left_out.residuals(group);

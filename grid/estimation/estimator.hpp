@@ -46,10 +46,11 @@ class Estimator {
   tl::expected<void, EstimationFailure> converge();
   void begin_weights();
   /// A reading with its unit among the problem's.
-  struct Shift {
+  struct Shift : ReadingShift {
     observation::UnitReading at;
-    double sigmas = 0.0;
   };
+  /// Of the readings that are rejected, or of the others.
+  [[nodiscard]] std::vector<Shift> shifts(bool of_rejected) const;
   [[nodiscard]] std::optional<Shift> worst_reading() const;
   [[nodiscard]] std::optional<Shift> best_rejected() const;
   [[nodiscard]] bool converge_without(RejectedReadings rejected);

@@ -9,20 +9,29 @@
 
 namespace chaintrue::grid::estimation {
 
-std::optional<Estimator::Shift> Estimator::worst_reading() const {
-  std::optional<Shift> worst;
+std::vector<Estimator::Shift> Estimator::shifts(bool of_rejected) const {
+  std::vector<Shift> all;
   const Eigen::VectorXd residual = problem_->response() - problem_->design() * fit_.coefficients;
   const FittedRows rows{problem_->design(), residual, fit_, problem_->dof(fit_)};
   for (std::size_t u = 0; u < problem_->units().size(); ++u) {
     const SystemUnit& unit = problem_->units()[u];
     const std::vector<Eigen::Index>& rejected = problem_->rejected(u);
-    for (Eigen::Index i = 0; i < unit.by_reading.cols(); ++i) {
-      if (contains(rejected, i)) continue;
-      const double sigmas = shift_of(rows, unit, rejected, i).sigmas;
-      // Readings that share one check are out by the same: the first of them.
-      constexpr double kSame = 1e-6;
-      if (!worst || sigmas > (1.0 + kSame) * worst->sigmas) worst = Shift{{u, i}, sigmas};
+    std::vector<Eigen::Index> readings = rejected;
+    if (!of_rejected) {
+      readings = numbers_below<Eigen::Index>(unit.by_reading.cols());
+      std::erase_if(readings, [&](Eigen::Index i) { return contains(rejected, i); });
     }
+    for (const Eigen::Index i : readings) all.push_back({shift_of(rows, unit, rejected, i), {u, i}});
+  }
+  return all;
+}
+
+std::optional<Estimator::Shift> Estimator::worst_reading() const {
+  std::optional<Shift> worst;
+  // Readings that share one check are out by the same: the first of them.
+  constexpr double kSame = 1e-6;
+  for (const Shift& one : shifts(false)) {
+    if (!worst || one.sigmas > (1.0 + kSame) * worst->sigmas) worst = one;
   }
   return worst;
 }
@@ -30,13 +39,8 @@ std::optional<Estimator::Shift> Estimator::worst_reading() const {
 /// The rejected reading that fits best.
 std::optional<Estimator::Shift> Estimator::best_rejected() const {
   std::optional<Shift> best;
-  const Eigen::VectorXd residual = problem_->response() - problem_->design() * fit_.coefficients;
-  const FittedRows rows{problem_->design(), residual, fit_, problem_->dof(fit_)};
-  for (std::size_t u = 0; u < problem_->units().size(); ++u) {
-    for (const Eigen::Index i : problem_->rejected(u)) {
-      const double sigmas = shift_of(rows, problem_->units()[u], problem_->rejected(u), i).sigmas;
-      if (sigmas > 0.0 && (!best || sigmas < best->sigmas)) best = Shift{{u, i}, sigmas};
-    }
+  for (const Shift& one : shifts(true)) {
+    if (one.sigmas > 0.0 && (!best || one.sigmas < best->sigmas)) best = one;
   }
   return best;
 }
