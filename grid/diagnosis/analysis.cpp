@@ -138,9 +138,9 @@ void speak_of_leaders(const RegressorSystem& system,
   sort(decision.regressors);
 }
 
-}  // namespace
-
-void drop_hidden(const MarginalisedSystem& marginalised, std::string_view reason, Analysis& a) {
+/// Takes causes out that could not show, for this reason.
+void drop_hidden(std::string_view reason, Analysis& a) {
+  const MarginalisedSystem marginalised = marginalise(a.system, nothing_rejected(a.system));
   const auto shows = [&](const CauseId& cause) {
     double most = 0.0;
     for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
@@ -171,14 +171,57 @@ void drop_hidden(const MarginalisedSystem& marginalised, std::string_view reason
   a.candidates.testable = std::move(visible);
 }
 
-void decide_for_leaders(bool detected, Analysis& a) {
-  a.decision = decide(a.system, a.comparison, nothing_rejected(a.system), detected);
-  speak_of_leaders(a.system, a.comparison, a.decision);
+void test_significance(const AnalysisRules& rules, Analysis& a) {
+  const RegressorSystem causes = rules.tried_with_noise(a);
+  const MarginalisedSystem marginalised =
+      marginalise(causes,
+                  a.comparison.marginalised_systems[a.comparison.best().marginalised].outliers);
+  const bool is_stated = rules.noise == NoiseSize::stated;
+  // The length of the residuals is given, so that nothing is known of the noise besides.
+  constexpr double kNothingStated = 1e-3;
+  const SingleScore score(causes, marginalised, is_stated ? causes.noise_dof : kNothingStated);
+  // Enough draws for a family-wise 1 in 100, and in 300; fewer where one draw is long.
+  constexpr std::size_t kManyUnits = 150;
+  const int draws = causes.units.size() > kManyUnits ? 2000 : 4000;
+  a.null = is_stated ? draw_null(score, marginalised.e.size(), draws, a.options.seed)
+                     : draw_null_of_length(score, marginalised, draws, a.options.seed);
+  a.score = score.largest(marginalised.e);
+  // C. Bonferroni's bound.
+  a.family_wise_p = std::min(1.0, a.options.orders_tried * a.null.p_value(a.score));
 }
 
-void decide_for(bool detected, Analysis& a) {
-  decide_for_leaders(detected, a);
-  estimate_decided(a);
+/// The settings calibrated before, and relinearised about what is found.
+class CalibratedRules final : public AnalysisRules {
+ public:
+  tl::expected<void, DiagnosisFailure> linearise(Analysis& a) const override {
+    auto system = diagnosis::linearise(a.session, a.state);
+    if (!system) return tl::unexpected(unreachable(a.session, system.error()));
+    a.system = std::move(*system);
+    add_regressors(a.session, a.state, a.candidates.testable, a.known, a.system);
+    share_out_links(marginalise(a.system, nothing_rejected(a.system)), a.system);
+    return {};
+  }
+  [[nodiscard]] ComparisonOptions compared(const Analysis& a, bool /*last*/) const override {
+    ComparisonOptions options{.given_cause = a.options.given_cause};
+    // A smooth pattern is one of chain lengths over the bed.
+    options.discrepancies = a.session.is_of_chains();
+    if (!a.comparison.models.empty()) options.kernels = best_kernels(a.comparison);
+    return options;
+  }
+  [[nodiscard]] bool refit(Analysis& a) const override {
+    if (a.decision.regressors.empty()) return false;
+    Relinearised relinearised = relinearise(a);
+    a.known = std::move(relinearised.known);
+    a.state = std::move(relinearised.state);
+    return true;
+  }
+};
+
+}  // namespace
+
+const AnalysisRules& calibrated_rules() {
+  static const CalibratedRules rules;
+  return rules;
 }
 
 void estimate_decided(Analysis& a) {
@@ -189,67 +232,38 @@ void estimate_decided(Analysis& a) {
   a.estimate = estimate(a.system, marginalised, a.decision.regressors, a.noise.get());
 }
 
-void test_significance(const RegressorSystem& causes, NoiseSize noise, Analysis& a) {
-  const MarginalisedSystem marginalised =
-      marginalise(causes,
-                  a.comparison.marginalised_systems[a.comparison.best().marginalised].outliers);
-  const bool is_stated = noise == NoiseSize::stated;
-  // The length of the residuals is given, so that nothing is known of the noise besides.
-  constexpr double kNothingStated = 1e-3;
-  const SingleScore score(
-      causes,
-      marginalised,
-      is_stated ? causes.noise_dof : kNothingStated);
-  // Enough draws for a family-wise 1 in 100, and in 300; fewer where one draw is long.
-  constexpr std::size_t kManyUnits = 150;
-  const int draws = causes.units.size() > kManyUnits ? 2000 : 4000;
-  a.null = is_stated ? draw_null(score, marginalised.e.size(), draws, a.options.seed)
-                     : draw_null_of_length(score, marginalised, draws, a.options.seed);
-  a.score = score.largest(marginalised.e);
-  a.family_wise_p = a.null.p_value(a.score);
+void decide_by(const AnalysisRules& rules, bool detected, Analysis& a) {
+  a.decision = decide(a.system, a.comparison, nothing_rejected(a.system), detected);
+  speak_of_leaders(a.system, a.comparison, a.decision);
+  rules.restrain(detected, a);
+  estimate_decided(a);
 }
 
-namespace {
-
-/// Linear about the state as it is, with every regressor that may act.
-tl::expected<void, DiagnosisFailure> linearise_anew(const std::vector<Refinement>& known,
-                                                    bool first,
-                                                    Analysis& a) {
-  auto system = linearise(a.session, a.state);
-  if (!system) return tl::unexpected(unreachable(a.session, system.error()));
-  a.system = std::move(*system);
-  add_regressors(a.session, a.state, a.candidates.testable, known, a.system);
-  const std::vector<bool> none(a.session.units.size(), false);
-  const MarginalisedSystem marginalised = marginalise(a.system, none);
-  share_out_links(marginalised, a.system);
-  if (first)
-    drop_hidden(marginalised, "whatever its size, calibrating the settings would hide it", a);
+tl::expected<void, DiagnosisFailure> compare_in_rounds(const AnalysisRules& rules, Analysis& a) {
+  for (int round = 1; round <= rules.rounds; ++round) {
+    const bool last = round == rules.rounds;
+    if (auto done = rules.linearise(a); !done) return done;
+    if (round == 1) drop_hidden(rules.hidden, a);
+    a.comparison =
+        compare_models(a.system, nothing_rejected(a.system), rules.compared(a, last));
+    if (last) break;
+    decide_by(rules, true, a);
+    if (!rules.refit(a)) break;
+  }
   return {};
 }
 
-ComparisonOptions comparison_options(const Analysis& a) {
-  ComparisonOptions compared{.given_cause = a.options.given_cause};
-  // A smooth pattern is one of chain lengths over the bed.
-  compared.discrepancies = a.session.is_of_chains();
-  return compared;
-}
-
-/// From a comparison to the decision.
-void weigh_for_a_verdict(Analysis& a) {
+void judge(const AnalysisRules& rules, Analysis& a) {
   const DiagnosisOptions& options = a.options;
-  test_significance(a.system, NoiseSize::stated, a);
-  // C. Bonferroni's bound.
-  a.family_wise_p = std::min(1.0, options.orders_tried * a.family_wise_p);
+  test_significance(rules, a);
   // An average has no weights that hold without some of the readings.
-  if (!options.given_cause)
+  if (!options.given_cause) {
     a.sessions = session_posteriors(a.system, a.session.fewest_units, a.comparison);
-  if (options.average_parts && !options.given_cause) {
-    a.parts = average_over_parts(a.system, a.session.fewest_units, a.comparison);
+    if (options.average_parts)
+      a.parts = average_over_parts(a.system, a.session.fewest_units, a.comparison);
   }
-  decide_for(options.given_cause.has_value() || a.family_wise_p < kFalseAlarm, a);
+  decide_by(rules, options.given_cause.has_value() || a.family_wise_p < rules.false_alarm, a);
 }
-
-}  // namespace
 
 tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
                                                  const DiagnosisOptions& options) {
@@ -258,29 +272,17 @@ tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
   a.options = options;
   if (auto done = calibrate(a); !done) return tl::unexpected(done.error());
   a.candidates = candidates(a.session);
-  ComparisonOptions compared = comparison_options(a);
-  constexpr int kCalibrationRounds = 2;
-  std::vector<Refinement> known;
-  for (int pass = 0; pass < kCalibrationRounds; ++pass) {
-    if (auto done = linearise_anew(known, pass == 0, a); !done) return tl::unexpected(done.error());
-    a.comparison = compare_models(a.system, nothing_rejected(a.system), compared);
-    decide_for(true, a);
-    if (pass + 1 == kCalibrationRounds || a.decision.regressors.empty()) break;
-    compared.kernels = best_kernels(a.comparison);
-    Relinearised relinearised = relinearise(a);
-    known = std::move(relinearised.refinements);
-    a.state = std::move(relinearised.state);
-  }
-  weigh_for_a_verdict(a);
+  if (auto done = compare_in_rounds(calibrated_rules(), a); !done)
+    return tl::unexpected(done.error());
+  judge(calibrated_rules(), a);
   return a;
 }
 
-Analysis analyse_without(Analysis a, const Eigen::VectorXd& rows) {
+Analysis analyse_without(Analysis a, const Eigen::VectorXd& rows, const AnalysisRules& rules) {
   a.system.e -= rows;
-  ComparisonOptions compared = comparison_options(a);
-  compared.kernels = best_kernels(a.comparison);
-  a.comparison = compare_models(a.system, nothing_rejected(a.system), compared);
-  weigh_for_a_verdict(a);
+  a.taken_out = rows;
+  a.comparison = compare_models(a.system, nothing_rejected(a.system), rules.compared(a, true));
+  judge(rules, a);
   return a;
 }
 

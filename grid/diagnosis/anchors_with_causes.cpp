@@ -101,12 +101,12 @@ tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(const M
   }
   const AveragedAnchors& averaged = analysed->averaged;
   std::vector<CauseInAnchorFit> causes;
-  std::vector<BeltCause> sizes;
+  std::vector<SizedCause> sizes;
   for (const AveragedCause& own : averaged.causes) {
     causes.push_back(cause_in_fit(own));
     sizes.push_back(own.cause);
   }
-  AnchorFit frame = analysed->state.frame;
+  AnchorFit frame = analysed->frame;
   frame.counting = decided_counting(*analysed);
   frame.state.anchors = averaged.anchors;
   MeasuredBelts without_causes = without_effects(belts, sizes, frame.state);

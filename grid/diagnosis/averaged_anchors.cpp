@@ -47,8 +47,8 @@ double odds_of(const CauseId& cause) {
   return found == std::end(kWeights) ? kOtherWeight : found->odds;
 }
 
-bool is_in(const BeltsState& state, const CauseId& cause) {
-  return any_of(state.causes, [&cause](const BeltCause& own) { return own.cause == cause; });
+bool is_in(const std::vector<SizedCause>& known, const CauseId& cause) {
+  return any_of(known, [&cause](const SizedCause& own) { return own.cause == cause; });
 }
 
 /// Variances of a coefficient's prior, in the noise found: usual, and as wide as an estimate has it.
@@ -72,9 +72,9 @@ SizePrior prior_of(const Regressor& regressor, double noise_square) {
   return {usual, usual * widening * widening};
 }
 
-/// Holds sizes to their usual spread, but of causes that the state holds. \returns the logarithm of
+/// Holds sizes to their usual spread, but of causes that are known. \returns the logarithm of
 /// what that makes of the model's evidence.
-double hold_to_usual_sizes(const BeltsState& state,
+double hold_to_usual_sizes(const std::vector<SizedCause>& known,
                            const RegressorSystem& system,
                            Estimate& found) {
   const Eigen::Index settings = found.setting_change.size();
@@ -83,7 +83,7 @@ double hold_to_usual_sizes(const BeltsState& state,
   for (std::size_t i = 0; i < found.free.size(); ++i) {
     const std::size_t k = found.free[i];
     const Regressor& regressor = system.regressor(found.regressors[k]);
-    if (!(regressor.coefficient_sigma > 0.0) || is_in(state, regressor.cause)) continue;
+    if (!(regressor.coefficient_sigma > 0.0) || is_in(known, regressor.cause)) continue;
     const SizePrior prior = prior_of(regressor, found.noise_square);
     const Eigen::Index at = settings + as_index(i);
     const double variance = found.covariance(at, at);
@@ -118,10 +118,10 @@ struct SizeMoments {
   double weight = 0.0;
   double first = 0.0;
   double second = 0.0;
-  BeltCause weightiest;
+  SizedCause weightiest;
   double most = 0.0;
 
-  void add(double own, const BeltCause& cause, double sigma) {
+  void add(double own, const SizedCause& cause, double sigma) {
     const double size = cause.values.front();
     weight += own;
     first += own * size;
@@ -141,11 +141,9 @@ struct SizeMoments {
 
 class Averaging {
  public:
-  Averaging(const BeltsState& state,
-            const RegressorSystem& system,
-            const ModelComparison& comparison)
-      : state_(state), system_(system), comparison_(comparison) {
-    for (const Regressor& own : system.regressors)
+  Averaging(const belts::AnchorVector& about, const Analysis& a)
+      : about_(about), known_(a.known), system_(a.system), comparison_(a.comparison) {
+    for (const Regressor& own : system_.regressors)
       share_of_effect_[own.cause.effect] += std::exp(own.log_prior);
   }
 
@@ -166,7 +164,7 @@ class Averaging {
       const belts::AnchorVector off = part.change - mean;
       result.covariance_mm2 += part.weight / total_ * (part.covariance + off * off.transpose());
     }
-    result.anchors = state_.frame.state.anchors + mean;
+    result.anchors = about_ + mean;
     for (const Key& key : reported) {
       const SizeMoments& moments = sizes_.at(key);
       result.causes.push_back(moments.averaged());
@@ -228,7 +226,7 @@ class Averaging {
     for (const int index : model.regressors) {
       const Regressor& own = system_.regressor(index);
       if (own.expected) {
-        change += std::log(share_of_expected(own.cause.effect->id));
+        change += std::log(model::belts::belt_effect_of(*own.cause.effect)->expected);
         if (gives) change += std::log(kWeightGivenOthers);
         gives = true;
         continue;
@@ -246,7 +244,7 @@ class Averaging {
     auto& noise = noise_[{model.marginalised, model.discrepancy}];
     if (noise == nullptr) noise = discrepancy_noise(system_, marginalised, model.discrepancy);
     Estimate found = estimate(system_, marginalised, model.regressors, noise.get());
-    weight *= std::exp(hold_to_usual_sizes(state_, system_, found));
+    weight *= std::exp(hold_to_usual_sizes(known_, system_, found));
     total_ += weight;
     std::vector<Key> causes;
     for (const int index : model.regressors) causes.push_back(key_of(system_.regressor(index)));
@@ -258,7 +256,7 @@ class Averaging {
     for (std::size_t k = 0; k < model.regressors.size(); ++k) {
       const auto row = as_index(k);
       const Regressor& own = system_.regressor(model.regressors[k]);
-      BeltCause cause{own.cause, own.values};
+      SizedCause cause{own.cause, own.values};
       cause.values.front() = size_at(own, found.coefficient(row));
       const double slope = std::abs(size_slope(own, found.coefficient(row)));
       SizeMoments& moments = sizes_[key_of(own)];
@@ -267,7 +265,8 @@ class Averaging {
     }
   }
 
-  const BeltsState& state_;
+  const belts::AnchorVector& about_;
+  const std::vector<SizedCause>& known_;
   const RegressorSystem& system_;
   const ModelComparison& comparison_;
   std::map<const void*, double> share_of_effect_;
@@ -279,10 +278,8 @@ class Averaging {
 
 }  // namespace
 
-AveragedAnchors averaged_anchors(const BeltsState& state,
-                                 const RegressorSystem& system,
-                                 const ModelComparison& comparison) {
-  return Averaging(state, system, comparison).averaged();
+AveragedAnchors averaged_anchors(const belts::AnchorVector& about, const Analysis& analysis) {
+  return Averaging(about, analysis).averaged();
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -23,14 +23,14 @@
 
 #include <vector>
 
+#include "grid/diagnosis/analysis.hpp"
 #include "grid/diagnosis/belts_system.hpp"
-#include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 /// A cause with its values, how sure the first of them is, and how likely it is to act.
 struct AveragedCause {
-  BeltCause cause;
+  SizedCause cause;
   double sigma = 0.0;
   double probability = 0.0;
 };
@@ -43,10 +43,9 @@ struct AveragedAnchors {
   std::vector<AveragedCause> causes;
 };
 
-/// \pre the system is linear about `state`. \throws std::invalid_argument for a comparison without a
+/// \pre the system is linear about these anchors. \throws std::invalid_argument for a comparison without a
 /// model.
-[[nodiscard]] AveragedAnchors averaged_anchors(const BeltsState& state,
-                                               const RegressorSystem& system,
-                                               const ModelComparison& comparison);
+[[nodiscard]] AveragedAnchors averaged_anchors(const belts::AnchorVector& about,
+                                               const Analysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -24,7 +24,7 @@ constexpr double kSpokenFor = 3.0;
 /// Places in a part of the bed: anchors need four, and a check at each besides shows that one is wrong.
 constexpr std::size_t kFewestPlaces = 8;
 /// Linearised about nothing, about what was found, and about what that leaves.
-constexpr int kCalibrationRounds = 3;
+constexpr int kRoundsOfBelts = 3;
 
 /// Regressors of a cause that are weighed, and what sets in at about one visit: an anchor that slips in
 /// a way between those that are tried looks like a skip of another belt as well.
@@ -34,11 +34,11 @@ constexpr Eigen::Index kManyRows = 500;
 constexpr std::size_t kKernelOfMany = 1;
 
 /// Of the system the regressors at the values that were found before.
-std::vector<int> found_before(const BeltsAnalysis& a) {
+std::vector<int> found_before(const Analysis& a) {
   std::vector<int> found;
-  for (const BeltCause& own : a.state.causes) {
-    for (std::size_t k = 0; k < a.analysis.system.regressors.size(); ++k) {
-      const Regressor& d = a.analysis.system.regressors[k];
+  for (const SizedCause& own : a.known) {
+    for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+      const Regressor& d = a.system.regressors[k];
       if (d.cause == own.cause && d.values == own.values) {
         found.push_back(static_cast<int>(k));
         break;
@@ -47,14 +47,6 @@ std::vector<int> found_before(const BeltsAnalysis& a) {
   }
   sort(found);
   return found;
-}
-
-/// Noise of belts is not stated, so none is larger than that.
-void leave_noise_open(Decision& decision) {
-  decision.nothing += decision.noise;
-  decision.noise = 0.0;
-  if (decision.verdict == Verdict::noise_larger_than_stated)
-    decision.verdict = Verdict::nothing_found;
 }
 
 /// By how much the readings make the odds of a cause given a pattern larger than they are beforehand;
@@ -80,99 +72,105 @@ double spoken_for(const Analysis& a, const CauseClass& members) {
 
 /// What is expected beforehand, and is not any likelier for the readings, is no finding: with a
 /// pattern, where less than surely is enough for a name, it is the pattern that was found.
-void take_expected_back(BeltsAnalysis& a) {
-  Decision& decision = a.analysis.decision;
+void take_expected_back(Analysis& a) {
+  Decision& decision = a.decision;
   if (decision.verdict != Verdict::named || !(decision.discrepancy > kDiscrepancyLikely)) return;
   if (decision.marginal.front().probability >= kNamedAlone) return;
   const CauseClass& named = decision.classes[decision.listed.front()];
-  if (spoken_for(a.analysis, named) < kSpokenFor) withdraw_names(a.analysis.comparison, decision);
+  if (spoken_for(a, named) < kSpokenFor) withdraw_names(a.comparison, decision);
 }
 
-/// Decision, and the estimate of its causes: given the pattern that it holds, if any.
-void decide(bool detected, BeltsAnalysis& a) {
-  Analysis& own = a.analysis;
-  decide_for_leaders(detected, own);
-  // Where the strongest cause is no more than noise does by chance, none is named, whatever a pattern with
-  // it seems to leave for it.
-  if (!detected) withdraw_names(own.comparison, own.decision);
-  take_expected_back(a);
-  estimate_decided(own);
+}  // namespace
+
+BeltRules::BeltRules(BeltsAnalysis& belts) : belts_(belts) {
+  rounds = kRoundsOfBelts;
+  noise = NoiseSize::unknown;
+  false_alarm = kFalseAlarmOfBelts;
+  hidden =
+      "at any size that it may have, other anchors would hide it: measure at more places, spread over the "
+      "sheet";
 }
 
-/// What a verdict needs beyond the comparison.
-void weigh_for_a_verdict(BeltsAnalysis& a) {
-  Analysis& own = a.analysis;
-  RegressorSystem alone = system_of(a.belts, {a.alone, {}}, own.candidates.testable, a.sigma_mm);
-  if (a.taken_out.size() > 0) alone.e -= a.taken_out;
-  test_significance(alone, NoiseSize::unknown, own);
-  if (!own.options.average_parts || own.options.given_cause) return;
-  own.parts = average_over_parts(own.system, own.session.fewest_units, own.comparison);
+tl::expected<void, DiagnosisFailure> BeltRules::linearise(Analysis& a) const {
+  const belts::FrameState& frame = belts_.frame.state;
+  a.session = observations_of(belts_.belts, frame, belts_.sigma_mm);
+  a.session.fewest_units = kFewestPlaces;
+  a.system = system_of(belts_.belts, frame, a.session, a.candidates.testable, a.known);
+  return {};
 }
 
-void compare(bool last, AnalysisDepth depth, BeltsAnalysis& a) {
-  Analysis& own = a.analysis;
-  ComparisonOptions options{.given_cause = own.options.given_cause};
+ComparisonOptions BeltRules::compared(const Analysis& a, bool last) const {
+  ComparisonOptions options{.given_cause = a.options.given_cause};
   options.search = kSearch;
   // Until the last every other strength with the best set of outliers says enough.
   options.search.sets_given = last ? 2 : 1;
   options.search.strength_step = last ? 1 : 2;
   if (const auto found = found_before(a); found.size() > 1) options.hypotheses.push_back(found);
-  if (own.system.e.size() > kManyRows) {
+  if (a.system.e.size() > kManyRows) {
     options.kernels = {kKernelOfMany};
     options.discrepancies = last;
     options.search.sets_given = 1;
     options.search.strength_step = 2;
   }
-  own.comparison = compare_models(own.system, nothing_rejected(own.system), options);
-  if (last) a.averaged = averaged_anchors(a.state, own.system, own.comparison);
-  const bool for_a_verdict = last && depth == AnalysisDepth::verdict;
-  if (for_a_verdict) weigh_for_a_verdict(a);
-  decide(!for_a_verdict || own.family_wise_p < kFalseAlarmOfBelts, a);
+  return options;
 }
 
-/// Anchors, places and sizes as the decision has them. The state stays where that settles nowhere.
-void move_state(BeltsAnalysis& a) {
-  belts::AnchorFit from = a.state.frame;
+bool BeltRules::refit(Analysis& a) const {
+  if (auto given = fit_as_decided(belts_, a)) {
+    // A place of which everything is set aside stays where it was.
+    belts_.frame = std::move(given->frame);
+    a.known = std::move(given->causes);
+  }
+  belts_.sigma_mm *= std::sqrt(a.estimate.noise_square);
+  return true;
+}
+
+RegressorSystem BeltRules::tried_with_noise(const Analysis& a) const {
+  const belts::FrameState& frame = belts_.alone.state;
+  RegressorSystem system =
+      system_of(belts_.belts,
+                frame,
+                observations_of(belts_.belts, frame, belts_.sigma_mm),
+                a.candidates.testable);
+  if (a.taken_out.size() > 0) system.e -= a.taken_out;
+  return system;
+}
+
+void BeltRules::restrain(bool detected, Analysis& a) const {
+  // Where the strongest cause is no more than noise does by chance, none is named, whatever a pattern with
+  // it seems to leave for it.
+  if (!detected) withdraw_names(a.comparison, a.decision);
+  take_expected_back(a);
+  // Noise of belts is not stated, so none is larger than that.
+  a.decision.nothing += a.decision.noise;
+  a.decision.noise = 0.0;
+  if (a.decision.verdict == Verdict::noise_larger_than_stated)
+    a.decision.verdict = Verdict::nothing_found;
+}
+
+belts::Counting decided_counting(const Analysis& a) {
+  return counting_of(a.system,
+                     a.comparison.marginalised_systems[a.decision.marginalised].outliers);
+}
+
+std::optional<FitGivenCauses> fit_as_decided(const BeltsAnalysis& belts, const Analysis& a) {
+  std::vector<SizedCause> causes;
+  for (std::size_t k = 0; k < a.estimate.regressors.size(); ++k) {
+    const Regressor& d = a.system.regressor(a.estimate.regressors[k]);
+    causes.push_back({d.cause, d.values});
+    causes.back().values.front() = size_at(d, a.estimate.coefficient(as_index(k)));
+  }
+  belts::AnchorFit from = belts.frame;
   from.counting = decided_counting(a);
-  auto given = fit_given_causes(a.belts, decided_causes(a.analysis), from);
-  if (!given) return;
-  // A place of which everything is set aside stays where it was.
-  a.state = {std::move(given->frame), std::move(given->causes)};
-}
-
-}  // namespace
-
-belts::Counting decided_counting(const BeltsAnalysis& a) {
-  return counting_of(
-      a.analysis.system,
-      a.analysis.comparison.marginalised_systems[a.analysis.decision.marginalised].outliers);
+  return fit_given_causes(belts.belts, std::move(causes), from);
 }
 
 Analysis analysis_of_laws(const BeltsAnalysis& a) {
-  Analysis own = a.analysis;
+  Analysis own = a;
   const bool ordered =
       any_of(a.belts.points, [](const BeltPoint& point) { return point.order.has_value(); });
   own.system.discrepancies = &length_discrepancies_of_laws(ordered);
   return own;
-}
-
-BeltsAnalysis analyse_without(BeltsAnalysis a, Eigen::VectorXd rows) {
-  a.analysis.system.e -= rows;
-  a.taken_out = std::move(rows);
-  compare(true, AnalysisDepth::verdict, a);
-  leave_noise_open(a.analysis.decision);
-  return a;
-}
-
-std::vector<BeltCause> decided_causes(const Analysis& a) {
-  std::vector<BeltCause> causes;
-  for (std::size_t k = 0; k < a.estimate.regressors.size(); ++k) {
-    const Regressor& d = a.system.regressor(a.estimate.regressors[k]);
-    BeltCause own{d.cause, d.values};
-    own.values.front() = size_at(d, a.estimate.coefficient(as_index(k)));
-    causes.push_back(std::move(own));
-  }
-  return causes;
 }
 
 tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts,
@@ -185,27 +183,18 @@ tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts
     return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::contradictory_settings,
                                            "no four anchors make sense of these lengths"});
   }
-  a.alone = *alone;
-  a.state = {*alone, {}};
+  a.alone = a.frame = *alone;
   a.sigma_mm = kUsualSpreadMm;
-  Analysis& own = a.analysis;
-  own.options = options;
-  own.candidates = candidates(a.belts);
-  own.system = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
-  own.session.units.resize(own.system.units.size());
-  own.session.fewest_units = kFewestPlaces;
-  drop_hidden(marginalise(own.system, nothing_rejected(own.system)),
-              "at any size that it may have, other anchors would hide it: measure at more places, "
-              "spread over the sheet",
-              own);
-  for (int pass = 0; pass < kCalibrationRounds; ++pass) {
-    compare(pass + 1 == kCalibrationRounds, depth, a);
-    if (pass + 1 == kCalibrationRounds) break;
-    move_state(a);
-    a.sigma_mm *= std::sqrt(own.estimate.noise_square);
-    own.system = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
+  a.options = options;
+  a.candidates = candidates(a.belts);
+  const BeltRules rules(a);
+  if (auto done = compare_in_rounds(rules, a); !done) return tl::unexpected(done.error());
+  a.averaged = averaged_anchors(a.frame.state.anchors, a);
+  if (depth == AnalysisDepth::verdict) {
+    judge(rules, a);
+  } else {
+    decide_by(rules, true, a);
   }
-  leave_noise_open(own.decision);
   return a;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The steps from the lengths of four belts to a decision: anchors alone, linearise, compare models,
-/// linearise anew about what was found, compare again, average the anchors. Private to grid/diagnosis.
+/// What the analysis of four belts does otherwise (AnalysisRules): the frame is fitted anew between comparisons,
+/// nothing is stated of the noise, and something is expected to give with the pull. Private to grid/diagnosis.
 #pragma once
 
 #include <tl/expected.hpp>
@@ -12,18 +12,30 @@
 
 namespace chaintrue::grid::diagnosis {
 
-struct BeltsAnalysis {
+struct BeltsAnalysis : Analysis {
   MeasuredBelts belts;     ///< without distances: they say nothing of a cause
   belts::AnchorFit alone;  ///< anchors and places, no cause at work
-  BeltsState state;
-  double sigma_mm = 0.0;     ///< of one belt's reading, as it is whitened
+  belts::AnchorFit frame;  ///< about which the system is linear, the known causes at work
+  double sigma_mm = 0.0;   ///< of one belt's reading, as it is whitened
   AveragedAnchors averaged;  ///< the same for a fit and a diagnosis of the same belts
-  Eigen::VectorXd taken_out;  ///< of the readings, as analyse_without() has it; else empty
-  Analysis analysis;         ///< system, comparison and decision; its session has no parts
+};
+
+class BeltRules final : public AnalysisRules {
+ public:
+  explicit BeltRules(BeltsAnalysis& belts);
+  [[nodiscard]] tl::expected<void, DiagnosisFailure> linearise(Analysis& a) const override;
+  [[nodiscard]] ComparisonOptions compared(const Analysis& a, bool last) const override;
+  /// The state stays where that settles nowhere.
+  [[nodiscard]] bool refit(Analysis& a) const override;
+  [[nodiscard]] RegressorSystem tried_with_noise(const Analysis& a) const override;
+  void restrain(bool detected, Analysis& a) const override;
+
+ private:
+  BeltsAnalysis& belts_;
 };
 
 /// How far an analysis goes: to the averaged anchors, its decision that of a comparison alone; or to
-/// a verdict, with the chance of noise and parts of the bed.
+/// a verdict.
 enum class AnalysisDepth { anchors, verdict };
 
 /// Precondition: fit_belts() takes these belts.
@@ -32,16 +44,14 @@ enum class AnalysisDepth { anchors, verdict };
     const DiagnosisOptions& options,
     AnalysisDepth depth = AnalysisDepth::verdict);
 
+/// The frame with the readings that the decision keeps, and the causes that it holds; unless that settles
+/// nowhere.
+[[nodiscard]] std::optional<FitGivenCauses> fit_as_decided(const BeltsAnalysis& belts, const Analysis& decided);
+
 /// Of each reading, whether the decision keeps it.
-[[nodiscard]] belts::Counting decided_counting(const BeltsAnalysis& analysis);
+[[nodiscard]] belts::Counting decided_counting(const Analysis& analysis);
 
 /// The analysis as laws are weighed in it: next to patterns of single belts as well.
 [[nodiscard]] Analysis analysis_of_laws(const BeltsAnalysis& analysis);
-
-/// As analyse_without() of two chains (analysis.hpp).
-[[nodiscard]] BeltsAnalysis analyse_without(BeltsAnalysis analysis, Eigen::VectorXd rows);
-
-/// The causes of the decision with their values as estimated.
-[[nodiscard]] std::vector<BeltCause> decided_causes(const Analysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -90,11 +90,7 @@ ToolError tool_error(const Explained& explained,
                      const BeltsFit& alone,
                      const model::BeltMachine& machine,
                      const Eigen::MatrixXd& covariance) {
-  std::vector<model::belts::ResolvedBeltEffect> effects;
-  for (const BeltCause& own : explained.given.causes) {
-    effects.push_back(
-        {model::belts::belt_effect_of(*own.cause.effect), own.cause.side, own.values});
-  }
+  const auto effects = resolved(explained.given.causes);
   const std::vector<FramePoint>& places = explained.given.frame.state.places;
   ToolError error;
   error.after_mm = uncertain_mm(machine, covariance, places);
@@ -156,10 +152,9 @@ std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
 }
 
 Explained explained(const BeltsAnalysis& a) {
-  belts::AnchorFit from = a.state.frame;
-  from.counting = decided_counting(a);
-  auto given = fit_given_causes(a.belts, decided_causes(a.analysis), from);
-  Explained result{given ? *std::move(given) : FitGivenCauses{from, a.state.causes}, {}};
+  Explained result{{a.frame, a.known}, {}};
+  result.given.frame.counting = decided_counting(a);
+  if (auto given = fit_as_decided(a, a)) result.given = *std::move(given);
   result.without_causes = without_effects(a.belts, result.given.causes, result.given.frame.state);
   return result;
 }
@@ -196,7 +191,7 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
     }
     found.places.push_back(place);
   }
-  const auto values = std::ssize(a.analysis.estimate.free);
+  const auto values = std::ssize(a.estimate.free);
   found.checks = static_cast<int>(std::max<Eigen::Index>(frame.checks - values, 1));
   found.residual_sigma_mm = std::sqrt(good_square / found.checks);
   found.prediction_before = alone.half_left_out;
@@ -209,17 +204,16 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
 }
 
 Unexplained unexplained(const BeltsAnalysis& a) {
-  const Analysis& own = a.analysis;
   Unexplained result;
-  result.probability = std::clamp(own.decision.discrepancy, 0.0, 1.0);
-  if (own.noise == nullptr) return result;
-  const KeptRows& kept = own.comparison.marginalised_systems[own.decision.marginalised].kept;
-  const Eigen::VectorXd all = kept(own.estimate.left);
-  const Eigen::VectorXd taken = all - kept(own.estimate.left_given_discrepancy);
+  result.probability = std::clamp(a.decision.discrepancy, 0.0, 1.0);
+  if (a.noise == nullptr) return result;
+  const KeptRows& kept = a.comparison.marginalised_systems[a.decision.marginalised].kept;
+  const Eigen::VectorXd all = kept(a.estimate.left);
+  const Eigen::VectorXd taken = all - kept(a.estimate.left_given_discrepancy);
   result.rms_mm = a.sigma_mm * std::sqrt(taken.squaredNorm() / as_double(taken.size()));
-  result.signal_to_noise = result.rms_mm / a.sigma_mm * std::sqrt(as_double(own.system.e.size()));
+  result.signal_to_noise = result.rms_mm / a.sigma_mm * std::sqrt(as_double(a.system.e.size()));
   result.share = std::min(1.0, taken.squaredNorm() / std::max(all.squaredNorm(), 1e-300));
-  result.length_mm = own.noise->process.kernel.fields.front().length;
+  result.length_mm = a.noise->process.kernel.fields.front().length;
   return result;
 }
 

@@ -14,16 +14,16 @@ namespace chaintrue::grid::diagnosis {
 using model::Belt;
 using model::kBelts;
 
-namespace {
-
-std::vector<model::belts::ResolvedBeltEffect> resolved(const std::vector<BeltCause>& causes) {
+std::vector<model::belts::ResolvedBeltEffect> resolved(const std::vector<SizedCause>& causes) {
   std::vector<model::belts::ResolvedBeltEffect> effects;
-  for (const BeltCause& own : causes) {
+  for (const SizedCause& own : causes) {
     effects.push_back(
         {model::belts::belt_effect_of(*own.cause.effect), own.cause.side, own.values});
   }
   return effects;
 }
+
+namespace {
 
 /// A value that least squares finds: of cause `cause` the value numbered `value`.
 struct FreeValue {
@@ -31,7 +31,7 @@ struct FreeValue {
   std::size_t value = 0;
 };
 
-std::vector<FreeValue> free_values(const std::vector<BeltCause>& causes) {
+std::vector<FreeValue> free_values(const std::vector<SizedCause>& causes) {
   std::vector<FreeValue> free;
   for (std::size_t j = 0; j < causes.size(); ++j) {
     const auto& parameters = causes[j].cause.effect->parameters;
@@ -42,14 +42,14 @@ std::vector<FreeValue> free_values(const std::vector<BeltCause>& causes) {
   return free;
 }
 
-const model::effects::EffectParameter& parameter_of(const std::vector<BeltCause>& causes,
+const model::effects::EffectParameter& parameter_of(const std::vector<SizedCause>& causes,
                                                     FreeValue which) {
   return causes[which.cause].cause.effect->parameters[which.value];
 }
 
 /// What each of them moves, mm by its unit.
 Eigen::MatrixXd value_columns(const MeasuredBelts& belts,
-                              const std::vector<BeltCause>& causes,
+                              const std::vector<SizedCause>& causes,
                               const belts::FrameState& state,
                               const std::vector<FreeValue>& free) {
   // Of a value's usual spread: far enough for differences.
@@ -57,8 +57,8 @@ Eigen::MatrixXd value_columns(const MeasuredBelts& belts,
   Eigen::MatrixXd columns(4 * std::ssize(belts.points), std::ssize(free));
   for (std::size_t f = 0; f < free.size(); ++f) {
     const double step = kStep * parameter_of(causes, free[f]).prior_sigma;
-    const BeltCause& here = causes[free[f].cause];
-    BeltCause there = here;
+    const SizedCause& here = causes[free[f].cause];
+    SizedCause there = here;
     there.values[free[f].value] += step;
     columns.col(as_index(f)) =
         (added_by(belts, {there}, state) - added_by(belts, {here}, state)) / step;
@@ -69,7 +69,7 @@ Eigen::MatrixXd value_columns(const MeasuredBelts& belts,
 /// Moves the values; whether that was no more than they are uncertain by anyway.
 bool moved(const Eigen::VectorXd& change,
            const std::vector<FreeValue>& free,
-           std::vector<BeltCause>& causes) {
+           std::vector<SizedCause>& causes) {
   // Of a value's usual spread: a hundredth of what the best data leave uncertain.
   constexpr double kConverged = 1e-4;
   bool converged = true;
@@ -92,39 +92,23 @@ bool moved(const Eigen::VectorXd& change,
 Eigen::VectorXd least_squares(const MeasuredBelts& without_causes,
                               const belts::AnchorFit& frame,
                               const Eigen::MatrixXd& columns) {
-  const LinearisedBelts all = linearise(without_causes, frame.state, frame.counting, 1.0);
-  Eigen::MatrixXd design(all.system.e.size(), belts::kAnchorUnknowns + columns.cols());
-  design.leftCols<belts::kAnchorUnknowns>() = all.system.by_setting;
-  for (std::size_t u = 0; u < all.points.size(); ++u) {
-    const SystemUnit& unit = all.system.units[u];
+  const ObservationSet set = observations_of(without_causes, frame.state, frame.counting, 1.0);
+  const RegressorSystem system = linearise(set, estimation::stated_state(set)).value();
+  Eigen::MatrixXd design(system.e.size(), belts::kAnchorUnknowns + columns.cols());
+  design.leftCols<belts::kAnchorUnknowns>() = system.by_setting;
+  for (std::size_t u = 0; u < system.units.size(); ++u) {
+    const SystemUnit& unit = system.units[u];
     design.rightCols(columns.cols()).middleRows(unit.first_row, unit.rows) =
-        unit.by_reading * columns.middleRows<4>(belts::row_of(all.points[u], Belt::tl));
+        unit.by_reading * columns.middleRows<4>(belts::row_of(set.units[u].index, Belt::tl));
   }
   return linear::least_squares(linear::gram(design),
-                               linear::product(linear::transposed(design), all.system.e));
-}
-
-/// Positions to linearise about; of a point that the machine cannot reach there, a gross one, the frame's middle.
-std::vector<model::FramePoint> reachable(const model::Mechanism& mechanism,
-                                         std::vector<model::FramePoint> places) {
-  for (model::FramePoint& at : places) {
-    if (mechanism.predict({at.x_mm, at.y_mm}, {}, model::Derivatives::by_position)) continue;
-    const model::ToolPosition middle = mechanism.extent().centre();
-    at = {middle.x_mm, middle.y_mm};
-  }
-  return places;
+                               linear::product(linear::transposed(design), system.e));
 }
 
 }  // namespace
 
-model::belts::BeltVisit visit_of(const BeltPoint& point,
-                                 Belt belt,
-                                 const std::optional<BeltPull>& reference) {
-  return {belt, pulled_belts(point), point.order.value_or(0), pull_over(reference, point)};
-}
-
 Eigen::VectorXd added_by(const MeasuredBelts& belts,
-                         const std::vector<BeltCause>& causes,
+                         const std::vector<SizedCause>& causes,
                          const belts::FrameState& state) {
   Eigen::VectorXd added = Eigen::VectorXd::Zero(4 * std::ssize(belts.points));
   if (causes.empty()) return added;
@@ -137,7 +121,9 @@ Eigen::VectorXd added_by(const MeasuredBelts& belts,
     if (!acts) continue;
     for (std::size_t k = 0; k < belts.points.size(); ++k) {
       const model::FramePoint at = state.places[k];
-      const auto visit = visit_of(belts.points[k], belt, reference);
+      const BeltPoint& point = belts.points[k];
+      const model::belts::BeltVisit visit{
+          belt, pulled_belts(point), point.order.value_or(0), pull_over(reference, point)};
       const auto with = model::belts::read_belt(machine, effects, visit, at);
       const auto without = model::belts::read_belt(machine, {}, visit, at);
       if (with && without) added[belts::row_of(k, belt)] = *with - *without;
@@ -147,7 +133,7 @@ Eigen::VectorXd added_by(const MeasuredBelts& belts,
 }
 
 MeasuredBelts without_effects(const MeasuredBelts& belts,
-                              const std::vector<BeltCause>& causes,
+                              const std::vector<SizedCause>& causes,
                               const belts::FrameState& state) {
   MeasuredBelts without_causes = belts;
   const Eigen::VectorXd added = added_by(belts, causes, state);
@@ -157,22 +143,27 @@ MeasuredBelts without_effects(const MeasuredBelts& belts,
   return without_causes;
 }
 
-LinearisedBelts linearise(const MeasuredBelts& belts,
-                          const belts::FrameState& state,
-                          const belts::Counting& counting,
-                          double sigma_mm) {
+ObservationSet observations_of(const MeasuredBelts& belts,
+                               const belts::FrameState& state,
+                               const belts::Counting& counting,
+                               double sigma_mm) {
   const MeasuredBelts untaped = without_distances(belts);
   const auto mechanism = belts::mechanism_at(untaped, state);
-  const auto readings = std::make_shared<const observation::BeltLengthReadings>(belts::readings_of(
-      untaped, counting, sigma_mm, reachable(*mechanism, state.places)));
-  const ObservationSet set = estimation::observation_set({}, {readings}, mechanism);
-  LinearisedBelts result{linearise(set, estimation::stated_state(set)).value(), {}};
-  for (const NumberedUnit& unit : set.units) result.points.push_back(unit.index);
-  return result;
+  std::vector<model::FramePoint> about = state.places;
+  for (model::FramePoint& at : about) {
+    if (mechanism->predict({at.x_mm, at.y_mm}, {}, model::Derivatives::by_position)) continue;
+    const model::ToolPosition middle = mechanism->extent().centre();
+    at = {middle.x_mm, middle.y_mm};
+  }
+  return estimation::observation_set(
+      {},
+      {std::make_shared<const observation::BeltLengthReadings>(
+          belts::readings_of(untaped, counting, sigma_mm, about))},
+      mechanism);
 }
 
 std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
-                                         std::vector<BeltCause> causes,
+                                         std::vector<SizedCause> causes,
                                          const belts::AnchorFit& from) {
   // Sizes and frame are nearly linear in each other: three rounds settle all but zeros of an arm's
   // length, which take six.

@@ -24,52 +24,41 @@
 #include "grid/belts/fit_diagnostics.hpp"
 #include "grid/diagnosis/cause_id.hpp"
 #include "grid/diagnosis/regressor_system.hpp"
-#include "model/belts/effects/belt_effect.hpp"
+#include "model/belts/belt_readings.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
-/// A cause of the belts' table with its values, in the effect's order.
-struct BeltCause {
-  CauseId cause;
-  std::vector<double> values;
-};
-
-/// The visit of a point: its number is 0 where the file has none.
-[[nodiscard]] model::belts::BeltVisit visit_of(const BeltPoint& point,
-                                               model::Belt belt,
-                                               const std::optional<BeltPull>& reference);
+/// In the form of the belts' own table.
+[[nodiscard]] std::vector<model::belts::ResolvedBeltEffect> resolved(
+    const std::vector<SizedCause>& causes);
 
 /// What the causes add to what the machine prints, 4 N, mm: as row_of() has the rows. Of readings that
 /// such a machine cannot give 0.
 [[nodiscard]] Eigen::VectorXd added_by(const MeasuredBelts& belts,
-                                       const std::vector<BeltCause>& causes,
+                                       const std::vector<SizedCause>& causes,
                                        const belts::FrameState& state);
 
 /// The readings without that.
 [[nodiscard]] MeasuredBelts without_effects(const MeasuredBelts& belts,
-                                            const std::vector<BeltCause>& causes,
+                                            const std::vector<SizedCause>& causes,
                                             const belts::FrameState& state);
 
-/// The readings that count about a state, without regressors, each unit a point of which three or four
-/// count.
-struct LinearisedBelts {
-  RegressorSystem system;
-  std::vector<std::size_t> points;  ///< of each unit
-};
-[[nodiscard]] LinearisedBelts linearise(const MeasuredBelts& belts,
-                                        const belts::FrameState& state,
-                                        const belts::Counting& counting,
-                                        double sigma_mm);
+/// The readings that count, about a state; units are points of which three or four count. Of a point that the
+/// machine cannot reach there, a gross one, about the frame's middle.
+[[nodiscard]] ObservationSet observations_of(const MeasuredBelts& belts,
+                                             const belts::FrameState& state,
+                                             const belts::Counting& counting,
+                                             double sigma_mm);
 
 /// Anchors, places and sizes at rest.
 struct FitGivenCauses {
   belts::AnchorFit frame;
-  std::vector<BeltCause> causes;
+  std::vector<SizedCause> causes;
 };
 /// From a state near by; sizes that are whole numbers stay, others within their ranges. Empty where
 /// nothing settles.
 [[nodiscard]] std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
-                                                       std::vector<BeltCause> causes,
+                                                       std::vector<SizedCause> causes,
                                                        const belts::AnchorFit& from);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -39,7 +39,7 @@ constexpr std::size_t kMostOnceMore = 200;
 /// Places to come, and the state that makes their readings.
 struct NextPlaces {
   MeasuredBelts belts;
-  BeltsState state;
+  belts::FrameState state;
 };
 
 /// Belts that are pulled on the way to a place, and that way in words.
@@ -60,10 +60,10 @@ class Gathering {
  public:
   /// Belts are pulled `times` as hard as places that were measured had them.
   explicit Gathering(const BeltsAnalysis& a, double times = 1.0)
-      : machine_(belts::with_anchors(a.belts.machine, a.state.frame.state.anchors)), times_(times) {
+      : machine_(belts::with_anchors(a.belts.machine, a.frame.state.anchors)), times_(times) {
     next_.belts.machine = a.belts.machine;
     next_.belts.reference_pull = reference_pull(a.belts).value_or(BeltPull{});
-    next_.state.frame.state.anchors = a.state.frame.state.anchors;
+    next_.state.anchors = a.frame.state.anchors;
     for (const BeltPoint& point : a.belts.points) {
       if (point.order) next_visit_ = std::max(next_visit_.value_or(0), *point.order + 1);
     }
@@ -82,8 +82,7 @@ class Gathering {
     point.pull->value *= times_;
     point.order = next_visit_;
     next_.belts.points.push_back(std::move(point));
-    next_.state.frame.state.places.push_back(at);
-    next_.state.frame.counting.push_back(belts::kAllBelts);
+    next_.state.places.push_back(at);
     return true;
   }
   void count_visits() {
@@ -154,7 +153,7 @@ void add_revisits(const BeltsAnalysis& a,
   const std::size_t count = a.belts.points.size();
   for (std::size_t i = 0; i < kRevisits; ++i) {
     const std::size_t k = i * (count - 1) / (kRevisits - 1);
-    const model::FramePoint at = a.state.frame.state.places[k];
+    const model::FramePoint at = a.frame.state.places[k];
     const BeltPoint& point = a.belts.points[k];
     if (!gathering.add(at, point.pulled, point.pull)) continue;
     all.push_back(candidate_of(
@@ -173,9 +172,10 @@ struct PredictedPlaces {
 };
 
 PredictedPlaces predicted_at(const BeltsAnalysis& a, const NextPlaces& next) {
-  const RegressorSystem system = system_of(next.belts, next.state, {}, a.sigma_mm);
+  const RegressorSystem system =
+      system_of(next.belts, next.state, observations_of(next.belts, next.state, a.sigma_mm));
   PredictedPlaces predicted;
-  predicted.alternatives = alternatives_about(a.analysis, system, [&](const Regressor& own) {
+  predicted.alternatives = alternatives_about(a, system, [&](const Regressor& own) {
     return std::optional(column_of(next.belts, next.state, system, {own.cause, own.values}));
   });
   predicted.rows.resize(system.units.size());
@@ -191,7 +191,7 @@ std::optional<double> all_once_more(const BeltsAnalysis& a, double times = 1.0) 
   if (a.belts.points.size() > kMostOnceMore) return std::nullopt;
   Gathering gathering(a, times);
   for (std::size_t k = a.belts.points.size(); k-- > 0;)
-    gathering.add(a.state.frame.state.places[k], a.belts.points[k].pulled, a.belts.points[k].pull);
+    gathering.add(a.frame.state.places[k], a.belts.points[k].pulled, a.belts.points[k].pull);
   gathering.count_visits();
   const std::vector<Alternative> alternatives = predicted_at(a, gathering.take()).alternatives;
   auto rows = numbers_below<Eigen::Index>(alternatives.front().mean.size());
@@ -224,9 +224,9 @@ std::optional<SecondPass> second_pass(const BeltsAnalysis& a, const BeltsNext& o
 
 BeltsNext next_measurements(const BeltsAnalysis& a, const PointIndices& indices) {
   BeltsNext result;
-  const std::vector<Alternative> alternatives = alternatives_of_best(a.analysis);
-  if (is_left_alone(a.analysis, alternatives) || alternatives.back().group == 0 ||
-      a.analysis.decision.verdict == Verdict::named) {
+  const std::vector<Alternative> alternatives = alternatives_of_best(a);
+  if (is_left_alone(a, alternatives) || alternatives.back().group == 0 ||
+      a.decision.verdict == Verdict::named) {
     return result;
   }
   result.is_open = true;
@@ -238,7 +238,7 @@ BeltsNext next_measurements(const BeltsAnalysis& a, const PointIndices& indices)
   for (std::size_t k = 0; k < candidates.size(); ++k) candidates[k].rows = predicted.rows[k];
   result.measurements = most_telling(predicted.alternatives,
                                      std::move(candidates),
-                                     a.analysis.decision.verdict == Verdict::named);
+                                     a.decision.verdict == Verdict::named);
   say_what_repeats(result.measurements);
   result.all_once_more = all_once_more(a);
   result.second_pass = second_pass(a, result);

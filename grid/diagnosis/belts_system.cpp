@@ -8,17 +8,13 @@
 #include "grid/containers.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
 #include "grid/diagnosis/regressors.hpp"
+#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 using model::Belt;
 using model::kBelts;
 using model::effects::EffectSide;
-
-double share_of_expected(std::string_view effect) {
-  if (effect == "belt_stretch") return 0.8;
-  return effect == "anchor_flex" ? 0.2 : 0.0;
-}
 
 namespace {
 
@@ -47,17 +43,6 @@ constexpr Teeth kTeeth[] = {{1.0, 0.25},
                             {22.0, 0.1},
                             {-22.0, 0.1}};
 
-/// Something gives with the pull: the four frames whose owners published more than a start all do.
-bool is_expected(std::string_view effect) { return share_of_expected(effect) > 0.0; }
-
-/// How often an effect acts, against the others. What sets in during a session is rare. An anchor that
-/// slips by just a tooth along its belt is rarer than a belt that skips, and as rare as a belt that
-/// slips by some amount where it is clamped, which looks nearly the same.
-double share_of(std::string_view effect) {
-  if (effect == "tooth_skip") return 0.3;
-  return effect == "anchor_moved" || effect == "zero_shift" ? 0.01 : 1.0;
-}
-
 /// Of the published frames none shows anything besides stretch: one other cause is a third as likely as
 /// of chains, a sixth of nothing. Nearly all of them leave a smooth pattern as well, so that a pattern
 /// makes another cause no likelier.
@@ -65,7 +50,7 @@ CausePrior prior_of_belts() {
   constexpr double kRarerThanChains = 3.0;
   CausePrior prior{.shares = 0.0, .odds_given_discrepancy = 1.0};
   for (const model::belts::BeltEffect* effect : model::belts::belt_effects()) {
-    if (!is_expected(effect->id)) prior.shares += kRarerThanChains * share_of(effect->id);
+    if (!(effect->expected > 0.0)) prior.shares += kRarerThanChains * effect->share;
   }
   return prior;
 }
@@ -99,19 +84,23 @@ std::vector<int> about(const std::vector<int>& visits, int visit) {
 
 class Columns {
  public:
-  Columns(const MeasuredBelts& belts, const BeltsState& state, RegressorSystem& system)
-      : belts_(belts), state_(state), system_(system), visits_(visits_to_set_in(belts)) {}
+  Columns(const MeasuredBelts& belts,
+          const belts::FrameState& state,
+          const std::vector<SizedCause>& known,
+          RegressorSystem& system)
+      : belts_(belts),
+        state_(state),
+        known_(known),
+        system_(system),
+        visits_(visits_to_set_in(belts)) {}
 
   void add(const CauseId& cause) {
     const auto& parameters = cause.effect->parameters;
-    std::vector<double> values;
-    for (const auto& parameter : parameters) values.push_back(parameter.nominal);
-    const BeltCause* found = nullptr;
-    for (const BeltCause& own : state_.causes) {
-      if (own.cause == cause) found = &own;
-    }
-    if (found != nullptr) values = found->values;
-    const double side = effect_share(cause.effect->id) / as_double(cause.effect->sides.size());
+    const SizedCause* found =
+        find_where(known_, [&cause](const SizedCause& own) { return own.cause == cause; });
+    std::vector<double> values =
+        found != nullptr ? found->values : model::effects::nominal_values(*cause.effect);
+    const double side = share_of(cause) / as_double(cause.effect->sides.size());
     if (parameters.size() == 1) return add_one({cause, values}, found != nullptr, side);
     std::vector<int> visits = thinned(visits_);
     if (found != nullptr) {
@@ -137,12 +126,13 @@ class Columns {
 
  private:
   /// Of what is expected what makes it alone as likely as nothing (CausePrior).
-  [[nodiscard]] double effect_share(std::string_view effect) const {
-    if (!is_expected(effect)) return share_of(effect);
-    return share_of_expected(effect) * system_.prior.shares * kPriorOfNothing / kPriorOfOne;
+  [[nodiscard]] double share_of(const CauseId& cause) const {
+    const model::belts::BeltEffect& effect = *model::belts::belt_effect_of(*cause.effect);
+    if (!(effect.expected > 0.0)) return effect.share;
+    return effect.expected * system_.prior.shares * kPriorOfNothing / kPriorOfOne;
   }
 
-  void add_ways(BeltCause own, const BeltCause* found, double share) {
+  void add_ways(SizedCause own, const SizedCause* found, double share) {
     if (found != nullptr) {
       own.values[1] = found->values[1];
       add_one(own, true, share / (kWays + 1));
@@ -153,7 +143,7 @@ class Columns {
     }
   }
 
-  void add_one(const BeltCause& own, bool refined, double share) {
+  void add_one(const SizedCause& own, bool refined, double share) {
     const Eigen::VectorXd column = column_of(belts_, state_, system_, own);
     if (!(column.norm() > 0.0)) return;
     Regressor regressor;
@@ -161,12 +151,12 @@ class Columns {
     regressor.values = own.values;
     regressor.log_prior = std::log(share);
     regressor.refined = refined;
-    regressor.expected = is_expected(own.cause.effect->id);
+    regressor.expected = model::belts::belt_effect_of(*own.cause.effect)->expected > 0.0;
     if (own.cause.effect->parameters.front().integer) {
       regressor.fixed = true;
       regressor.lowest = regressor.highest = 1.0;
     } else {
-      BeltCause smaller = own;
+      SizedCause smaller = own;
       smaller.values.front() *= refined ? kNearby : 0.5;
       const Eigen::VectorXd other = column_of(belts_, state_, system_, smaller);
       regressor.power = refined ? power_about(column, other) : power_of(column, other);
@@ -186,7 +176,8 @@ class Columns {
   }
 
   const MeasuredBelts& belts_;
-  const BeltsState& state_;
+  const belts::FrameState& state_;
+  const std::vector<SizedCause>& known_;
   RegressorSystem& system_;
   std::vector<int> visits_;
 };
@@ -205,11 +196,9 @@ Candidates candidates(const MeasuredBelts& belts) {
       return "a frame that stands elsewhere as a whole, with the places in it, changes no length: "
              "measure a hole that the machine cut from two edges of the sheet";
     if (effect == &model::belts::belt_scale && side == EffectSide::all)
-      return belts.distances.empty()
-                 ? "lengths that are all too long by the same share make a larger frame and "
-                   "contradict nothing: tape one long distance, between two anchors or two holes "
-                   "that the machine cut, and give it as distances"
-                 : "no belt tells it; the taped distances do: see the scale";
+      return "lengths that are all too long by the same share make a larger frame and contradict "
+             "nothing: tape one long distance, between two anchors or two holes that the machine cut, "
+             "and give it as distances";
     if (effect->needs == model::effects::DataNeed::order && !ordered)
       return "the file does not say in which order the places were measured: give order";
     if ((effect == &model::belts::belt_stretch || effect == &model::belts::anchor_flex) &&
@@ -255,24 +244,30 @@ LengthEntry entry_of(const MeasuredBelts& belts,
 
 }  // namespace
 
+ObservationSet observations_of(const MeasuredBelts& belts,
+                               const belts::FrameState& state,
+                               double sigma_mm) {
+  return observations_of(
+      belts, state, belts::Counting(belts.points.size(), belts::kAllBelts), sigma_mm);
+}
+
 RegressorSystem system_of(const MeasuredBelts& belts,
-                          const BeltsState& state,
+                          const belts::FrameState& state,
+                          const ObservationSet& session,
                           const std::vector<CauseId>& causes,
-                          double sigma_mm) {
+                          const std::vector<SizedCause>& known) {
   // Two rows more than anchors, or nothing is left to judge by.
   constexpr Eigen::Index kFewestChecks = 3;
   // Two bad readings of a place, and of neighbouring places, can mask one another.
   constexpr std::size_t kBeyondTheBest = 8;
-  const belts::Counting all(belts.points.size(), belts::kAllBelts);
-  LinearisedBelts linearised = linearise(belts, state.frame.state, all, sigma_mm);
-  RegressorSystem system = std::move(linearised.system);
+  RegressorSystem system = linearise(session, estimation::stated_state(session)).value();
   bool ordered = false;
   for (std::size_t u = 0; u < system.units.size(); ++u) {
     const SystemUnit& unit = system.units[u];
     for (Eigen::Index belt = 0; belt < 4; ++belt)
       system.groups.push_back({unit.first_row, 2, Eigen::Vector2d(unit.by_reading.col(belt))});
-    system.entries.push_back(entry_of(belts, state.frame.state, linearised.points[u]));
-    ordered = ordered || belts.points[linearised.points[u]].order.has_value();
+    system.entries.push_back(entry_of(belts, state, session.units[u].index));
+    ordered = ordered || belts.points[session.units[u].index].order.has_value();
   }
   system.noise_dof = kNoiseDof;
   system.limits = {.fewest_rows = belts::kAnchorUnknowns + kFewestChecks,
@@ -280,16 +275,16 @@ RegressorSystem system_of(const MeasuredBelts& belts,
   system.prior = prior_of_belts();
   system.discrepancies = &length_discrepancies(ordered);
   system.g = RegressorColumns(system.e.size());
-  Columns columns(belts, state, system);
+  Columns columns(belts, state, known, system);
   for (const CauseId& cause : causes) columns.add(cause);
   return system;
 }
 
 Eigen::VectorXd column_of(const MeasuredBelts& belts,
-                          const BeltsState& state,
+                          const belts::FrameState& state,
                           const RegressorSystem& system,
-                          const BeltCause& cause) {
-  const Eigen::VectorXd added = added_by(belts, {cause}, state.frame.state);
+                          const SizedCause& cause) {
+  const Eigen::VectorXd added = added_by(belts, {cause}, state);
   Eigen::VectorXd column(system.e.size());
   for (std::size_t u = 0; u < system.units.size(); ++u) {
     column.segment(system.units[u].first_row, system.units[u].rows) =

@@ -9,7 +9,6 @@
 /// five anchor coordinates are the settings, of which nothing is stated.
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include "grid/diagnosis/belts_given_causes.hpp"
@@ -17,31 +16,25 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// About which everything is linear: the anchors and places with some causes at work, and these.
-struct BeltsState {
-  belts::AnchorFit frame;
-  std::vector<BeltCause> causes;  ///< secants of these are taken at their values
-};
-
-/// What gives with the pull is expected, its parts by these shares that sum to 1; 0 of every other
-/// effect. Of four published frames three tell the belts' stretch from anchors that give, by factors of
-/// 1000 and more; the fourth does not tell.
-[[nodiscard]] double share_of_expected(std::string_view effect);
-
 /// What would show the causes that these data cannot.
 [[nodiscard]] Candidates candidates(const MeasuredBelts& belts);
 
-/// With a regressor for each of `causes` at every place where it may set in.
+/// Of readings that all count, about this state, with a regressor for each of `causes` at every place where it
+/// may set in: of those that are known secants at their values.
 [[nodiscard]] RegressorSystem system_of(const MeasuredBelts& belts,
-                                        const BeltsState& state,
-                                        const std::vector<CauseId>& causes,
-                                        double sigma_mm);
+                                        const belts::FrameState& state,
+                                        const ObservationSet& session,
+                                        const std::vector<CauseId>& causes = {},
+                                        const std::vector<SizedCause>& known = {});
+[[nodiscard]] ObservationSet observations_of(const MeasuredBelts& belts,
+                                             const belts::FrameState& state,
+                                             double sigma_mm);
 
-/// What causes add to the checks of a system of these belts about this state, whitened.
+/// What a cause adds to the checks of a system of these belts about this state, whitened.
 [[nodiscard]] Eigen::VectorXd column_of(const MeasuredBelts& belts,
-                                        const BeltsState& state,
+                                        const belts::FrameState& state,
                                         const RegressorSystem& system,
-                                        const BeltCause& cause);
+                                        const SizedCause& cause);
 
 /// Of each reading, whether these flags of the system's outlier groups leave it.
 [[nodiscard]] belts::Counting counting_of(const RegressorSystem& system,

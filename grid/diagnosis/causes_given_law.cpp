@@ -89,4 +89,15 @@ void take_names_back(const Analysis& given_law, Analysis& a) {
   stable_sort(a.decision.marginal, descending(&ClassProbability::probability));
 }
 
+std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws,
+                                          const AnalysisRules& rules,
+                                          Analysis& a) {
+  const auto rows = rows_of_claimed_law(a, laws);
+  if (!rows) return {};
+  const Analysis given = analyse_without(a, *rows, rules);
+  std::vector<CauseGivenLaw> changed = causes_that_change(a, given);
+  take_names_back(given, a);
+  return changed;
+}
+
 }  // namespace chaintrue::grid::diagnosis

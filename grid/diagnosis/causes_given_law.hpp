@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The causes that readings name once a law is known: the law as its best context has it is taken out of
-/// them, and the causes are compared once more (analysis.hpp, belts_analysis.hpp).
+/// them, and the causes are compared once more (analysis.hpp).
 ///
 /// A law that nobody listed is so much noise to a comparison that does not know it: it hides causes that
 /// act alongside it, and sometimes looks like one. What is known only nearly is taken as known: of a law of
 /// strength 12 a twelfth is left in the readings, less than their noise at any one of them.
-///
-/// \code
-///   if (const auto rows = rows_of_claimed_law(analysis, laws)) {
-///     const Analysis given = analyse_without(analysis, *rows);
-///     changed = causes_that_change(analysis, given);
-///     take_names_back(given, analysis);
-///   }
-/// \endcode
 #pragma once
 
 #include <Eigen/Core>
@@ -38,5 +30,10 @@ namespace chaintrue::grid::diagnosis {
 /// Names that the law makes less likely than not are no longer names: of several those alone. Their
 /// probabilities become those given the law.
 void take_names_back(const Analysis& given_law, Analysis& analysis);
+
+/// What changes once a claimed law is known; what is not named any more is taken back.
+[[nodiscard]] std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws,
+                                                        const AnalysisRules& rules,
+                                                        Analysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

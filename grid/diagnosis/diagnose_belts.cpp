@@ -22,16 +22,6 @@ DiagnosisFailure failure_of(const BeltsFitFailure& failure) {
           failure.sentence()};
 }
 
-/// As of two chains (diagnose.cpp).
-std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws, BeltsAnalysis& a) {
-  auto rows = rows_of_claimed_law(a.analysis, laws);
-  if (!rows) return {};
-  const BeltsAnalysis given = analyse_without(a, *std::move(rows));
-  std::vector<CauseGivenLaw> changed = causes_that_change(a.analysis, given.analysis);
-  take_names_back(given.analysis, a.analysis);
-  return changed;
-}
-
 }  // namespace
 
 tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
@@ -48,15 +38,15 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
   tell(options.progress, kComparingBelts);
   auto analysed = analyse(belts, options);
   if (!analysed) return tl::unexpected(analysed.error());
-  const Analysis& a = analysed->analysis;
-  const LawsFound found = laws_found(analysis_of_laws(*analysed));
-  std::vector<CauseGivenLaw> given_law = name_given_law(found, *analysed);
-  const Explained given = explained(*analysed);
+  BeltsAnalysis& a = *analysed;
+  const LawsFound found = laws_found(analysis_of_laws(a));
+  std::vector<CauseGivenLaw> given_law = name_given_law(found, BeltRules(a), a);
+  const Explained given = explained(a);
   Diagnosis d;
   d.observations = Observations::belts;
   d.grid_name = belts.name;
   take_findings(a, d);
-  d.unexplained = unexplained(*analysed);
+  d.unexplained = unexplained(a);
   std::vector<Law> laws = found.laws;
   for (Law& law : laws) {
     for (LawResidual& point : law.points) point.index = index_in_file(indices, point.index);
@@ -66,9 +56,9 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
   d.bed_parts = bed_part_findings(a);
   d.outliers = bad_belts(given);
   for (Outlier& bad : d.outliers) bad.index = index_in_file(indices, bad.index);
-  d.belts = belts_findings(*analysed, given, belts, *alone);
+  d.belts = belts_findings(a, given, belts, *alone);
   const BeltsNext next =
-      options.next_measurements ? next_measurements(*analysed, indices) : BeltsNext{};
+      options.next_measurements ? next_measurements(a, indices) : BeltsNext{};
   d.belts->second_pass = next.second_pass;
   if (options.next_measurements)
     d.next_measurements = measurements_of(next, belts, *alone, a.decision, indices);

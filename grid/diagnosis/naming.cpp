@@ -65,16 +65,6 @@ constexpr int kNamingSteps = 4;  // of a diagnosis (diagnose.cpp)
 constexpr WorkStep kComparing{"the causes against each other", 1, kNamingSteps};
 constexpr WorkStep kLeavingOut{"the name without each reading", 2, kNamingSteps};
 
-/// What is named once a claimed law is known; what is not any more is no name.
-std::vector<CauseGivenLaw> name_given_law(const LawsFound& laws, Analysis& a) {
-  const auto rows = rows_of_claimed_law(a, laws);
-  if (!rows) return {};
-  const Analysis given = analyse_without(a, *rows);
-  std::vector<CauseGivenLaw> changed = causes_that_change(a, given);
-  take_names_back(given, a);
-  return changed;
-}
-
 tl::expected<Analysis, DiagnosisFailure> analysed_in(const VisitingOrderFound& order,
                                                      const Measured& measured,
                                                      DiagnosisOptions options) {
@@ -129,7 +119,7 @@ tl::expected<Naming, DiagnosisFailure> name_causes(const Measured& measured,
   naming.refusal = refuse_name_of_one_reading(naming.stability, a);
   if (naming.refusal) naming.stability.reset();
   const std::size_t named = a.decision.listed.size();
-  naming.causes_given_law = name_given_law(naming.laws, a);
+  naming.causes_given_law = name_given_law(naming.laws, calibrated_rules(), a);
   if (naming.stability && a.decision.listed.size() != named) naming.stability = examine_stability(a);
   return naming;
 }

@@ -31,6 +31,12 @@ namespace chaintrue::grid::diagnosis {
 using estimation::SystemPlace;
 using estimation::SystemUnit;
 
+/// A cause with its values, in the effect's order.
+struct SizedCause {
+  CauseId cause;
+  std::vector<double> values;
+};
+
 /// An effect at one side, one place and one size.
 struct Regressor {
   CauseId cause;

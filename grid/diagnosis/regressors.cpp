@@ -112,10 +112,10 @@ class Builder {
   Builder(const ObservationSet& session, const State& state, RegressorSystem& system)
       : session_(session), state_(state), system_(system) {}
 
-  void add(CauseId cause, const std::vector<Refinement>& refinements) {
+  void add(CauseId cause, const std::vector<SizedCause>& known) {
     std::vector<double> values = model::effects::nominal_values(*cause.effect);
     refined_ = false;
-    for (const Refinement& r : refinements) {
+    for (const SizedCause& r : known) {
       if (!(r.cause == cause)) continue;
       values.front() = r.values.front();
       refined_ = true;
@@ -133,7 +133,7 @@ class Builder {
         add_one(cause, values, share);
       }
       // Of visits every one is among the places.
-      for (const Refinement& r : refinements) {
+      for (const SizedCause& r : known) {
         if (r.cause == cause && !place_parameter(*cause.effect)->integer)
           add_one(cause, r.values, share);
       }
@@ -267,11 +267,11 @@ std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
 void add_regressors(const ObservationSet& session,
                     const State& state,
                     const std::vector<CauseId>& causes,
-                    const std::vector<Refinement>& refinements,
+                    const std::vector<SizedCause>& known,
                     RegressorSystem& system) {
   if (system.g.cols() == 0) system.g = RegressorColumns(session.rows);
   Builder builder(session, state, system);
-  for (const CauseId& cause : causes) builder.add(cause, refinements);
+  for (const CauseId& cause : causes) builder.add(cause, known);
 }
 
 bool renew_regressors(const ObservationSet& session,

@@ -22,18 +22,12 @@ struct Candidates {
 /// An effect that one of the observations can show is testable.
 [[nodiscard]] Candidates candidates(const ObservationSet& session);
 
-/// Sizes at which secants are taken where the usual one is not wanted, and extra places.
-struct Refinement {
-  CauseId cause;
-  std::vector<double> values;
-  double log_prior = 0.0;
-};
-
-/// Appends the regressors of all these causes.
+/// Appends the regressors of all these causes: of those that are known, secants at their sizes, and at their
+/// places as well.
 void add_regressors(const ObservationSet& session,
                     const State& state,
                     const std::vector<CauseId>& causes,
-                    const std::vector<Refinement>& refinements,
+                    const std::vector<SizedCause>& known,
                     RegressorSystem& system);
 
 /// Regressors anew about another state, at their values. False where such a machine cannot be.

@@ -217,7 +217,7 @@ Relinearised relinearise(const Analysis& a) {
     const double first = system.regressor(a.decision.regressors[k]).values.front();
     // A secant over next to nothing has no direction.
     if (own[k].fixed || !(std::abs(own[k].values.front()) > kConverged * std::abs(first))) continue;
-    result.refinements.push_back({own[k].cause, own[k].values, own[k].log_prior});
+    result.known.push_back({own[k].cause, own[k].values});
   }
   return result;
 }

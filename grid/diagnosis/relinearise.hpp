@@ -14,7 +14,7 @@ namespace chaintrue::grid::diagnosis {
 
 struct Relinearised {
   State state;
-  std::vector<Refinement> refinements;  ///< of the causes whose size is no whole number
+  std::vector<SizedCause> known;  ///< the causes whose size is no whole number
 };
 
 /// The causes of the analysis' decision, from its state, with the units set aside that the decision

@@ -76,7 +76,7 @@ std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stabil
                                 excluded,
                                 {.kernels = best_kernels(a.comparison),
                                  .given_cause = a.options.given_cause});
-  decide_for(false, a);
+  decide_by(calibrated_rules(), false, a);
   return refusal_words(a.session, *reading, cause, leader.probability);
 }
 

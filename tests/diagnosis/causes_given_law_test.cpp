@@ -51,7 +51,7 @@ TEST(CausesGivenLaw, AreThoseOfTheReadingsWithoutIt) {
   const MeasuredGrid plain = with_friction(0.6);
   const Analysis without = analysed(plain);
   const Analysis with = analysed(with_wave(plain));
-  const Analysis given = analyse_without(with, rows_of_wave(plain, with));
+  const Analysis given = analyse_without(with, rows_of_wave(plain, with), calibrated_rules());
   const std::vector<Cause> own = causes_found(given);
   const std::vector<Cause> asked = causes_found(without);
   ASSERT_EQ(asked.size(), 1U);
@@ -65,7 +65,7 @@ TEST(CausesGivenLaw, AreThoseOfTheReadingsWithoutIt) {
 
 TEST(CausesGivenLaw, OfNothingTakenOutTheVerdictStays) {
   const Analysis a = analysed(with_friction(0.6));
-  const Analysis again = analyse_without(a, Eigen::VectorXd::Zero(a.system.e.size()));
+  const Analysis again = analyse_without(a, Eigen::VectorXd::Zero(a.system.e.size()), calibrated_rules());
   EXPECT_EQ(again.decision.verdict, a.decision.verdict);
   EXPECT_THAT(causes_that_change(a, again), IsEmpty());
 }
@@ -91,7 +91,7 @@ TEST(CausesGivenLaw, WhatOnlyTheLawMadeLikelyIsNoName) {
   ASSERT_EQ(a.decision.listed.size(), 1U);
   const int column = a.decision.regressors.front();
   const CauseId cause = a.system.regressors[static_cast<std::size_t>(column)].cause;
-  const Analysis given = analyse_without(a, a.system.g.col(column) * a.estimate.coefficient(0));
+  const Analysis given = analyse_without(a, a.system.g.col(column) * a.estimate.coefficient(0), calibrated_rules());
   const std::vector<CauseGivenLaw> changed = causes_that_change(a, given);
   ASSERT_EQ(changed.size(), 1U);
   EXPECT_EQ(changed.front().cause, cause);

@@ -32,9 +32,9 @@ MeasuredBelts frame() {
 // Of every variable, belt by belt: the residuals of the readings with the law, less those without.
 TEST(BeltLaws, ColumnsAreWhatReadingsWithTheLawDifferBy) {
   const MeasuredBelts plain = frame();
-  const BeltsState state{belts::fit_anchors_robustly(plain).value(), {}};
+  const belts::FrameState state = belts::fit_anchors_robustly(plain).value().state;
   constexpr double kSigmaMm = 0.4;
-  const RegressorSystem system = system_of(plain, state, {}, kSigmaMm);
+  const RegressorSystem system = system_of(plain, state, observations_of(plain, state, kSigmaMm));
   int compared = 0;
   for (const Coordinate of : law_variables(system)) {
     for (const LawEntrance& entrance : law_entrances(system, of)) {
@@ -48,7 +48,7 @@ TEST(BeltLaws, ColumnsAreWhatReadingsWithTheLawDifferBy) {
         with.points[system.entries[u].point].lengths_mm[belt] += value_mm;
         column.segment(system.units[u].first_row, 2) = value_mm * rows.front().rows;
       }
-      const RegressorSystem read = system_of(with, state, {}, kSigmaMm);
+      const RegressorSystem read = system_of(with, state, observations_of(with, state, kSigmaMm));
       // Residuals are linear in the readings: rounding of lengths of some metres.
       EXPECT_LT((read.e - system.e - column).norm(), 1e-9) << name(of) << " " << name(entrance.enters);
       ++compared;
@@ -59,7 +59,8 @@ TEST(BeltLaws, ColumnsAreWhatReadingsWithTheLawDifferBy) {
 
 TEST(BeltLaws, EntrancesOfAVariableAreSharedOutAndOfABeltMostlyItsOwn) {
   const MeasuredBelts belts = frame();
-  const RegressorSystem system = system_of(belts, {belts::fit_anchors_robustly(belts).value(), {}}, {}, 0.4);
+  const belts::FrameState state = belts::fit_anchors_robustly(belts).value().state;
+  const RegressorSystem system = system_of(belts, state, observations_of(belts, state, 0.4));
   for (const Coordinate of : law_variables(system)) {
     double sum = 0.0;
     const LawEntrance* most = nullptr;

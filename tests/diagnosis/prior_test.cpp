@@ -33,7 +33,10 @@ RegressorSystem system_of_flat_frame() {
   const MeasuredBelts belts = synthetic::simulate_belts(machine, machine, spec).value();
   const auto alone = belts::fit_anchors_robustly(belts);
   EXPECT_TRUE(alone);
-  return system_of(belts, {*alone, {}}, candidates(belts).testable, 0.3);
+  return system_of(belts,
+                   alone->state,
+                   observations_of(belts, alone->state, 0.3),
+                   candidates(belts).testable);
 }
 
 double prior_of(const RegressorSystem& system, const std::vector<int>& set, bool pattern = false) {

@@ -44,6 +44,7 @@ extern constinit const BeltEffect anchor_flex{
     .remedy = "brace the frame and the anchors; pull with less current while the anchors are found",
     .add = add,
     .by_tension = true,
+    .expected = 0.2,  // belt_stretch.cpp
 };
 
 }  // namespace chaintrue::model::belts::anchor_flex_effect

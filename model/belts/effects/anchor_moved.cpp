@@ -62,6 +62,9 @@ extern constinit const BeltEffect anchor_moved{
     .needs = effects::DataNeed::order,
     .remedy = "fasten that anchor and let the machine find its anchors again",
     .alter = alter,
+    // An anchor that slips by just a tooth along its belt is rarer than a belt that skips, and as rare as a
+    // belt that slips where it is clamped, which looks nearly the same.
+    .share = 0.01,
 };
 
 }  // namespace chaintrue::model::belts::anchor_moved_effect

@@ -67,6 +67,11 @@ struct BeltEffect {
   double (*add)(const BeltState&, const BeltVisit&, Values) = nullptr;
   /// `add` depends on the tension; it is in proportion to it.
   bool by_tension = false;
+
+  /// How often it acts, against the others.
+  double share = 1.0;
+  /// What machines in order do as often as not: its part of all that is expected; 0 of every other effect.
+  double expected = 0.0;
 };
 
 inline constexpr BeltSide kNoBelt[] = {BeltSide::none};

@@ -51,6 +51,7 @@ extern constinit const BeltEffect tooth_skip{
         "look for a worn belt or a loose magnet of the encoder; retract and extend all belts and "
         "measure again",
     .add = add,
+    .share = 0.3,
 };
 
 }  // namespace chaintrue::model::belts::tooth_skip_effect

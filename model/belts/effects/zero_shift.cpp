@@ -48,6 +48,8 @@ extern constinit const BeltEffect zero_shift{
         "look where the belt is clamped and at its retraction; retract and extend all belts and "
         "measure again",
     .add = add,
+    // What sets in during a session is rare, and a skip is the usual form of it.
+    .share = 0.01,
 };
 
 }  // namespace chaintrue::model::belts::zero_shift_effect

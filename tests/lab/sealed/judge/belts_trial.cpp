@@ -45,7 +45,7 @@ bool is_separable(const generator::BeltSecret& secret, const grid::MeasuredBelts
   constexpr std::size_t kCompared = 10;
   const auto analysed = diagnosis::analyse(belts, {});
   if (!analysed) return false;
-  const diagnosis::Analysis& a = analysed->analysis;
+  const diagnosis::Analysis& a = *analysed;
   std::vector<diagnosis::CauseId> leading;
   for (const diagnosis::ClassProbability& one : a.decision.marginal) {
     if (leading.size() < kCompared) leading.push_back(a.decision.classes[one.index].front());
