@@ -89,7 +89,12 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
   }
   if (!frame->is_sound) return failed(Reason::no_frame, kNoFrame);
   BeltsFit fit = belts::fit_report(belts, view, view.covariance());
-  fit.half_left_out = belts::predict_by_halves(belts, *frame);
+  fit.half_left_out = belts::predict_by_halves(
+      belts, *frame, [&belts](const belts::AnchorFit& from) -> std::optional<belts::Refitted> {
+        auto fitted = belts::fit_anchors_from(without_distances(belts), from.state, from.counting);
+        if (!fitted) return std::nullopt;
+        return belts::Refitted{*std::move(fitted), belts};
+      });
   return fit;
 }
 

@@ -110,8 +110,10 @@ BeltsFit fit_report(const MeasuredBelts& belts,
   return fit;
 }
 
-using model::Belt;
+namespace {
 
+/// Residuals of the lower belts of a point from the prediction by the upper ones; nothing where a belt
+/// that it takes does not count.
 void predict_point(const MeasuredBelts& belts,
                    std::size_t point,
                    const AnchorVector& anchors,
@@ -135,6 +137,7 @@ BeltPrediction summed(const std::vector<double>& residual_mm) {
   return result;
 }
 
+/// Points in the order of their visits, of the file where that is not known.
 std::vector<std::size_t> in_order(const MeasuredBelts& belts) {
   auto order = numbers_below(belts.points.size());
   stable_sort(order, [&](std::size_t a, std::size_t b) {
@@ -143,6 +146,8 @@ std::vector<std::size_t> in_order(const MeasuredBelts& belts) {
   });
   return order;
 }
+
+}  // namespace
 
 BeltPrediction predict_one_by_one(const MeasuredBelts& belts, const FitDiagnostics& view) {
   std::vector<double> residual_mm;
@@ -155,20 +160,22 @@ BeltPrediction predict_one_by_one(const MeasuredBelts& belts, const FitDiagnosti
 }
 
 std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts,
-                                                const AnchorFit& frame) {
+                                                const AnchorFit& frame,
+                                                const Refit& refit) {
   if (belts.points.size() < 2 * kFewestBeltPoints) return std::nullopt;
-  const MeasuredBelts untaped = without_distances(belts);
   const std::vector<std::size_t> order = in_order(belts);
   std::vector<double> residual_mm;
   for (const std::size_t half : {0UL, 1UL}) {
-    Counting counting = frame.counting;
+    AnchorFit from = frame;
+    for (std::size_t i = half; i < order.size(); i += 2) from.counting[order[i]] = {};
+    const auto fitted = refit(from);
+    if (!fitted || fitted->frame.checks < 1) return std::nullopt;
     for (std::size_t i = half; i < order.size(); i += 2) {
-      counting[order[i]] = {};
-    }
-    const auto fitted = fit_anchors_from(untaped, frame.state, counting);
-    if (!fitted || fitted->checks < 1) return std::nullopt;
-    for (std::size_t i = half; i < order.size(); i += 2) {
-      predict_point(belts, order[i], fitted->state.anchors, frame.counting[order[i]], residual_mm);
+      predict_point(fitted->belts,
+                    order[i],
+                    fitted->frame.state.anchors,
+                    frame.counting[order[i]],
+                    residual_mm);
     }
   }
   return summed(residual_mm);

@@ -6,9 +6,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
+#include <functional>
 #include <optional>
-#include <vector>
 
 #include "grid/belts/anchor_estimate.hpp"
 #include "grid/belts/belts_fit.hpp"
@@ -22,24 +21,20 @@ namespace chaintrue::grid::belts {
                                   const FitDiagnostics& view,
                                   const Eigen::MatrixXd& covariance);
 
-/// Residuals of the lower belts of a point from the prediction by the upper ones; nothing where a belt
-/// that it takes does not count.
-void predict_point(const MeasuredBelts& belts,
-                   std::size_t point,
-                   const AnchorVector& anchors,
-                   const model::PerBelt<bool>& counting,
-                   std::vector<double>& residual_mm);
-[[nodiscard]] BeltPrediction summed(const std::vector<double>& residual_mm);
-/// Points in the order of their visits, of the file where that is not known.
-[[nodiscard]] std::vector<std::size_t> in_order(const MeasuredBelts& belts);
-
 /// Each place by the anchors without it. Rejected readings neither predict nor are
 /// predicted.
 [[nodiscard]] BeltPrediction predict_one_by_one(const MeasuredBelts& belts,
                                                 const FitDiagnostics& view);
+/// A fit with what counts given, and the readings as its anchors explain them.
+struct Refitted {
+  AnchorFit frame;
+  MeasuredBelts belts;
+};
+using Refit = std::function<std::optional<Refitted>(const AnchorFit& from)>;
 /// Every second place, in the order of the visits, by the others, and those by these. Empty where a
-/// half has fewer than kFewestBeltPoints, or does not converge.
+/// half has fewer than kFewestBeltPoints, or has no fit.
 [[nodiscard]] std::optional<BeltPrediction> predict_by_halves(const MeasuredBelts& belts,
-                                                              const AnchorFit& frame);
+                                                              const AnchorFit& frame,
+                                                              const Refit& refit);
 
 }  // namespace chaintrue::grid::belts

@@ -130,25 +130,15 @@ std::optional<BeltScale> scale_given_causes(const MeasuredBelts& belts, const Ex
 
 std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
                                                    const Explained& explained) {
-  const std::size_t count = belts.points.size();
-  if (count < 2 * kFewestBeltPoints) return std::nullopt;
-  const std::vector<std::size_t> order = belts::in_order(belts);
-  std::vector<double> residual_mm;
-  for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
-    belts::AnchorFit from = explained.given.frame;
-    for (std::size_t i = half; i < count; i += 2) from.counting[order[i]] = {};
-    const auto fitted = fit_given_causes(belts, explained.given.causes, from);
-    if (!fitted || fitted->frame.checks < 1) return std::nullopt;
-    const MeasuredBelts without_causes = without_effects(belts, fitted->causes, fitted->frame.state);
-    for (std::size_t i = half; i < count; i += 2) {
-      belts::predict_point(without_causes,
-                      order[i],
-                      fitted->frame.state.anchors,
-                      explained.given.frame.counting[order[i]],
-                      residual_mm);
-    }
-  }
-  return belts::summed(residual_mm);
+  return belts::predict_by_halves(
+      belts,
+      explained.given.frame,
+      [&](const belts::AnchorFit& from) -> std::optional<belts::Refitted> {
+        auto fitted = fit_given_causes(belts, explained.given.causes, from);
+        if (!fitted) return std::nullopt;
+        auto without_causes = without_effects(belts, fitted->causes, fitted->frame.state);
+        return belts::Refitted{std::move(fitted->frame), std::move(without_causes)};
+      });
 }
 
 Explained explained(const BeltsAnalysis& a) {
