@@ -35,15 +35,6 @@ std::vector<const Removal*> of_kind(const Stability& stability, Removal::What wh
   return found;
 }
 
-std::string listed(const std::vector<std::string>& parts, std::string_view last) {
-  std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (i > 0) text += i + 1 == parts.size() ? fmt::format(" {} ", last) : ", ";
-    text += parts[i];
-  }
-  return text;
-}
-
 std::string place(const Diagnosis& diagnosis, const Removal& removal) {
   switch (removal.what) {
     case Removal::What::column:
@@ -70,7 +61,7 @@ std::string named_places(const Diagnosis& diagnosis,
   }
   if (removals.size() > kMostNumbers) places.emplace_back("others");
   const bool single = removals.size() == 1;
-  const std::string where = listed(places, "and");
+  const std::string where = joined(places, "and", ", ");
   const std::string_view noun = single ? kind.one : kind.many;
   const bool line = kind.what == Removal::What::column || kind.what == Removal::What::row;
   return line ? fmt::format("the {} at {}", noun, where) : fmt::format("{} {}", noun, where);
@@ -85,7 +76,7 @@ std::string fate(const Removal& removal) {
     std::replace(names.back().begin(), names.back().end(), '_', ' ');
   }
   return fmt::format("the verdict would be {}",
-                     listed(names, removal.verdict == Verdict::named_set ? "or" : "and"));
+                     joined(names, removal.verdict == Verdict::named_set ? "or" : "and", ", "));
 }
 
 /// Whether a column or row that was left out holds the point.
@@ -123,7 +114,7 @@ std::string stability_in_words(const Diagnosis& diagnosis) {
         return a.probability < b.probability;
       });
   const Kind& kind = kKinds[static_cast<std::size_t>(weakest->what)];
-  const std::string which = listed(tried, "and");
+  const std::string which = joined(tried, "and", ", ");
   const std::string text =
       changes == 0
           ? fmt::format("The answer stays the same whichever of {} is left out.", which)

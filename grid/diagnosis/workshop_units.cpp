@@ -226,10 +226,12 @@ std::string side_words(const CauseId& cause) {
   return "";
 }
 
-std::string joined(const std::vector<std::string>& parts, std::string_view last) {
+std::string joined(const std::vector<std::string>& parts,
+                   std::string_view last,
+                   std::string_view between) {
   std::string text;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (i > 0) text += i + 1 == parts.size() ? fmt::format(" {} ", last) : "; ";
+    if (i > 0) text += i + 1 == parts.size() ? fmt::format(" {} ", last) : std::string(between);
     text += parts[i];
   }
   return text;

@@ -47,7 +47,9 @@ struct NameAndUnit {
 [[nodiscard]] std::string percent(double probability);
 
 /// "a; b and c": `last` stands before the last one.
-[[nodiscard]] std::string joined(const std::vector<std::string>& parts, std::string_view last);
+[[nodiscard]] std::string joined(const std::vector<std::string>& parts,
+                                 std::string_view last,
+                                 std::string_view between = "; ");
 
 /// "the distance between the motors' axes, with a tape" for motor_spacing_mm.
 [[nodiscard]] std::string reading_words(ReadingOf what, std::string_view side);

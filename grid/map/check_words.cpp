@@ -102,20 +102,33 @@ std::string_view name(CheckVerdict verdict) {
   return "measure_again";
 }
 
-QuantityFound CheckHypothesis::added(std::size_t length) const {
-  for (const QuantityFound& one : found) {
-    const auto& of = one.of.lengths;
-    if (one.of.kind == Quantity::Kind::added && contains(of, length)) return one;
+namespace {
+
+QuantityFound found_of(const CheckHypothesis& h, Quantity::Kind kind, std::size_t length) {
+  for (const QuantityFound& one : h.found) {
+    if (one.of.kind == kind && contains(one.of.lengths, length)) return one;
   }
   return {};
 }
 
+/// Root of the mean square of some of the residuals' numbers.
+double rms_over(const CheckUnit& unit,
+                const std::vector<CheckResidual>& residuals,
+                double CheckResidual::*number) {
+  double square = 0.0;
+  for (std::size_t k = unit.first_row; k < unit.first_row + unit.rows; ++k)
+    square += residuals[k].*number * residuals[k].*number;
+  return std::sqrt(square / as_double(unit.rows));
+}
+
+}  // namespace
+
+QuantityFound CheckHypothesis::added(std::size_t length) const {
+  return found_of(*this, Quantity::Kind::added, length);
+}
+
 QuantityFound CheckHypothesis::elongation(std::size_t length) const {
-  for (const QuantityFound& one : found) {
-    const auto& of = one.of.lengths;
-    if (one.of.kind == Quantity::Kind::elongation && contains(of, length)) return one;
-  }
-  return {};
+  return found_of(*this, Quantity::Kind::elongation, length);
 }
 
 double CheckHypothesis::size() const {
@@ -126,17 +139,11 @@ double CheckHypothesis::size() const {
 }
 
 double CheckUnit::rms_mm(const std::vector<CheckResidual>& residuals) const {
-  double square = 0.0;
-  for (std::size_t k = first_row; k < first_row + rows; ++k)
-    square += residuals[k].residual_mm * residuals[k].residual_mm;
-  return std::sqrt(square / as_double(rows));
+  return rms_over(*this, residuals, &CheckResidual::residual_mm);
 }
 
 double CheckUnit::sigma_mm(const std::vector<CheckResidual>& residuals) const {
-  double variance = 0.0;
-  for (std::size_t k = first_row; k < first_row + rows; ++k)
-    variance += residuals[k].sigma_mm * residuals[k].sigma_mm;
-  return std::sqrt(variance / as_double(rows));
+  return rms_over(*this, residuals, &CheckResidual::sigma_mm);
 }
 
 CheckWords words_of(const model::Mechanism& mechanism) {
