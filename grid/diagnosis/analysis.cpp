@@ -11,7 +11,6 @@
 #include "grid/diagnosis/bed_parts.hpp"
 #include "grid/diagnosis/evidence.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
-#include "grid/diagnosis/relinearise.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -210,9 +209,7 @@ class CalibratedRules final : public AnalysisRules {
   }
   [[nodiscard]] bool refit(Analysis& a) const override {
     if (a.decision.regressors.empty()) return false;
-    Relinearised relinearised = relinearise(a);
-    a.known = std::move(relinearised.known);
-    a.state = std::move(relinearised.state);
+    relinearise(a);
     return true;
   }
 };

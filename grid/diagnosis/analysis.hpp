@@ -90,6 +90,15 @@ void judge(const AnalysisRules& rules, Analysis& a);
 [[nodiscard]] tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
                                                                const DiagnosisOptions& options);
 
+/// The decided causes refitted without linearisation: sizes, places and settings moved until the secants taken
+/// at them fit as they are, with the units set aside that the decision leaves out. Sets the state, and of the
+/// causes whose size is no whole number the values.
+///
+/// A secant is exact at its own size alone. Half a chain's weight gone, a pull of several newtons or the phase
+/// of a wave along a chain whose zero moves by a millimetre need several rounds; about where they end the
+/// models are compared again.
+void relinearise(Analysis& analysis);
+
 /// Noise and estimate of the decision at hand.
 void estimate_decided(Analysis& analysis);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/belts_next.hpp"
+#include "grid/diagnosis/belts_report.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/cause_classes.hpp"
+#include "grid/diagnosis/decision.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,12 +6,18 @@
 
 #include <vector>
 
-#include "grid/diagnosis/cause_classes.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {
+
+/// Causes that these data cannot separate, however strong; the one that gives the class its name
+/// first: a cause in the machine before one on the paper. What acts by whole numbers and what acts by
+/// any amount are one class where the amount that is found is such a number, the likelier first.
+using CauseClass = std::vector<CauseId>;
+[[nodiscard]] std::vector<CauseClass> classes_of(const RegressorSystem& system,
+                                                 const ModelComparison& comparison);
 
 struct ClassProbability {
   std::size_t index = 0;  ///< into the classes

@@ -24,7 +24,6 @@
 
 #include "grid/diagnosis/belts_findings.hpp"
 #include "grid/diagnosis/cause_id.hpp"
-#include "grid/diagnosis/drawing_findings.hpp"
 #include "grid/diagnosis/law.hpp"
 #include "grid/diagnosis/pictures.hpp"
 #include "grid/diagnosis/visiting_order_found.hpp"
@@ -280,6 +279,32 @@ struct PartFinding {
   std::size_t units = 0;     ///< of a quarter those left out, of a session its own
   Hypothesis likeliest;      ///< the likeliest cause, or "nothing" where none is likelier than not
   std::vector<Hypothesis> named;  ///< what is named, with its probability here
+};
+
+/// A parameter of the plotter's mechanism, in its own unit.
+struct DrawnSetting {
+  std::string name;  ///< "zero_left_mm"
+  double set = 0.0;
+  double found = 0.0;  ///< with the causes of the verdict at work
+  double sigma = 0.0;
+  bool off = false;  ///< further away than its own sigma and chance allow
+};
+
+/// A length or a bow, mm.
+struct DrawnValue {
+  std::string name;  ///< "the bow of A-B at E"
+  double measured_mm = 0.0;
+  double explained_mm = 0.0;  ///< by the settings found and the causes of the verdict
+  bool rejected = false;
+};
+
+/// What a diagnosis of a V-plotter's test drawing has of its own: the settings with the causes at work, and each
+/// measure.
+struct DrawingFindings {
+  std::string plotter;  ///< its name
+  std::vector<DrawnSetting> settings;
+  /// In the order of the drawing's measures.
+  std::vector<DrawnValue> measures;
 };
 
 struct Diagnosis {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/given_discrepancies.hpp"
+#include "grid/diagnosis/model_collector.hpp"
 
 #include <algorithm>
 #include <array>

@@ -10,7 +10,6 @@
 #include "grid/diagnosis/causes_given_law.hpp"
 #include "grid/diagnosis/observations.hpp"
 #include "grid/diagnosis/order_search.hpp"
-#include "grid/diagnosis/single_reading.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/input_checks/point_checks.hpp"
 #include "grid/parallel.hpp"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/relinearise.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "grid/containers.hpp"
+#include "grid/diagnosis/analysis.hpp"
 #include "interp/linear_algebra.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -174,7 +173,7 @@ class Round {
 
 }  // namespace
 
-Relinearised relinearise(const Analysis& a) {
+void relinearise(Analysis& a) {
   const ObservationSet& session = a.session;
   const RegressorSystem& system = a.system;
   const MarginalisedSystem& marginalised =
@@ -186,14 +185,13 @@ Relinearised relinearise(const Analysis& a) {
     own.push_back(system.regressor(k));
     reaches.push_back(reach(system, own.back()));
   }
-  Relinearised result{a.state, {}};
   for (int round = 0; round < kRounds; ++round) {
-    auto about = linearise(session, result.state);
-    if (!about || !renew_regressors(session, result.state, own, *about)) break;
+    auto about = linearise(session, a.state);
+    if (!about || !renew_regressors(session, a.state, own, *about)) break;
     MarginalisedSystem there = marginalise(*about, marginalised.outliers);
     there.discrepancy_trace =
         marginalised.discrepancy_trace;  // the discrepancy stays as strong as it was found
-    const Round here(session, result.state, *about, std::move(there), discrepancy);
+    const Round here(session, a.state, *about, std::move(there), discrepancy);
     const Eigen::Index settings = session.setting_columns();
     bool converged =
         here.estimate().setting_change.head(settings).lpNorm<Eigen::Infinity>() < kConvergedSettingMm;
@@ -207,19 +205,19 @@ Relinearised relinearise(const Analysis& a) {
       if (has_continuous_place(own[k]) && discrepancy < 0)
         moved[k].values.back() = here.place(k, reaches[k]);
     }
-    auto next = moved_to(session, result.state, about->setting + here.estimate().setting_change);
+    auto next = moved_to(session, a.state, about->setting + here.estimate().setting_change);
     if (!next) break;
-    result.state = *std::move(next);
+    a.state = *std::move(next);
     own = std::move(moved);
     if (converged) break;
   }
+  a.known.clear();
   for (std::size_t k = 0; k < own.size(); ++k) {
     const double first = system.regressor(a.decision.regressors[k]).values.front();
     // A secant over next to nothing has no direction.
     if (own[k].fixed || !(std::abs(own[k].values.front()) > kConverged * std::abs(first))) continue;
-    result.known.push_back({own[k].cause, own[k].values});
+    a.known.push_back({own[k].cause, own[k].values});
   }
-  return result;
 }
 
 }  // namespace chaintrue::grid::diagnosis

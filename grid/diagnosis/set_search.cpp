@@ -7,7 +7,7 @@
 #include <set>
 
 #include "grid/containers.hpp"
-#include "grid/diagnosis/given_discrepancies.hpp"
+#include "grid/diagnosis/model_collector.hpp"
 #include "grid/diagnosis/ties.hpp"
 #include "interp/linear_algebra.hpp"
 #include "grid/statistics.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/single_reading.hpp"
+#include "grid/diagnosis/stability.hpp"
 
 #include <fmt/format.h>
 

@@ -46,4 +46,11 @@ struct LeftOut {
 /// stands.
 [[nodiscard]] std::string influence_in_words(const Diagnosis& diagnosis);
 
+/// A lasting cause acts on more than one reading: a name that a single one makes is refused.
+/// Where, without one reading, nothing would be named: decides `analysis` anew with that reading
+/// set aside and says so in a sentence. Nothing is done where the name stands, where a set is left,
+/// or where the cause is a slip or a skip, which may show in one reading alone.
+[[nodiscard]] std::optional<std::string> refuse_name_of_one_reading(
+    const std::optional<Stability>& stability, Analysis& analysis);
+
 }  // namespace chaintrue::grid::diagnosis
