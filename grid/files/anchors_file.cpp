@@ -24,133 +24,116 @@ const Record<AnchorCoordinate>& fitted_coordinate_record() {
   static const auto record =
       Record<AnchorCoordinate>("a coordinate of an anchor")
           .required("coordinate",
+                    "Which coordinate; the bottom left anchor is the origin, and the bottom right "
+                    "one is on the x axis.",
                     &AnchorCoordinate::name,
                     one_of({"tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"}))
-          .optional("stated_mm", &AnchorCoordinate::stated_mm, number(kMillimetres))
-          .required("fitted_mm", &AnchorCoordinate::fitted_mm, number(kMillimetres))
-          .required("sigma_mm", &AnchorCoordinate::sigma_mm, number(kSigmaMm))
+          .optional("stated_mm",
+                    "Value in the settings; null if unknown.",
+                    &AnchorCoordinate::stated_mm,
+                    number(kMillimetres))
+          .required(
+              "fitted_mm", "Fitted value.", &AnchorCoordinate::fitted_mm, number(kMillimetres))
+          .required("sigma_mm",
+                    "Its uncertainty, 1 sigma.",
+                    &AnchorCoordinate::sigma_mm,
+                    number(kSigmaMm))
           .required("rests_on",
+                    "Share of its variance from each belt's readings.",
                     &AnchorCoordinate::variance_share,
                     object(per_belt_record<double>(number(kAnyNumber))));
   return record;
 }
 
 const Record<BadBeltReading>& bad_record() {
-  static const auto record =
-      Record<BadBeltReading>("a bad reading")
-          .required("point", &BadBeltReading::point, index_number(0, kMostPlaces))
-          .required("belt", &BadBeltReading::belt, belt_word())
-          .required("off_mm", &BadBeltReading::residual_mm, number(kMillimetres));
+  static const auto record = Record<BadBeltReading>("a bad reading")
+                                 .required("point",
+                                           "Number of the place, from 0.",
+                                           &BadBeltReading::point,
+                                           index_number(0, kMostPlaces))
+                                 .required("belt", "The belt.", &BadBeltReading::belt, belt_word())
+                                 .required("off_mm",
+                                           "Reading minus the value predicted from all others.",
+                                           &BadBeltReading::residual_mm,
+                                           number(kMillimetres));
   return record;
 }
 
 const Record<BeltResidual>& residual_record() {
   static const auto record =
       Record<BeltResidual>("a reading's residual")
-          .required("off_mm", &BeltResidual::residual_mm, number(kMillimetres))
-          .required("counts", &BeltResidual::counts, boolean())
-          .required("sigmas", &BeltResidual::sigmas, number(kAnyNumber))
-          .required("beside_mm", &BeltResidual::deleted_residual_mm, number(kMillimetres));
+          .required("off_mm",
+                    "Reading minus fitted value.",
+                    &BeltResidual::residual_mm,
+                    number(kMillimetres))
+          .required("counts", "False if it was left out.", &BeltResidual::counts, boolean())
+          .required(
+              "sigmas",
+              "Distance from a fit without it, in sigmas; 0 if no other reading determines it.",
+              &BeltResidual::sigmas,
+              number(kAnyNumber))
+          .required("beside_mm",
+                    "Reading minus the value predicted from all others.",
+                    &BeltResidual::deleted_residual_mm,
+                    number(kMillimetres));
   return record;
-}
-
-/// A list of exactly that length; problems are reported.
-std::optional<std::vector<double>> numbers(const Cursor& at,
-                                           std::size_t count,
-                                           const Range& range) {
-  auto found = list(number(range)).read(at);
-  if (found && found->size() != count) {
-    at.problems().add(at.pointer(),
-                      fmt::format("{} of them", found->size()),
-                      fmt::format("{} numbers", count),
-                      ProblemKind::wrong_count);
-    return std::nullopt;
-  }
-  return found;
 }
 
 const Record<FittedPlace>& fitted_place_record() {
   static const auto record = [] {
     Record<FittedPlace> place("a fitted place");
     using model::FramePoint;
-    place.required("x_mm", path(&FittedPlace::at, &FramePoint::x_mm), number(kMillimetres))
-        .required("y_mm", path(&FittedPlace::at, &FramePoint::y_mm), number(kMillimetres));
-    place.custom(
+    place
+        .required("x_mm",
+                  "x of the tool, to the right of the bottom left anchor.",
+                  path(&FittedPlace::at, &FramePoint::x_mm),
+                  number(kMillimetres))
+        .required("y_mm",
+                  "y of the tool, up from the bottom left anchor.",
+                  path(&FittedPlace::at, &FramePoint::y_mm),
+                  number(kMillimetres));
+    place.computed(
         "covariance_mm2",
+        "Covariance of x and y: xx, xy, yy.",
         true,
-        {"its covariance: xx, xy, yy", list(number(kSquare), 3).expected.schema},
-        [](const Cursor& at, FittedPlace& p) {
-          if (const auto c = numbers(at, 3, kSquare))
-            p.covariance_mm2 << (*c)[0], (*c)[1], (*c)[1], (*c)[2];
+        exactly<3>(number(kSquare), "3 numbers"),
+        [](FittedPlace& p, const std::array<double, 3>& c) {
+          p.covariance_mm2 << c[0], c[1], c[1], c[2];
         },
         [](const FittedPlace& p) {
           const auto& c = p.covariance_mm2;
-          return std::optional<Json>(Json::array({c(0, 0), c(0, 1), c(1, 1)}));
+          return std::array{c(0, 0), c(0, 1), c(1, 1)};
         });
     for (const Belt belt : model::kBelts) {
-      place.custom(
-          std::string(name(belt)),
+      place.computed(
+          name(belt),
+          fmt::format("Residual of the {} belt.", words(belt)),
           true,
-          residual_record().expected(),
-          [belt](const Cursor& at, FittedPlace& p) {
-            if (const auto found = residual_record().read(at)) p.belts[belt] = *found;
-          },
-          [belt](const FittedPlace& p) {
-            return std::optional<Json>(residual_record().write(p.belts[belt]));
-          });
+          object(residual_record()),
+          [belt](FittedPlace& p, const BeltResidual& own) { p.belts[belt] = own; },
+          [belt](const FittedPlace& p) { return p.belts[belt]; });
     }
     return place;
   }();
   return record;
 }
 
-void read_coordinates(const Cursor& at, BeltsFit& fit) {
-  const auto found = list(object(fitted_coordinate_record())).read(at);
-  if (!found) return;
-  if (found->size() != fit.coordinates.size()) {
-    at.problems().add(at.pointer(),
-                      fmt::format("{} of them", found->size()),
-                      "five coordinates",
-                      ProblemKind::wrong_count);
-    return;
-  }
-  std::copy(found->begin(), found->end(), fit.coordinates.begin());
-}
+using Row = std::array<double, 5>;
+using Rows = std::array<Row, 5>;
+using RowMajor = Eigen::Matrix<double, 5, 5, Eigen::RowMajor>;
 
-void read_covariance(const Cursor& at, BeltsFit& fit) {
-  constexpr Eigen::Index kSize = 5;
-  if (!at.json().is_array() || at.json().size() != kSize)
-    return at.expect("five rows of five numbers");
-  for (Eigen::Index i = 0; i < kSize; ++i) {
-    const auto row = numbers(at.element(static_cast<std::size_t>(i)), kSize, kSquare);
-    for (Eigen::Index j = 0; row && j < kSize; ++j)
-      fit.covariance_mm2(i, j) = (*row)[static_cast<std::size_t>(j)];
-  }
-}
-
-std::optional<Json> written_covariance(const BeltsFit& fit) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < fit.covariance_mm2.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < fit.covariance_mm2.cols(); ++j)
-      row.push_back(fit.covariance_mm2(i, j));
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-struct StatedBeltPrediction {
-  BeltPrediction one_left_out;
-  std::optional<BeltPrediction> half_left_out;
-};
-
-const Record<StatedBeltPrediction>& both_predictions_record() {
+const Record<BeltsFit>& both_predictions_record() {
   static const auto record =
-      Record<StatedBeltPrediction>("what was predicted")
-          .required(
-              "one_left_out", &StatedBeltPrediction::one_left_out, object(prediction_record()))
-          .optional(
-              "half_left_out", &StatedBeltPrediction::half_left_out, object(prediction_record()));
+      Record<BeltsFit>("what was predicted")
+          .required("one_left_out",
+                    "Each place predicted from all others.",
+                    &BeltsFit::one_left_out,
+                    object(prediction_record()))
+          .optional("half_left_out",
+                    "Each half predicted from the other; null for fewer than "
+                    "ten places.",
+                    &BeltsFit::half_left_out,
+                    object(prediction_record()));
   return record;
 }
 
@@ -164,67 +147,90 @@ void check_cause(const Cursor& at, CauseInAnchorFit& cause) {
 const Record<CauseInAnchorFit>& cause_in_fit_record() {
   static const auto record =
       Record<CauseInAnchorFit>("a cause with the anchors")
-          .required("effect", &CauseInAnchorFit::effect, text())
-          .sparse("side", &CauseInAnchorFit::side, one_of({"tl", "tr", "bl", "br", "all"}))
-          .required("parameters", &CauseInAnchorFit::parameters, dictionary(number(kAnyNumber)))
-          .required("sigma", &CauseInAnchorFit::sigma, number(kAnyNumber))
-          .required("probability", &CauseInAnchorFit::probability, number(kShare))
+          .required("effect",
+                    "The cause, by its id in docs/maslow4.md.",
+                    &CauseInAnchorFit::effect,
+                    text())
+          .sparse("side",
+                  "The belt, or all four.",
+                  &CauseInAnchorFit::side,
+                  one_of({"tl", "tr", "bl", "br", "all"}))
+          .required(
+              "parameters",
+              "Its size and onset, averaged over the models that the readings leave possible.",
+              &CauseInAnchorFit::parameters,
+              dictionary(number(kAnyNumber)))
+          .required("sigma",
+                    "Uncertainty of its size, 1 sigma.",
+                    &CauseInAnchorFit::sigma,
+                    number(kAnyNumber))
+          .required("probability",
+                    "Its probability under the prior used for sigmas, which assumes causes to be "
+                    "common; not a verdict.",
+                    &CauseInAnchorFit::probability,
+                    number(kShare))
           .check(check_cause);
   return record;
 }
 
 /// All fields but the name.
 void add_fit(Record<BeltsFit>& record) {
-  record.required("machine", &BeltsFit::machine, object(belt_machine_record()))
-      .custom("coordinates",
-              true,
-              {"five coordinates", list(object(fitted_coordinate_record()), 5).expected.schema},
-              read_coordinates,
-              [](const BeltsFit& fit) {
-                Json all = Json::array();
-                for (const AnchorCoordinate& c : fit.coordinates)
-                  all.push_back(fitted_coordinate_record().write(c));
-                return std::optional<Json>(std::move(all));
-              })
-      .custom("covariance_mm2",
-              true,
-              {"five rows of five numbers", list(list(number(kSquare), 5), 5).expected.schema},
-              read_covariance,
-              written_covariance)
-      .required("spread_mm", &BeltsFit::residual_sigma_mm, number(kSigmaMm))
-      .required("checks", &BeltsFit::checks, integer(0, 4 * kMostPlaces))
-      .required("rms_mm", &BeltsFit::rms_mm, number(kSigmaMm))
-      .required(
-          "rms_of_mm", &BeltsFit::rms_of_mm, object(per_belt_record<double>(number(kAnyNumber))))
-      .custom(
-          "foretold",
+  record
+      .required("machine",
+                "The machine with the anchors fitted.",
+                &BeltsFit::machine,
+                object(belt_machine_record()))
+      .required("coordinates",
+                "The five coordinates that belts can show.",
+                &BeltsFit::coordinates,
+                exactly<5>(object(fitted_coordinate_record()), "five coordinates"))
+      .computed(
+          "covariance_mm2",
+          "Of the five, in their order.",
           true,
-          both_predictions_record().expected(),
-          [](const Cursor& at, BeltsFit& fit) {
-            const auto found = both_predictions_record().read(at);
-            if (!found) return;
-            fit.one_left_out = found->one_left_out;
-            fit.half_left_out = found->half_left_out;
+          exactly<5>(exactly<5>(number(kSquare), "5 numbers"), "five rows of five numbers"),
+          [](BeltsFit& fit, const Rows& rows) {
+            fit.covariance_mm2 = Eigen::Map<const RowMajor>(rows.front().data());
           },
           [](const BeltsFit& fit) {
-            return std::optional<Json>(
-                both_predictions_record().write({fit.one_left_out, fit.half_left_out}));
+            Rows rows{};
+            Eigen::Map<RowMajor>(rows.front().data()) = fit.covariance_mm2;
+            return rows;
           })
-      .optional("scale", &BeltsFit::scale, object(scale_record()))
-      .sparse("causes", &BeltsFit::causes, list(object(cause_in_fit_record())))
-      .sparse("bad", &BeltsFit::bad, list(object(bad_record())))
-      .custom(
-          "bad_points",
-          false,
-          {"a list of points", list(integer(0, kMostPlaces)).expected.schema},
-          [](const Cursor& at, BeltsFit& fit) {
-            const auto found = list(integer(0, kMostPlaces)).read(at);
-            if (found) fit.bad_points.assign(found->begin(), found->end());
-          },
-          [](const BeltsFit& fit) {
-            return fit.bad_points.empty() ? std::nullopt : std::optional<Json>(fit.bad_points);
-          })
-      .required("places", &BeltsFit::places, list(object(fitted_place_record())));
+      .required("spread_mm",
+                "Spread of a reading, with 2N - 5 checks in the denominator.",
+                &BeltsFit::residual_sigma_mm,
+                number(kSigmaMm))
+      .required("checks", "That denominator.", &BeltsFit::checks, integer(0, 4 * kMostPlaces))
+      .required("rms_mm",
+                "Of all readings, those left out too, as the machine's own message has it.",
+                &BeltsFit::rms_mm,
+                number(kSigmaMm))
+      .required("rms_of_mm",
+                "Of each belt's readings that count.",
+                &BeltsFit::rms_of_mm,
+                object(per_belt_record<double>(number(kAnyNumber))))
+      .part("foretold",
+            "Lower belts as the upper two predict them at places that were not fitted.",
+            true,
+            both_predictions_record())
+      .optional("scale",
+                "From taped distances; absent: not known.",
+                &BeltsFit::scale,
+                object(scale_record()))
+      .sparse("causes",
+              "Causes besides the anchors: the stretch of the belts, and others that are more "
+              "likely than not. Places and residuals are corrected for them.",
+              &BeltsFit::causes,
+              list(object(cause_in_fit_record())))
+      .sparse(
+          "bad", "Readings left out, the worst first.", &BeltsFit::bad, list(object(bad_record())))
+      .sparse("bad_points",
+              "Places where fewer than three readings agree.",
+              &BeltsFit::bad_points,
+              list(index_number(0, kMostPlaces)))
+      .required(
+          "places", "The fitted places.", &BeltsFit::places, list(object(fitted_place_record())));
 }
 
 const Record<BeltsFit>& fit_record() {
@@ -239,12 +245,17 @@ const Record<BeltsFit>& fit_record() {
 const Record<FittedAnchors>& fitted_anchors_record() {
   static const auto record = [] {
     Record<FittedAnchors> anchors("a chaintrue_anchors file", kAnchorsFormat);
-    anchors.sparse("name", &FittedAnchors::name, text())
-        .required("fit", &FittedAnchors::fit, object(fit_record()))
-        .optional("holes", &FittedAnchors::holes, object(holes_with_belts_record()));
-    add_content_hash(add_made_by_key(anchors)).check([](const Cursor& at, FittedAnchors&) {
-      if (at.clean()) check_content(at);
-    });
+    anchors.sparse("name", "Name of the set.", &FittedAnchors::name, text())
+        .required("fit", "The fit.", &FittedAnchors::fit, object(fit_record()))
+        .optional("holes",
+                  "What cut and taped holes add; absent: none were given.",
+                  &FittedAnchors::holes,
+                  object(holes_with_belts_record()));
+    add_content_hash(add_made_by_key(anchors),
+                     "Hash of everything else; edited anchors are refused.")
+        .check([](const Cursor& at, FittedAnchors&) {
+          if (at.clean()) check_content(at);
+        });
     return anchors;
   }();
   return record;

@@ -15,27 +15,23 @@ constexpr Range kFactor{"", 1e-3, 1e3};
 constexpr Range kAngle{"rad", -1.0, 1.0};
 constexpr int kMostSets = 1000;
 
-/// A coordinate of a point that is a member of the object.
-template <class T, class Point>
-void add_coordinate(Record<T>& record, const char* key, Point T::*point, double Point::*member) {
-  record.custom(
-      key,
-      true,
-      {kMillimetres.expected(), [] { return number_schema(kMillimetres); }},
-      [point, member](const Cursor& at, T& object) {
-        if (const auto value = at.number(kMillimetres)) object.*point.*member = *value;
-      },
-      [point, member](const T& object) { return std::optional<Json>(object.*point.*member); });
-}
-
 const Record<BeltHole>& belt_hole_record() {
   static const auto record = [] {
     Record<BeltHole> hole("a fitted hole");
-    hole.required("name", &BeltHole::name, text());
-    add_coordinate(hole, "x_mm", &BeltHole::commanded, &model::BedPoint::x_mm);
-    add_coordinate(hole, "y_mm", &BeltHole::commanded, &model::BedPoint::y_mm);
-    add_coordinate(hole, "mark_x_mm", &BeltHole::mark, &model::MarkPoint::x_mm);
-    add_coordinate(hole, "mark_y_mm", &BeltHole::mark, &model::MarkPoint::y_mm);
+    hole.required("name", "Its name.", &BeltHole::name, text());
+    const auto coordinate = [&](const char* key, const char* meaning, auto member) {
+      hole.required(key, meaning, member, number(kMillimetres));
+    };
+    using model::BedPoint, model::MarkPoint;
+    coordinate("x_mm", "Commanded x.", path(&BeltHole::commanded, &BedPoint::x_mm));
+    coordinate("y_mm", "Commanded y, up.", path(&BeltHole::commanded, &BedPoint::y_mm));
+    coordinate("mark_x_mm",
+               "x that the fitted anchors give, in the frame of the commands; the sheet may be "
+               "elsewhere.",
+               path(&BeltHole::mark, &MarkPoint::x_mm));
+    coordinate("mark_y_mm",
+               "y that the fitted anchors give, up.",
+               path(&BeltHole::mark, &MarkPoint::y_mm));
     return hole;
   }();
   return record;
@@ -44,21 +40,31 @@ const Record<BeltHole>& belt_hole_record() {
 const Record<BeltTapedDistance>& taped_distance_record() {
   static const auto record =
       Record<BeltTapedDistance>("a fitted distance")
-          .custom(
-              "set",
-              true,
-              {"a set's number", integer(0, kMostSets).expected.schema},
-              [](const Cursor& at, BeltTapedDistance& distance) {
-                if (const auto set = at.integer(0, kMostSets))
-                  distance.set = static_cast<std::size_t>(*set);
-              },
-              [](const BeltTapedDistance& distance) { return std::optional<Json>(distance.set); })
-          .required("between", &BeltTapedDistance::words, text())
-          .required("measured_mm", &BeltTapedDistance::measured_mm, number(kMillimetres))
-          .required("off_mm", &BeltTapedDistance::residual_mm, number(kMillimetres))
-          .required("left_out_mm", &BeltTapedDistance::left_out_mm, number(kMillimetres))
-          .required("left_out_sigma_mm", &BeltTapedDistance::left_out_sigma_mm, number(kSigmaMm))
-          .required("set_aside", &BeltTapedDistance::rejected, boolean());
+          .required("set",
+                    "Number of the file of holes, from 0.",
+                    &BeltTapedDistance::set,
+                    index_number(0, kMostSets))
+          .required("between", "Its ends.", &BeltTapedDistance::words, text())
+          .required("measured_mm",
+                    "Taped distance, without the hook offset.",
+                    &BeltTapedDistance::measured_mm,
+                    number(kMillimetres))
+          .required("off_mm",
+                    "Taped minus fitted.",
+                    &BeltTapedDistance::residual_mm,
+                    number(kMillimetres))
+          .required("left_out_mm",
+                    "Taped minus the prediction of a fit without it.",
+                    &BeltTapedDistance::left_out_mm,
+                    number(kMillimetres))
+          .required("left_out_sigma_mm",
+                    "Uncertainty of that, 1 sigma.",
+                    &BeltTapedDistance::left_out_sigma_mm,
+                    number(kSigmaMm))
+          .required("set_aside",
+                    "It contradicts the others and was not used.",
+                    &BeltTapedDistance::rejected,
+                    boolean());
   return record;
 }
 
@@ -74,9 +80,17 @@ constexpr std::size_t kNumbersOfAPlace = 4;
 const Record<StatedDisplacement>& displacement_record() {
   static const auto record =
       Record<StatedDisplacement>("a displacement of the tool")
-          .required("size_mm", &StatedDisplacement::size_mm, number(kPositiveMm))
-          .required("reach_mm", &StatedDisplacement::reach_mm, number(kPositiveMm))
+          .required("size_mm",
+                    "Its prior sigma, on each axis.",
+                    &StatedDisplacement::size_mm,
+                    number(kPositiveMm))
+          .required("reach_mm",
+                    "Length over which it changes.",
+                    &StatedDisplacement::reach_mm,
+                    number(kPositiveMm))
           .required("places",
+                    "For each place x, y, and the displacement of the tool in x and y from the "
+                    "position given by its upper two belts; mm.",
                     &StatedDisplacement::places,
                     list(list(number(kMillimetres), kNumbersOfAPlace), 1))
           .check([](const Cursor& at, StatedDisplacement& stated) {
@@ -120,9 +134,16 @@ struct StatedSheet {
 const Record<StatedSheet>& stated_sheet_record() {
   static const auto record =
       Record<StatedSheet>("where the sheet lies")
-          .required("x_mm", &StatedSheet::x_mm, number(kMillimetres))
-          .required("y_mm", &StatedSheet::y_mm, number(kMillimetres))
-          .required("rotation_rad", &StatedSheet::rotation_rad, number(kAngle));
+          .required("x_mm",
+                    "x of the sheet, to the right of the origin of commands.",
+                    &StatedSheet::x_mm,
+                    number(kMillimetres))
+          .required(
+              "y_mm", "y of the sheet, up from there.", &StatedSheet::y_mm, number(kMillimetres))
+          .required("rotation_rad",
+                    "Rotation, counter-clockwise.",
+                    &StatedSheet::rotation_rad,
+                    number(kAngle));
   return record;
 }
 
@@ -165,14 +186,32 @@ void check_together(const Cursor& at, const HolesWithBelts& holes) {
 const Record<HolesWithBelts>& holes_with_belts_record() {
   static const auto record =
       Record<HolesWithBelts>("what holes add to belts")
-          .required("machine", &HolesWithBelts::machine, object(belt_machine_record()))
-          .required("holes", &HolesWithBelts::holes, list(object(belt_hole_record())))
+          .required("machine",
+                    "The machine, with the anchors in force when the holes were cut.",
+                    &HolesWithBelts::machine,
+                    object(belt_machine_record()))
+          .required("holes",
+                    "Holes of the first file, whose sheet defines the frame of the map.",
+                    &HolesWithBelts::holes,
+                    list(object(belt_hole_record())))
+          .required("distances",
+                    "All taped distances.",
+                    &HolesWithBelts::distances,
+                    list(object(taped_distance_record())))
+          .required("noise_factor",
+                    "Estimated noise of tape and holes, relative to the given one.",
+                    &HolesWithBelts::noise_factor,
+                    number(kFactor))
           .required(
-              "distances", &HolesWithBelts::distances, list(object(taped_distance_record())))
-          .required("noise_factor", &HolesWithBelts::noise_factor, number(kFactor))
-          .required("left_out_rms_mm", &HolesWithBelts::left_out_rms_mm, number(kSigmaMm))
+              "left_out_rms_mm",
+              "Rms of the distances left out one at a time, without those that were rejected.",
+              &HolesWithBelts::left_out_rms_mm,
+              number(kSigmaMm))
           .custom(
               "displacement",
+              "Displacement of the tool from the position given by its upper two belts; absent: "
+              "the "
+              "holes show none.",
               false,
               displacement_record().expected(),
               [](const Cursor& at, HolesWithBelts& holes) {
@@ -183,20 +222,22 @@ const Record<HolesWithBelts>& holes_with_belts_record() {
                            ? std::optional<Json>(written_displacement(*holes.displacement))
                            : std::nullopt;
               })
-          .custom(
+          .computed(
               "sheet",
+              "By its measured edges; absent: the holes, as a whole, lie where they were "
+              "commanded.",
               false,
-              stated_sheet_record().expected(),
-              [](const Cursor& at, HolesWithBelts& holes) {
-                if (const auto sheet = stated_sheet_record().read(at))
-                  holes.sheet = Eigen::Vector3d(sheet->x_mm, sheet->y_mm, sheet->rotation_rad);
+              object(stated_sheet_record()),
+              [](HolesWithBelts& holes, const StatedSheet& sheet) {
+                holes.sheet = {sheet.x_mm, sheet.y_mm, sheet.rotation_rad};
               },
-              [](const HolesWithBelts& holes) -> std::optional<Json> {
+              [](const HolesWithBelts& holes) -> std::optional<StatedSheet> {
                 if (!holes.sheet) return std::nullopt;
-                return stated_sheet_record().write(
-                    {holes.sheet->x(), holes.sheet->y(), holes.sheet->z()});
+                return StatedSheet{holes.sheet->x(), holes.sheet->y(), holes.sheet->z()};
               })
           .custom("covariance",
+                  "Of tl_x, tl_y, tr_x, tr_y, br_x, the logarithm of the scale, and x and y of the "
+                  "displacement at each of its places.",
                   true,
                   {"rows of numbers", list(list(number(kAnyNumber))).expected.schema},
                   read_holes_covariance,

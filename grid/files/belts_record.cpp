@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "grid/files/ranges.hpp"
 #include "grid/files/record_values.hpp"
@@ -18,10 +19,6 @@ using model::BeltMachine;
 using model::kBelts;
 using model::PerBelt;
 
-std::string key_of(Belt belt, std::string_view unit = "") {
-  return fmt::format("{}{}", name(belt), unit);
-}
-
 struct StatedAnchor {
   std::optional<double> x_mm;
   std::optional<double> y_mm;
@@ -29,20 +26,33 @@ struct StatedAnchor {
 };
 
 const Record<StatedAnchor>& anchor_record() {
-  static const auto record = Record<StatedAnchor>("an anchor")
-                                 .optional("x_mm", &StatedAnchor::x_mm, number_in("mm"))
-                                 .optional("y_mm", &StatedAnchor::y_mm, number_in("mm"))
-                                 .optional("z_mm", &StatedAnchor::z_mm, number_in("mm"));
+  static const auto record =
+      Record<StatedAnchor>("an anchor")
+          .optional("x_mm",
+                    "x of the point where the belt leaves the frame, to the right of the bottom "
+                    "left anchor. Given for all four anchors or for none.",
+                    &StatedAnchor::x_mm,
+                    number_in("mm"))
+          .optional(
+              "y_mm",
+              "y of that point, up from the bottom left anchor; 0 for the bottom right anchor.",
+              &StatedAnchor::y_mm,
+              number_in("mm"))
+          .optional("z_mm",
+                    "Its height above the bed; default: the firmware's.",
+                    &StatedAnchor::z_mm,
+                    number_in("mm"));
   return record;
 }
 
 const Record<PerBelt<StatedAnchor>>& anchors_record() {
   using Anchors = PerBelt<StatedAnchor>;
-  static const auto record = Record<Anchors>("four anchors")
-                                 .required("tl", &Anchors::tl, object(anchor_record()))
-                                 .required("tr", &Anchors::tr, object(anchor_record()))
-                                 .required("bl", &Anchors::bl, object(anchor_record()))
-                                 .required("br", &Anchors::br, object(anchor_record()));
+  static const auto record =
+      Record<Anchors>("four anchors")
+          .required("tl", "Top left.", &Anchors::tl, object(anchor_record()))
+          .required("tr", "Top right.", &Anchors::tr, object(anchor_record()))
+          .required("bl", "Bottom left, the origin.", &Anchors::bl, object(anchor_record()))
+          .required("br", "Bottom right, on the x axis.", &Anchors::br, object(anchor_record()));
   return record;
 }
 
@@ -77,13 +87,12 @@ std::optional<Json> written_anchors(const BeltMachine& machine) {
   return anchors_record().write(stated);
 }
 
-struct StatedBelt {
-  double turn_mm = BeltMachine{}.belt_turn_mm;
-};
-
-const Record<StatedBelt>& belt_record() {
+const Record<BeltMachine>& belt_record() {
   static const auto record =
-      Record<StatedBelt>("a belt").optional("turn_mm", &StatedBelt::turn_mm, number_in("mm"));
+      Record<BeltMachine>("a belt").optional("turn_mm",
+                                             "Belt length for one turn of the encoder.",
+                                             &BeltMachine::belt_turn_mm,
+                                             number_in("mm"));
   return record;
 }
 
@@ -95,36 +104,28 @@ void check_machine(const Cursor& at, BeltMachine& machine) {
   }
 }
 
-std::optional<std::vector<Belt>> read_pulled(const Cursor& at) {
-  static const Value<std::vector<std::string>> belts = list(one_of({"tl", "tr", "bl", "br"}));
-  const auto found = belts.read(at);
-  if (!found) return std::nullopt;
-  std::vector<Belt> pulled;
-  for (const Belt belt : kBelts) {
-    if (std::find(found->begin(), found->end(), name(belt)) != found->end()) pulled.push_back(belt);
-  }
-  return pulled;
-}
-
-Json written_pulled(const std::vector<Belt>& pulled) {
-  Json words = Json::array();
-  for (const Belt belt : pulled) words.push_back(std::string(name(belt)));
-  return words;
-}
-
 constexpr Range kPull{"", 1e-3, 1e6};
 
 /// One key for each unit.
 void add_pull(Record<BeltPoint>& record) {
   using Unit = BeltPull::Unit;
-  constexpr std::pair<const char*, Unit> kKeys[] = {
-      {"pull_n", Unit::newton}, {"pull_ma", Unit::milliampere}, {"pull", Unit::relative}};
-  for (const auto& [key, unit] : kKeys) {
+  constexpr std::tuple<const char*, const char*, Unit> kKeys[] = {
+      {"pull_n", "Tension of the pulled belts, N; given for all places or for none.", Unit::newton},
+      {"pull_ma",
+       "Current of the motors instead, mA; the force is assumed proportional to it.",
+       Unit::milliampere},
+      {"pull",
+       "Relative tension, if neither is known. Sizes of a stretch and of a yielding anchor refer "
+       "to "
+       "the lowest.",
+       Unit::relative}};
+  for (const auto& [key, meaning, unit] : kKeys) {
     const Unit own = unit;
     record.custom(
         key,
+        meaning,
         false,
-        {kPull.expected(), [] { return number_schema(kPull); }},
+        number(kPull).expected,
         [own](const Cursor& at, BeltPoint& point) {
           const auto value = at.number(kPull);
           if (!value) return;
@@ -141,25 +142,27 @@ void add_pull(Record<BeltPoint>& record) {
 using ThrownAway = PerBelt<std::vector<double>>;
 
 const Record<ThrownAway>& thrown_away_record() {
-  static const auto record = Record<ThrownAway>("lengths of each belt")
-                                 .sparse("tl_mm", &ThrownAway::tl, list(number(kBeltLengthMm)))
-                                 .sparse("tr_mm", &ThrownAway::tr, list(number(kBeltLengthMm)))
-                                 .sparse("bl_mm", &ThrownAway::bl, list(number(kBeltLengthMm)))
-                                 .sparse("br_mm", &ThrownAway::br, list(number(kBeltLengthMm)));
+  static const auto record =
+      Record<ThrownAway>("lengths of each belt")
+          .sparse("tl_mm", "Top left.", &ThrownAway::tl, list(number(kBeltLengthMm)))
+          .sparse("tr_mm", "Top right.", &ThrownAway::tr, list(number(kBeltLengthMm)))
+          .sparse("bl_mm", "Bottom left.", &ThrownAway::bl, list(number(kBeltLengthMm)))
+          .sparse("br_mm", "Bottom right.", &ThrownAway::br, list(number(kBeltLengthMm)));
   return record;
 }
 
 void add_lengths(Record<BeltPoint>& record) {
-  for (const Belt belt : kBelts) {
-    record.custom(
-        key_of(belt, "_mm"),
-        true,
-        {kBeltLengthMm.expected(), [] { return number_schema(kBeltLengthMm); }},
-        [belt](const Cursor& at, BeltPoint& point) {
-          if (const auto value = at.number(kBeltLengthMm)) point.lengths_mm[belt] = *value;
-        },
-        [belt](const BeltPoint& point) { return std::optional<Json>(point.lengths_mm[belt]); });
-  }
+  using Lengths = PerBelt<double>;
+  const auto length = [&](const char* key, const char* meaning, double Lengths::*belt) {
+    record.required(key, meaning, path(&BeltPoint::lengths_mm, belt), number(kBeltLengthMm));
+  };
+  length("tl_mm",
+         "Length of the top left belt as the controller prints it; the machine's lengths says what "
+         "it means.",
+         &Lengths::tl);
+  length("tr_mm", "Length of the top right belt.", &Lengths::tr);
+  length("bl_mm", "Length of the bottom left belt.", &Lengths::bl);
+  length("br_mm", "Length of the bottom right belt.", &Lengths::br);
 }
 
 constexpr Range kSpreadMm{"mm", 0.0, 1e6};
@@ -168,23 +171,25 @@ constexpr int kMostReadings = 400000;
 constexpr Range kCommand{"mm", -20000.0, 20000.0};
 
 void add_command(Record<BeltPoint>& record) {
-  const auto coordinate = [&](const char* key, double model::BedPoint::*member) {
-    record.custom(
-        key,
-        false,
-        {kCommand.expected(), [] { return number_schema(kCommand); }},
-        [member](const Cursor& at, BeltPoint& point) {
-          const auto value = at.number(kCommand);
-          if (!value) return;
-          if (!point.commanded) point.commanded = model::BedPoint{};
-          (*point.commanded).*member = *value;
-        },
-        [member](const BeltPoint& point) {
-          return point.commanded ? std::optional<Json>((*point.commanded).*member) : std::nullopt;
-        });
-  };
-  coordinate("commanded_x_mm", &model::BedPoint::x_mm);
-  coordinate("commanded_y_mm", &model::BedPoint::y_mm);
+  const auto coordinate =
+      [&](const char* key, const char* meaning, double model::BedPoint::*member) {
+        record.computed(
+            key,
+            meaning,
+            false,
+            number(kCommand),
+            [member](BeltPoint& point, double value) {
+              if (!point.commanded) point.commanded = model::BedPoint{};
+              (*point.commanded).*member = value;
+            },
+            [member](const BeltPoint& point) {
+              return point.commanded ? std::optional((*point.commanded).*member) : std::nullopt;
+            });
+      };
+  coordinate("commanded_x_mm",
+             "Commanded x, from the crossing of the frame's diagonals.",
+             &model::BedPoint::x_mm);
+  coordinate("commanded_y_mm", "Commanded y, up from there.", &model::BedPoint::y_mm);
   record.check([](const Cursor& at, BeltPoint&) {
     if (at.has("commanded_x_mm") == at.has("commanded_y_mm")) return;
     const char* lacking = at.has("commanded_x_mm") ? "commanded_y_mm" : "commanded_x_mm";
@@ -197,30 +202,33 @@ const Record<BeltPoint>& belt_point_record() {
     Record<BeltPoint> point("a place");
     add_lengths(point);
     add_command(point);
-    point.optional("order", &BeltPoint::order, integer(0, 1000000));
-    point.custom(
+    point.optional("order",
+                   "Number of the visit. Either all places have one, all different, or none has.",
+                   &BeltPoint::order,
+                   integer(0, 1000000));
+    point.computed(
         "pulled",
+        "Belts that a motor tensioned at the reading while the others held; default: those for the "
+        "frame's orientation.",
         false,
-        {"a list of belts that were pulled, of tl, tr, bl, br",
-         [] {
-           return list(one_of({"tl", "tr", "bl", "br"})).expected.schema();
-         }},
-        [](const Cursor& at, BeltPoint& p) { p.pulled = read_pulled(at); },
-        [](const BeltPoint& p) {
-          return p.pulled ? std::optional<Json>(written_pulled(*p.pulled)) : std::nullopt;
-        });
-    add_pull(point);
-    point.custom(
-        "thrown_away",
-        false,
-        thrown_away_record().expected(),
-        [](const Cursor& at, BeltPoint& p) {
-          if (auto found = thrown_away_record().read(at)) p.thrown_away_mm = std::move(*found);
+        list(belt_word()),
+        [](BeltPoint& p, const std::vector<Belt>& found) {
+          p.pulled.emplace();
+          for (const Belt belt : kBelts) {
+            if (std::find(found.begin(), found.end(), belt) != found.end())
+              p.pulled->push_back(belt);
+          }
         },
+        [](const BeltPoint& p) { return p.pulled; });
+    add_pull(point);
+    point.computed(
+        "thrown_away",
+        "Single readings that the controller discarded here.",
+        false,
+        object(thrown_away_record()),
+        [](BeltPoint& p, const ThrownAway& found) { p.thrown_away_mm = found; },
         [](const BeltPoint& p) {
-          return p.thrown_away_mm == ThrownAway{}
-                     ? std::nullopt
-                     : std::optional<Json>(thrown_away_record().write(p.thrown_away_mm));
+          return p.thrown_away_mm == ThrownAway{} ? std::nullopt : std::optional(p.thrown_away_mm);
         });
     return point;
   }();
@@ -230,16 +238,26 @@ const Record<BeltPoint>& belt_point_record() {
 const Record<model::BedPoint>& hole_place_record() {
   static const auto record =
       Record<model::BedPoint>("where a hole was commanded")
-          .required("x_mm", &model::BedPoint::x_mm, number({"mm", -20000.0, 20000.0}))
-          .required("y_mm", &model::BedPoint::y_mm, number({"mm", -20000.0, 20000.0}));
+          .required("x_mm",
+                    "Commanded x, to the right of the crossing of the frame's diagonals.",
+                    &model::BedPoint::x_mm,
+                    number({"mm", -20000.0, 20000.0}))
+          .required("y_mm",
+                    "Commanded y, up from there.",
+                    &model::BedPoint::y_mm,
+                    number({"mm", -20000.0, 20000.0}));
   return record;
 }
 
-void add_end(Record<BeltDistance>& record, const std::string& key, BeltEnd BeltDistance::*member) {
+void add_end(Record<BeltDistance>& record,
+             const char* key,
+             const char* meaning,
+             BeltEnd BeltDistance::*member) {
   const std::string expected =
       "a point's number, an anchor (tl, tr, bl, br), or a hole as {\"x_mm\": .., \"y_mm\": ..}";
   record.custom(
       key,
+      meaning,
       true,
       {expected,
        [] {
@@ -275,10 +293,18 @@ void add_end(Record<BeltDistance>& record, const std::string& key, BeltEnd BeltD
 const Record<BeltDistance>& belt_distance_record() {
   static const auto record = [] {
     Record<BeltDistance> distance("a taped distance");
-    add_end(distance, "from", &BeltDistance::from);
-    add_end(distance, "to", &BeltDistance::to);
-    distance.required("distance_mm", &BeltDistance::distance_mm, number(kBeltDistanceMm))
-        .optional("sigma_mm", &BeltDistance::sigma_mm, number(kTapeSigmaMm));
+    add_end(distance,
+            "from",
+            "A place by its number from 0, an anchor, or a hole cut by the machine.",
+            &BeltDistance::from);
+    add_end(distance, "to", "The other end, in the same form.", &BeltDistance::to);
+    distance
+        .required(
+            "distance_mm", "The tape reading.", &BeltDistance::distance_mm, number(kBeltDistanceMm))
+        .optional("sigma_mm",
+                  "Noise of this reading, 1 sigma.",
+                  &BeltDistance::sigma_mm,
+                  number(kTapeSigmaMm));
     return distance;
   }();
   return record;
@@ -288,71 +314,96 @@ const Record<BeltDistance>& belt_distance_record() {
 
 const Record<FirmwareFit>& firmware_fit_record() {
   constexpr Range kMisfit{"mm", 0.0, 10000.0};
-  static const auto record = Record<FirmwareFit>("the machine's own words of its fit")
-                                 .required("rms_mm", &FirmwareFit::rms_mm, number(kMisfit))
-                                 .required("max_mm", &FirmwareFit::max_mm, number(kMisfit));
+  static const auto record =
+      Record<FirmwareFit>("the machine's own words of its fit")
+          .required("rms_mm", "Its rms, as it prints it.", &FirmwareFit::rms_mm, number(kMisfit))
+          .required("max_mm", "Its largest misfit.", &FirmwareFit::max_mm, number(kMisfit));
   return record;
 }
 
 const Record<BeltPrediction>& prediction_record() {
   static const auto record =
       Record<BeltPrediction>("what was predicted")
-          .custom(
-              "readings",
-              true,
-              {"a whole number", integer(0, kMostReadings).expected.schema},
-              [](const Cursor& at, BeltPrediction& f) {
-                if (const auto count = at.integer(0, kMostReadings))
-                  f.readings = static_cast<std::size_t>(*count);
-              },
-              [](const BeltPrediction& f) { return std::optional<Json>(f.readings); })
-          .required("rms_mm", &BeltPrediction::rms_mm, number(kSpreadMm))
-          .required("largest_mm", &BeltPrediction::largest_mm, number(kSpreadMm));
+          .required("readings",
+                    "Number of predicted readings of lower belts.",
+                    &BeltPrediction::readings,
+                    index_number(0, kMostReadings))
+          .required("rms_mm",
+                    "Rms of reading minus prediction.",
+                    &BeltPrediction::rms_mm,
+                    number(kSpreadMm))
+          .required(
+              "largest_mm", "Largest difference.", &BeltPrediction::largest_mm, number(kSpreadMm));
   return record;
 }
 
 const Record<BeltScale>& scale_record() {
   static const auto record =
       Record<BeltScale>("a scale")
-          .required("factor", &BeltScale::factor, number({"", 0.1, 10.0}))
-          .required("sigma", &BeltScale::sigma, number({"", 0.0, 10.0}))
-          .required("residuals_mm", &BeltScale::residuals_mm, list(number(kMisfitMm)));
+          .required("factor",
+                    "True length divided by the belts' length.",
+                    &BeltScale::factor,
+                    number({"", 0.1, 10.0}))
+          .required(
+              "sigma", "Its uncertainty, 1 sigma.", &BeltScale::sigma, number({"", 0.0, 10.0}))
+          .required("residuals_mm",
+                    "Taped minus fitted, for each distance.",
+                    &BeltScale::residuals_mm,
+                    list(number(kMisfitMm)));
   return record;
 }
 
 const Record<BeltMachine>& belt_machine_record() {
   static const auto record = [] {
     Record<BeltMachine> machine("a machine with four belts");
-    machine.optional("name", &BeltMachine::name, text())
-        .custom("anchors", false, anchors_record().expected(), read_anchors, written_anchors)
-        .custom(
-            "belt",
-            false,
-            belt_record().expected(),
-            [](const Cursor& at, BeltMachine& m) {
-              if (const auto belt = object(belt_record()).read(at)) m.belt_turn_mm = belt->turn_mm;
-            },
-            [](const BeltMachine& m) {
-              return std::optional<Json>(belt_record().write({m.belt_turn_mm}));
-            })
-        .optional("arm_mm", &BeltMachine::arm_mm, number_in("mm"))
-        .optional("end_extension_mm", &BeltMachine::end_extension_mm, number_in("mm"))
-        .optional("surface_mm", &BeltMachine::surface_mm, number_in("mm"))
+    machine
+        .optional("name", "Name of the machine in messages and pages.", &BeltMachine::name, text())
+        .custom("anchors",
+                "Where the belts leave the frame; absent: not known yet.",
+                false,
+                anchors_record().expected(),
+                read_anchors,
+                written_anchors)
+        .part("belt", "The belts.", false, belt_record())
+        .optional("arm_mm",
+                  "From the tool to the point where a belt's end is attached.",
+                  &BeltMachine::arm_mm,
+                  number_in("mm"))
+        .optional("end_extension_mm",
+                  "Length of the belt's end, from its last tooth to the arm.",
+                  &BeltMachine::end_extension_mm,
+                  number_in("mm"))
+        .optional("surface_mm",
+                  "Thickness of spoilboard and work together, added to the heights of the anchors.",
+                  &BeltMachine::surface_mm,
+                  number_in("mm"))
         .optional("orientation",
+                  "How the frame stands, which decides which belts are pulled.",
                   &BeltMachine::orientation,
                   choice<model::Orientation>({{"upright", model::Orientation::upright},
                                               {"flat", model::Orientation::flat}}))
         .optional("lengths",
+                  "What a printed length means: the belt, the belt with extension and arm, or the "
+                  "level span from anchor to tool.",
                   &BeltMachine::lengths,
                   choice<model::BeltLengths>({{"belt", model::BeltLengths::belt},
                                               {"belt_and_arm", model::BeltLengths::belt_and_arm},
                                               {"span", model::BeltLengths::span}}))
-        .optional("scale_x", &BeltMachine::scale_x, number_in(""))
-        .optional("scale_y", &BeltMachine::scale_y, number_in(""))
-        .optional("setting_names",
-                  &BeltMachine::setting_names,
-                  choice<model::SettingNames>({{"in_kinematics", model::SettingNames::in_kinematics},
-                                               {"top_level", model::SettingNames::top_level}}))
+        .optional("scale_x",
+                  "Factor of the controller on commands along x.",
+                  &BeltMachine::scale_x,
+                  number_in(""))
+        .optional("scale_y",
+                  "Factor of the controller on commands along y.",
+                  &BeltMachine::scale_y,
+                  number_in(""))
+        .optional(
+            "setting_names",
+            "Names of the firmware's settings: /kinematics/MaslowKinematics/tlX, or /Maslow_tlX at "
+            "the top level, as before July 2025.",
+            &BeltMachine::setting_names,
+            choice<model::SettingNames>({{"in_kinematics", model::SettingNames::in_kinematics},
+                                         {"top_level", model::SettingNames::top_level}}))
         .check(check_machine);
     return machine;
   }();
@@ -360,13 +411,24 @@ const Record<BeltMachine>& belt_machine_record() {
 }
 
 const Record<MeasuredBelts>& belts_record() {
-  static const auto record =
-      Record<MeasuredBelts>("a chaintrue_belts file", kBeltsFormat)
-          .sparse("name", &MeasuredBelts::name, text())
-          .optional("machine", &MeasuredBelts::machine, object(belt_machine_record()))
-          .required("points", &MeasuredBelts::points, list(object(belt_point_record())))
-          .sparse("distances", &MeasuredBelts::distances, list(object(belt_distance_record())))
-          .optional("firmware_fit", &MeasuredBelts::firmware_fit, object(firmware_fit_record()));
+  static const auto record = Record<MeasuredBelts>("a chaintrue_belts file", kBeltsFormat)
+                                 .sparse("name", "Name of the set.", &MeasuredBelts::name, text())
+                                 .optional("machine",
+                                           "The machine with its settings in force.",
+                                           &MeasuredBelts::machine,
+                                           object(belt_machine_record()))
+                                 .required("points",
+                                           "The places, in any order.",
+                                           &MeasuredBelts::points,
+                                           list(object(belt_point_record())))
+                                 .sparse("distances",
+                                         "Taped distances; without one the scale is unknown.",
+                                         &MeasuredBelts::distances,
+                                         list(object(belt_distance_record())))
+                                 .optional("firmware_fit",
+                                           "The machine's report of its own fit.",
+                                           &MeasuredBelts::firmware_fit,
+                                           object(firmware_fit_record()));
   return record;
 }
 

@@ -21,10 +21,10 @@ inline constexpr Range kBeltDistanceMm{"mm", 1.0, 20000.0};
 template <class V>
 const Record<model::PerBelt<V>>& per_belt_record(const Value<V>& value) {
   static const auto record = Record<model::PerBelt<V>>("a value for each belt")
-                                 .required("tl", &model::PerBelt<V>::tl, value)
-                                 .required("tr", &model::PerBelt<V>::tr, value)
-                                 .required("bl", &model::PerBelt<V>::bl, value)
-                                 .required("br", &model::PerBelt<V>::br, value);
+                                 .required("tl", "Top left.", &model::PerBelt<V>::tl, value)
+                                 .required("tr", "Top right.", &model::PerBelt<V>::tr, value)
+                                 .required("bl", "Bottom left.", &model::PerBelt<V>::bl, value)
+                                 .required("br", "Bottom right.", &model::PerBelt<V>::br, value);
   return record;
 }
 

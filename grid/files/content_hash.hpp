@@ -25,9 +25,10 @@ void check_content(const Cursor& at);
 /// The key of the hash, for a record whose files are printed by print_with_hash and checked by
 /// check_content. It belongs to the file, not to the object.
 template <class T>
-Record<T>& add_content_hash(Record<T>& record) {
+Record<T>& add_content_hash(Record<T>& record, std::string_view meaning) {
   return record.custom(
       "content_hash",
+      meaning,
       true,
       {"the hash of this file's content", text().expected.schema},
       [](const Cursor& at, T&) { (void)at.text(); },

@@ -24,38 +24,77 @@ using diagnosis::StatedTape;
 using diagnosis::Verdict;
 
 const Record<StatedNoise>& stated_noise_record() {
-  static const auto record =
-      Record<StatedNoise>("the noise as it was said")
-          .required("length_mm", &StatedNoise::length_mm, number(kNotNegative))
-          .required("position_mm", &StatedNoise::position_mm, number(kNotNegative))
-          .required("dof", &StatedNoise::dof, number(kNotNegative));
+  static const auto record = Record<StatedNoise>("the noise as it was said")
+                                 .required("length_mm",
+                                           "Noise of a chain reading, 1 sigma.",
+                                           &StatedNoise::length_mm,
+                                           number(kNotNegative))
+                                 .required("position_mm",
+                                           "Noise of a mark's position, 1 sigma on each axis.",
+                                           &StatedNoise::position_mm,
+                                           number(kNotNegative))
+                                 .required("dof",
+                                           "How well that is known, in degrees of freedom.",
+                                           &StatedNoise::dof,
+                                           number(kNotNegative));
   return record;
 }
 
 const Record<VisitingOrder>& line_order_record() {
-  static const auto record = Record<VisitingOrder>("an order of visits line by line")
-                                 .required("rows", &VisitingOrder::rows, boolean())
-                                 .required("serpentine", &VisitingOrder::serpentine, boolean())
-                                 .required("from_right", &VisitingOrder::from_right, boolean())
-                                 .required("from_below", &VisitingOrder::from_below, boolean());
+  static const auto record =
+      Record<VisitingOrder>("an order of visits line by line")
+          .required(
+              "rows", "True: row by row. False: column by column.", &VisitingOrder::rows, boolean())
+          .required("serpentine",
+                    "True if every second line was driven in the opposite direction.",
+                    &VisitingOrder::serpentine,
+                    boolean())
+          .required("from_right",
+                    "True if the first mark is on the right.",
+                    &VisitingOrder::from_right,
+                    boolean())
+          .required("from_below",
+                    "True if the first mark is at the bottom.",
+                    &VisitingOrder::from_below,
+                    boolean());
   return record;
 }
 
 const Record<diagnosis::VisitingOrderFound>& visiting_order_record() {
   using Found = diagnosis::VisitingOrderFound;
-  static const auto record = Record<Found>("an order of visits that was found")
-                                 .required("order", &Found::order, object(line_order_record()))
-                                 .required("corner_known", &Found::corner_known, boolean())
-                                 .required("probability", &Found::probability, number(kShare));
+  static const auto record =
+      Record<Found>("an order of visits that was found")
+          .required("order",
+                    "The most probable of the sixteen orders line by line.",
+                    &Found::order,
+                    object(line_order_record()))
+          .required("corner_known",
+                    "False: the readings determine the lines and the direction along them, not the "
+                    "corner; the probability is for any corner.",
+                    &Found::corner_known,
+                    boolean())
+          .required("probability",
+                    "Probability that the marks were visited in this order and the readings depend "
+                    "on it.",
+                    &Found::probability,
+                    number(kShare));
   return record;
 }
 
 const Record<StatedTape>& stated_tape_record() {
-  static const auto record =
-      Record<StatedTape>("the noise of holes and a tape as it was said")
-          .required("tape_sigma_mm", &StatedTape::tape_sigma_mm, number(kNotNegative))
-          .required("hole_sigma_mm", &StatedTape::hole_sigma_mm, number(kNotNegative))
-          .required("dof", &StatedTape::dof, number(kNotNegative));
+  static const auto record = Record<StatedTape>("the noise of holes and a tape as it was said")
+                                 .required("tape_sigma_mm",
+                                           "Noise of a tape reading, 1 sigma.",
+                                           &StatedTape::tape_sigma_mm,
+                                           number(kNotNegative))
+                                 .required("hole_sigma_mm",
+                                           "Error of a hole's position, 1 sigma on each axis.",
+                                           &StatedTape::hole_sigma_mm,
+                                           number(kNotNegative))
+                                 .required("dof",
+                                           "How well these are known, in degrees of freedom.",
+                                           &StatedTape::dof,
+                                           number(kNotNegative));
   return record;
 }
 
@@ -72,12 +111,28 @@ struct Shift {
 const Record<Shift>& shift_record() {
   static const auto record =
       Record<Shift>("a bad point's shift")
-          .optional("x_mm", &Shift::x_mm, number(kMillimetres))
-          .optional("y_mm", &Shift::y_mm, number(kMillimetres))
-          .optional("off_mm", &Shift::residual_mm, number(kMillimetres))
-          .required("sigmas", &Shift::sigmas, number(kNotNegative))
-          .optional("belt", &Shift::belt, belt_word())
-          .optional("or_belt", &Shift::or_belt, belt_word())
+          .optional("x_mm",
+                    "x that its tool would need to have had, minus the x written down.",
+                    &Shift::x_mm,
+                    number(kMillimetres))
+          .optional("y_mm",
+                    "y that its tool would need to have had, minus the y written down.",
+                    &Shift::y_mm,
+                    number(kMillimetres))
+          .optional("off_mm",
+                    "For a distance: how much too long it was read.",
+                    &Shift::residual_mm,
+                    number(kMillimetres))
+          .required("sigmas", "The same in sigmas.", &Shift::sigmas, number(kNotNegative))
+          .optional("belt",
+                    "For belts: the belt that is off; absent: the whole place.",
+                    &Shift::belt,
+                    belt_word())
+          .optional("or_belt",
+                    "The belt that may be off instead: on the line between the two other anchors "
+                    "the lengths cannot distinguish them.",
+                    &Shift::or_belt,
+                    belt_word())
           .check([](const Cursor& at, Shift& shift) {
             const bool of_point = shift.x_mm && shift.y_mm;
             if (at.clean() && of_point == shift.residual_mm.has_value())
@@ -92,6 +147,7 @@ void outlier_keys(Record<Diagnosis>& record) {
   static const Value<std::vector<Shift>> shifts = list(object(shift_record()));
   record.custom(
       "bad_points",
+      "Indices of the points (for holes alone: of the distances) that were left out.",
       true,
       indices.expected,
       [](const Cursor& at, Diagnosis& object) {
@@ -111,6 +167,7 @@ void outlier_keys(Record<Diagnosis>& record) {
       });
   record.custom(
       "bad_distances",
+      "Indices of the distances that were left out, if there were points too.",
       false,
       indices.expected,
       [](const Cursor& at, Diagnosis& object) {
@@ -130,6 +187,7 @@ void outlier_keys(Record<Diagnosis>& record) {
       });
   record.custom(
       "bad_point_shifts",
+      "One for each bad point, and after them for each bad distance.",
       true,
       shifts.expected,
       [](const Cursor& at, Diagnosis& object) {
@@ -167,23 +225,36 @@ void distance_keys(Record<Diagnosis>& record) {
                             {"belts", Observations::belts},
                             {"drawing", Observations::drawing}});
   record
-      .custom(
+      .computed(
           "observations",
+          "What was measured; default: points.",
           false,
-          word.expected,
-          [](const Cursor& at, Diagnosis& object) {
-            if (const auto read = word.read(at)) object.observations = *read;
-          },
+          word,
+          [](Diagnosis& object, Observations read) { object.observations = read; },
           [](const Diagnosis& object) {
-            return object.observations == Observations::points
-                       ? std::nullopt
-                       : std::optional<Json>(word.write(object.observations));
+            return object.observations == Observations::points ? std::nullopt
+                                                               : std::optional(object.observations);
           })
-      .sparse("holes", &Diagnosis::holes, list(object(hole_picture_record())))
-      .sparse("distances", &Diagnosis::distances, list(object(distance_picture_record())))
-      .optional("stated_tape", &Diagnosis::stated_tape, object(stated_tape_record()))
-      .optional("belts", &Diagnosis::belts, object(belts_findings_record()))
-      .optional("drawing", &Diagnosis::drawing, object(drawing_findings_record()));
+      .sparse("holes",
+              "The holes, for pictures.",
+              &Diagnosis::holes,
+              list(object(hole_picture_record())))
+      .sparse("distances",
+              "The distances, for pictures.",
+              &Diagnosis::distances,
+              list(object(distance_picture_record())))
+      .optional("stated_tape",
+                "The given noise of holes and tape.",
+                &Diagnosis::stated_tape,
+                object(stated_tape_record()))
+      .optional("belts",
+                "Results for four belts, if these were diagnosed.",
+                &Diagnosis::belts,
+                object(belts_findings_record()))
+      .optional("drawing",
+                "Results for a V-plotter's test drawing, if that was diagnosed.",
+                &Diagnosis::drawing,
+                object(drawing_findings_record()));
 }
 
 void check_diagnosis(const Cursor& at, Diagnosis& object) {
@@ -201,7 +272,8 @@ void check_diagnosis(const Cursor& at, Diagnosis& object) {
     const std::size_t measures = object.drawing->measures.size();
     for (const Outlier& bad : object.outliers) {
       if (of_drawing && bad.index >= measures)
-        at.child("bad_points").expect(fmt::format("indices of the drawing's {} measures", measures));
+        at.child("bad_points")
+            .expect(fmt::format("indices of the drawing's {} measures", measures));
     }
   }
   if (!at.child("verdict").clean() || !at.child("causes").clean()) return;
@@ -218,29 +290,72 @@ void check_diagnosis(const Cursor& at, Diagnosis& object) {
 
 Record<Diagnosis> make_diagnosis_record() {
   Record<Diagnosis> record("a diagnosis", kDiagnosisFormat);
-  record.required("verdict", &Diagnosis::verdict, verdict_word())
-      .required("sentence", &Diagnosis::sentence, text())
-      .required("what_to_do", &Diagnosis::what_to_do, list(text()))
-      .required("not_proved", &Diagnosis::not_proved, text())
-      .required("notes", &Diagnosis::notes, list(text()))
-      .required("causes", &Diagnosis::causes, list(object(cause_record())))
-      .required("hypotheses", &Diagnosis::hypotheses, list(object(hypothesis_record())))
-      .required("left_over", &Diagnosis::left_over, object(left_over_record()))
-      .optional("tool_today", &Diagnosis::tool_today, object(error_summary_record()))
-      .optional("visiting_order", &Diagnosis::visiting_order, object(visiting_order_record()))
-      .optional("unexplained", &Diagnosis::unexplained, object(unexplained_record()))
-      .optional("budget", &Diagnosis::budget, object(error_budget_record()));
+  record.required("verdict", "Kind of answer.", &Diagnosis::verdict, verdict_word())
+      .required("sentence", "The answer.", &Diagnosis::sentence, text())
+      .required(
+          "what_to_do", "What to do now, most urgent first.", &Diagnosis::what_to_do, list(text()))
+      .required("not_proved", "What the answer does not prove.", &Diagnosis::not_proved, text())
+      .required("notes", "Further notes for the reader.", &Diagnosis::notes, list(text()))
+      .required(
+          "causes",
+          "The named cause; or the set, most probable first; or the causes that act together.",
+          &Diagnosis::causes,
+          list(object(cause_record())))
+      .required("hypotheses",
+                "Every explanation with its probability, most probable first.",
+                &Diagnosis::hypotheses,
+                list(object(hypothesis_record())))
+      .required("left_over",
+                "What remains after the causes are removed.",
+                &Diagnosis::left_over,
+                object(left_over_record()))
+      .optional("tool_today",
+                "Error of the machine as it is used today, over the measured part: the first "
+                "number of a fit, at least the effect of a claimed law at the points. Absent for "
+                "belts and if no map can be made.",
+                &Diagnosis::tool_today,
+                object(error_summary_record()))
+      .optional("visiting_order",
+                "The order of the visits, if it was not recorded and the readings determine it: "
+                "the causes are for this order. Absent otherwise.",
+                &Diagnosis::visiting_order,
+                object(visiting_order_record()))
+      .optional("unexplained",
+                "What remains besides the causes.",
+                &Diagnosis::unexplained,
+                object(unexplained_record()))
+      .optional(
+          "budget", "Breakdown of the error.", &Diagnosis::budget, object(error_budget_record()));
   outlier_keys(record);
-  record.required("not_testable", &Diagnosis::not_testable, list(object(not_testable_record())))
-      .required("bounds", &Diagnosis::bounds, list(object(bound_record())))
-      .sparse("declared", &Diagnosis::declared, list(object(declared_answer_record())))
-      .required("settings", &Diagnosis::settings, list(object(calibrated_setting_record())))
-      .optional("gain", &Diagnosis::improvement, object(improvement_record()))
+  record
+      .required("not_testable",
+                "Effects that these data cannot test.",
+                &Diagnosis::not_testable,
+                list(object(not_testable_record())))
+      .required("bounds",
+                "Upper limits for causes that were not found.",
+                &Diagnosis::bounds,
+                list(object(bound_record())))
+      .sparse("declared",
+              "What these readings show about each declared effect of the machine's file; absent "
+              "if there is none.",
+              &Diagnosis::declared,
+              list(object(declared_answer_record())))
+      .required("settings",
+                "The machine's numbers, as in its file and calibrated.",
+                &Diagnosis::settings,
+                list(object(calibrated_setting_record())))
+      .optional("gain",
+                "Improvement by the cause at points that it was not fitted to.",
+                &Diagnosis::improvement,
+                object(improvement_record()))
       .required("next_measurements",
+                "What to measure next, most informative first.",
                 &Diagnosis::next_measurements,
                 list(object(next_measurement_record())))
       .custom(
           "extended_machine",
+          "The machine with what was found.",
           false,
           machine_record().expected(),
           [](const Cursor& at, Diagnosis& object) {
@@ -254,17 +369,45 @@ Record<Diagnosis> make_diagnosis_record() {
                        ? std::nullopt
                        : std::optional<Json>(machine_record().write(object.extended_machine));
           })
-      .required("data_corrections", &Diagnosis::data_corrections, list(object(effect_record())))
-      .required("noise_factor", &Diagnosis::noise_factor, number(kNotNegative))
-      .required("family_wise_p", &Diagnosis::family_wise_p, number(kShare))
-      .required("points", &Diagnosis::points, list(object(point_picture_record())))
-      .required("seed", &Diagnosis::seed, seed_number())
-      .required("grid_name", &Diagnosis::grid_name, text())
-      .optional("stated_noise", &Diagnosis::stated_noise, object(stated_noise_record()))
-      .optional("stability", &Diagnosis::stability, object(stability_record()))
-      .sparse("bed_parts", &Diagnosis::bed_parts, list(object(bed_part_record())))
-      .sparse("sessions", &Diagnosis::sessions, list(object(session_record())))
-      .optional("held_out_grid", &Diagnosis::transferred, object(transfer_record()));
+      .required("data_corrections",
+                "Effects on the data (a tape's scale), not on the machine.",
+                &Diagnosis::data_corrections,
+                list(object(effect_record())))
+      .required("noise_factor",
+                "Estimated noise divided by the given noise.",
+                &Diagnosis::noise_factor,
+                number(kNotNegative))
+      .required("family_wise_p",
+                "How often noise alone lets any effect look as strong.",
+                &Diagnosis::family_wise_p,
+                number(kShare))
+      .required("points",
+                "The points, for pictures.",
+                &Diagnosis::points,
+                list(object(point_picture_record())))
+      .required("seed", "Seed of the draws for significance.", &Diagnosis::seed, seed_number())
+      .required("grid_name", "Name of the grid.", &Diagnosis::grid_name, text())
+      .optional("stated_noise",
+                "The given noise.",
+                &Diagnosis::stated_noise,
+                object(stated_noise_record()))
+      .optional("stability",
+                "Whether the name survives when points are left out.",
+                &Diagnosis::stability,
+                object(stability_record()))
+      .sparse("bed_parts",
+              "Results without each quarter of the bed, over which the probabilities are averaged; "
+              "absent without a pattern.",
+              &Diagnosis::bed_parts,
+              list(object(bed_part_record())))
+      .sparse("sessions",
+              "Results for each of several sessions; absent if nothing is named.",
+              &Diagnosis::sessions,
+              list(object(session_record())))
+      .optional("held_out_grid",
+                "Another grid, predicted.",
+                &Diagnosis::transferred,
+                object(transfer_record()));
   distance_keys(record);
   add_made_by_key(record).check(check_diagnosis);
   return record;

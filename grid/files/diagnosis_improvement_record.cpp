@@ -10,8 +10,8 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using diagnosis::HeldOutImprovement;
 using diagnosis::HeldOut;
+using diagnosis::HeldOutImprovement;
 using diagnosis::Transfer;
 
 constexpr int kMostFolds = 1000;
@@ -20,6 +20,7 @@ constexpr int kMostFolds = 1000;
 template <class T>
 struct ErrorRow {
   std::string_view key;
+  std::string_view meaning;
   HeldOut T::*member = nullptr;
   std::optional<HeldOut> T::*maybe = nullptr;
 
@@ -34,19 +35,29 @@ struct ErrorRow {
   }
 };
 
+constexpr std::string_view kAsDelivered =
+    "As delivered: with the machine file's settings, for commands with the controller's. At the "
+    "measured points; tool_today is over the measured part.";
+constexpr std::string_view kCalibrated = "With calibrated settings.";
+constexpr std::string_view kExtended = "With the named causes.";
+constexpr std::string_view kAndSurface = "With the causes and a smooth surface.";
+
+using Improvement = HeldOutImprovement;
 constexpr std::array kImprovementRows = {
-    ErrorRow<HeldOutImprovement>{"as_delivered", &HeldOutImprovement::uncalibrated},
-    ErrorRow<HeldOutImprovement>{"placed", nullptr, &HeldOutImprovement::placed},
-    ErrorRow<HeldOutImprovement>{"calibrated", &HeldOutImprovement::calibrated},
-    ErrorRow<HeldOutImprovement>{"extended", &HeldOutImprovement::extended},
-    ErrorRow<HeldOutImprovement>{"extended_and_surface", &HeldOutImprovement::extended_and_surface},
-    ErrorRow<HeldOutImprovement>{"surface_only", &HeldOutImprovement::surface_only},
+    ErrorRow<Improvement>{"as_delivered", kAsDelivered, &Improvement::uncalibrated},
+    ErrorRow<Improvement>{
+        "placed", "After the best placement of the sheet.", nullptr, &Improvement::placed},
+    ErrorRow<Improvement>{"calibrated", kCalibrated, &Improvement::calibrated},
+    ErrorRow<Improvement>{"extended", kExtended, &Improvement::extended},
+    ErrorRow<Improvement>{"extended_and_surface", kAndSurface, &Improvement::extended_and_surface},
+    ErrorRow<Improvement>{
+        "surface_only", "With a smooth surface and no cause.", &Improvement::surface_only},
 };
 constexpr std::array kTransferRows = {
-    ErrorRow<Transfer>{"as_delivered", &Transfer::uncalibrated},
-    ErrorRow<Transfer>{"calibrated", &Transfer::calibrated},
-    ErrorRow<Transfer>{"extended", &Transfer::extended},
-    ErrorRow<Transfer>{"extended_and_surface", &Transfer::extended_and_surface},
+    ErrorRow<Transfer>{"as_delivered", kAsDelivered, &Transfer::uncalibrated},
+    ErrorRow<Transfer>{"calibrated", kCalibrated, &Transfer::calibrated},
+    ErrorRow<Transfer>{"extended", kExtended, &Transfer::extended},
+    ErrorRow<Transfer>{"extended_and_surface", kAndSurface, &Transfer::extended_and_surface},
 };
 
 /// One figure of a row: read into the row and written from it.
@@ -94,7 +105,8 @@ Record<T> figure_record(const std::array<ErrorRow<T>, kCount>& rows,
   Record<T> record("an object with one figure a way of modelling");
   for (const ErrorRow<T>& row : rows) {
     record.custom(
-        std::string(row.key),
+        row.key,
+        row.meaning,
         row.member != nullptr,
         figure.expected,
         [row, figure](const Cursor& at, T& object) { figure.read(at, row.made_in(object)); },
@@ -103,19 +115,9 @@ Record<T> figure_record(const std::array<ErrorRow<T>, kCount>& rows,
           return held != nullptr ? std::optional<Json>(figure.write(*held)) : std::nullopt;
         });
   }
-  if (floor != nullptr) record.required("noise_floor", floor, number(kSigmaMm));
+  if (floor != nullptr)
+    record.required("noise_floor", "From noise alone.", floor, number(kSigmaMm));
   return record;
-}
-
-/// A nested record that fills the object that contains it.
-template <class T>
-void nested(Record<T>& record, const std::string& key, const Record<T>& part) {
-  record.custom(
-      key,
-      true,
-      part.expected(),
-      [&part](const Cursor& at, T& object) { part.read_into(at, object); },
-      [&part](const T& object) { return std::optional<Json>(part.write(object)); });
 }
 
 template <class T, std::size_t kCount>
@@ -123,9 +125,10 @@ void error_figures(Record<T>& record, const std::array<ErrorRow<T>, kCount>& row
   static const auto rms = figure_record(rows, single(&HeldOut::rms_mm), &T::noise_floor_mm);
   static const auto worst = figure_record(rows, single(&HeldOut::percentile_95_mm));
   static const auto intervals = figure_record(rows, interval());
-  nested(record, "position_rms_mm", rms);
-  nested(record, "position_percentile_95_mm", worst);
-  nested(record, "position_rms_90_percent_mm", intervals);
+  record
+      .part("position_rms_mm", "Rms error at the tool (for holes alone: of a distance).", true, rms)
+      .part("position_percentile_95_mm", "95th percentile of the error.", true, worst)
+      .part("position_rms_90_percent_mm", "90 % interval of the rms.", true, intervals);
 }
 
 }  // namespace
@@ -133,12 +136,24 @@ void error_figures(Record<T>& record, const std::array<ErrorRow<T>, kCount>& row
 const Record<HeldOutImprovement>& improvement_record() {
   static const auto record = [] {
     Record<HeldOutImprovement> improvement("the gain");
-    improvement.required("scheme", &HeldOutImprovement::scheme, text());
+    improvement.required(
+        "scheme", "How points were left out.", &HeldOutImprovement::scheme, text());
     error_figures(improvement, kImprovementRows);
-    improvement.required("drop_mm2", &HeldOutImprovement::drop_mm2, number(kSigmaMm))
-        .required("drop_share", &HeldOutImprovement::drop_share, number(kShare))
-        .required("folds", &HeldOutImprovement::folds, integer(0, kMostFolds))
-        .required("folds_agree", &HeldOutImprovement::folds_agree, integer(0, kMostFolds))
+    improvement
+        .required("drop_mm2",
+                  "Reduction of the mean square.",
+                  &HeldOutImprovement::drop_mm2,
+                  number(kSigmaMm))
+        .required(
+            "drop_share", "The same as a share.", &HeldOutImprovement::drop_share, number(kShare))
+        .required("folds",
+                  "Number of times that points were left out.",
+                  &HeldOutImprovement::folds,
+                  integer(0, kMostFolds))
+        .required("folds_agree",
+                  "Number of these in which the same was named.",
+                  &HeldOutImprovement::folds_agree,
+                  integer(0, kMostFolds))
         .check([](const Cursor& at, HeldOutImprovement& object) {
           if (at.clean() && object.folds_agree > object.folds)
             at.child("folds_agree").expect("at most as many as folds");
@@ -151,8 +166,8 @@ const Record<HeldOutImprovement>& improvement_record() {
 const Record<Transfer>& transfer_record() {
   static const auto record = [] {
     Record<Transfer> transfer("another grid predicted");
-    transfer.required("to", &Transfer::to, text())
-        .required("points", &Transfer::points, index_number());
+    transfer.required("to", "Name of the grid.", &Transfer::to, text())
+        .required("points", "Number of its points.", &Transfer::points, index_number());
     error_figures(transfer, kTransferRows);
     return transfer;
   }();

@@ -9,9 +9,9 @@
 #include "grid/files/effect_record.hpp"
 #include "grid/files/record_values.hpp"
 #include "model/belts/effects/belt_effect.hpp"
-#include "model/plotter/effects/plotter_effect.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
+#include "model/plotter/effects/plotter_effect.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -69,6 +69,7 @@ void cause_keys(Record<T>& record, const Access& id) {
   const Value<std::string> side = side_word();
   record.custom(
       "effect",
+      "The effect's name, as chaintrue effects lists them.",
       true,
       effect.expected,
       [effect, id](const Cursor& at, T& object) {
@@ -84,6 +85,7 @@ void cause_keys(Record<T>& record, const Access& id) {
       [id](const T& object) { return std::optional<Json>(std::string(id(object).effect->id)); });
   record.custom(
       "side",
+      "Where it acts; null for effects without a side.",
       false,
       side.expected,
       [side, id](const Cursor& at, T& object) {
@@ -129,8 +131,11 @@ namespace {
 const Record<ParameterEstimate>& estimate_record() {
   static const auto record =
       Record<ParameterEstimate>("a value with its sigma")
-          .required("value", &ParameterEstimate::value, number(kAnyNumber))
-          .required("sigma", &ParameterEstimate::sigma, number(kNotNegative));
+          .required("value", "The value.", &ParameterEstimate::value, number(kAnyNumber))
+          .required("sigma",
+                    "Its uncertainty, 1 sigma.",
+                    &ParameterEstimate::sigma,
+                    number(kNotNegative));
   return record;
 }
 
@@ -139,6 +144,7 @@ template <class T>
 void parameter_keys(Record<T>& record) {
   record.custom(
       "parameters",
+      "Its size and other parameters, each with its sigma.",
       true,
       {"an object, each value a value with its sigma",
        [] { return dictionary_schema(estimate_record().schema()); }},
@@ -197,7 +203,10 @@ const Record<Rival>& rival_record() {
   static const auto record = [] {
     Record<Rival> rival("a rival");
     cause_keys(rival, kCause);
-    rival.required("rho", &Rival::collinearity, number(kShare));
+    rival.required("rho",
+                   "Collinearity of its signature with the cause's: 0 different, 1 the same.",
+                   &Rival::collinearity,
+                   number(kShare));
     return rival;
   }();
   return record;
@@ -209,13 +218,20 @@ const Record<Cause>& cause_record() {
   static const auto record = [] {
     Record<Cause> cause("a cause");
     cause_keys(cause, kCause);
-    cause.required("probability", &Cause::probability, number(kShare))
-        .required("delta", &Cause::signal_to_noise, number(kNotNegative))
-        .required("share_left", &Cause::share_left, number(kShare))
-        .required("same_as", &Cause::same_as, list(object(same_cause_record())));
+    cause.required("probability", "Its probability.", &Cause::probability, number(kShare))
+        .required("delta", "Signal-to-noise ratio.", &Cause::signal_to_noise, number(kNotNegative))
+        .required("share_left",
+                  "Share of its signature that the settings do not absorb.",
+                  &Cause::share_left,
+                  number(kShare))
+        .required("same_as",
+                  "Causes that such data cannot distinguish from it, with their sizes.",
+                  &Cause::same_as,
+                  list(object(same_cause_record())));
     parameter_keys(cause);
     cause.custom(
         "rival",
+        "The effect that is hardest to distinguish from it in these data.",
         false,
         rival_record().expected(),
         [](const Cursor& at, Cause& object) {
@@ -229,7 +245,10 @@ const Record<Cause>& cause_record() {
               object.rival ? rival_record().write({*object.rival, object.rival_collinearity})
                            : Json(nullptr));
         });
-    cause.required("order_assumed", &Cause::order_assumed, boolean());
+    cause.required("order_assumed",
+                   "It needs the order of the visits, which was not recorded.",
+                   &Cause::order_assumed,
+                   boolean());
     return cause;
   }();
   return record;
@@ -239,9 +258,14 @@ const Record<Hypothesis>& hypothesis_record() {
   static const auto record = [] {
     Record<Hypothesis> hypothesis("a hypothesis");
     // Two effects at once are written as "first + second", and their sides likewise.
-    hypothesis.required("effect", &Hypothesis::effect, text());
-    hypothesis.nullable("side", &Hypothesis::side, text());
-    hypothesis.required("probability", &Hypothesis::probability, number(kShare));
+    hypothesis.required("effect",
+                        "An effect's name, or nothing, unknown, noise, bad_points; two together "
+                        "are written first + second.",
+                        &Hypothesis::effect,
+                        text());
+    hypothesis.nullable("side", "Its side, or both sides equally.", &Hypothesis::side, text());
+    hypothesis.required(
+        "probability", "Its probability.", &Hypothesis::probability, number(kShare));
     return hypothesis;
   }();
   return record;
@@ -250,10 +274,16 @@ const Record<Hypothesis>& hypothesis_record() {
 const Record<LeftOver>& left_over_record() {
   static const auto record = [] {
     Record<LeftOver> left("what is left over");
-    left.required("delta", &LeftOver::signal_to_noise, number(kNotNegative));
-    left.nullable("follows", &LeftOver::follows, text());
-    left.required("share", &LeftOver::share, number(kShare))
-        .required("p_value", &LeftOver::p_value, number(kShare));
+    left.required(
+        "delta", "Signal-to-noise ratio.", &LeftOver::signal_to_noise, number(kNotNegative));
+    left.nullable(
+        "follows",
+        "What it depends on: an angle, a length, a tension, the order, x, y; null: none of them.",
+        &LeftOver::follows,
+        text());
+    left.required("share", "Share of the whole.", &LeftOver::share, number(kShare))
+        .required(
+            "p_value", "How often noise alone gives as much.", &LeftOver::p_value, number(kShare));
     return left;
   }();
   return record;
@@ -263,7 +293,7 @@ const Record<NotTestable>& not_testable_record() {
   static const auto record = [] {
     Record<NotTestable> not_testable("an effect that could not be tested");
     cause_keys(not_testable, kCause);
-    not_testable.required("reason", &NotTestable::reason, text());
+    not_testable.required("reason", "The reason.", &NotTestable::reason, text());
     return not_testable;
   }();
   return record;
@@ -273,8 +303,11 @@ const Record<Bound>& bound_record() {
   static const auto record = [] {
     Record<Bound> bound("a bound");
     cause_keys(bound, kCause);
-    bound.required("parameter", &Bound::parameter, text())
-        .required("upper_95", &Bound::upper_95, number(kNotNegative));
+    bound.required("parameter", "The parameter of the effect.", &Bound::parameter, text())
+        .required("upper_95",
+                  "Upper limit with 95 % probability.",
+                  &Bound::upper_95,
+                  number(kNotNegative));
     return bound;
   }();
   return record;
@@ -291,9 +324,14 @@ const Record<DeclaredAnswer>& declared_answer_record() {
     answer
         .required(
             "says",
+            "confirmed: named at 90 % or more; denied: at most 10 %, although it would have shown "
+            "at its declared size; open: neither; not_testable: these readings cannot show it.",
             &DeclaredAnswer::says,
             choice<Says>(std::move(words)))
-        .required("probability", &DeclaredAnswer::probability, number(kShare));
+        .required("probability",
+                  "Probability that it acts.",
+                  &DeclaredAnswer::probability,
+                  number(kShare));
     return answer;
   }();
   return record;
@@ -302,12 +340,25 @@ const Record<DeclaredAnswer>& declared_answer_record() {
 const Record<CalibratedSetting>& calibrated_setting_record() {
   static const auto record =
       Record<CalibratedSetting>("a setting")
-          .required("setting", &CalibratedSetting::setting, setting_word())
-          .required("stated", &CalibratedSetting::stated, number(kAnyNumber))
-          .required("stated_sigma", &CalibratedSetting::stated_sigma, number(kNotNegative))
-          .required("calibrated", &CalibratedSetting::calibrated, number(kAnyNumber))
-          .required("sigma", &CalibratedSetting::sigma, number(kNotNegative))
-          .required("off", &CalibratedSetting::off, boolean());
+          .required("setting", "Name of the setting.", &CalibratedSetting::setting, setting_word())
+          .required("stated",
+                    "Value in the machine file.",
+                    &CalibratedSetting::stated,
+                    number(kAnyNumber))
+          .required("stated_sigma",
+                    "Its uncertainty there, 1 sigma.",
+                    &CalibratedSetting::stated_sigma,
+                    number(kNotNegative))
+          .required(
+              "calibrated", "Calibrated value.", &CalibratedSetting::calibrated, number(kAnyNumber))
+          .required("sigma",
+                    "Uncertainty of the calibrated value, 1 sigma.",
+                    &CalibratedSetting::sigma,
+                    number(kNotNegative))
+          .required("off",
+                    "True if it differs by more than its uncertainty allows.",
+                    &CalibratedSetting::off,
+                    boolean());
   return record;
 }
 

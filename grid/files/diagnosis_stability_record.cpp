@@ -36,17 +36,20 @@ bool is_line(const Removal& removal) {
 struct Numbered {
   Removal::What what;
   const char* key;
+  const char* meaning;
   const char* expected;
 };
-constexpr Numbered kNumbered[] = {{Removal::What::point, "point", "a point's index"},
-                                  {Removal::What::distance, "distance", "a distance's index"},
-                                  {Removal::What::hole, "hole", "a hole's index"}};
+constexpr Numbered kNumbered[] = {
+    {Removal::What::point, "point", "Index of the point.", "a point's index"},
+    {Removal::What::distance, "distance", "Index of the distance.", "a distance's index"},
+    {Removal::What::hole, "hole", "Index of the hole.", "a hole's index"}};
 
 /// The number, for the kind that is left out. Lines have none.
 void index_key(const Numbered& numbered, Record<Removal>& record) {
   static const Value<int> whole = integer(0, kMostNumbered);
   record.custom(
       numbered.key,
+      numbered.meaning,
       false,
       whole.expected,
       [](const Cursor& at, Removal& object) {
@@ -62,6 +65,7 @@ void index_key(const Numbered& numbered, Record<Removal>& record) {
 void line_key(Record<Removal>& record) {
   record.custom(
       "at_mm",
+      "x of a column, y of a row.",
       false,
       {"a number in mm", [] { return number_schema(kMillimetres); }},
       [](const Cursor& at, Removal& object) {
@@ -76,6 +80,7 @@ const Record<Removal>& removal_record() {
   static const auto record = [] {
     Record<Removal> removal("points left out");
     removal.required("what",
+                     "What was left out.",
                      &Removal::what,
                      choice<Removal::What>({{"point", Removal::What::point},
                                             {"column", Removal::What::column},
@@ -84,12 +89,20 @@ const Record<Removal>& removal_record() {
                                             {"hole", Removal::What::hole}}));
     for (const Numbered& numbered : kNumbered) index_key(numbered, removal);
     line_key(removal);
-    removal.required("points", &Removal::points, index_number(1))
-        .required("verdict", &Removal::verdict, verdict_word())
-        .required("causes", &Removal::causes, list(object(cause_id_record())))
-        .required("stands", &Removal::stands, boolean())
-        .required("probability", &Removal::probability, number(kShare))
-        .required("support", &Removal::support, number(kAnyNumber))
+    removal
+        .required("points", "Number of points left out with it.", &Removal::points, index_number(1))
+        .required("verdict", "Verdict without it.", &Removal::verdict, verdict_word())
+        .required(
+            "causes", "Causes named without it.", &Removal::causes, list(object(cause_id_record())))
+        .required("stands", "True if the answer is the same.", &Removal::stands, boolean())
+        .required("probability",
+                  "Probability of the name without it.",
+                  &Removal::probability,
+                  number(kShare))
+        .required("support",
+                  "Share of the log evidence that depends on it, in natural logarithms.",
+                  &Removal::support,
+                  number(kAnyNumber))
         .check([](const Cursor& at, Removal& object) {
           if (!at.clean() || !at.has("what")) return;
           const char* key = "at_mm";
@@ -110,19 +123,24 @@ const Record<Removal>& removal_record() {
 }  // namespace
 
 const Record<Stability>& stability_record() {
-  static const auto record =
-      Record<Stability>("whether the name stands")
-          .required("probability", &Stability::probability, number(kShare))
-          .required("removals", &Stability::removals, list(object(removal_record())));
+  static const auto record = Record<Stability>("whether the name stands")
+                                 .required("probability",
+                                           "Smallest probability of the name.",
+                                           &Stability::probability,
+                                           number(kShare))
+                                 .required("removals",
+                                           "What was left out, one at a time.",
+                                           &Stability::removals,
+                                           list(object(removal_record())));
   return record;
 }
 
 namespace {
 
-void part_keys(Record<PartFinding>& part) {
-  part.required("units", &PartFinding::units, index_number())
-      .required("leading", &PartFinding::likeliest, object(hypothesis_record()))
-      .required("named", &PartFinding::named, list(object(hypothesis_record())));
+void part_keys(Record<PartFinding>& part, const char* leading, const char* named) {
+  part.required("units", "Number of readings in it.", &PartFinding::units, index_number())
+      .required("leading", leading, &PartFinding::likeliest, object(hypothesis_record()))
+      .required("named", named, &PartFinding::named, list(object(hypothesis_record())));
 }
 
 }  // namespace
@@ -130,8 +148,13 @@ void part_keys(Record<PartFinding>& part) {
 const Record<PartFinding>& bed_part_record() {
   static const auto record = [] {
     Record<PartFinding> part("the probabilities without a quarter of the bed");
-    part.required("towards_rad", &PartFinding::towards_rad, number(kAnyNumber));
-    part_keys(part);
+    part.required("towards_rad",
+                  "Direction of the quarter from the middle of the readings; from x towards y.",
+                  &PartFinding::towards_rad,
+                  number(kAnyNumber));
+    part_keys(part,
+              "Most probable cause without it; nothing if none is more likely than not.",
+              "The named causes, with their probabilities without it.");
     return part;
   }();
   return record;
@@ -140,8 +163,11 @@ const Record<PartFinding>& bed_part_record() {
 const Record<PartFinding>& session_record() {
   static const auto record = [] {
     Record<PartFinding> part("the probabilities of a session by itself");
-    part.required("session", &PartFinding::session, text());
-    part_keys(part);
+    part.required("session", "The file.", &PartFinding::session, text());
+    part_keys(
+        part,
+        "Most probable cause for its readings alone; nothing if none is more likely than not.",
+        "The named causes, with their probabilities for these readings alone.");
     return part;
   }();
   return record;

@@ -37,10 +37,17 @@ struct DrawingInFile {
 };
 
 const Record<CrossInFile>& cross_record() {
-  static const auto record = Record<CrossInFile>("a drawn cross")
-                                 .required("name", &CrossInFile::name, text())
-                                 .required("x_mm", &CrossInFile::x_mm, number(kPlaceMm))
-                                 .required("y_mm", &CrossInFile::y_mm, number(kPlaceMm));
+  static const auto record =
+      Record<CrossInFile>("a drawn cross")
+          .required("name", "Its name on the sheet.", &CrossInFile::name, text())
+          .required("x_mm",
+                    "Commanded x, to the right of the middle between the pins.",
+                    &CrossInFile::x_mm,
+                    number(kPlaceMm))
+          .required("y_mm",
+                    "Commanded y, up from the pins, so negative below them.",
+                    &CrossInFile::y_mm,
+                    number(kPlaceMm));
   return record;
 }
 
@@ -59,13 +66,20 @@ const Record<MeasureInFile>& measure_record() {
   static const Value<double> value = number(kPlaceMm);
   static const auto record =
       Record<Measure>("a measure on a drawing")
-          .required(
-              "kind", &Measure::kind, choice<Kind>({{"length", Kind::length}, {"bow", Kind::bow}}))
-          .required("from", &Measure::from, text())
-          .required("to", &Measure::to, text())
-          .sparse("middle", &Measure::middle, text())
+          .required("kind",
+                    "A length between two crosses, or the bow of a line.",
+                    &Measure::kind,
+                    choice<Kind>({{"length", Kind::length}, {"bow", Kind::bow}}))
+          .required("from", "The first cross.", &Measure::from, text())
+          .required("to", "The last cross.", &Measure::to, text())
+          .sparse("middle",
+                  "For a bow: the cross on the line at which it was measured.",
+                  &Measure::middle,
+                  text())
           .custom(
               "value_mm",
+              "The reading; null: not measured. A bow is positive if the line is on the left, "
+              "looking from its first cross to its last.",
               false,
               value.expected,
               [](const Cursor& at, Measure& measure) {
@@ -75,7 +89,10 @@ const Record<MeasureInFile>& measure_record() {
               [](const Measure& measure) -> std::optional<Json> {
                 return measure.value_mm ? value.write(*measure.value_mm) : Json();
               })
-          .optional("sigma_mm", &Measure::sigma_mm, number({"mm", 0.01, 50.0}))
+          .optional("sigma_mm",
+                    "Noise of the reading, 1 sigma.",
+                    &Measure::sigma_mm,
+                    number({"mm", 0.01, 50.0}))
           .check(check_middle);
   return record;
 }
@@ -114,10 +131,19 @@ const Record<DrawingInFile>& drawing_record() {
   using Drawing = DrawingInFile;
   static const auto record =
       Record<Drawing>("a test drawing", kDrawingFormat)
-          .sparse("name", &Drawing::name, text())
-          .required("set", &Drawing::set, object(set_plotter_record()))
-          .required("crosses", &Drawing::crosses, list(object(cross_record()), 3))
-          .required("measures", &Drawing::measures, list(object(measure_record())))
+          .sparse("name", "Name of the drawing.", &Drawing::name, text())
+          .required("set",
+                    "The plotter with the settings in force when the page was drawn.",
+                    &Drawing::set,
+                    object(set_plotter_record()))
+          .required("crosses",
+                    "The crosses of the page.",
+                    &Drawing::crosses,
+                    list(object(cross_record()), 3))
+          .required("measures",
+                    "Readings of ruler and string.",
+                    &Drawing::measures,
+                    list(object(measure_record())))
           .check(check_drawing);
   return record;
 }

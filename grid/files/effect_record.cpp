@@ -42,15 +42,21 @@ void check_parameter(const Cursor& at, DeclaredParameter& p) {
 const Record<DeclaredParameter>& parameter_record() {
   static const auto record =
       Record<DeclaredParameter>("a parameter of an effect")
-          .required("name", &DeclaredParameter::name, text())
-          .sparse("symbol", &DeclaredParameter::symbol, text())
-          .sparse("meaning", &DeclaredParameter::meaning, text())
+          .required("name",
+                    "Its name in the formula, which ends in its unit: mm, n, rad, visit, or one "
+                    "per another as in mm_per_rad; any other end is a plain number.",
+                    &DeclaredParameter::name,
+                    text())
+          .sparse("symbol", "Its symbol in texts.", &DeclaredParameter::symbol, text())
+          .sparse("meaning", "What it is.", &DeclaredParameter::meaning, text())
           .optional("role",
+                    "size: how large the effect is. place: where or when it sets in.",
                     &DeclaredParameter::role,
                     choice<ParameterRole>(
                         {{"size", ParameterRole::size}, {"place", ParameterRole::place}}))
           .custom(
               "null",
+              "The size at which there is no effect; default 0. A place has none.",
               false,
               number(kAnyNumber).expected,
               [](const Cursor& at, DeclaredParameter& p) {
@@ -62,17 +68,28 @@ const Record<DeclaredParameter>& parameter_record() {
               })
           .custom(
               "nominal",
+              "The usual value. Default for a size: one sigma from null; for a place: 0, or the "
+              "middle of its bounds.",
               false,
               number(kAnyNumber).expected,
               [](const Cursor& at, DeclaredParameter& p) {
                 p.nominal = number(kAnyNumber).read(at).value_or(0.0);
               },
               [](const DeclaredParameter& p) { return std::optional<Json>(p.nominal); })
-          .required("prior_sigma", &DeclaredParameter::prior_sigma, number(kAnyNumber))
-          .required("lower", &DeclaredParameter::lower, number(kAnyNumber))
-          .required("upper", &DeclaredParameter::upper, number(kAnyNumber))
-          .optional("whole", &DeclaredParameter::integer, boolean())
-          .optional("mirror_sign", &DeclaredParameter::mirror_sign, number({"", -1.0, 1.0}))
+          .required("prior_sigma",
+                    "Prior sigma of a size about null, of a place about nominal.",
+                    &DeclaredParameter::prior_sigma,
+                    number(kAnyNumber))
+          .required("lower", "The smallest value.", &DeclaredParameter::lower, number(kAnyNumber))
+          .required("upper", "The largest value.", &DeclaredParameter::upper, number(kAnyNumber))
+          .optional("whole",
+                    "It takes whole numbers only; for effects on a reading or a visit.",
+                    &DeclaredParameter::integer,
+                    boolean())
+          .optional("mirror_sign",
+                    "-1 if the mirrored machine has the negative value.",
+                    &DeclaredParameter::mirror_sign,
+                    number({"", -1.0, 1.0}))
           .check(check_parameter);
   return record;
 }
@@ -103,7 +120,8 @@ void add_problems(const Cursor& at, const std::vector<DeclarationProblem>& found
   for (const DeclarationProblem& problem : found) {
     std::string place = at.pointer() + problem.place;
     if (problem.offset) place += fmt::format(", column {} of the formula", *problem.offset + 1);
-    at.problems().add(std::move(place), problem.value, problem.expected, ProblemKind::bad_declaration);
+    at.problems().add(
+        std::move(place), problem.value, problem.expected, ProblemKind::bad_declaration);
   }
 }
 
@@ -112,33 +130,55 @@ void add_problems(const Cursor& at, const std::vector<DeclarationProblem>& found
 const Record<Declaration>& declaration_record() {
   static const auto record =
       Record<Declaration>("a declared effect", kEffectFormat)
-          .required("id", &Declaration::id, text())
-          .sparse("instead_of", &Declaration::instead_of, text())
+          .required("id", "Its name: small letters, digits and _.", &Declaration::id, text())
+          .sparse("instead_of",
+                  "The effect of the catalogue that it replaces; default: none, it is added.",
+                  &Declaration::instead_of,
+                  text())
           .required("acts_on",
+                    "paper: where marks are written. chain: the length that is paid out. reading: "
+                    "what is written down, by visits. visit: a single reading.",
                     &Declaration::acts_on,
                     choice<ActsOn>({{"paper", ActsOn::paper},
                                     {"chain", ActsOn::chain},
                                     {"reading", ActsOn::reading},
                                     {"visit", ActsOn::visit}}))
           .sparse("sides",
+                  "Where it may act, each side tested separately; both: one value for two. "
+                  "Default: on both equally.",
                   &Declaration::sides,
                   list(choice<EffectSide>({{"left", EffectSide::left},
                                            {"right", EffectSide::right},
                                            {"both", EffectSide::both},
                                            {"x", EffectSide::x},
                                            {"y", EffectSide::y}})))
-          .required("parameters", &Declaration::parameters, list(object(parameter_record())))
-          .sparse("adds_mm", &Declaration::adds_mm, text())
-          .sparse("adds_x_mm", &Declaration::adds_x_mm, text())
-          .sparse("adds_y_mm", &Declaration::adds_y_mm, text())
-          .sparse("elongation", &Declaration::elongation, text())
-          .required("cause", &Declaration::cause, text())
-          .sparse("signature", &Declaration::signature, text())
-          .optional("remedy_kind", &Declaration::remedy_kind, remedy_word())
-          .required("remedy", &Declaration::remedy, text())
-          .required("not_modelled", &Declaration::not_modelled, text())
-          .sparse("typical", &Declaration::typical, text())
-          .sparse("source", &Declaration::source, text())
+          .required("parameters",
+                    "Its size, followed by the place where it sets in, if it has one.",
+                    &Declaration::parameters,
+                    list(object(parameter_record())))
+          .sparse("adds_mm",
+                  "Formula for the amount added to a chain or a reading.",
+                  &Declaration::adds_mm,
+                  text())
+          .sparse(
+              "adds_x_mm", "Formula for the shift of a mark in x.", &Declaration::adds_x_mm, text())
+          .sparse(
+              "adds_y_mm", "Formula for the shift of a mark in y.", &Declaration::adds_y_mm, text())
+          .sparse("elongation",
+                  "Replaces adds_mm: a counted length is the true one divided by 1 + this, after "
+                  "everything that is added.",
+                  &Declaration::elongation,
+                  text())
+          .required("cause", "The cause, in the words of a diagnosis.", &Declaration::cause, text())
+          .sparse("signature", "How it shows on the bed.", &Declaration::signature, text())
+          .optional("remedy_kind",
+                    "Where the remedy is applied.",
+                    &Declaration::remedy_kind,
+                    remedy_word())
+          .required("remedy", "What to do about it.", &Declaration::remedy, text())
+          .required("not_modelled", "What the formula omits.", &Declaration::not_modelled, text())
+          .sparse("typical", "Its usual size, in words.", &Declaration::typical, text())
+          .sparse("source", "Source of the formula.", &Declaration::source, text())
           .check(check_words);
   return record;
 }

@@ -43,9 +43,18 @@ struct StatedGrid {
 const Record<StatedNoise>& noise_record() {
   static const auto record =
       Record<StatedNoise>("the noise")
-          .required("length_mm", &StatedNoise::length_mm, number(kNoiseMm))
-          .required("position_mm", &StatedNoise::position_mm, number(kNoiseMm))
-          .optional("dof", &StatedNoise::dof, number(kNoiseDof));
+          .required("length_mm",
+                    "Noise of a chain reading, 1 sigma.",
+                    &StatedNoise::length_mm,
+                    number(kNoiseMm))
+          .required("position_mm",
+                    "Noise of a mark's position, 1 sigma on each axis.",
+                    &StatedNoise::position_mm,
+                    number(kNoiseMm))
+          .optional("dof",
+                    "How well these are known, in degrees of freedom; 15 means to about a fifth.",
+                    &StatedNoise::dof,
+                    number(kNoiseDof));
   return record;
 }
 
@@ -53,8 +62,14 @@ const Record<SheetUncertainty>& sheet_uncertainty_record() {
   using Sheet = SheetUncertainty;
   static const auto record =
       Record<Sheet>("the sheet's placement")
-          .required("shift_mm", &Sheet::shift_mm, number({"mm", 0.0, 1000.0}))
-          .required("rotation_mrad", &Sheet::rotation_mrad, number({"mrad", 0.0, 500.0}));
+          .required("shift_mm",
+                    "Uncertainty of the sheet's position, 1 sigma on each axis.",
+                    &Sheet::shift_mm,
+                    number({"mm", 0.0, 1000.0}))
+          .required("rotation_mrad",
+                    "Uncertainty of the sheet's rotation, 1 sigma.",
+                    &Sheet::rotation_mrad,
+                    number({"mrad", 0.0, 500.0}));
   return record;
 }
 
@@ -62,13 +77,32 @@ const Record<StatedPoint>& point_record() {
   using Point = StatedPoint;
   static const auto record =
       Record<Point>("a point")
-          .required("x_mm", &Point::x_mm, number(kCoordinate))
-          .required("y_mm", &Point::y_mm, number(kCoordinate))
-          .optional("left_mm", &Point::left_mm, number(kLength))
-          .optional("right_mm", &Point::right_mm, number(kLength))
-          .optional("commanded_x_mm", &Point::commanded_x_mm, number(kCoordinate))
-          .optional("commanded_y_mm", &Point::commanded_y_mm, number(kCoordinate))
-          .optional("order", &Point::order, integer(0, kLargestOrder));
+          .required("x_mm",
+                    "x of the tool. Null in a list that is not filled in yet.",
+                    &Point::x_mm,
+                    number(kCoordinate))
+          .required("y_mm",
+                    "y of the tool, up. Null in a list that is not filled in yet.",
+                    &Point::y_mm,
+                    number(kCoordinate))
+          .optional("left_mm",
+                    "Length of the left chain, as read or as commanded.",
+                    &Point::left_mm,
+                    number(kLength))
+          .optional("right_mm",
+                    "Length of the right chain, as read or as commanded.",
+                    &Point::right_mm,
+                    number(kLength))
+          .optional("commanded_x_mm",
+                    "Commanded x; the chain lengths are then those of the controller's kinematics.",
+                    &Point::commanded_x_mm,
+                    number(kCoordinate))
+          .optional(
+              "commanded_y_mm", "Commanded y, up.", &Point::commanded_y_mm, number(kCoordinate))
+          .optional("order",
+                    "Number of the visit. Either all points have one, all different, or none has.",
+                    &Point::order,
+                    integer(0, kLargestOrder));
   return record;
 }
 
@@ -114,13 +148,30 @@ void read_points(const Cursor& at, StatedGrid& grid) {
 const Record<StatedGrid>& grid_record() {
   static const auto record =
       Record<StatedGrid>("a grid", kGridFormat)
-          .optional("name", &StatedGrid::name, text())
-          .optional("machine", &StatedGrid::machine, object(machine_record()))
-          .sparse("machine_file", &StatedGrid::machine_file, text())
-          .optional("noise", &StatedGrid::noise, object(noise_record()))
-          .optional("sheet", &StatedGrid::sheet, object(sheet_uncertainty_record()))
-          .sparse("readings", &StatedGrid::readings, list(object(reading_record())))
+          .optional("name", "Name of the session in messages and pages.", &StatedGrid::name, text())
+          .optional("machine",
+                    "The machine with its settings in force; or machine_file.",
+                    &StatedGrid::machine,
+                    object(machine_record()))
+          .sparse("machine_file",
+                  "Path of the machine file, from this file.",
+                  &StatedGrid::machine_file,
+                  text())
+          .optional("noise",
+                    "Noise of the readings. Missing values are estimated from repeated visits, or "
+                    "assumed; none is taken below what the readings' digits leave.",
+                    &StatedGrid::noise,
+                    object(noise_record()))
+          .optional("sheet",
+                    "How accurately the marks' sheet was placed by hand; absent: exactly.",
+                    &StatedGrid::sheet,
+                    object(sheet_uncertainty_record()))
+          .sparse("readings",
+                  "What was measured besides the points.",
+                  &StatedGrid::readings,
+                  list(object(reading_record())))
           .custom("points",
+                  "The measured points.",
                   true,
                   {"a list of points", points_schema},
                   read_points,
@@ -262,15 +313,14 @@ ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Pro
                    ProblemKind::empty_file);
     problems.throw_if_any();
   }
-  const PointPlaces places{"the points",
-                           [&table](std::size_t index, std::string_view field) {
-                             const CsvRow& cells = table.cells[index];
-                             return field == "order" && !cells[kOrder].text.empty()
-                                        ? cells[kOrder].place()
-                                        : cells.front().place();
-                           },
-                           options.inches ? input_checks::Written::in_json
-                                          : input_checks::Written::in_table};
+  const PointPlaces places{
+      "the points",
+      [&table](std::size_t index, std::string_view field) {
+        const CsvRow& cells = table.cells[index];
+        return field == "order" && !cells[kOrder].text.empty() ? cells[kOrder].place()
+                                                               : cells.front().place();
+      },
+      options.inches ? input_checks::Written::in_json : input_checks::Written::in_table};
   return finish(std::move(stated), places, options, problems);
 }
 

@@ -18,37 +18,49 @@ namespace {
 const Record<Tape>& tape_record() {
   static const auto record =
       Record<Tape>("the tape")
-          .optional("sigma_mm", &Tape::sigma_mm, number(kTapeSigmaMm))
-          .optional("hook_offset_mm", &Tape::tape_zero_offset_mm, number(kTapeZeroOffsetMm))
-          .optional("hook_sigma_mm", &Tape::tape_zero_offset_sigma_mm, number(kHoleSigmaMm));
+          .optional(
+              "sigma_mm",
+              "Noise of a tape reading, 1 sigma; not taken below what the readings' digits leave.",
+              &Tape::sigma_mm,
+              number(kTapeSigmaMm))
+          .optional("hook_offset_mm",
+                    "Amount by which each reading exceeds the distance.",
+                    &Tape::tape_zero_offset_mm,
+                    number(kTapeZeroOffsetMm))
+          .optional("hook_sigma_mm",
+                    "Uncertainty of the hook offset, 1 sigma; default 3 mm.",
+                    &Tape::tape_zero_offset_sigma_mm,
+                    number(kHoleSigmaMm));
   return record;
 }
 
 const Record<SheetSize>& sheet_record() {
-  static const auto record =
-      Record<SheetSize>("the sheet")
-          .optional("width_mm", &SheetSize::width_mm, number({"mm", 100.0, 20000.0}))
-          .optional("height_mm", &SheetSize::height_mm, number({"mm", 100.0, 20000.0}))
-          .optional("size_sigma_mm", &SheetSize::size_sigma_mm, number({"mm", 0.0, 100.0}));
+  static const auto record = Record<SheetSize>("the sheet")
+                                 .optional("width_mm",
+                                           "Width of the sheet, for distances to its edges.",
+                                           &SheetSize::width_mm,
+                                           number({"mm", 100.0, 20000.0}))
+                                 .optional("height_mm",
+                                           "Height of the sheet.",
+                                           &SheetSize::height_mm,
+                                           number({"mm", 100.0, 20000.0}))
+                                 .optional("size_sigma_mm",
+                                           "Uncertainty of its size, 1 sigma.",
+                                           &SheetSize::size_sigma_mm,
+                                           number({"mm", 0.0, 100.0}));
   return record;
 }
 
 const Record<Hole>& hole_record() {
   static const auto record = [] {
     Record<Hole> hole("a hole");
-    hole.sparse("name", &Hole::name, text());
-    const auto coordinate = [&hole](const char* key, double model::BedPoint::*member) {
-      hole.custom(
-          key,
-          true,
-          number(kHoleCoordinate).expected,
-          [member](const Cursor& at, Hole& h) {
-            if (const auto value = at.number(kHoleCoordinate)) h.commanded.*member = *value;
-          },
-          [member](const Hole& h) { return std::optional<Json>(h.commanded.*member); });
+    hole.sparse(
+        "name", "Any word; without one the holes are numbered from 0.", &Hole::name, text());
+    const auto coordinate = [&hole](const char* key, const char* meaning, auto member) {
+      hole.required(key, meaning, path(&Hole::commanded, member), number(kHoleCoordinate));
     };
-    coordinate("x_mm", &model::BedPoint::x_mm);
-    coordinate("y_mm", &model::BedPoint::y_mm);
+    coordinate("x_mm", "Commanded x of the hole.", &model::BedPoint::x_mm);
+    coordinate("y_mm", "Commanded y of the hole, up.", &model::BedPoint::y_mm);
     return hole;
   }();
   return record;
@@ -56,11 +68,13 @@ const Record<Hole>& hole_record() {
 
 /// A hole by its name or by its number.
 Record<StatedDistance>& end_of(Record<StatedDistance>& record,
-                               const std::string& key,
+                               const char* key,
+                               const char* meaning,
                                std::string StatedDistance::*member) {
   static constexpr int kMost = 100000;
   return record.custom(
       key,
+      meaning,
       true,
       {"a hole's name or number",
        [] {
@@ -79,11 +93,15 @@ Record<StatedDistance>& end_of(Record<StatedDistance>& record,
 const Record<StatedDistance>& distance_record() {
   static const auto record = [] {
     Record<StatedDistance> distance("a distance");
-    end_of(distance, "from", &StatedDistance::from);
-    end_of(distance, "to", &StatedDistance::to);
+    end_of(distance, "from", "A hole's name or number.", &StatedDistance::from);
+    end_of(distance,
+           "to",
+           "A hole's name or number, or an edge: left, right, top, bottom.",
+           &StatedDistance::to);
     distance
         .custom(
             "distance_mm",
+            "The tape reading between the holes' centres. Null if not measured yet.",
             true,
             {kTapeDistance.expected(),
              [] {
@@ -99,7 +117,10 @@ const Record<StatedDistance>& distance_record() {
             [](const StatedDistance& d) {
               return std::optional<Json>(d.is_blank ? Json(nullptr) : Json(d.distance_mm));
             })
-        .optional("sigma_mm", &StatedDistance::sigma_mm, number(kTapeSigmaMm));
+        .optional("sigma_mm",
+                  "Noise of this reading, if it differs from the tape's.",
+                  &StatedDistance::sigma_mm,
+                  number(kTapeSigmaMm));
     return distance;
   }();
   return record;
@@ -152,8 +173,9 @@ std::function<std::optional<Json>(const StatedHoles&)> list_writer(
 const Record<StatedHoles>& holes_record() {
   static const auto record =
       Record<StatedHoles>("a set of holes", kHolesFormat)
-          .optional("name", &StatedHoles::name, text())
+          .optional("name", "Name of the set.", &StatedHoles::name, text())
           .custom("machine",
+                  "The machine with its settings in force; or machine_file.",
                   false,
                   {machine_record().expected().words + ", or one with four belts",
                    [] {
@@ -163,14 +185,34 @@ const Record<StatedHoles>& holes_record() {
                    }},
                   read_stated_machine,
                   written_stated_machine)
-          .sparse("machine_file", &StatedHoles::machine_file, text())
-          .optional("tape", &StatedHoles::tape, object(tape_record()))
-          .optional("hole_sigma_mm", &StatedHoles::hole_sigma_mm, number(kHoleSigmaMm))
-          .optional("noise_dof", &StatedHoles::noise_dof, number(kNoiseDof))
-          .optional("sheet", &StatedHoles::sheet, object(sheet_record()))
-          .sparse("readings", &StatedHoles::readings, list(object(reading_record())))
+          .sparse("machine_file",
+                  "Path of the machine file, from this file.",
+                  &StatedHoles::machine_file,
+                  text())
+          .optional("tape",
+                    "Noise and hook offset of the tape.",
+                    &StatedHoles::tape,
+                    object(tape_record()))
+          .optional(
+              "hole_sigma_mm",
+              "Distance of a hole from the position that its chains give, 1 sigma on each axis.",
+              &StatedHoles::hole_sigma_mm,
+              number(kHoleSigmaMm))
+          .optional("noise_dof",
+                    "How well these are known, in degrees of freedom.",
+                    &StatedHoles::noise_dof,
+                    number(kNoiseDof))
+          .optional("sheet",
+                    "Size of the sheet, for distances to its edges.",
+                    &StatedHoles::sheet,
+                    object(sheet_record()))
+          .sparse("readings",
+                  "What was measured besides the distances.",
+                  &StatedHoles::readings,
+                  list(object(reading_record())))
           .custom(
               "holes",
+              "The holes as commanded.",
               true,
               {"a list of holes", [] { return list_schema(hole_record().schema(), 0); }},
               [](const Cursor& at, StatedHoles& stated) {
@@ -181,6 +223,7 @@ const Record<StatedHoles>& holes_record() {
               list_writer(hole_record(), &StatedHoles::holes))
           .custom(
               "distances",
+              "The distances between them, and to edges.",
               true,
               {"a list of distances", [] { return list_schema(distance_record().schema(), 0); }},
               [](const Cursor& at, StatedHoles& stated) {
@@ -194,7 +237,7 @@ const Record<StatedHoles>& holes_record() {
           .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
           .check([](const Cursor& at, StatedHoles& stated) {
             stated.tape_zero_is_stated = at.has("tape") && at.child("tape").json().is_object() &&
-                                    at.child("tape").has("hook_offset_mm");
+                                         at.child("tape").has("hook_offset_mm");
             if (stated.machine && !stated.machine_file.empty()) {
               at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
             }

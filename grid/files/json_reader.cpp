@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "grid/files/file_type.hpp"
-#include "grid/files/meanings.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -109,43 +108,31 @@ bool RecordTable::open(const Cursor& at, bool is_root) const {
     if (is_root) version.missing(fmt::format("\"{}\"", format_->version));
   } else if (version.json() != format_->version) {
     version.expect(
-        fmt::format("\"{}\", the version that this program reads: {}", format_->version, format_->anew),
+        fmt::format(
+            "\"{}\", the version that this program reads: {}", format_->version, format_->anew),
         ProblemKind::format_version);
     return false;
   }
   return true;
 }
 
-void RecordTable::add_plain(const std::string& key,
-                            bool is_required,
-                            std::size_t offset,
-                            std::shared_ptr<const Codec> codec,
-                            IfEmpty empty) {
-  Expected expected = codec->expected();
-  add({key,
-       is_required,
-       std::move(expected),
-       offset,
-       std::make_shared<PlainMember>(std::move(codec), empty)});
+void RecordTable::add_plain(Field field, std::shared_ptr<const Codec> codec, IfEmpty empty) {
+  field.expected = codec->expected();
+  field.member = std::make_shared<PlainMember>(std::move(codec), empty);
+  add(std::move(field));
 }
 
-void RecordTable::add_optional(const std::string& key,
-                               std::size_t offset,
+void RecordTable::add_optional(Field field,
                                std::shared_ptr<const Codec> codec,
                                const OptionalAccess& access) {
-  Expected expected = codec->expected();
-  add({key,
-       false,
-       std::move(expected),
-       offset,
-       std::make_shared<OptionalMember>(std::move(codec), access)});
+  field.expected = codec->expected();
+  field.member = std::make_shared<OptionalMember>(std::move(codec), access);
+  add(std::move(field));
 }
 
-void RecordTable::add_defaulted(const std::string& key,
-                                std::size_t offset,
-                                std::shared_ptr<const Codec> codec,
-                                Make make) {
-  add_plain(key, false, offset, codec);
+void RecordTable::add_defaulted(Field field, std::shared_ptr<const Codec> codec, Make make) {
+  const std::size_t offset = field.offset;
+  add_plain(std::move(field), codec);
   fields_.back().expected.schema = [offset, codec, make] {
     const std::shared_ptr<void> object = make();
     return with_default(codec->expected().schema(),
@@ -153,10 +140,11 @@ void RecordTable::add_defaulted(const std::string& key,
   };
 }
 
-void RecordTable::add_constant(const std::string& key, const std::string& word) {
+void RecordTable::add_constant(Field field, const std::string& word) {
   auto member = std::make_shared<ConstantMember>(word);
-  Expected expected = member->expected();
-  add({key, true, std::move(expected), 0, std::move(member)});
+  field.expected = member->expected();
+  field.member = std::move(member);
+  add(std::move(field));
 }
 
 Expected RecordTable::expected() const {
@@ -184,8 +172,7 @@ Json RecordTable::schema_of_keys() const {
   for (const Field& field : fields_) {
     Json schema = field.expected.schema();
     if (!field.is_required) schema = or_null(std::move(schema));
-    if (const std::string meaning = meaning_of(noun_, field.key); !meaning.empty())
-      schema["description"] = meaning;
+    schema["description"] = field.meaning;
     properties[field.key] = std::move(schema);
     if (field.is_required) required.push_back(field.key);
   }
@@ -207,7 +194,8 @@ std::vector<std::string> RecordTable::report_unknown_keys(const Cursor& at) cons
     std::string expected = fmt::format("a key that {} has ({})", noun_, joined(keys()));
     if (const std::string meant = nearest(key, free); !meant.empty()) {
       probably_meant.push_back(meant);
-      expected = fmt::format("\"{}\"? This key is unknown; {} has {}", meant, noun_, joined(keys()));
+      expected =
+          fmt::format("\"{}\"? This key is unknown; {} has {}", meant, noun_, joined(keys()));
     }
     at.problems().add(at.pointer() + "/" + pointer_token(key),
                       compact_json(value),

@@ -18,16 +18,16 @@
 ///
 ///   const Record<Hole>& hole_record() {
 ///     static const auto record = Record<Hole>("a hole")
-///         .required("name", &Hole::name, text())
-///         .required("x_mm", &Hole::x_mm, number({"mm", -20000, 20000}))
-///         .required("y_mm", &Hole::y_mm, number({"mm", -20000, 20000}))
-///         .optional("sigma_mm", &Hole::sigma_mm, number({"mm", 0, 50}));
+///         .required("name", "Its name.", &Hole::name, text())
+///         .required("x_mm", "Commanded x.", &Hole::x_mm, number({"mm", -20000, 20000}))
+///         .required("y_mm", "Commanded y, up.", &Hole::y_mm, number({"mm", -20000, 20000}))
+///         .optional("sigma_mm", "1 sigma on each axis.", &Hole::sigma_mm, number({"mm", 0, 50}));
 ///     return record;
 ///   }
 ///   const Record<Holes>& holes_record() {
 ///     static const auto record = Record<Holes>("a chaintrue_holes file", kHolesFormat)
-///         .sparse("name", &Holes::name, text())
-///         .required("holes", &Holes::holes, list(object(hole_record()), 2))
+///         .sparse("name", "Name in messages.", &Holes::name, text())
+///         .required("holes", "The holes.", &Holes::holes, list(object(hole_record()), 2))
 ///         .check([](const Cursor& at, Holes& holes) {  // even where fields were wrong
 ///           if (at.clean() && names_repeat(holes)) at.child("holes").expect("names that differ");
 ///         });
@@ -39,7 +39,8 @@
 ///   std::string write_holes(const Holes& holes) { return write_document(holes_record(), holes); }
 /// \endcode
 ///
-/// Kinds of fields:
+/// Each field says what it means: schemas and reference pages (docs/formats) are made of these
+/// sentences. Kinds of fields:
 ///   required   must be there; always written
 ///   optional   may be absent or null. A plain member keeps its default and is always written; a
 ///              std::optional member is empty, and written only when it holds a value
@@ -49,8 +50,9 @@
 /// path(&Plan::bed, &Bed::width_mm) is a member of a member.
 ///
 /// Values: number, integer, boolean, text, choice (an enum by its names), one_of (a text from a
-/// list), object, list, dictionary. `Record::custom` takes a pair of functions for whatever does
-/// not fit (a variant, a path to another file). Keys are written in the order they are declared.
+/// list), object, list, dictionary. `Record::computed` sets and gets what is not a member;
+/// `Record::custom` takes a pair of functions for whatever does not fit (a variant, a list that
+/// notes which of its elements were wrong). Keys are written in the order they are declared.
 /// "comment" is allowed in every object and not kept.
 #pragma once
 
@@ -59,6 +61,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -136,37 +139,32 @@ class RecordTable {
  protected:
   struct Field {
     std::string key;
+    std::string meaning;
     bool is_required = false;
-    Expected expected;
     std::size_t offset = 0;  ///< of the member in its object
-    std::shared_ptr<const Member> member;
+    Expected expected = "";
+    std::shared_ptr<const Member> member{};
   };
   using Check = std::function<void(const Cursor&, void*)>;
   /// Makes a new default object.
   using Make = std::shared_ptr<void> (*)();
 
   void add(Field field) { fields_.push_back(std::move(field)); }
-  void add_plain(const std::string& key,
-                 bool is_required,
-                 std::size_t offset,
-                 std::shared_ptr<const Codec> codec,
-                 IfEmpty empty = {});
-  void add_optional(const std::string& key,
-                    std::size_t offset,
-                    std::shared_ptr<const Codec> codec,
-                    const OptionalAccess& access);
+  /// These complete the field by what its codec expects.
+  void add_plain(Field field, std::shared_ptr<const Codec> codec, IfEmpty empty = {});
+  void add_optional(Field field, std::shared_ptr<const Codec> codec, const OptionalAccess& access);
   /// An optional field with a default, which becomes part of the schema.
-  void add_defaulted(const std::string& key,
-                     std::size_t offset,
-                     std::shared_ptr<const Codec> codec,
-                     Make make);
-  void add_constant(const std::string& key, const std::string& word);
+  void add_defaulted(Field field, std::shared_ptr<const Codec> codec, Make make);
+  void add_constant(Field field, const std::string& word);
   void add_check(Check check) { checks_.push_back(std::move(check)); }
   void add_rule(Json rule) { rules_.push_back(std::move(rule)); }
 
   friend class ObjectCodec;
   /// Calls `reset`, unless it is null, as soon as the value is known to be an object.
-  bool read_fields(const Cursor& at, void* object, bool is_root, void (*reset)(void*) = nullptr) const;
+  bool read_fields(const Cursor& at,
+                   void* object,
+                   bool is_root,
+                   void (*reset)(void*) = nullptr) const;
   [[nodiscard]] Json write_fields(const void* object) const;
 
  private:
@@ -185,8 +183,14 @@ class RecordTable {
   std::vector<Json> rules_;
 };
 
+/// `reset` makes a new object of the old before it is read; null keeps it.
+[[nodiscard]] std::shared_ptr<const Codec> object_codec(const RecordTable& record,
+                                                        void (*reset)(void*));
+
 template <class T>
 class Record : public RecordTable {
+  using Text = std::string_view;
+
  public:
   /// `noun` with its article, for messages such as "expected a sprocket".
   explicit Record(std::string noun) : RecordTable(std::move(noun), nullptr) {}
@@ -195,60 +199,83 @@ class Record : public RecordTable {
   Record(std::string noun, const Format& format) : RecordTable(std::move(noun), &format) {}
 
   template <class V>
-  Record& required(const std::string& key, V T::*member, const Value<V>& value) {
-    return required(key, path(member), value);
+  Record& required(Text key, Text meaning, V T::*member, const Value<V>& value) {
+    return required(key, meaning, path(member), value);
   }
   template <class V>
-  Record& required(const std::string& key, MemberPath<T, V> member, const Value<V>& value) {
-    add_plain(key, true, member.offset, value.codec);
+  Record& required(Text key, Text meaning, MemberPath<T, V> member, const Value<V>& value) {
+    add_plain(field(key, meaning, true, member.offset), value.codec);
     return *this;
   }
 
   template <class V>
-  Record& optional(const std::string& key, V T::*member, const Value<V>& value) {
-    return optional(key, path(member), value);
+  Record& optional(Text key, Text meaning, V T::*member, const Value<V>& value) {
+    return optional(key, meaning, path(member), value);
   }
   template <class V>
-  Record& optional(const std::string& key, MemberPath<T, V> member, const Value<V>& value) {
-    add_defaulted(key, member.offset, value.codec, &make);
+  Record& optional(Text key, Text meaning, MemberPath<T, V> member, const Value<V>& value) {
+    add_defaulted(field(key, meaning, false, member.offset), value.codec, &make);
     return *this;
   }
 
   template <class V>
-  Record& optional(const std::string& key, std::optional<V> T::*member, const Value<V>& value) {
-    add_optional(key, path(member).offset, value.codec, kOptionalAccess<V>);
+  Record& optional(Text key, Text meaning, std::optional<V> T::*member, const Value<V>& value) {
+    add_optional(field(key, meaning, false, path(member).offset), value.codec, kOptionalAccess<V>);
     return *this;
   }
 
   template <class V>
-  Record& sparse(const std::string& key, V T::*member, const Value<V>& value) {
-    add_plain(key, false, path(member).offset, value.codec, {&is_empty<V>, IfEmpty::absent});
-    return *this;
+  Record& sparse(Text key, Text meaning, V T::*member, const Value<V>& value) {
+    return add_if_empty(key, meaning, member, value, IfEmpty::absent);
   }
 
   template <class V>
-  Record& nullable(const std::string& key, V T::*member, const Value<V>& value) {
-    add_plain(key, false, path(member).offset, value.codec, {&is_empty<V>, IfEmpty::null});
-    return *this;
+  Record& nullable(Text key, Text meaning, V T::*member, const Value<V>& value) {
+    return add_if_empty(key, meaning, member, value, IfEmpty::null);
   }
 
   /// `write` returns nothing if the key is to be left out.
-  Record& custom(const std::string& key,
+  Record& custom(Text key,
+                 Text meaning,
                  bool is_required,
                  Expected expected,
                  std::function<void(const Cursor&, T&)> read,
                  std::function<std::optional<Json>(const T&)> write) {
-    add({key,
-         is_required,
-         std::move(expected),
-         0,
-         std::make_shared<CustomMember>(std::move(read), std::move(write))});
+    Field own = field(key, meaning, is_required, 0);
+    own.expected = std::move(expected);
+    own.member = std::make_shared<CustomMember>(std::move(read), std::move(write));
+    add(std::move(own));
+    return *this;
+  }
+
+  /// A value that is not a member: `set(object, value)` takes it, `get(object)` returns it, or
+  /// nothing if the key is to be left out.
+  template <class V, class Set, class Get>
+  Record& computed(
+      Text key, Text meaning, bool is_required, const Value<V>& value, Set set, Get get) {
+    return custom(
+        key,
+        meaning,
+        is_required,
+        value.expected,
+        [value, set](const Cursor& at, T& object) {
+          if (auto read = value.read(at)) set(object, *std::move(read));
+        },
+        [value, get](const T& object) {
+          const std::optional<V> own = get(object);
+          return own ? std::optional<Json>(value.write(*own)) : std::nullopt;
+        });
+  }
+
+  /// An object in the file whose fields are members of this object.
+  Record& part(Text key, Text meaning, bool is_required, const Record& fields) {
+    add_plain(field(key, meaning, is_required, 0), object_codec(fields, nullptr));
     return *this;
   }
 
   /// A key with a constant value, such as the kind in a variant.
-  Record& constant(const std::string& key, const std::string& word) {
-    add_constant(key, word);
+  Record& constant(Text key, Text meaning, const std::string& word) {
+    add_constant(field(key, meaning, true, 0), word);
     return *this;
   }
 
@@ -286,7 +313,9 @@ class Record : public RecordTable {
     CustomMember(std::function<void(const Cursor&, T&)> read,
                  std::function<std::optional<Json>(const T&)> write)
         : read_(std::move(read)), write_(std::move(write)) {}
-    void read(const Cursor& at, void* object) const override { read_(at, *static_cast<T*>(object)); }
+    void read(const Cursor& at, void* object) const override {
+      read_(at, *static_cast<T*>(object));
+    }
     [[nodiscard]] std::optional<Json> write(const void* object) const override {
       return write_(*static_cast<const T*>(object));
     }
@@ -296,14 +325,22 @@ class Record : public RecordTable {
     std::function<std::optional<Json>(const T&)> write_;
   };
 
+  static Field field(Text key, Text meaning, bool is_required, std::size_t offset) {
+    return {std::string(key), std::string(meaning), is_required, offset};
+  }
+  template <class V>
+  Record& add_if_empty(
+      Text key, Text meaning, V T::*member, const Value<V>& value, IfEmpty::As written) {
+    add_plain(
+        field(key, meaning, false, path(member).offset), value.codec, {&is_empty<V>, written});
+    return *this;
+  }
   template <class V>
   static bool is_empty(const void* member) {
     return static_cast<const V*>(member)->empty();
   }
   static std::shared_ptr<void> make() { return std::make_shared<T>(); }
 };
-
-[[nodiscard]] std::shared_ptr<const Codec> object_codec(const RecordTable& record, void (*reset)(void*));
 
 /// The record must outlive the value: records are static.
 template <class T>

@@ -36,48 +36,82 @@ using model::Uncertainty;
 
 const Record<Bed>& bed_record() {
   static const auto record = Record<Bed>("a bed")
-                                 .required("width_mm", &Bed::width_mm, number_in("mm"))
-                                 .required("height_mm", &Bed::height_mm, number_in("mm"));
+                                 .required("width_mm",
+                                           "Width of the sheet that the machine can cut.",
+                                           &Bed::width_mm,
+                                           number_in("mm"))
+                                 .required("height_mm",
+                                           "Height of that sheet. The origin of all coordinates is "
+                                           "its middle, x to the right, y up.",
+                                           &Bed::height_mm,
+                                           number_in("mm"));
   return record;
 }
 
 const Record<MotorPosition>& motor_record() {
-  static const auto record = Record<MotorPosition>("a motor's position")
-                                 .required("x_mm", &MotorPosition::x_mm, number_in("mm"))
-                                 .required("y_mm", &MotorPosition::y_mm, number_in("mm"));
+  static const auto record =
+      Record<MotorPosition>("a motor's position")
+          .required("x_mm",
+                    "x of the motor's axis, from the middle of the bed to the right.",
+                    &MotorPosition::x_mm,
+                    number_in("mm"))
+          .required("y_mm",
+                    "y of the motor's axis, up from the middle of the bed.",
+                    &MotorPosition::y_mm,
+                    number_in("mm"));
   return record;
 }
 
 const Record<PerSide<MotorPosition>>& motors_record() {
   using Motors = PerSide<MotorPosition>;
-  static const auto record = Record<Motors>("the motors")
-                                 .required("left", &Motors::left, object(motor_record()))
-                                 .required("right", &Motors::right, object(motor_record()));
+  static const auto record =
+      Record<Motors>("the motors")
+          .required("left", "The left motor.", &Motors::left, object(motor_record()))
+          .required("right", "The right motor.", &Motors::right, object(motor_record()));
   return record;
 }
 
 const Record<Sprocket>& sprocket_record() {
-  static const auto record = Record<Sprocket>("a sprocket")
-                                 .required("teeth", &Sprocket::teeth, integer(1, 1000))
-                                 .required("pitch_mm", &Sprocket::pitch_mm, number_in("mm"))
-                                 .optional("radius_mm", &Sprocket::radius_mm, number_in("mm"));
+  static const auto record =
+      Record<Sprocket>("a sprocket")
+          .required("teeth", "Number of teeth of a sprocket.", &Sprocket::teeth, integer(1, 1000))
+          .required(
+              "pitch_mm", "The chain's pitch, one link.", &Sprocket::pitch_mm, number_in("mm"))
+          .optional("radius_mm",
+                    "Radius of the chain on the sprocket; default: pitch times teeth over 2 pi.",
+                    &Sprocket::radius_mm,
+                    number_in("mm"));
   return record;
 }
 
 const Record<Ring>& ring_record() {
-  static const auto record = Record<Ring>("a ring")
-                                 .constant("kind", "ring")
-                                 .required("radius_mm", &Ring::radius_mm, number_in("mm"));
+  static const auto record =
+      Record<Ring>("a ring")
+          .constant("kind", "A ring or a linkage: both chains point at the bit.", "ring")
+          .required("radius_mm",
+                    "From the bit to a chain's end; 0 if the chains end at the bit, otherwise at "
+                    "least 20 mm.",
+                    &Ring::radius_mm,
+                    number_in("mm"));
   return record;
 }
 
 const Record<Brackets>& brackets_record() {
   static const auto record =
       Record<Brackets>("a pair of brackets")
-          .constant("kind", "brackets")
-          .required("spacing_mm", &Brackets::spacing_mm, number_in("mm"))
-          .required("height_mm", &Brackets::height_mm, number_in("mm"))
-          .required("cg_below_bit_mm", &Brackets::cg_below_bit_mm, number_in("mm"));
+          .constant("kind", "The chains end at two brackets of the sled.", "brackets")
+          .required("spacing_mm",
+                    "Distance between the ends of the two chains.",
+                    &Brackets::spacing_mm,
+                    number_in("mm"))
+          .required("height_mm",
+                    "Height of the chains' ends above the bit.",
+                    &Brackets::height_mm,
+                    number_in("mm"))
+          .required("cg_below_bit_mm",
+                    "Distance of the sled's centre of gravity below the bit.",
+                    &Brackets::cg_below_bit_mm,
+                    number_in("mm"));
   return record;
 }
 
@@ -121,38 +155,61 @@ std::optional<Json> write_attachment(const Machine& machine) {
 }
 
 const Record<Chain>& chain_record() {
-  static const auto record =
-      Record<Chain>("a chain")
-          .required("mass_kg_per_m", &Chain::mass_kg_per_m, number_in("kg/m"))
-          .required("compliance_per_n", &Chain::compliance_per_n, number_in("1/N"));
+  static const auto record = Record<Chain>("a chain")
+                                 .required("mass_kg_per_m",
+                                           "Mass of a metre of chain.",
+                                           &Chain::mass_kg_per_m,
+                                           number_in("kg/m"))
+                                 .required("compliance_per_n",
+                                           "Strain of the chain per newton; 0: none.",
+                                           &Chain::compliance_per_n,
+                                           number_in("1/N"));
   return record;
 }
 
 const Record<ChainLengths>& chain_zero_record() {
   static const auto record = Record<ChainLengths>("the chain zeros")
-                                 .optional("left_mm", &ChainLengths::left_mm, number_in("mm"))
-                                 .optional("right_mm", &ChainLengths::right_mm, number_in("mm"));
+                                 .optional("left_mm",
+                                           "Added to every reading of the left chain.",
+                                           &ChainLengths::left_mm,
+                                           number_in("mm"))
+                                 .optional("right_mm",
+                                           "Added to every reading of the right chain.",
+                                           &ChainLengths::right_mm,
+                                           number_in("mm"));
   return record;
 }
 
 const Record<Sled>& sled_record() {
-  static const auto record =
-      Record<Sled>("a sled").required("mass_kg", &Sled::mass_kg, number_in("kg"));
+  static const auto record = Record<Sled>("a sled").required(
+      "mass_kg", "Mass of the sled with its router.", &Sled::mass_kg, number_in("kg"));
   return record;
 }
 
 const Record<Frame>& frame_record() {
-  static const auto record = Record<Frame>("a frame").required(
-      "tilt_from_vertical_deg", &Frame::tilt_from_vertical_deg, number_in("degrees"));
+  static const auto record =
+      Record<Frame>("a frame").required("tilt_from_vertical_deg",
+                                        "Angle by which the frame leans back; 0: upright.",
+                                        &Frame::tilt_from_vertical_deg,
+                                        number_in("degrees"));
   return record;
 }
 
 const Record<Uncertainty>& uncertainty_record() {
   static const auto record =
       Record<Uncertainty>("the uncertainties")
-          .optional("motor_position_mm", &Uncertainty::motor_position_mm, number_in("mm"))
-          .optional("chain_zero_mm", &Uncertainty::chain_zero_mm, number_in("mm"))
-          .optional("ring_radius_mm", &Uncertainty::ring_radius_mm, number_in("mm"))
+          .optional("motor_position_mm",
+                    "Uncertainty of each coordinate of a motor, 1 sigma.",
+                    &Uncertainty::motor_position_mm,
+                    number_in("mm"))
+          .optional("chain_zero_mm",
+                    "Uncertainty of each chain's zero, 1 sigma.",
+                    &Uncertainty::chain_zero_mm,
+                    number_in("mm"))
+          .optional("ring_radius_mm",
+                    "Uncertainty of the ring's radius, 1 sigma.",
+                    &Uncertainty::ring_radius_mm,
+                    number_in("mm"))
           .check([](const Cursor& at, Uncertainty&) {
             for (const char* key : {"motor_position_mm", "chain_zero_mm", "ring_radius_mm"}) {
               const Cursor value = at.child(key);
@@ -167,13 +224,18 @@ const Record<Controller>& controller_record() {
   static const auto record =
       Record<Controller>("a controller")
           .required("kind",
+                    "The firmware, whose kinematics converts commands into chain lengths. ideal "
+                    "uses the machine file as it is.",
                     &Controller::kind,
                     choice<ControllerKind>(
                         {{"ideal", ControllerKind::ideal},
                          {"maslow_classic", ControllerKind::maslow_classic},
                          {"holey", ControllerKind::holey},
                          {"fluidnc_wallplotter", ControllerKind::fluidnc_wallplotter}}))
-          .optional("settings", &Controller::settings, object(controller_settings_record()));
+          .optional("settings",
+                    "The firmware's settings, by GroundControl's names.",
+                    &Controller::settings,
+                    object(controller_settings_record()));
   return record;
 }
 
@@ -205,11 +267,12 @@ void check_machine(const Cursor& at, Machine& machine) {
   if (!at.has("uncertainty") || at.child("uncertainty").json().is_null()) {
     const Uncertainty& assumed = machine.uncertainty;
     at.child("uncertainty")
-        .warn(fmt::format("not given; assumed: motor positions within {} mm, chain zeros within {} mm "
-                          "and the ring's radius within {} mm (1 sigma)",
-                          assumed.motor_position_mm,
-                          assumed.chain_zero_mm,
-                          assumed.ring_radius_mm));
+        .warn(fmt::format(
+            "not given; assumed: motor positions within {} mm, chain zeros within {} mm "
+            "and the ring's radius within {} mm (1 sigma)",
+            assumed.motor_position_mm,
+            assumed.chain_zero_mm,
+            assumed.ring_radius_mm));
   }
   if (is_in_other_unit(machine)) {
     const OtherUnit unit = other_unit(machine.bed.width_mm);
@@ -268,28 +331,64 @@ const Record<ControllerSettings>& controller_settings_record() {
   using Settings = ControllerSettings;
   static const auto record =
       Record<Settings>("the controller's settings, named as GroundControl names them,")
-          .optional("bedwidth", &Settings::bed_width_mm, number_in("mm"))
-          .optional("bedheight", &Settings::bed_height_mm, number_in("mm"))
-          .optional("motorspacingx", &Settings::motor_spacing_mm, number_in("mm"))
-          .optional("motoroffsety", &Settings::motor_offset_y_mm, number_in("mm"))
-          .optional("rotationradius", &Settings::rotation_radius_mm, number_in("mm"))
-          .optional("sledwidth", &Settings::sled_width_mm, number_in("mm"))
-          .optional("sledheight", &Settings::sled_height_mm, number_in("mm"))
-          .optional("sledcg", &Settings::sled_cg_mm, number_in("mm"))
           .optional(
-              "chainsagcorrection", &Settings::chain_sag_correction, number_in("1e-12 / mm^2"))
+              "bedwidth", "GroundControl's bedwidth.", &Settings::bed_width_mm, number_in("mm"))
           .optional(
-              "leftchaintolerance", &Settings::left_chain_tolerance_percent, number_in("percent"))
-          .optional(
-              "rightchaintolerance", &Settings::right_chain_tolerance_percent, number_in("percent"))
-          .optional("topbeamtilt", &Settings::top_beam_tilt_deg, number_in("degrees"))
-          .optional("chainpitch", &Settings::chain_pitch_mm, number_in("mm"))
-          .optional("gearteeth", &Settings::gear_teeth, number_in("teeth"))
+              "bedheight", "GroundControl's bedheight.", &Settings::bed_height_mm, number_in("mm"))
+          .optional("motorspacingx",
+                    "Distance between the motors' axes.",
+                    &Settings::motor_spacing_mm,
+                    number_in("mm"))
+          .optional("motoroffsety",
+                    "Height of the motors above the bed's upper edge.",
+                    &Settings::motor_offset_y_mm,
+                    number_in("mm"))
+          .optional("rotationradius",
+                    "Distance from the bit to a chain's end.",
+                    &Settings::rotation_radius_mm,
+                    number_in("mm"))
+          .optional("sledwidth",
+                    "Of a sled on brackets: distance between the brackets.",
+                    &Settings::sled_width_mm,
+                    number_in("mm"))
+          .optional("sledheight",
+                    "Of a sled on brackets: height of the brackets above the bit.",
+                    &Settings::sled_height_mm,
+                    number_in("mm"))
+          .optional("sledcg",
+                    "Of a sled on brackets: distance of its centre of gravity below the bit.",
+                    &Settings::sled_cg_mm,
+                    number_in("mm"))
+          .optional("chainsagcorrection",
+                    "Factor of the firmware's parabola for the chain's sag.",
+                    &Settings::chain_sag_correction,
+                    number_in("1e-12 / mm^2"))
+          .optional("leftchaintolerance",
+                    "Excess length of the left chain's links.",
+                    &Settings::left_chain_tolerance_percent,
+                    number_in("percent"))
+          .optional("rightchaintolerance",
+                    "Excess length of the right chain's links.",
+                    &Settings::right_chain_tolerance_percent,
+                    number_in("percent"))
+          .optional("topbeamtilt",
+                    "Tilt of the beam.",
+                    &Settings::top_beam_tilt_deg,
+                    number_in("degrees"))
+          .optional("chainpitch", "Length of a link.", &Settings::chain_pitch_mm, number_in("mm"))
+          .optional("gearteeth",
+                    "Number of teeth of a sprocket.",
+                    &Settings::gear_teeth,
+                    number_in("teeth"))
           .optional("chainoversprocket",
+                    "Side of the sprocket over which the chain leaves.",
                     &Settings::chain_over_sprocket_top,
                     choice<bool>({{"Top", true}, {"Bottom", false}}))
-          .optional("sledweight", &Settings::sled_weight_n, number_in("N"))
-          .optional("chainelongationfactor", &Settings::chain_elongation_per_n, number_in("1/N"));
+          .optional("sledweight", "Weight of the sled.", &Settings::sled_weight_n, number_in("N"))
+          .optional("chainelongationfactor",
+                    "Stretch of the chain per newton.",
+                    &Settings::chain_elongation_per_n,
+                    number_in("1/N"));
   return record;
 }
 
@@ -297,24 +396,41 @@ const Record<model::AppliedEffect>& effect_record() {
   using model::AppliedEffect;
   static const auto record =
       Record<AppliedEffect>("an effect")
-          .required("effect", &AppliedEffect::effect, text())
-          .sparse("side", &AppliedEffect::side, one_of({"left", "right", "both", "x", "y"}))
-          .required("parameters", &AppliedEffect::parameters, dictionary(number_in("")))
-          .optional("probability", &AppliedEffect::probability, number(kShare));
+          .required("effect",
+                    "Its name, as chaintrue effects lists them.",
+                    &AppliedEffect::effect,
+                    text())
+          .sparse("side",
+                  "Where it acts; none for effects without a side.",
+                  &AppliedEffect::side,
+                  one_of({"left", "right", "both", "x", "y"}))
+          .required("parameters",
+                    "Its size and other parameters, by name.",
+                    &AppliedEffect::parameters,
+                    dictionary(number_in("")))
+          .optional("probability",
+                    "Its probability, if a diagnosis added it; absent if a person did.",
+                    &AppliedEffect::probability,
+                    number(kShare));
   return record;
 }
 
 const Record<Machine>& machine_record() {
   static const auto record =
       Record<Machine>("a machine", kMachineFormat)
-          .optional("name", &Machine::name, text())
-          .required("bed", &Machine::bed, object(bed_record()))
-          .required("motors", &Machine::motors, object(motors_record()))
-          .required("sprocket", &Machine::sprocket, object(sprocket_record()))
+          .optional("name", "Name of the machine in messages and pages.", &Machine::name, text())
+          .required(
+              "bed", "The sheet that the machine can cut.", &Machine::bed, object(bed_record()))
+          .required(
+              "motors", "Positions of the motors' axes.", &Machine::motors, object(motors_record()))
+          .required(
+              "sprocket", "The sprocket on a motor.", &Machine::sprocket, object(sprocket_record()))
           .required("feed",
+                    "Side of the sprocket over which the chain leaves.",
                     &Machine::feed,
                     choice<Feed>({{"over_top", Feed::over_top}, {"off_bottom", Feed::off_bottom}}))
           .custom("attachment",
+                  "How the chains are attached to the sled.",
                   true,
                   {"a ring or brackets",
                    [] {
@@ -322,13 +438,26 @@ const Record<Machine>& machine_record() {
                    }},
                   read_attachment,
                   write_attachment)
-          .required("chain", &Machine::chain, object(chain_record()))
-          .optional("chain_zero", &Machine::chain_zero, object(chain_zero_record()))
-          .required("sled", &Machine::sled, object(sled_record()))
-          .required("frame", &Machine::frame, object(frame_record()))
-          .optional("uncertainty", &Machine::uncertainty, object(uncertainty_record()))
+          .required(
+              "chain", "The chain's mass and stretch.", &Machine::chain, object(chain_record()))
+          .optional("chain_zero",
+                    "Added to every reading of a chain.",
+                    &Machine::chain_zero,
+                    object(chain_zero_record()))
+          .required("sled", "The sled.", &Machine::sled, object(sled_record()))
+          .required("frame",
+                    "The frame that carries everything.",
+                    &Machine::frame,
+                    object(frame_record()))
+          .optional("uncertainty",
+                    "How accurately motors, zeros and ring were measured, 1 sigma. Missing values "
+                    "are assumed and reported.",
+                    &Machine::uncertainty,
+                    object(uncertainty_record()))
           .custom(
               "controller",
+              "The firmware and its settings; default: an ideal one that uses the machine file as "
+              "it is.",
               false,
               controller_record().expected(),
               [](const Cursor& at, Machine& machine) {
@@ -337,11 +466,16 @@ const Record<Machine>& machine_record() {
               write_controller)
           .custom(
               "declared_effects",
+              "User-declared effects that may act on it, each with the keys of a chaintrue_effect "
+              "file.",
               false,
               declared_expected(),
               [](const Cursor& at, Machine& machine) { read_declared(at, machine.declared); },
               [](const Machine& machine) { return write_declared(machine.declared); })
-          .sparse("effects", &Machine::effects, list(object(effect_record())))
+          .sparse("effects",
+                  "Known causes of error, part of the machine.",
+                  &Machine::effects,
+                  list(object(effect_record())))
           .check(check_machine);
   return record;
 }

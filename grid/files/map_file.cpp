@@ -22,9 +22,16 @@ constexpr Range kErrorMm{"mm", -1e5, 1e5};
 constexpr Range kSigmaFactor{"", 1.0, 1e6};
 
 const Record<model::MarkPoint>& mark_record() {
-  static const auto record = Record<model::MarkPoint>("a point")
-                                 .required("x_mm", &model::MarkPoint::x_mm, number(kPlaceMm))
-                                 .required("y_mm", &model::MarkPoint::y_mm, number(kPlaceMm));
+  static const auto record =
+      Record<model::MarkPoint>("a point")
+          .required("x_mm",
+                    "x of the tool. Null in a list that is not filled in yet.",
+                    &model::MarkPoint::x_mm,
+                    number(kPlaceMm))
+          .required("y_mm",
+                    "y of the tool, up. Null in a list that is not filled in yet.",
+                    &model::MarkPoint::y_mm,
+                    number(kPlaceMm));
   return record;
 }
 
@@ -32,13 +39,17 @@ const Record<OutsideRule>& outside_record() {
   static const auto record =
       Record<OutsideRule>("what the map does beyond its points")
           .required("way",
+                    "Behaviour outside the measured part.",
                     &OutsideRule::way,
                     choice<Outside>({{"continued", Outside::continued},
                                      {"refuse", Outside::refuse},
                                      {"fade", Outside::fade},
                                      {"linear", Outside::linear},
                                      {"clamp", Outside::clamp}}))
-          .optional("fade_width_mm", &OutsideRule::fade_width_mm, number(kFadeWidthMm));
+          .optional("fade_width_mm",
+                    "For fade: distance over which the correction goes to zero.",
+                    &OutsideRule::fade_width_mm,
+                    number(kFadeWidthMm));
   return record;
 }
 
@@ -54,20 +65,36 @@ Value<NoiseSource> noise_source() {
 const Record<MapNoise>& map_noise_record() {
   static const auto record =
       Record<MapNoise>("the noise that the fit went by")
-          .required("length_mm", &MapNoise::length_mm, number(kNotNegative))
-          .required("position_mm", &MapNoise::position_mm, number(kNotNegative))
-          .required("source", &MapNoise::source, noise_source())
-          .required("factor_found", &MapNoise::factor_found, number(kNotNegative));
+          .required("length_mm",
+                    "Noise of a chain reading, 1 sigma.",
+                    &MapNoise::length_mm,
+                    number(kNotNegative))
+          .required("position_mm",
+                    "Noise of a position, 1 sigma on each axis.",
+                    &MapNoise::position_mm,
+                    number(kNotNegative))
+          .required("source", "Where it comes from.", &MapNoise::source, noise_source())
+          .required("factor_found",
+                    "Scatter of the points relative to this noise.",
+                    &MapNoise::factor_found,
+                    number(kNotNegative));
   return record;
 }
 
 const Record<HeldOutError>& held_out_record() {
   static const auto record =
       Record<HeldOutError>("errors of points left out")
-          .required("chain", &HeldOutError::chain, object(error_summary_record()))
-          .required("tool", &HeldOutError::tool, object(error_summary_record()))
-          .required("tool_x_rms_mm", &HeldOutError::tool_x_rms_mm, number(kNotNegative))
-          .required("tool_y_rms_mm", &HeldOutError::tool_y_rms_mm, number(kNotNegative));
+          .required(
+              "chain", "In a chain's length.", &HeldOutError::chain, object(error_summary_record()))
+          .required("tool", "At the tool.", &HeldOutError::tool, object(error_summary_record()))
+          .required("tool_x_rms_mm",
+                    "At the tool, in x.",
+                    &HeldOutError::tool_x_rms_mm,
+                    number(kNotNegative))
+          .required("tool_y_rms_mm",
+                    "At the tool, in y.",
+                    &HeldOutError::tool_y_rms_mm,
+                    number(kNotNegative));
   return record;
 }
 
@@ -79,22 +106,42 @@ constexpr const char* kRelativeTo =
 const Record<MapAccuracy>& accuracy_record() {
   static const auto record =
       Record<MapAccuracy>("the map's own error")
-          .constant("relative_to", kRelativeTo)
-          .required("leave_one_out", &MapAccuracy::leave_one_out, object(held_out_record()))
-          .required("blocked", &MapAccuracy::blocked, object(held_out_record()))
-          .required("expected_tool", &MapAccuracy::expected_tool, object(error_summary_record()))
-          .required("expected_worst_at", &MapAccuracy::expected_worst_at, object(mark_record()));
+          .constant("relative_to", "What the errors are relative to.", kRelativeTo)
+          .required("leave_one_out",
+                    "Errors of points predicted by a map without them, one at a time.",
+                    &MapAccuracy::leave_one_out,
+                    object(held_out_record()))
+          .required("blocked",
+                    "The same with a block of the bed left out at a time.",
+                    &MapAccuracy::blocked,
+                    object(held_out_record()))
+          .required("expected_tool",
+                    "Expected error of the tool over the measured part.",
+                    &MapAccuracy::expected_tool,
+                    object(error_summary_record()))
+          .required("expected_worst_at",
+                    "Where it is largest.",
+                    &MapAccuracy::expected_worst_at,
+                    object(mark_record()));
   return record;
 }
 
 const Record<SettingResult>& setting_record() {
   static const auto record =
       Record<SettingResult>("a setting")
-          .required("setting", &SettingResult::setting, setting_word())
-          .required("stated", &SettingResult::stated, number(kAnyNumber))
-          .required("calibrated", &SettingResult::calibrated, number(kAnyNumber))
-          .required("sigma", &SettingResult::sigma, number(kNotNegative))
-          .required("off", &SettingResult::off, boolean());
+          .required("setting", "Name of the setting.", &SettingResult::setting, setting_word())
+          .required(
+              "stated", "Value in the machine file.", &SettingResult::stated, number(kAnyNumber))
+          .required(
+              "calibrated", "Calibrated value.", &SettingResult::calibrated, number(kAnyNumber))
+          .required("sigma",
+                    "Uncertainty of the calibrated value, 1 sigma.",
+                    &SettingResult::sigma,
+                    number(kNotNegative))
+          .required("off",
+                    "True if it differs by more than its uncertainty allows.",
+                    &SettingResult::off,
+                    boolean());
   return record;
 }
 
@@ -103,29 +150,71 @@ const Record<MapPoint>& map_point_record() {
   using model::MarkPoint;
   static const auto record =
       Record<MapPoint>("a measured point")
-          .required("x_mm", path(&MapPoint::mark, &MarkPoint::x_mm), number(kPlaceMm))
-          .required("y_mm", path(&MapPoint::mark, &MarkPoint::y_mm), number(kPlaceMm))
-          .required("left_mm", path(&MapPoint::lengths, &ChainLengths::left_mm), number(kPlaceMm))
-          .required("right_mm", path(&MapPoint::lengths, &ChainLengths::right_mm), number(kPlaceMm))
-          .required("bad", &MapPoint::bad, boolean())
-          .required("distance_sigmas", &MapPoint::distance_sigmas, number(kNotNegative))
-          .required("as_stated_mm", &MapPoint::as_stated_mm, pair_of_numbers(kErrorMm))
-          .required("sheet_placed_mm", &MapPoint::sheet_placed_mm, pair_of_numbers(kErrorMm))
-          .required("mapped_mm", &MapPoint::mapped_mm, pair_of_numbers(kErrorMm))
-          .required("left_out_mm", &MapPoint::left_out_mm, pair_of_numbers(kErrorMm));
+          .required("x_mm",
+                    "x, to the right of the bed's middle, or of the marks' origin.",
+                    path(&MapPoint::mark, &MarkPoint::x_mm),
+                    number(kPlaceMm))
+          .required("y_mm",
+                    "y, up from the bed's middle, or from the marks' origin.",
+                    path(&MapPoint::mark, &MarkPoint::y_mm),
+                    number(kPlaceMm))
+          .required("left_mm",
+                    "The left chain.",
+                    path(&MapPoint::lengths, &ChainLengths::left_mm),
+                    number(kPlaceMm))
+          .required("right_mm",
+                    "The right chain.",
+                    path(&MapPoint::lengths, &ChainLengths::right_mm),
+                    number(kPlaceMm))
+          .required("bad", "True if the fit left it out.", &MapPoint::bad, boolean())
+          .required("distance_sigmas",
+                    "Its distance from the prediction of the others, in sigmas.",
+                    &MapPoint::distance_sigmas,
+                    number(kNotNegative))
+          .required("as_stated_mm",
+                    "Measured position minus that of the machine file.",
+                    &MapPoint::as_stated_mm,
+                    pair_of_numbers(kErrorMm))
+          .required("sheet_placed_mm",
+                    "The same after the best placement of the sheet.",
+                    &MapPoint::sheet_placed_mm,
+                    pair_of_numbers(kErrorMm))
+          .required("mapped_mm",
+                    "The same with the map.",
+                    &MapPoint::mapped_mm,
+                    pair_of_numbers(kErrorMm))
+          .required("left_out_mm",
+                    "The same with a map made without it.",
+                    &MapPoint::left_out_mm,
+                    pair_of_numbers(kErrorMm));
   return record;
 }
 
 const Record<MirrorTest>& mirror_record() {
   static const auto record =
       Record<MirrorTest>("the mirror claim")
-          .required("points", &MirrorTest::points, index_number())
-          .required("difference", &MirrorTest::difference, object(error_summary_record()))
-          .required("mean_mm", &MirrorTest::mean_mm, number(kErrorMm))
-          .required("worst_at", &MirrorTest::worst_at, object(mark_record()))
-          .required("worst_signed_mm", &MirrorTest::worst_signed_mm, number(kErrorMm))
-          .required("holds", &MirrorTest::holds, boolean())
-          .required("sentence", &MirrorTest::sentence, text());
+          .required("points",
+                    "Number of points whose mirror image was measured.",
+                    &MirrorTest::points,
+                    index_number())
+          .required("difference",
+                    "Right chain minus left chain at the mirrored place.",
+                    &MirrorTest::difference,
+                    object(error_summary_record()))
+          .required("mean_mm", "Mean difference.", &MirrorTest::mean_mm, number(kErrorMm))
+          .required("worst_at",
+                    "Where the difference is largest.",
+                    &MirrorTest::worst_at,
+                    object(mark_record()))
+          .required("worst_signed_mm",
+                    "The difference there.",
+                    &MirrorTest::worst_signed_mm,
+                    number(kErrorMm))
+          .required("holds",
+                    "True if noise alone explains the difference.",
+                    &MirrorTest::holds,
+                    boolean())
+          .required("sentence", "The same in words.", &MirrorTest::sentence, text());
   return record;
 }
 
@@ -133,11 +222,23 @@ const Record<DistancesUsed>& distances_record() {
   constexpr int kMost = 1000000;
   static const auto record =
       Record<DistancesUsed>("the distances between holes")
-          .required("used", &DistancesUsed::used, integer(0, kMost))
-          .required("set_aside", &DistancesUsed::rejected, integer(0, kMost))
-          .required("tape_sigma_mm", &DistancesUsed::tape_sigma_mm, number(kNotNegative))
-          .required("left_out_all", &DistancesUsed::left_out_all, object(error_summary_record()))
-          .required("left_out_good", &DistancesUsed::left_out_good, object(error_summary_record()));
+          .required("used", "Number of distances used.", &DistancesUsed::used, integer(0, kMost))
+          .required("set_aside",
+                    "Number of distances left out.",
+                    &DistancesUsed::rejected,
+                    integer(0, kMost))
+          .required("tape_sigma_mm",
+                    "Noise of the tape in the fit, 1 sigma.",
+                    &DistancesUsed::tape_sigma_mm,
+                    number(kNotNegative))
+          .required("left_out_all",
+                    "Errors of distances predicted by a map without them.",
+                    &DistancesUsed::left_out_all,
+                    object(error_summary_record()))
+          .required("left_out_good",
+                    "The same without the rejected distances.",
+                    &DistancesUsed::left_out_good,
+                    object(error_summary_record()));
   return record;
 }
 
@@ -161,9 +262,13 @@ void check_map(const Cursor& at, MapContents& map) {
 
 /// One of the two kinds of surface: `Surface` in memory, `Part` in the file.
 template <class Surface, class Part>
-void add_surface(Record<MapContents>& record, const std::string& key, const Record<Part>& part) {
+void add_surface(Record<MapContents>& record,
+                 const char* key,
+                 const char* meaning,
+                 const Record<Part>& part) {
   record.custom(
       key,
+      meaning,
       false,
       part.expected(),
       [&part](const Cursor& at, MapContents& map) {
@@ -177,48 +282,74 @@ void add_surface(Record<MapContents>& record, const std::string& key, const Reco
       });
 }
 
-/// Written only if it differs from the default.
-std::optional<Json> write_outside(const MapContents& map) {
-  if (map.outside.way == OutsideRule{}.way) return std::nullopt;
-  return outside_record().write(map.outside);
-}
-
 Record<MapContents> make_map_record() {
   Record<MapContents> record("a chaintrue_map file", kMapFormat);
-  record.optional("name", &MapContents::name, text());
-  add_surface<ModelSurface>(record, "on_machine", model_part_record());
-  add_surface<DirectSurface>(record, "direct", direct_part_record());
-  record.required("domain_mm", &MapContents::domain, object(rectangle_record()))
-      .required("hull", &MapContents::hull, list(object(mark_record()), 3))
-      .required("edge_mm", &MapContents::edge_mm, number(kNotNegative))
-      .custom(
+  record.optional("name", "Name of the grid.", &MapContents::name, text());
+  add_surface<ModelSurface>(record,
+                            "on_machine",
+                            "A calibrated machine with residual surfaces; or direct.",
+                            model_part_record());
+  add_surface<DirectSurface>(record,
+                             "direct",
+                             "Splines through the lengths, without a machine; or on_machine.",
+                             direct_part_record());
+  record
+      .required("domain_mm",
+                "Where the map can be evaluated.",
+                &MapContents::domain,
+                object(rectangle_record()))
+      .required("hull",
+                "Corners of the measured part, counter-clockwise.",
+                &MapContents::hull,
+                list(object(mark_record()), 3))
+      .required("edge_mm",
+                "Places closer to the hull than this count as on its edge.",
+                &MapContents::edge_mm,
+                number(kNotNegative))
+      .computed(
           "outside",
+          "Behaviour outside the hull.",
           false,
-          outside_record().expected(),
-          [](const Cursor& at, MapContents& map) {
-            if (const auto rule = outside_record().read(at)) map.outside = *rule;
-          },
-          write_outside)
-      .custom(
-          "sigma_factor_beyond",
-          false,
-          number(kSigmaFactor).expected,
-          [](const Cursor& at, MapContents& map) {
-            if (const auto factor = number(kSigmaFactor).read(at))
-              map.sigma_factor_beyond = *factor;
-          },
-          [](const MapContents& map) -> std::optional<Json> {
-            if (map.sigma_factor_beyond == MapContents{}.sigma_factor_beyond) return std::nullopt;
-            return map.sigma_factor_beyond;
+          object(outside_record()),
+          [](MapContents& map, const OutsideRule& rule) { map.outside = rule; },
+          [](const MapContents& map) {
+            return map.outside.way == OutsideRule{}.way ? std::nullopt : std::optional(map.outside);
           })
-      .required("noise", &MapContents::noise, object(map_noise_record()))
-      .required("accuracy", &MapContents::accuracy, object(accuracy_record()))
-      .required("settings", &MapContents::settings, list(object(setting_record())))
-      .required("points", &MapContents::points, list(object(map_point_record())))
-      .optional("mirror", &MapContents::mirror, object(mirror_record()))
-      .optional("distances", &MapContents::distances, object(distances_record()))
-      .required("notes", &MapContents::notes, list(text()));
-  add_content_hash(add_made_by_key(record))
+      .computed(
+          "sigma_factor_beyond",
+          "Factor on sigmas outside the measured part if causes were found, so that the larger "
+          "error "
+          "of the plain map applies there.",
+          false,
+          number(kSigmaFactor),
+          [](MapContents& map, double factor) { map.sigma_factor_beyond = factor; },
+          [](const MapContents& map) {
+            return map.sigma_factor_beyond == MapContents{}.sigma_factor_beyond
+                       ? std::nullopt
+                       : std::optional(map.sigma_factor_beyond);
+          })
+      .required(
+          "noise", "The noise used by the fit.", &MapContents::noise, object(map_noise_record()))
+      .required(
+          "accuracy", "The map's own error.", &MapContents::accuracy, object(accuracy_record()))
+      .required("settings",
+                "The machine's numbers, as in its file and calibrated.",
+                &MapContents::settings,
+                list(object(setting_record())))
+      .required("points",
+                "The points that it was made from.",
+                &MapContents::points,
+                list(object(map_point_record())))
+      .optional("mirror",
+                "Whether one chain's surface is the other's, mirrored.",
+                &MapContents::mirror,
+                object(mirror_record()))
+      .optional("distances",
+                "For a map from holes and a tape.",
+                &MapContents::distances,
+                object(distances_record()))
+      .required("notes", "Notes for the reader, in sentences.", &MapContents::notes, list(text()));
+  add_content_hash(add_made_by_key(record), "Hash of everything else; an edited map is refused.")
       .schema_also({{"oneOf", {{{"required", {"on_machine"}}}, {{"required", {"direct"}}}}}})
       .check(check_map);
   return record;

@@ -16,25 +16,50 @@ namespace {
 Value<Numbers> numbers(std::size_t fewest = 0) { return list(number(kAnyNumber), fewest); }
 
 const Record<model::SheetPlacement>& sheet_placement_record() {
-  static const auto record =
-      Record<model::SheetPlacement>("a sheet's placement")
-          .required("x_mm", &model::SheetPlacement::x_mm, number(kPlaceMm))
-          .required("y_mm", &model::SheetPlacement::y_mm, number(kPlaceMm))
-          .required(
-              "rotation_rad", &model::SheetPlacement::rotation_rad, number({"rad", -7.0, 7.0}));
+  static const auto record = Record<model::SheetPlacement>("a sheet's placement")
+                                 .required("x_mm",
+                                           "x of the marks' origin on the bed.",
+                                           &model::SheetPlacement::x_mm,
+                                           number(kPlaceMm))
+                                 .required("y_mm",
+                                           "y of the marks' origin on the bed, up.",
+                                           &model::SheetPlacement::y_mm,
+                                           number(kPlaceMm))
+                                 .required("rotation_rad",
+                                           "Rotation of the marks, counter-clockwise.",
+                                           &model::SheetPlacement::rotation_rad,
+                                           number({"rad", -7.0, 7.0}));
   return record;
 }
 
 const Record<SplinePart>& spline_record() {
   static const auto record =
       Record<SplinePart>("a residual surface")
-          .required("rectangle_mm", &SplinePart::rectangle, object(rectangle_record()))
-          .required("x_intervals", &SplinePart::x_intervals, integer(1, 1000))
-          .required("y_intervals", &SplinePart::y_intervals, integer(1, 1000))
-          .required("scale_left", &SplinePart::scale_left, number({"", -0.1, 0.1}))
-          .required("scale_right", &SplinePart::scale_right, number({"", -0.1, 0.1}))
-          .required("coefficients_left_mm", &SplinePart::left_mm, numbers())
-          .required("coefficients_right_mm", &SplinePart::right_mm, numbers())
+          .required("rectangle_mm",
+                    "Where the splines are defined.",
+                    &SplinePart::rectangle,
+                    object(rectangle_record()))
+          .required(
+              "x_intervals", "Equal intervals along x.", &SplinePart::x_intervals, integer(1, 1000))
+          .required(
+              "y_intervals", "Equal intervals along y.", &SplinePart::y_intervals, integer(1, 1000))
+          .required("scale_left",
+                    "Correction of the left chain per mm of length.",
+                    &SplinePart::scale_left,
+                    number({"", -0.1, 0.1}))
+          .required("scale_right",
+                    "Correction of the right chain per mm of length.",
+                    &SplinePart::scale_right,
+                    number({"", -0.1, 0.1}))
+          .required("coefficients_left_mm",
+                    "Coefficients of cubic B-splines for the left chain, y varying fastest: "
+                    "(x_intervals + 3) (y_intervals + 3) values.",
+                    &SplinePart::left_mm,
+                    numbers())
+          .required("coefficients_right_mm",
+                    "Coefficients for the right chain, in the same order.",
+                    &SplinePart::right_mm,
+                    numbers())
           .check([](const Cursor& at, SplinePart& part) {
             if (!at.clean()) return;
             const auto size =
@@ -67,16 +92,18 @@ Value<interp::EndCondition> end_condition() {
 }
 
 const Record<interp::AxisEnds>& axis_ends_record() {
-  static const auto record = Record<interp::AxisEnds>("the conditions at both ends of an axis")
-                                 .required("low", &interp::AxisEnds::low, end_condition())
-                                 .required("high", &interp::AxisEnds::high, end_condition());
+  static const auto record =
+      Record<interp::AxisEnds>("the conditions at both ends of an axis")
+          .required("low", "At the smaller end.", &interp::AxisEnds::low, end_condition())
+          .required("high", "At the larger end.", &interp::AxisEnds::high, end_condition());
   return record;
 }
 
 const Record<interp::TensorEnds>& ends_record() {
-  static const auto record = Record<interp::TensorEnds>("the conditions at the edges")
-                                 .required("x", &interp::TensorEnds::x, object(axis_ends_record()))
-                                 .required("y", &interp::TensorEnds::y, object(axis_ends_record()));
+  static const auto record =
+      Record<interp::TensorEnds>("the conditions at the edges")
+          .required("x", "Along x.", &interp::TensorEnds::x, object(axis_ends_record()))
+          .required("y", "Along y.", &interp::TensorEnds::y, object(axis_ends_record()));
   return record;
 }
 
@@ -125,13 +152,24 @@ void check_lattice_part(const Cursor& at, LatticePart& part) {
 const Record<LatticePart>& lattice_part_record() {
   static const auto record =
       Record<LatticePart>("splines through what the machine leaves at every node")
-          .required("x_nodes_mm", &LatticePart::x_nodes_mm, numbers(2))
-          .required("y_nodes_mm", &LatticePart::y_nodes_mm, numbers(2))
-          .required("left_mm", &LatticePart::left_mm, list(numbers(2), 2))
-          .required("right_mm", &LatticePart::right_mm, list(numbers(2), 2))
-          .required("doubt_mm", &LatticePart::doubt_mm, list(list(number(kNotNegative), 2), 2))
           .required(
-              "interpolation_sigma_mm", &LatticePart::interpolation_sigma_mm, number(kNotNegative))
+              "x_nodes_mm", "Nodes along x, increasing.", &LatticePart::x_nodes_mm, numbers(2))
+          .required(
+              "y_nodes_mm", "Nodes along y, increasing.", &LatticePart::y_nodes_mm, numbers(2))
+          .required("left_mm",
+                    "Left chain at every node: one list for each x.",
+                    &LatticePart::left_mm,
+                    list(numbers(2), 2))
+          .required(
+              "right_mm", "Right chain at every node.", &LatticePart::right_mm, list(numbers(2), 2))
+          .required("doubt_mm",
+                    "Uncertainty of the value at each node.",
+                    &LatticePart::doubt_mm,
+                    list(list(number(kNotNegative), 2), 2))
+          .required("interpolation_sigma_mm",
+                    "Error of the splines between nodes, 1 sigma.",
+                    &LatticePart::interpolation_sigma_mm,
+                    number(kNotNegative))
           .check(check_lattice_part);
   return record;
 }
@@ -168,16 +206,17 @@ Eigen::MatrixXd to_matrix(const std::vector<Numbers>& lists) {
 }  // namespace
 
 const Record<interp::Rectangle>& rectangle_record() {
-  static const auto record = Record<interp::Rectangle>("a rectangle in mm")
-                                 .required("x_min", &interp::Rectangle::x_min, number(kPlaceMm))
-                                 .required("x_max", &interp::Rectangle::x_max, number(kPlaceMm))
-                                 .required("y_min", &interp::Rectangle::y_min, number(kPlaceMm))
-                                 .required("y_max", &interp::Rectangle::y_max, number(kPlaceMm))
-                                 .check([](const Cursor& at, interp::Rectangle& r) {
-                                   if (at.clean() && !(r.width() > 0.0 && r.height() > 0.0)) {
-                                     at.expect("a rectangle whose maxima lie above its minima");
-                                   }
-                                 });
+  static const auto record =
+      Record<interp::Rectangle>("a rectangle in mm")
+          .required("x_min", "Left edge.", &interp::Rectangle::x_min, number(kPlaceMm))
+          .required("x_max", "Right edge.", &interp::Rectangle::x_max, number(kPlaceMm))
+          .required("y_min", "Lower edge.", &interp::Rectangle::y_min, number(kPlaceMm))
+          .required("y_max", "Upper edge.", &interp::Rectangle::y_max, number(kPlaceMm))
+          .check([](const Cursor& at, interp::Rectangle& r) {
+            if (at.clean() && !(r.width() > 0.0 && r.height() > 0.0)) {
+              at.expect("a rectangle whose maxima lie above its minima");
+            }
+          });
   return record;
 }
 
@@ -187,12 +226,29 @@ const Record<ModelPart>& model_part_record() {
     for (auto setting : model::kMachineSettings) words.emplace_back(model::name(setting));
     for (auto setting : model::kSheetSettings) words.emplace_back(model::name(setting));
     return Record<ModelPart>("a surface on a machine")
-        .required("machine", &ModelPart::machine, object(machine_record()))
-        .required("sheet", &ModelPart::sheet, object(sheet_placement_record()))
-        .required("unknown_settings", &ModelPart::unknown_settings, list(one_of(words)))
-        .required("residual", &ModelPart::residual, object(spline_record()))
-        .required("covariance_factor", &ModelPart::covariance_factor, list(numbers(1)))
-        .optional("lattice", &ModelPart::lattice, object(lattice_part_record()))
+        .required(
+            "machine", "The calibrated machine.", &ModelPart::machine, object(machine_record()))
+        .required("sheet",
+                  "Placement of the marks' sheet.",
+                  &ModelPart::sheet,
+                  object(sheet_placement_record()))
+        .required("unknown_settings",
+                  "The settings that were calibrated, in the order of the covariance.",
+                  &ModelPart::unknown_settings,
+                  list(one_of(words)))
+        .required("residual",
+                  "Correction added to the machine's lengths.",
+                  &ModelPart::residual,
+                  object(spline_record()))
+        .required("covariance_factor",
+                  "Triangular root of the covariance of settings, scales and coefficients; lower "
+                  "triangle, row by row.",
+                  &ModelPart::covariance_factor,
+                  list(numbers(1)))
+        .optional("lattice",
+                  "For a full grid of marks: splines through the residuals at every node.",
+                  &ModelPart::lattice,
+                  object(lattice_part_record()))
         .check(check_model_part);
   }();
   return record;
@@ -201,13 +257,20 @@ const Record<ModelPart>& model_part_record() {
 const Record<DirectPart>& direct_part_record() {
   static const auto record =
       Record<DirectPart>("splines through the lengths")
-          .required("x_nodes_mm", &DirectPart::x_nodes_mm, numbers(2))
-          .required("y_nodes_mm", &DirectPart::y_nodes_mm, numbers(2))
-          .required("left_mm", &DirectPart::left_mm, list(numbers(2), 2))
-          .required("right_mm", &DirectPart::right_mm, list(numbers(2), 2))
-          .required("ends", &DirectPart::ends, object(ends_record()))
+          .required("x_nodes_mm", "Nodes along x, increasing.", &DirectPart::x_nodes_mm, numbers(2))
+          .required("y_nodes_mm", "Nodes along y, increasing.", &DirectPart::y_nodes_mm, numbers(2))
+          .required("left_mm",
+                    "Left chain at every node: one list for each x.",
+                    &DirectPart::left_mm,
+                    list(numbers(2), 2))
           .required(
-              "interpolation_sigma_mm", &DirectPart::interpolation_sigma_mm, number(kNotNegative))
+              "right_mm", "Right chain at every node.", &DirectPart::right_mm, list(numbers(2), 2))
+          .required(
+              "ends", "End conditions of the splines.", &DirectPart::ends, object(ends_record()))
+          .required("interpolation_sigma_mm",
+                    "Error of the splines between nodes, 1 sigma.",
+                    &DirectPart::interpolation_sigma_mm,
+                    number(kNotNegative))
           .check(check_direct_part);
   return record;
 }

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-
 #include "grid/files/plotter_record.hpp"
 #include "grid/files/provenance_record.hpp"
 #include "grid/files/record_values.hpp"
@@ -14,9 +13,10 @@ namespace chaintrue::grid::files {
 namespace {
 
 const Record<FoundSetting>& found_setting_record() {
-  static const auto record = Record<FoundSetting>("a setting that was found")
-                                 .required("value", &FoundSetting::value, number(kMillimetres))
-                                 .required("sigma", &FoundSetting::sigma, number(kSigmaMm));
+  static const auto record =
+      Record<FoundSetting>("a setting that was found")
+          .required("value", "Its value.", &FoundSetting::value, number(kMillimetres))
+          .required("sigma", "Its uncertainty, 1 sigma.", &FoundSetting::sigma, number(kSigmaMm));
   return record;
 }
 
@@ -39,8 +39,7 @@ void check_correlations(const Cursor& at, FoundPlotter& found) {
     of_ones.row(i) /= scale[i];
     of_ones.col(i) /= scale[i];
   }
-  if (linear::SymmetricEigen(of_ones).eigenvalues().minCoeff() >= -kRounding)
-    return;
+  if (linear::SymmetricEigen(of_ones).eigenvalues().minCoeff() >= -kRounding) return;
   at.problems().add(at.pointer() + "/correlations",
                     "numbers that no six quantities can have",
                     "those that chaintrue fit wrote",
@@ -52,13 +51,33 @@ const Record<FoundPlotter>& found_plotter_record() {
   const auto setting = [] { return object(found_setting_record()); };
   static const auto record =
       Record<Found>("the settings that a drawing found")
-          .required("pin_spacing_mm", &Found::pin_spacing_mm, setting())
-          .required("pin_rise_mm", &Found::pin_rise_mm, setting())
-          .required("zero_left_mm", &Found::zero_left_mm, setting())
-          .required("zero_right_mm", &Found::zero_right_mm, setting())
-          .required("scale_left_mm_per_m", &Found::scale_left_mm_per_m, setting())
-          .required("scale_right_mm_per_m", &Found::scale_right_mm_per_m, setting())
-          .required("correlations", &Found::correlations, list(number({"", -1.0, 1.0})))
+          .required(
+              "pin_spacing_mm", "Distance between the pins.", &Found::pin_spacing_mm, setting())
+          .required("pin_rise_mm",
+                    "Height of the right pin above the left.",
+                    &Found::pin_rise_mm,
+                    setting())
+          .required("zero_left_mm",
+                    "Excess of the controller's length of the left cord.",
+                    &Found::zero_left_mm,
+                    setting())
+          .required("zero_right_mm",
+                    "Excess of the controller's length of the right cord.",
+                    &Found::zero_right_mm,
+                    setting())
+          .required("scale_left_mm_per_m",
+                    "Excess of the controller's length per metre of the left cord.",
+                    &Found::scale_left_mm_per_m,
+                    setting())
+          .required("scale_right_mm_per_m",
+                    "Excess of the controller's length per metre of the right cord.",
+                    &Found::scale_right_mm_per_m,
+                    setting())
+          .required("correlations",
+                    "Correlations of each of these six, in this order, with those after it: 15 "
+                    "numbers, used for the expected error of compensated drawings.",
+                    &Found::correlations,
+                    list(number({"", -1.0, 1.0})))
           .check(check_correlations);
   return record;
 }
@@ -77,8 +96,15 @@ void check_found(const Cursor& at, KnownPlotter& plotter) {
 const Record<KnownPlotter>& plotter_record() {
   static const auto record = [] {
     Record<KnownPlotter> plotter("a V-plotter", kPlotterFormat);
-    plotter.required("set", &KnownPlotter::set, object(set_plotter_record()))
-        .optional("found", &KnownPlotter::found, object(found_plotter_record()));
+    plotter
+        .required("set",
+                  "The plotter with its controller's settings.",
+                  &KnownPlotter::set,
+                  object(set_plotter_record()))
+        .optional("found",
+                  "Results of a test drawing; absent before one was measured.",
+                  &KnownPlotter::found,
+                  object(found_plotter_record()));
     add_made_by_key(plotter).check(check_found);
     return plotter;
   }();

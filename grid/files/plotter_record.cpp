@@ -19,46 +19,90 @@ using model::PlotterUncertainty;
 const Record<Gondola>& gondola_record() {
   static const auto record =
       Record<Gondola>("a gondola")
-          .optional("spacing_mm", &Gondola::spacing_mm, number_in("mm"))
-          .optional("pen_below_mm", &Gondola::pen_below_mm, number_in("mm"))
-          .optional("pen_right_mm", &Gondola::pen_right_mm, number_in("mm"))
-          .optional("mass_below_mm", &Gondola::mass_below_mm, number_in("mm"))
-          .optional("mass_right_mm", &Gondola::mass_right_mm, number_in("mm"))
-          .required("mass_kg", &Gondola::mass_kg, number_in("kg"))
-          .optional("standoff_mm", &Gondola::standoff_mm, number_in("mm"));
+          .optional("spacing_mm",
+                    "Between the two points where the cords hold it; 0: both cords end at the pen.",
+                    &Gondola::spacing_mm,
+                    number_in("mm"))
+          .optional("pen_below_mm",
+                    "Distance of the pen below the middle between those points, hanging level.",
+                    &Gondola::pen_below_mm,
+                    number_in("mm"))
+          .optional("pen_right_mm",
+                    "Distance of the pen to the right of that middle.",
+                    &Gondola::pen_right_mm,
+                    number_in("mm"))
+          .optional("mass_below_mm",
+                    "Distance of the centre of mass below that middle.",
+                    &Gondola::mass_below_mm,
+                    number_in("mm"))
+          .optional("mass_right_mm",
+                    "Distance of the centre of mass to the right of that middle.",
+                    &Gondola::mass_right_mm,
+                    number_in("mm"))
+          .required("mass_kg", "Mass of everything that hangs.", &Gondola::mass_kg, number_in("kg"))
+          .optional("standoff_mm",
+                    "Extra distance from the wall of the cords' ends at the gondola, relative to "
+                    "those at the wall.",
+                    &Gondola::standoff_mm,
+                    number_in("mm"));
   return record;
 }
 
 const Record<Cord>& cord_record() {
   static const auto record =
       Record<Cord>("a cord")
-          .optional("mass_kg_per_m", &Cord::mass_kg_per_m, number_in("kg/m"))
-          .optional("compliance_per_n", &Cord::compliance_per_n, number_in("1/N"))
-          .optional("tooth_mm", &Cord::tooth_mm, number_in("mm"));
+          .optional(
+              "mass_kg_per_m", "Mass of a metre of cord.", &Cord::mass_kg_per_m, number_in("kg/m"))
+          .optional("compliance_per_n",
+                    "Strain of a cord per newton; 0: none.",
+                    &Cord::compliance_per_n,
+                    number_in("1/N"))
+          .optional(
+              "tooth_mm",
+              "Length lost when a motor slips: a tooth of the belt, or a full step of a spool.",
+              &Cord::tooth_mm,
+              number_in("mm"));
   return record;
 }
 
 const Record<DrawingArea>& area_record() {
-  static const auto record = Record<DrawingArea>("a drawing area")
-                                 .required("left_mm", &DrawingArea::left_mm, number_in("mm"))
-                                 .required("right_mm", &DrawingArea::right_mm, number_in("mm"))
-                                 .required("top_mm", &DrawingArea::top_mm, number_in("mm"))
-                                 .required("bottom_mm", &DrawingArea::bottom_mm, number_in("mm"));
+  static const auto record =
+      Record<DrawingArea>("a drawing area")
+          .required("left_mm", "Left limit of the pen.", &DrawingArea::left_mm, number_in("mm"))
+          .required("right_mm", "Right limit of the pen.", &DrawingArea::right_mm, number_in("mm"))
+          .required("top_mm",
+                    "Upper limit of the pen; the pins are at 0.",
+                    &DrawingArea::top_mm,
+                    number_in("mm"))
+          .required(
+              "bottom_mm", "Lower limit of the pen.", &DrawingArea::bottom_mm, number_in("mm"));
   return record;
 }
 
 const Record<ChainLengths>& cord_zero_record() {
   static const auto record = Record<ChainLengths>("the zeros of the cords")
-                                 .optional("left_mm", &ChainLengths::left_mm, number_in("mm"))
-                                 .optional("right_mm", &ChainLengths::right_mm, number_in("mm"));
+                                 .optional("left_mm",
+                                           "Excess of the controller's length of the left cord.",
+                                           &ChainLengths::left_mm,
+                                           number_in("mm"))
+                                 .optional("right_mm",
+                                           "Excess of the controller's length of the right cord.",
+                                           &ChainLengths::right_mm,
+                                           number_in("mm"));
   return record;
 }
 
 const Record<ChainLengths>& cord_scale_record() {
   static const auto record =
       Record<ChainLengths>("the scales of the cords")
-          .optional("left_mm_per_m", &ChainLengths::left_mm, number_in("mm/m"))
-          .optional("right_mm_per_m", &ChainLengths::right_mm, number_in("mm/m"));
+          .optional("left_mm_per_m",
+                    "Excess of the controller's length per metre of the left cord.",
+                    &ChainLengths::left_mm,
+                    number_in("mm/m"))
+          .optional("right_mm_per_m",
+                    "Excess of the controller's length per metre of the right cord.",
+                    &ChainLengths::right_mm,
+                    number_in("mm/m"));
   return record;
 }
 
@@ -66,10 +110,22 @@ const Record<PlotterUncertainty>& uncertainty_of_plotter_record() {
   using Sigmas = PlotterUncertainty;
   static const auto record =
       Record<Sigmas>("the uncertainties of a V-plotter")
-          .optional("pin_spacing_mm", &Sigmas::pin_spacing_mm, number_in("mm"))
-          .optional("pin_rise_mm", &Sigmas::pin_rise_mm, number_in("mm"))
-          .optional("zero_mm", &Sigmas::zero_mm, number_in("mm"))
-          .optional("scale_mm_per_m", &Sigmas::scale_mm_per_m, number_in("mm/m"));
+          .optional("pin_spacing_mm",
+                    "Uncertainty of the distance between the pins, 1 sigma.",
+                    &Sigmas::pin_spacing_mm,
+                    number_in("mm"))
+          .optional("pin_rise_mm",
+                    "Uncertainty of the right pin's height above the left, 1 sigma.",
+                    &Sigmas::pin_rise_mm,
+                    number_in("mm"))
+          .optional("zero_mm",
+                    "Uncertainty of each cord's zero, 1 sigma.",
+                    &Sigmas::zero_mm,
+                    number_in("mm"))
+          .optional("scale_mm_per_m",
+                    "Uncertainty of the length per motor turn, 1 sigma.",
+                    &Sigmas::scale_mm_per_m,
+                    number_in("mm/m"));
   return record;
 }
 
@@ -87,46 +143,73 @@ const Record<PlotterMachine>& plotter_machine_record() {
   using Plotter = PlotterMachine;
   static const auto record =
       Record<Plotter>("a V-plotter's machine")
-          .optional("name", &Plotter::name, text())
-          .required("pin_spacing_mm", &Plotter::pin_spacing_mm, number_in("mm"))
-          .optional("pin_rise_mm", &Plotter::pin_rise_mm, number_in("mm"))
+          .optional("name", "Its name.", &Plotter::name, text())
+          .required("pin_spacing_mm",
+                    "Distance between the two points on the wall from which the cords come: pins, "
+                    "or axles of the pulleys.",
+                    &Plotter::pin_spacing_mm,
+                    number_in("mm"))
+          .optional("pin_rise_mm",
+                    "Height of the right point above the left.",
+                    &Plotter::pin_rise_mm,
+                    number_in("mm"))
           .required(
               "motors",
+              "Location of the motors with the pulleys or spools that count.",
               &Plotter::motors,
               choice<MotorPlace>({{"wall", MotorPlace::wall}, {"gondola", MotorPlace::gondola}}))
           .optional("feed",
+                    "Side of its pulley over which a cord leaves.",
                     &Plotter::feed,
                     choice<Feed>({{"over_top", Feed::over_top}, {"off_bottom", Feed::off_bottom}}))
-          .optional("pulley_radius_mm", &Plotter::pulley_radius_mm, number_in("mm"))
-          .required("gondola", &Plotter::gondola, object(gondola_record()))
-          .optional("cord", &Plotter::cord, object(cord_record()))
-          .optional("zero", &Plotter::zero_mm, object(cord_zero_record()))
-          .optional("scale", &Plotter::scale_mm_per_m, object(cord_scale_record()))
-          .required("area", &Plotter::area, object(area_record()))
-          .optional("uncertainty", &Plotter::uncertainty, object(uncertainty_of_plotter_record()))
+          .optional("pulley_radius_mm",
+                    "Radius of the cord on its pulley; 0: straight to the pin.",
+                    &Plotter::pulley_radius_mm,
+                    number_in("mm"))
+          .required(
+              "gondola", "What hangs on the cords.", &Plotter::gondola, object(gondola_record()))
+          .optional("cord", "The cords, or belts.", &Plotter::cord, object(cord_record()))
+          .optional("zero",
+                    "Known excess of the controller's length of each cord, which is corrected.",
+                    &Plotter::zero_mm,
+                    object(cord_zero_record()))
+          .optional(
+              "scale", "The same per metre.", &Plotter::scale_mm_per_m, object(cord_scale_record()))
+          .required("area",
+                    "Allowed positions of the pen, from the middle between the pins.",
+                    &Plotter::area,
+                    object(area_record()))
+          .optional("uncertainty",
+                    "Uncertainties of the settings, 1 sigma.",
+                    &Plotter::uncertainty,
+                    object(uncertainty_of_plotter_record()))
           .check(check_plotter_machine);
   return record;
 }
 
 const Record<model::PerSide<double>>& steps_record() {
   using Steps = model::PerSide<double>;
-  static const auto record = Record<Steps>("steps per millimetre")
-                                 .required("left", &Steps::left, number({"", 0.0, 1e5}))
-                                 .required("right", &Steps::right, number({"", 0.0, 1e5}));
+  static const auto record =
+      Record<Steps>("steps per millimetre")
+          .required("left", "Of the left motor; 0: unknown.", &Steps::left, number({"", 0.0, 1e5}))
+          .required(
+              "right", "Of the right motor; 0: unknown.", &Steps::right, number({"", 0.0, 1e5}));
   return record;
 }
 
 const Record<BedPoint>& wall_point_record() {
-  static const auto record = Record<BedPoint>("a place on the wall")
-                                 .required("x_mm", &BedPoint::x_mm, number(kPlaceMm))
-                                 .required("y_mm", &BedPoint::y_mm, number(kPlaceMm));
+  static const auto record =
+      Record<BedPoint>("a place on the wall")
+          .required("x_mm", "x, to the right.", &BedPoint::x_mm, number(kPlaceMm))
+          .required("y_mm", "y, up.", &BedPoint::y_mm, number(kPlaceMm));
   return record;
 }
 
 const Record<PenCommands>& pen_record() {
-  static const auto record = Record<PenCommands>("the pen's commands")
-                                 .required("up", &PenCommands::up, text())
-                                 .required("down", &PenCommands::down, text());
+  static const auto record =
+      Record<PenCommands>("the pen's commands")
+          .required("up", "The line of G-code that lifts the pen.", &PenCommands::up, text())
+          .required("down", "The line of G-code that lowers it.", &PenCommands::down, text());
   return record;
 }
 
@@ -152,21 +235,51 @@ const Record<SetPlotter>& set_plotter_record() {
   static const auto record =
       Record<SetPlotter>("a V-plotter as its controller holds it")
           .required("firmware",
+                    "The firmware, whose kinematics converts a command into cord lengths; a "
+                    "Makelangelo is a marlin.",
                     &SetPlotter::firmware,
                     choice<PlotterFirmware>({{"fluidnc", PlotterFirmware::fluidnc},
                                              {"marlin", PlotterFirmware::marlin},
                                              {"polargraph", PlotterFirmware::polargraph},
                                              {"mural", PlotterFirmware::mural}}))
-          .required("machine", &SetPlotter::machine, object(plotter_machine_record()))
-          .optional("steps_per_mm", &SetPlotter::steps_per_mm, object(steps_record()))
-          .optional("home", &SetPlotter::home, object(wall_point_record()))
-          .optional("pins_middle", &SetPlotter::pins_middle, object(wall_point_record()))
+          .required("machine",
+                    "The machine with the controller's settings.",
+                    &SetPlotter::machine,
+                    object(plotter_machine_record()))
+          .optional("steps_per_mm",
+                    "As set in the controller.",
+                    &SetPlotter::steps_per_mm,
+                    object(steps_record()))
+          .optional("home",
+                    "Position that the controller assumes when it is switched on, from the middle "
+                    "between the pins. For all but a mural.",
+                    &SetPlotter::home,
+                    object(wall_point_record()))
+          .optional("pins_middle",
+                    "The middle between the pins in the controller's own coordinates.",
+                    &SetPlotter::pins_middle,
+                    object(wall_point_record()))
+          .optional("homed_offset_mm",
+                    "Homed step offset of a mural.",
+                    &SetPlotter::homed_offset_mm,
+                    number({"mm", -1000.0, 1000.0}))
+          .optional("pen",
+                    "Commands that lift and lower the pen.",
+                    &SetPlotter::pen,
+                    object(pen_record()))
+          .optional("feed_mm_per_min",
+                    "Feed for the test page.",
+                    &SetPlotter::feed_mm_per_min,
+                    number({"mm/min", 1.0, 1e5}))
           .optional(
-              "homed_offset_mm", &SetPlotter::homed_offset_mm, number({"mm", -1000.0, 1000.0}))
-          .optional("pen", &SetPlotter::pen, object(pen_record()))
-          .optional("feed_mm_per_min", &SetPlotter::feed_mm_per_min, number({"mm/min", 1.0, 1e5}))
-          .optional("longest_belt_mm", &SetPlotter::longest_belt_mm, number({"mm", 1.0, 40000.0}))
-          .optional("segments_per_second", &SetPlotter::segments_per_second, number({"1/s", 0.1, 1e4}))
+              "longest_belt_mm",
+              "Longest belt that the controller allows: no cross of the test drawing needs more.",
+              &SetPlotter::longest_belt_mm,
+              number({"mm", 1.0, 40000.0}))
+          .optional("segments_per_second",
+                    "For Marlin: pieces per second into which it divides a move (S of M665).",
+                    &SetPlotter::segments_per_second,
+                    number({"1/s", 0.1, 1e4}))
           .check(check_set_plotter);
   return record;
 }

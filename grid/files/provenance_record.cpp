@@ -7,9 +7,13 @@ namespace chaintrue::grid::files {
 namespace {
 
 const Record<SourceFile>& source_file_record() {
-  static const auto record = Record<SourceFile>("a file that was read")
-                                 .required("name", &SourceFile::name, text())
-                                 .required("sha256", &SourceFile::sha256, text());
+  static const auto record =
+      Record<SourceFile>("a file that was read")
+          .required("name", "Its name, without folders.", &SourceFile::name, text())
+          .required("sha256",
+                    "SHA-256 of its bytes, 64 hexadecimal digits, as sha256sum prints it.",
+                    &SourceFile::sha256,
+                    text());
   return record;
 }
 
@@ -18,10 +22,18 @@ const Record<SourceFile>& source_file_record() {
 const Record<Provenance>& provenance_record() {
   static const auto record =
       Record<Provenance>("where a result comes from")
-          .required("version", &Provenance::version, text())
-          .required("verb", &Provenance::verb, text())
-          .required("options", &Provenance::options, list(text()))
-          .required("inputs", &Provenance::inputs, list(object(source_file_record())));
+          .required("version", "Version of chaintrue.", &Provenance::version, text())
+          .required(
+              "verb", "Verb of the command, or function, that made it.", &Provenance::verb, text())
+          .required("options",
+                    "Options as given, with files without their folders and without those that "
+                    "name an output.",
+                    &Provenance::options,
+                    list(text()))
+          .required("inputs",
+                    "The files that were read, in order.",
+                    &Provenance::inputs,
+                    list(object(source_file_record())));
   return record;
 }
 

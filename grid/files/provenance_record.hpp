@@ -19,6 +19,7 @@ template <class T>
 Record<T>& add_made_by_key(Record<T>& record) {
   return record.custom(
       "made_by",
+      "Provenance; absent if unknown.",
       false,
       provenance_record().expected(),
       [](const Cursor& at, T&) { (void)provenance_record().read(at); },

@@ -56,10 +56,19 @@ const Record<ExtraReading>& reading_record() {
   constexpr double kSmallestSigma = 1e-9;
   static const auto record =
       Record<ExtraReading>("a reading")
-          .required("what", &ExtraReading::what, reading_name())
-          .sparse("side", &ExtraReading::side, one_of({"left", "right", "both", "x", "y"}))
-          .required("value", &ExtraReading::value, number({"", -kAny, kAny}))
-          .required("sigma", &ExtraReading::sigma, number({"", kSmallestSigma, kAny}))
+          .required("what", "The quantity that was measured.", &ExtraReading::what, reading_name())
+          .sparse("side",
+                  "For a pitch left, right or both; for a tape error x, y or both.",
+                  &ExtraReading::side,
+                  one_of({"left", "right", "both", "x", "y"}))
+          .required("value",
+                    "Its value, in the unit at the end of the quantity's name.",
+                    &ExtraReading::value,
+                    number({"", -kAny, kAny}))
+          .required("sigma",
+                    "1 sigma, in the same unit.",
+                    &ExtraReading::sigma,
+                    number({"", kSmallestSigma, kAny}))
           .check(check_reading);
   return record;
 }

@@ -43,7 +43,9 @@ Value<Eigen::Vector2d> pair_of_numbers(const Range& range) {
             return std::nullopt;
           },
           // A negative zero would be read back as a zero: the same number, other bytes.
-          [](const Eigen::Vector2d& pair) { return Json::array({pair[0] + 0.0, pair[1] + 0.0}); },
+          [](const Eigen::Vector2d& pair) {
+            return Json::array({pair[0] + 0.0, pair[1] + 0.0});
+          },
           {expected, [numbers] {
              Json schema = numbers.expected.schema();
              schema["maxItems"] = 2;
@@ -61,8 +63,9 @@ Value<model::Setting> setting_word() {
 const Record<ErrorSummary>& error_summary_record() {
   static const auto record =
       Record<ErrorSummary>("rms and maximum")
-          .required("rms_mm", &ErrorSummary::rms_mm, number(kNotNegative))
-          .required("maximum_mm", &ErrorSummary::maximum_mm, number(kNotNegative));
+          .required("rms_mm", "Root mean square.", &ErrorSummary::rms_mm, number(kNotNegative))
+          .required(
+              "maximum_mm", "Largest value.", &ErrorSummary::maximum_mm, number(kNotNegative));
   return record;
 }
 

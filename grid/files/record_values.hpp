@@ -4,7 +4,10 @@
 /// to grid/files.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -37,6 +40,30 @@ inline constexpr int kMostNumbered = 1000000;
 [[nodiscard]] inline Value<double> number_in(std::string_view unit) {
   constexpr double kBeyondMeaning = 1e6;
   return number({unit, -kBeyondMeaning, kBeyondMeaning});
+}
+
+/// Exactly N of them; `words` say so: "five coordinates".
+template <std::size_t N, class V>
+[[nodiscard]] Value<std::array<V, N>> exactly(const Value<V>& element, const std::string& words) {
+  const Value<std::vector<V>> all = list(element);
+  return {[all, words](const Cursor& at) -> std::optional<std::array<V, N>> {
+            const auto found = all.read(at);
+            if (!found) return std::nullopt;
+            std::array<V, N> values{};
+            if (found->size() == N) {
+              std::copy(found->begin(), found->end(), values.begin());
+              return values;
+            }
+            at.problems().add(at.pointer(),
+                              std::to_string(found->size()) + " of them",
+                              words,
+                              ProblemKind::wrong_count);
+            return std::nullopt;
+          },
+          [all](const std::array<V, N>& values) {
+            return all.write(std::vector<V>(values.begin(), values.end()));
+          },
+          {words, list(element, N).expected.schema}};
 }
 
 /// The name of a setting of the machine or of the sheet.

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "grid/containers.hpp"
-#include "grid/files/json_reader.hpp"
 #include "grid/files/effect_file.hpp"
+#include "grid/files/json_reader.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/machine_record.hpp"
 #include "grid/files/number_text.hpp"
@@ -59,20 +59,33 @@ Value<GridLevel> grid_size(int least) {
 }
 
 const Record<NoiseLevel>& noise_level_record() {
-  static const auto record =
-      Record<NoiseLevel>("a noise")
-          .required("length_mm", &NoiseLevel::length_mm, number({"mm", 0.0, 100.0}))
-          .required("position_mm", &NoiseLevel::position_mm, number({"mm", 0.0, 100.0}));
+  static const auto record = Record<NoiseLevel>("a noise")
+                                 .required("length_mm",
+                                           "Noise of a chain reading, 1 sigma.",
+                                           &NoiseLevel::length_mm,
+                                           number({"mm", 0.0, 100.0}))
+                                 .required("position_mm",
+                                           "Noise of a mark's position, 1 sigma on each axis.",
+                                           &NoiseLevel::position_mm,
+                                           number({"mm", 0.0, 100.0}));
   return record;
 }
 
 const Record<StatedMachine>& stated_machine_record() {
   static const auto record =
       Record<StatedMachine>("a machine")
-          .required("name", &StatedMachine::name, text())
-          .required("machine_file", &StatedMachine::machine_file, text())
-          .sparse("stated_file", &StatedMachine::stated_file, text())
+          .required(
+              "name", "Name of the machine in messages and pages.", &StatedMachine::name, text())
+          .required("machine_file",
+                    "Path of the true machine, from this file.",
+                    &StatedMachine::machine_file,
+                    text())
+          .sparse("stated_file",
+                  "Path of the machine that the owner assumes; default: the true one.",
+                  &StatedMachine::stated_file,
+                  text())
           .optional("model",
+                    "The physics used to simulate readings.",
                     &StatedMachine::model,
                     choice<Model>({{"straight", Model::straight},
                                    {"wrap", Model::wrap},
@@ -81,24 +94,36 @@ const Record<StatedMachine>& stated_machine_record() {
                                    {"inextensible", Model::inextensible},
                                    {"elastic", Model::elastic},
                                    {"elastic_3d", Model::elastic_3d}}))
-          .optional("unmodelled_mm", &StatedMachine::unmodelled_mm, number({"mm", 0.0, 100.0}));
+          .optional("unmodelled_mm",
+                    "Size of smooth errors outside every model.",
+                    &StatedMachine::unmodelled_mm,
+                    number({"mm", 0.0, 100.0}));
   return record;
 }
 
 const Record<EffectsLevel>& effects_record() {
   static const auto record =
       Record<EffectsLevel>("hidden effects")
-          .required("name", &EffectsLevel::name, text())
-          .required("effects", &EffectsLevel::effects, list(object(effect_record())));
+          .required("name", "Name of this level in results.", &EffectsLevel::name, text())
+          .required("effects",
+                    "Effects of the true machine that are hidden from the fit.",
+                    &EffectsLevel::effects,
+                    list(object(effect_record())));
   return record;
 }
 
 const Record<UseLevel>& use_record() {
   static const auto record =
       Record<UseLevel>("a machine that the map is used on")
-          .required("name", &UseLevel::name, text())
-          .sparse("effects", &UseLevel::effects, list(object(effect_record())))
-          .optional("another_of_the_build", &UseLevel::another_of_the_build, boolean());
+          .required("name", "Name of this level in results.", &UseLevel::name, text())
+          .sparse("effects",
+                  "Effects that it has besides those of the measured machine.",
+                  &UseLevel::effects,
+                  list(object(effect_record())))
+          .optional("another_of_the_build",
+                    "A different machine of the same build, with its settings drawn anew.",
+                    &UseLevel::another_of_the_build,
+                    boolean());
   return record;
 }
 
@@ -127,23 +152,42 @@ MemberPath<StatedSweep, V> of_spec(V SweepSpec::*member) {
 }
 
 Record<StatedSweep> make_record() {
-  const auto spacing = choice<DesignKind>(
-      {{"regular", DesignKind::regular}, {"chebyshev", DesignKind::chebyshev}});
+  const auto spacing =
+      choice<DesignKind>({{"regular", DesignKind::regular}, {"chebyshev", DesignKind::chebyshev}});
   const auto surface = choice<SurfaceLevel>({{"residual", SurfaceLevel::residual},
                                              {"direct", SurfaceLevel::direct},
                                              {"direct_parabolic", SurfaceLevel::direct_parabolic},
                                              {"direct_natural", SurfaceLevel::direct_natural}});
   const auto raster = grid_size(1);
   return Record<StatedSweep>("a chaintrue_sweep file", kSweepFormat)
-      .required("name", of_spec(&SweepSpec::name), text())
-      .optional("question", of_spec(&SweepSpec::question), text())
-      .optional("seed", of_spec(&SweepSpec::seed), seed_number())
-      .required("repetitions", of_spec(&SweepSpec::repetitions), integer(1, 1'000'000))
-      .optional("repeats", of_spec(&SweepSpec::repeats), integer(0, 10'000))
-      .optional("draw_settings", of_spec(&SweepSpec::draw_settings), boolean())
-      .optional("whole_bed", of_spec(&SweepSpec::whole_bed), boolean())
+      .required("name", "Name of the sweep.", of_spec(&SweepSpec::name), text())
+      .optional("question",
+                "The question it answers, in a sentence.",
+                of_spec(&SweepSpec::question),
+                text())
+      .optional("seed",
+                "Seed of the random draws; the same seed gives the same numbers.",
+                of_spec(&SweepSpec::seed),
+                seed_number())
+      .required("repetitions",
+                "Number of machines drawn for each combination.",
+                of_spec(&SweepSpec::repetitions),
+                integer(1, 1'000'000))
+      .optional("repeats",
+                "Number of marks that are visited twice.",
+                of_spec(&SweepSpec::repeats),
+                integer(0, 10'000))
+      .optional("draw_settings",
+                "Draw motors and zeros from the machine's uncertainty.",
+                of_spec(&SweepSpec::draw_settings),
+                boolean())
+      .optional("whole_bed",
+                "Evaluate the map over the whole bed, not only the measured part.",
+                of_spec(&SweepSpec::whole_bed),
+                boolean())
       .custom(
           "evaluation",
+          "Columns x rows of places where the map is compared with the truth.",
           false,
           raster.expected,
           [raster](const Cursor& at, StatedSweep& stated) {
@@ -156,14 +200,36 @@ Record<StatedSweep> make_record() {
             return std::optional<Json>(
                 raster.write({stated.spec.evaluation_columns, stated.spec.evaluation_rows}));
           })
-      .optional("grids", of_spec(&SweepSpec::grids), list(grid_size(2), 1))
-      .optional("spacings", of_spec(&SweepSpec::spacings), list(spacing, 1))
-      .optional("noises", of_spec(&SweepSpec::noises), list(object(noise_level_record()), 1))
-      .optional("jitters_mm", of_spec(&SweepSpec::jitters_mm), list(number({"mm", 0.0, 1000.0}), 1))
-      .optional("surfaces", of_spec(&SweepSpec::surfaces), list(surface, 1))
-      .required("machines", &StatedSweep::machines, list(object(stated_machine_record()), 1))
-      .optional("effects", of_spec(&SweepSpec::effects), list(object(effects_record()), 1))
-      .optional("used_on", of_spec(&SweepSpec::uses), list(object(use_record()), 1));
+      .optional("grids",
+                "Columns x rows of marks; a factor.",
+                of_spec(&SweepSpec::grids),
+                list(grid_size(2), 1))
+      .optional("spacings",
+                "Spacing of the marks; a factor.",
+                of_spec(&SweepSpec::spacings),
+                list(spacing, 1))
+      .optional("noises",
+                "Noise of the readings; a factor.",
+                of_spec(&SweepSpec::noises),
+                list(object(noise_level_record()), 1))
+      .optional("jitters_mm",
+                "Largest distance of the sled from its mark; a factor.",
+                of_spec(&SweepSpec::jitters_mm),
+                list(number({"mm", 0.0, 1000.0}), 1))
+      .optional(
+          "surfaces", "Kind of map; a factor.", of_spec(&SweepSpec::surfaces), list(surface, 1))
+      .required("machines",
+                "The machines; a factor.",
+                &StatedSweep::machines,
+                list(object(stated_machine_record()), 1))
+      .optional("effects",
+                "Hidden effects; a factor.",
+                of_spec(&SweepSpec::effects),
+                list(object(effects_record()), 1))
+      .optional("used_on",
+                "The machine that the map is used on; a factor.",
+                of_spec(&SweepSpec::uses),
+                list(object(use_record()), 1));
 }
 
 const Record<StatedSweep>& sweep_record() {

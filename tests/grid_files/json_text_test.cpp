@@ -152,7 +152,8 @@ TEST(Problems, ValuesAreShortenedAndPrintable) {
 
 TEST(Problems, TheFirstHundredAreListedAndTheRestCounted) {
   Problems problems("file");
-  for (int i = 0; i < 140; ++i) problems.add("/x", "1", std::to_string(i), ProblemKind::out_of_range);
+  for (int i = 0; i < 140; ++i)
+    problems.add("/x", "1", std::to_string(i), ProblemKind::out_of_range);
   try {
     problems.throw_if_any();
     FAIL() << "no error";
@@ -165,7 +166,8 @@ TEST(Problems, TheFirstHundredAreListedAndTheRestCounted) {
 
 TEST(Problems, OfAKindFiveAreListedAndTheRestCounted) {
   Problems problems("file");
-  for (int i = 0; i < 101; ++i) problems.add("/x", "1", "a whole number", ProblemKind::not_a_number);
+  for (int i = 0; i < 101; ++i)
+    problems.add("/x", "1", "a whole number", ProblemKind::not_a_number);
   for (int i = 0; i < 6; ++i) problems.add("/y", "1", "a word", ProblemKind::unknown_word);
   try {
     problems.throw_if_any();
@@ -219,20 +221,21 @@ struct Holes {
 };
 
 const Record<Hole>& hole_record() {
-  static const auto record = Record<Hole>("a hole")
-                                 .required("name", &Hole::name, text())
-                                 .required("x_mm", &Hole::x_mm, number({"mm", -20000, 20000}))
-                                 .optional("sigma_mm", &Hole::sigma_mm, number({"mm", 0, 50}));
+  static const auto record =
+      Record<Hole>("a hole")
+          .required("name", "Its name.", &Hole::name, text())
+          .required("x_mm", "Commanded x.", &Hole::x_mm, number({"mm", -20000, 20000}))
+          .optional("sigma_mm", "1 sigma on each axis.", &Hole::sigma_mm, number({"mm", 0, 50}));
   return record;
 }
 
 const Record<Holes>& holes_record() {
   static const auto record =
       Record<Holes>("a holes file", kHolesFormat)
-          .sparse("name", &Holes::name, text())
-          .required("holes", &Holes::holes, list(object(hole_record()), 2))
-          .sparse("weights", &Holes::weights, dictionary(number({"", 0, 1})))
-          .sparse("matrix", &Holes::matrix, list(list(number({"mm", -1, 1}))))
+          .sparse("name", "Its name.", &Holes::name, text())
+          .required("holes", "The holes.", &Holes::holes, list(object(hole_record()), 2))
+          .sparse("weights", "By name.", &Holes::weights, dictionary(number({"", 0, 1})))
+          .sparse("matrix", "Of numbers.", &Holes::matrix, list(list(number({"mm", -1, 1}))))
           .check([](const Cursor& at, Holes& holes) {
             if (at.clean() && holes.holes[0].name == holes.holes[1].name) {
               at.child("holes").expect("names that differ");
