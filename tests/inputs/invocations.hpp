@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/cli/option_rules.hpp"
+#include "tools/cli/arguments.hpp"
 
 namespace chaintrue::inputs {
 
@@ -16,10 +16,19 @@ namespace chaintrue::inputs {
 struct Invocation {
   std::string verb;  ///< "fit", "gcode check"
   std::string name;  ///< of the kind of input
-  cli::Facts facts;  ///< what option_rules.def knows of it
+  cli::Facts facts;  ///< what options depend on (tools/cli/facts.hpp)
   std::string line;
 };
 [[nodiscard]] const std::vector<Invocation>& invocations();
+
+/// The first rule of the command that refuses the option there; null where it acts.
+[[nodiscard]] inline const cli::OptionRule* refusal_of(std::string_view verb, std::string_view option, cli::Facts facts) {
+  static const std::vector<cli::OptionRule> rules = cli::option_rules();
+  for (const cli::OptionRule& rule : rules) {
+    if (rule.verb == verb && rule.option == option && (rule.acts_on & facts) == 0) return &rule;
+  }
+  return nullptr;
+}
 
 /// Valid values of an option that takes neither any number, any file nor one of the choices that --help
 /// lists; empty for others.

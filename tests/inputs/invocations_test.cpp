@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every verb answers each kind of input that it takes, and refuses every option that would do nothing
-// there (tools/cli/option_rules.def). The options are those of --help; that each other one changes the
+// there (tools/cli/facts.hpp). The options are those of --help; that each other one changes the
 // answer is tried in tests/lab/inputs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,12 +35,6 @@ const Ran& answer_of(const Invocation& call) {
   const auto known = answers.find(call.line);
   return known != answers.end() ? known->second
                                 : answers.emplace(call.line, folder().run(call.line)).first->second;
-}
-
-std::set<std::string> verbs_with_rules() {
-  std::set<std::string> verbs;
-  for (const cli::OptionRule& rule : cli::kOptionRules) verbs.emplace(rule.verb);
-  return verbs;
 }
 
 /// The option with a valid value, as it stands in a command line.
@@ -86,17 +80,6 @@ TEST(Invocations, AnswerTheSameBytesTwice) {
   }
 }
 
-TEST(OptionRules, NameTheOptionsOfHelp) {
-  for (const std::string& verb : verbs_with_rules()) {
-    std::set<std::string> shown, named;
-    for (const Option& option : options_in(help_of(verb))) shown.insert(option.name);
-    for (const cli::OptionRule& rule : cli::kOptionRules) {
-      if (rule.verb == verb) named.emplace(rule.option);
-    }
-    EXPECT_EQ(named, shown) << verb;
-  }
-}
-
 struct Refusal {
   std::string words;
   const cli::OptionRule* rule;
@@ -106,7 +89,7 @@ struct Refusal {
 std::vector<Refusal> refusals_of(const Invocation& call, const std::vector<Option>& options) {
   std::vector<Refusal> refusals;
   for (const Option& option : options) {
-    const cli::OptionRule* rule = cli::refusal_of(call.verb, option.name, call.facts);
+    const cli::OptionRule* rule = refusal_of(call.verb, option.name, call.facts);
     if (rule != nullptr) refusals.push_back({valid(option, rule->harmless), rule});
   }
   return refusals;
@@ -118,7 +101,7 @@ bool is_refused(const Ran& ran, const Refusal& refusal) {
 }
 
 TEST(OptionRules, RefuseWhatWouldDoNothing) {
-  for (const std::string& verb : verbs_with_rules()) {
+  for (const std::string& verb : verbs_in(help_of)) {
     const std::vector<Option> options = options_in(help_of(verb));
     for (const Invocation& call : invocations()) {
       if (call.verb != verb) continue;

@@ -5,7 +5,26 @@
 
 #include <utility>
 
+#include "tools/cli/effect_argument.hpp"
+#include "tools/cli/verb.hpp"
+
 namespace chaintrue::cli {
+namespace {
+
+struct Rule {
+  const CLI::Option* option;
+  Facts acts_on;
+  std::string otherwise;
+  std::string harmless;
+};
+
+/// Of all verbs; one command line a process.
+std::vector<Rule>& rules() {
+  static std::vector<Rule> all;
+  return all;
+}
+
+}  // namespace
 
 Option Option::required() const {
   option_->required();
@@ -50,6 +69,11 @@ Option Option::value_word(const std::string& word) const {
 Option Option::refuses(std::function<std::string(const std::string&)> fault) const {
   option_->check(
       CLI::Validator([fault = std::move(fault)](std::string& text) { return fault(text); }, ""));
+  return *this;
+}
+
+Option Option::acts_on(Facts facts, std::string otherwise, std::string harmless) const {
+  rules().push_back({option_, facts, std::move(otherwise), std::move(harmless)});
   return *this;
 }
 
@@ -139,6 +163,21 @@ std::vector<GivenOption> Verb::given_options() const {
   return given;
 }
 
+void Verb::refuse_what_does_nothing(Facts facts) const {
+  OptionProblems problems;
+  const CLI::Option* refused = nullptr;
+  for (const CLI::Option* option : app_->get_options()) {
+    for (const Rule& rule : rules()) {
+      if (rule.option != option || option == refused || (rule.acts_on & facts) != 0) continue;
+      const std::string name = "--" + option->get_single_name();
+      if (!is_given(name) || (!rule.harmless.empty() && value_of(name) == rule.harmless)) continue;
+      problems.add(name, value_of(name), rule.otherwise, grid::ProblemKind::option_without_use);
+      refused = option;
+    }
+  }
+  problems.throw_if_any();
+}
+
 std::string Verb::path() const {
   std::string words;
   for (const CLI::App* app = with_name().app_; app->get_parent() != nullptr;
@@ -153,6 +192,32 @@ Verb Verb::with_name() const {
   CLI::App* verb = app_;
   while (verb->get_name().empty() && verb->get_parent() != nullptr) verb = verb->get_parent();
   return Verb(*verb);
+}
+
+std::vector<OptionRule> option_rules() {
+  // Checks and places of other tables keep what they point at.
+  static CLI::App app;
+  static Run run;
+#define CHAINTRUE_VERB(id) add_##id(Verb(app), run);
+#include "tools/cli/verbs.def"
+#undef CHAINTRUE_VERB
+  std::vector<OptionRule> named;
+  const auto gather = [&](const auto& self, CLI::App& verb) -> void {
+    for (const CLI::Option* option : verb.get_options()) {
+      for (const Rule& rule : rules()) {
+        if (rule.option == option)
+          named.push_back({Verb(verb).path(),
+                           "--" + option->get_single_name(),
+                           rule.acts_on,
+                           rule.otherwise,
+                           rule.harmless});
+      }
+    }
+    for (CLI::App* below : verb.get_subcommands([](const CLI::App*) { return true; }))
+      self(self, *below);
+  };
+  gather(gather, app);
+  return named;
 }
 
 void usage_error(const std::string& verb, const std::string& sentence) {

@@ -20,6 +20,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/cli/facts.hpp"
+
 namespace CLI {
 class App;
 class Option;
@@ -45,10 +47,25 @@ class Option {
   Option value_word(const std::string& word) const;
   /// `fault` says what is wrong with a value; nothing where it is right.
   Option refuses(std::function<std::string(const std::string&)> fault) const;
+  /// It does something where one of these holds; `otherwise` is what is expected where none does:
+  /// "to be left out of holes: ...". A value that says what happens in any case is `harmless`, and
+  /// not refused. Several rules of one option hold together; the first that refuses it speaks.
+  Option acts_on(Facts facts, std::string otherwise, std::string harmless = "") const;
 
  private:
   CLI::Option* option_ = nullptr;
 };
+
+/// A rule of Option::acts_on, by names.
+struct OptionRule {
+  std::string verb;  ///< "fit", "gcode check"
+  std::string option;
+  Facts acts_on;
+  std::string otherwise;
+  std::string harmless;
+};
+/// Of all verbs, in the order in which they were made.
+[[nodiscard]] std::vector<OptionRule> option_rules();
 
 /// An option of the command line, by its longest name, with the words that were given for it: none
 /// for a flag.
@@ -92,6 +109,9 @@ class Verb {
   [[nodiscard]] std::string value_of(const std::string& name) const;
   /// In the order in which the verb declares them; what is given without an option is left out.
   [[nodiscard]] std::vector<GivenOption> given_options() const;
+  /// \throws files::InputError with a sentence for each option that was given and would do nothing
+  /// with this.
+  void refuse_what_does_nothing(Facts facts) const;
   /// As it is typed: "gcode check".
   [[nodiscard]] std::string path() const;
   /// On the command line that was parsed.

@@ -19,7 +19,6 @@
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/input_file.hpp"
-#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/settings_file.hpp"
@@ -150,7 +149,7 @@ int run_check(Verb verb, const CheckCommand& command) {
     if (file.kind == FileKind::grid && !of_belts) facts |= facts::grid;
     if (file.kind == FileKind::holes && !of_belts) facts |= facts::holes;
   }
-  refuse_what_does_nothing(verb, facts);
+  verb.refuse_what_does_nothing(facts);
   bool is_after = false;
   const CheckResult check =
       of_belts ? check_of_anchors(files.front(), map) : check_of_map(command, files, map, is_after);
@@ -178,15 +177,18 @@ void add_check(Verb app, Run& run) {
   add_input(verb, "map", command->map, "A chaintrue_map or chaintrue_anchors file").required();
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);
+  verb.option("--noise-dof").acts_on(facts::nothing, "to be left out: a check takes the noise as known");
   add_input(verb,
             "--with",
             command->with,
-            "More new points, or holes and distances, to compare with the map");
+            "More new points, or holes and distances, to compare with the map")
+.acts_on(facts::map, "to be left out: anchors are checked by one file of new places");
   add_input(verb,
             "--settings",
             command->settings,
             "The controller's settings when the new points were commanded, if they had changed "
-            "since the map was measured: groundcontrol.ini, webcontrol.json, or a machine file");
+            "since the map was measured: groundcontrol.ini, webcontrol.json, or a machine file")
+.acts_on(facts::map, "to be left out: anchors are checked by what their own file says was commanded");
   verb.add_flag("--json", command->json, "Print all numbers as JSON");
   add_output(
       verb, "-o,--output", command->output, {Origin::table, Origin::check}, "- is standard output")

@@ -24,7 +24,6 @@
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/numbers.hpp"
-#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
@@ -87,7 +86,7 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   require_kind(file,
                {FileKind::grid, FileKind::holes, FileKind::belts, FileKind::drawing},
                file.kind == FileKind::belt_holes ? kBeltHolesAreFitted : "");
-  refuse_what_does_nothing(verb, facts_of(opened));
+  verb.refuse_what_does_nothing(facts_of(opened));
   const bool of_belts = file.kind == FileKind::belts;
   const bool of_drawing = file.kind == FileKind::drawing;
   grid::Measured input;
@@ -152,20 +151,23 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
              "--extended-machine",
              command.extended_machine,
              {Origin::machine},
-             "The machine with calibrated settings and the causes that were named");
+             "The machine with calibrated settings and the causes that were named")
+.acts_on(facts::grid | facts::holes, "to be left out: belts and drawings are diagnosed by themselves, on the machine in their own file");
   add_output(verb,
              "--corrected-grid",
              command.corrected_grid,
              {Origin::measured},
              "The points on that machine, with marks and readings corrected where they were the "
-             "cause; the input for fit");
+             "cause; the input for fit")
+.acts_on(facts::one_grid, "to be left out: a corrected grid is of one grid alone");
   // A file of an effect is edited by hand, and replaced with --force alone.
   add_output(verb,
              "--law",
              command.law,
              {Origin::list},
              "The most probable law of what no cause explains (90 % or more), as a file for "
-             "--effects");
+             "--effects")
+.acts_on(facts::grid | facts::holes, "to be left out: a cause of your own acts on chains");
   verb.add_flag("--json", command.json, "Print the diagnosis file on standard output");
 }
 
@@ -180,23 +182,27 @@ void add_diagnose(Verb app, Run& run) {
   add_tape_options(verb, command->tape);
   add_effects_option(verb, command->input);
   add_input(
-      verb, "--with", command->with, "More grids and holes of the same machine, used together");
+      verb, "--with", command->with, "More grids and holes of the same machine, used together")
+.acts_on(facts::grid | facts::holes, "to be left out: belts and drawings are diagnosed by themselves, on the machine in their own file");
   add_diagnose_outputs(verb, *command);
   add_input(verb,
             "--held-out",
             command->held_out,
-            "Another grid of the same machine, to test how well the result predicts it");
+            "Another grid of the same machine, to test how well the result predicts it")
+.acts_on(facts::one_grid, "to be left out: it is of one grid, which is held against another");
   verb.add_option("--assume-order",
                   command->assume_order,
                   "Assumed order of visits where the points state none, in lines from the top "
                   "left. Drift, skips and hysteresis need an order; the verdict says that it was "
                   "assumed")
-      .one_of({"rows", "columns", "serpentine_rows", "serpentine_columns"});
+      .one_of({"rows", "columns", "serpentine_rows", "serpentine_columns"})
+.acts_on(facts::grid, "to be left out: it is of the points of a grid, which was not given");
   add_without_option(verb, command->without);
   verb.add_flag("--accept-class",
                 command->accept_class,
                 "If the points cannot tell long links from a long tape, assume the links, without "
-                "a measurement of them");
+                "a measurement of them")
+.acts_on(facts::grid | facts::holes, "to be left out: it is of a chain or a tape that is long");
   add_number(verb,
              "--seed",
              command->seed,

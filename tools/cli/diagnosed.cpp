@@ -14,7 +14,6 @@
 #include "grid/threads/use_threads.hpp"
 #include "tools/cli/assumed_order.hpp"
 #include "tools/cli/effect_argument.hpp"
-#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 

@@ -33,7 +33,6 @@
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/map_words.hpp"
-#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/settings_file.hpp"
 #include "tools/cli/talk.hpp"
@@ -368,7 +367,7 @@ std::string written_map_after(Verb verb, const Exported& exported, const ExportC
 int export_groundcontrol(Verb verb, const ExportCommand& command) {
   const InputFile file = open_input(command.input);
   const Exported exported = export_of(file, command, verb.is_given("--force"));
-  refuse_what_does_nothing(verb, facts_of(file));
+  verb.refuse_what_does_nothing(facts_of(file));
   if (exported.is_refused) return kCheckFailed;
   write_outputs({{command.map_after, written_map_after(verb, exported, command)},
                  {command.output, exported.settings.text}});
@@ -463,7 +462,8 @@ void add_export(Verb app, Run& run) {
              "--map-after",
              command->map_after,
              {Origin::map},
-             "With a map: also write the map that holds once these numbers are typed in");
+             "With a map: also write the map that holds once these numbers are typed in")
+.acts_on(facts::map, "to be left out: only of a map follows the one that is right once the numbers are typed in");
   groundcontrol.footer(fmt::format(
       "The numbers that bring the controller nearest to the map, to the machine, or to the one that a "
       "diagnosis found, and how near; what the firmware has no number for, and what that costs. All "

@@ -27,7 +27,6 @@
 #include "tools/cli/map_document.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/numbers.hpp"
-#include "tools/cli/option_rules.hpp"
 #include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
@@ -69,6 +68,9 @@ const std::map<std::string, interp::EndCondition>& end_conditions() {
 constexpr std::size_t kMostPoints = 10000;
 constexpr std::size_t kMostDistances = 5000;
 constexpr std::size_t kMostHoles = 150;
+
+constexpr const char* kNoMachine =
+    "to be left out of a direct surface, which has no machine that could err";
 
 constexpr grid::files::Range kWishMm{"mm", 0.001, 50.0};
 
@@ -219,14 +221,14 @@ Facts facts_of(const FitCommand& command, const std::vector<InputFile>& files) {
 int run_fit(Verb verb, const FitCommand& command) {
   std::vector<InputFile> opened = open_inputs(command.input.grid, command.with);
   if (opened.front().kind == FileKind::drawing) {
-    refuse_what_does_nothing(verb, facts::drawing);
+    verb.refuse_what_does_nothing(facts::drawing);
     return fit_the_drawing(
         {verb, std::move(opened.front()), command.output, command.verbose, command.json});
   }
   for (const InputFile& file : opened)
     require_kind(file, {FileKind::grid, FileKind::holes, FileKind::belt_holes, FileKind::belts});
   const Facts facts = facts_of(command, opened);
-  refuse_what_does_nothing(verb, facts);
+  verb.refuse_what_does_nothing(facts);
   if ((facts & (facts::belts | facts::belt_holes)) != 0) {
     return fit_the_belts({verb,
                           std::move(opened),
@@ -259,11 +261,15 @@ void add_fit(Verb app, Run& run) {
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);
   add_effects_option(verb, command->input);
+  verb.option("--noise-dof").acts_on(facts::residual, "to be left out of a direct surface, which goes through the readings");
+  verb.option("--effects").acts_on(facts::residual, kNoMachine).acts_on(facts::causes, "to be left out with --plain: a map is on the machine file as it is, or on the causes that are found");
   add_input(verb,
             "--with",
             command->with,
             "More files of the same machine: grids or chaintrue_holes; with belts, "
-            "chaintrue_holes. All are fitted together, in the coordinates of the first");
+            "chaintrue_holes. All are fitted together, in the coordinates of the first")
+.acts_on(facts::no_drawing, "to be left out of a test drawing: all that is known of the plotter is in its file")
+.acts_on(facts::residual, "to be left out: a direct surface is of one grid alone");
   add_output(verb,
              "-o,--output",
              command->output,
@@ -276,23 +282,36 @@ void add_fit(Verb app, Run& run) {
                   "residual: a smooth correction of the calibrated machine; direct: splines "
                   "through the lengths, without a machine")
       .one_of({"residual", "direct"})
-      .shows_default();
+      .shows_default()
+.acts_on(facts::grid | facts::holes, "to be left out: belts and drawings have settings for an answer, and no surface", "residual")
+.acts_on(facts::one_grid, "\"residual\": a direct surface needs chain lengths at known places, of one grid alone", "residual");
   verb.add_option("--ends", command->ends, "End condition of direct splines")
       .one_of({"not_a_knot", "natural", "parabolic", "clamped"})
-      .shows_default();
+      .shows_default()
+.acts_on(facts::direct, "to be left out without --surface direct, whose splines it ends");
   add_outside_options(verb, command->outside, "continued by default");
+  verb.option("--outside")
+      .acts_on(facts::grid | facts::holes, "to be left out: belts and drawings have no surface that could end")
+      .acts_on(facts::residual, "to be left out of a direct surface, which ends where its points do");
   verb.add_flag("--plain",
                 command->plain,
                 "Do not look for causes. By default, fit looks for causes as diagnose does and "
-                "uses those that improve the map at points left out");
+                "uses those that improve the map at points left out")
+.acts_on(facts::grid | facts::holes, "to be left out: only maps rest on causes; chaintrue diagnose weighs those of belts and drawings")
+.acts_on(facts::residual, kNoMachine);
   verb.add_flag("--accept-class",
                 command->accept_class,
-                "If the points cannot tell long links from a long tape, assume the links");
+                "If the points cannot tell long links from a long tape, assume the links")
+.acts_on(facts::grid | facts::holes, "to be left out: it is of a chain or a tape that is long")
+.acts_on(facts::residual, kNoMachine)
+.acts_on(facts::causes, "to be left out with --plain: it says which of two causes acts");
   add_number(verb,
              "--wish-mm",
              command->wish_mm,
              kWishMm,
-             "The accuracy you want: fit says whether the map reaches it, and what would");
+             "The accuracy you want: fit says whether the map reaches it, and what would")
+.acts_on(facts::no_drawing, "to be left out of a test drawing: all that is known of the plotter is in its file")
+.acts_on(facts::residual, "to be left out of a direct surface: nobody knows how far the tool is off it");
   verb.add_flag("-v,--verbose",
                 command->verbose,
                 "Also print the tables: settings, errors at points left out, each distance, left "

@@ -7,7 +7,6 @@
 #include "tools/cli/gcode_verbs.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
-#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/start_plotter.hpp"
 
@@ -15,6 +14,9 @@ namespace chaintrue::cli {
 namespace {
 
 using Action = int (*)(const GcodeOptions&);
+
+constexpr const char* kNothingIsWritten =
+    "to be left out without --map: it is of what compensating would write";
 
 constexpr grid::files::Range kToleranceMm{"mm", 1e-4, 100.0};
 
@@ -44,7 +46,7 @@ void open_map(Verb verb, GcodeOptions& options) {
     facts = facts_of_map(options.map_file->kind);
     if (facts == facts::plotter) require_gcode(*options.map_file);
   }
-  refuse_what_does_nothing(verb, facts);
+  verb.refuse_what_does_nothing(facts);
   options.forced = verb.has_option("--force") && verb.is_given("--force");
 }
 
@@ -88,7 +90,10 @@ void add_map_options(Verb verb, GcodeOptions& options, bool map_required) {
   if (map_required) map.required();
   verb.add_option("--frame", options.frame, "Zero of the program: the marks' or the bed's")
       .one_of({"marks", "bed"})
-      .shows_default();
+      .shows_default()
+.acts_on(facts::target, "to be left out without --map, whose frames they are", "marks")
+.acts_on(facts::map | facts::anchors, "\"marks\": a plotter counts as its controller does, and knows no other frame", "marks")
+.acts_on(facts::map, "\"marks\": belts count from where their frame's diagonals cross, and know no other frame", "marks");
 }
 
 void add_machine_options(Verb verb, GcodeOptions& options, bool map_required) {
@@ -103,7 +108,10 @@ void add_machine_options(Verb verb, GcodeOptions& options, bool map_required) {
             options.settings,
             "The controller's settings now, if they have changed since the map was measured: "
             "groundcontrol.ini, webcontrol.json, FluidNC's config.yaml, or a machine file")
-      .excludes(machine);
+      .excludes(machine)
+.acts_on(facts::target, "to be left out without --map, whose machine holds these settings")
+.acts_on(facts::map | facts::anchors, "to be left out: what the controller of a plotter holds is given with --machine, as a chaintrue_plotter file")
+.acts_on(facts::map, "to be left out: what the controller of four belts holds is given with --machine, as a belts or anchors file");
   verb.add_option("--controller", options.controller, "Replaces the machine file's")
       .one_of({"maslow_classic", "holey", "fluidnc_wallplotter", "maslow4", "ideal"});
 }
@@ -114,20 +122,24 @@ void add_limits(Verb verb, GcodeOptions& options) {
              options.tolerance_mm,
              kToleranceMm,
              "Largest permitted error of the "
-             "tool");
+             "tool")
+.acts_on(facts::target, kNothingIsWritten);
   add_number(verb,
              "--decimals",
              options.decimals,
              {"", 2.0, 6.0},
              "Decimals of the output's "
-             "coordinates");
+             "coordinates")
+.acts_on(facts::target, kNothingIsWritten);
   add_number(verb,
              "--steepest-correction",
              options.steepest_correction,
              {"mm per mm", 1e-6, 10.0},
-             "Refuse corrections that change faster than this [mm/mm]");
+             "Refuse corrections that change faster than this [mm/mm]")
+.acts_on(facts::target, kNothingIsWritten);
   verb.add_flag(
-      "--keep-rapids-whole", options.keep_rapids_whole, "Correct rapids at their ends only");
+      "--keep-rapids-whole", options.keep_rapids_whole, "Correct rapids at their ends only")
+.acts_on(facts::target, kNothingIsWritten);
   add_option_check(verb, [&options](OptionProblems& problems) {
     if (!options.map.empty()) check_limits(options, problems);
   });
@@ -139,7 +151,8 @@ void add_refusals(Verb verb, GcodeOptions& options) {
              "--largest-correction-mm",
              options.largest_correction_mm,
              {"mm", 0.001, 1000.0},
-             "Refuse larger corrections");
+             "Refuse larger corrections")
+.acts_on(facts::target, kNothingIsWritten);
 }
 
 }  // namespace
@@ -245,6 +258,8 @@ void add_gcode(Verb app, Run& run) {
                      run_gcode_explain);
   explain.add_option("place", options->program, "FILE:LINE").required();
   add_machine_options(explain, *options, false);
+  for (const char* name : {"--machine", "--controller"})
+    explain.option(name).acts_on(facts::target, "to be left out without --map: without it a line is explained as it is written");
   explain.footer(
       "Example:\n"
       "  build/chaintrue gcode explain fixtures/gcode/bracket.nc:12");

@@ -30,35 +30,41 @@ void add_grid_options(Verb verb, GridInput& input) {
             "--machine",
             input.machine,
             "A chaintrue_machine file that replaces the grid's own "
-            "machine");
+            "machine")
+.acts_on(facts::grid | facts::holes | facts::map, "to be left out: belts and drawings bring their own machine");
   add_number(verb,
              "--noise-length-mm",
              input.length_noise_mm,
              grid::files::kNoiseMm,
-             "Standard deviation (1 sigma) of a measured chain length, replaces the grid's own");
+             "Standard deviation (1 sigma) of a measured chain length, replaces the grid's own")
+.acts_on(facts::grid, "to be left out: it is of the chain lengths of a grid, which was not given");
   add_number(verb,
              "--noise-position-mm",
              input.position_noise_mm,
              grid::files::kNoiseMm,
              "Standard deviation (1 sigma) of a measured position on each axis, replaces the "
-             "grid's own");
+             "grid's own")
+.acts_on(facts::grid, "to be left out: it is of the places of a grid, which was not given");
   add_number(verb,
              "--noise-dof",
              input.noise_dof,
              grid::files::kNoiseDof,
              "Degrees of freedom of the noise: the higher, the more it is trusted (15 by "
-             "default)");
+             "default)")
+.acts_on(facts::grid, "to be left out: it is of the noise of a grid, which was not given");
   verb.add_flag("--inches",
                 input.inches,
                 "In CSV tables, measured positions, lengths and distances are in inches, as "
-                "43.8125 or 43 13/16; commands stay in mm");
+                "43.8125 or 43 13/16; commands stay in mm")
+.acts_on(facts::table, "to be left out: it is of tables (CSV), and the keys of a JSON file say that its numbers are mm");
 }
 
 void add_effects_option(Verb verb, GridInput& input) {
   add_input(verb,
             "--effects",
             input.effects,
-            "chaintrue_effect files: causes of your own, tested along with the catalogue's");
+            "chaintrue_effect files: causes of your own, tested along with the catalogue's")
+.acts_on(facts::grid | facts::holes, "to be left out: declared effects are of two chains");
 }
 
 namespace {
@@ -124,25 +130,29 @@ void add_tape_options(Verb verb, TapeInput& input) {
              "--tape-sigma-mm",
              input.sigma_mm,
              grid::files::kTapeSigmaMm,
-             "Holes: standard deviation (1 sigma) of a tape reading");
+             "Holes: standard deviation (1 sigma) of a tape reading")
+.acts_on(facts::holes | facts::belt_holes, "to be left out: it is of a tape between holes, which were not given");
   add_number(
       verb,
       "--hook-offset-mm",
       input.tape_zero_offset_mm,
       grid::files::kTapeZeroOffsetMm,
-      "Holes: the tape's zero error; every reading is longer than the distance by this much");
+      "Holes: the tape's zero error; every reading is longer than the distance by this much")
+.acts_on(facts::holes | facts::belt_holes, "to be left out: it is of a tape between holes, which were not given");
   add_number(verb,
              "--hook-sigma-mm",
              input.tape_zero_offset_sigma_mm,
              grid::files::kHoleSigmaMm,
              "Holes: standard deviation (1 sigma) of the zero error, 3 mm by default; 0 if it is "
-             "known exactly");
+             "known exactly")
+.acts_on(facts::holes | facts::belt_holes, "to be left out: it is of a tape between holes, which were not given");
   add_number(verb,
              "--hole-sigma-mm",
              input.hole_sigma_mm,
              grid::files::kHoleSigmaMm,
              "Holes: standard deviation (1 sigma) of a hole's position on each axis, as the drill "
-             "wanders");
+             "wanders")
+.acts_on(facts::holes | facts::belt_holes, "to be left out: it is of holes, which were not given");
 }
 
 grid::MeasuredGrid read_grid_input(const GridInput& input) {
@@ -226,7 +236,8 @@ void add_without_option(Verb verb, std::string& without) {
   verb.add_option("--without",
                   without,
                   "Points of a chaintrue_belts file to leave out, numbered from 1 as in messages, "
-                  "such as 7,12");
+                  "such as 7,12")
+.acts_on(facts::belts, "to be left out: it is of points of a chaintrue_belts file; leave those of other files out of the file");
 }
 
 std::vector<std::size_t> points_left_out(const std::string& without) {

@@ -12,7 +12,6 @@
 #include "grid/observation/measured.hpp"
 #include "tools/cli/arguments.hpp"
 #include "tools/cli/input_file.hpp"
-#include "tools/cli/option_rules.hpp"
 
 namespace chaintrue::cli {
 

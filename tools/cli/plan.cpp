@@ -18,7 +18,6 @@
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
-#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_after.hpp"
 #include "tools/cli/plan_check.hpp"
@@ -108,7 +107,7 @@ bool drills_marks(const PlanOptions& options, const model::Machine* machine) {
 
 int run_follow_up(Verb verb, PlanOptions options) {
   const InputFile file = open_input(options.follow_up.file);
-  refuse_what_does_nothing(verb, with_program(options, facts_after(file), false));
+  verb.refuse_what_does_nothing(with_program(options, facts_after(file), false));
   options.follow_up.machine = options.machine;
   options.follow_up.output = options.output;
   options.follow_up.drawing = options.drawing;
@@ -128,8 +127,7 @@ int run_check_plan(Verb verb, PlanOptions options) {
   const model::Machine* machine = map.machine();
   request.margin_mm =
       options.margin_mm.value_or(machine == nullptr ? kReachableMm : reachable_mm(machine->bed));
-  refuse_what_does_nothing(
-      verb, with_program(options, facts::check, drills_marks(options, map.machine())));
+  verb.refuse_what_does_nothing(with_program(options, facts::check, drills_marks(options, map.machine())));
   return plan_the_check(map, options.check, outputs_of(options));
 }
 
@@ -138,8 +136,7 @@ int run_plan(Verb verb, PlanOptions options) {
   if (!options.check.map.empty()) return run_check_plan(verb, std::move(options));
   const bool of_tape = options.holes.request.holes != 0;
   const model::Machine machine = read_machine_input(options.machine);
-  refuse_what_does_nothing(verb,
-                           with_program(options,
+  verb.refuse_what_does_nothing(with_program(options,
                                         of_tape ? facts::tape : facts::lattice,
                                         of_tape || drills_marks(options, &machine)));
   if (of_tape) {
@@ -192,7 +189,8 @@ void add_plan(Verb app, Run& run) {
             "--machine",
             options->machine,
             "chaintrue_machine file; - is standard input. With --after only where the grid "
-            "names none, with --check not at all");
+            "names none, with --check not at all")
+.acts_on(facts::lattice | facts::tape | facts::grid | facts::holes, "to be left out: a map that is checked, and belts, name their own machine");
   const Option grid =
       add_input(verb,
                 "grid",
@@ -209,7 +207,8 @@ void add_plan(Verb app, Run& run) {
             "--with",
             options->follow_up.with,
             "With --after: the other files of the same diagnosis, as given to diagnose --with")
-      .needs(after);
+      .needs(after)
+.acts_on(facts::grid | facts::holes, "to be left out: belts are diagnosed by themselves");
   const grid::PlanRequest usual;
   const grid::CheckPlanRequest usual_check;
   const Option points = add_number(
@@ -223,13 +222,15 @@ void add_plan(Verb app, Run& run) {
                   usual.points,
                   grid::kFewestCheckPoints,
                   grid::kMostCheckPoints,
-                  usual_check.points));
+                  usual_check.points))
+.acts_on(facts::lattice | facts::check, "to be left out with --after: the diagnosis says how many");
   add_number(verb,
              "--second-visits",
              options->second_visits,
              {"", 0.0, 66.0},
              "Number of marks measured twice, the first one at the end; they show what changes "
-             "during the session");
+             "during the session")
+.acts_on(facts::lattice, "to be left out: it is of marks that are planned anew, in columns and rows");
   add_input(verb,
             "--check",
             options->check.map,
@@ -242,7 +243,8 @@ void add_plan(Verb app, Run& run) {
       {"mm", 0.0, 10000.0},
       fmt::format("Distance from the bed's edge to the outermost marks: {:g} by default, on a "
                   "small bed a fifth of its shorter side. Nearer to the edge, a sled tips over it",
-                  kReachableMm));
+                  kReachableMm))
+.acts_on(facts::lattice | facts::tape | facts::check, "to be left out with --after: the diagnosis says where");
   add_plan_holes_options(verb, options->holes, points);
   const auto noise_words = [](const char* what, double usually_mm, double in_check_mm) {
     return fmt::format("Standard deviation (1 sigma) of {}; {:g} by default, {:g} with --check",
@@ -254,12 +256,14 @@ void add_plan(Verb app, Run& run) {
              "--length-noise-mm",
              options->length_noise_mm,
              {"mm", 0.001, 50.0},
-             noise_words("a chain length", usual.noise.length_mm, usual_check.length_mm));
+             noise_words("a chain length", usual.noise.length_mm, usual_check.length_mm))
+.acts_on(facts::lattice | facts::check, "to be left out: it is of chain lengths that are read at marks");
   add_number(verb,
              "--position-noise-mm",
              options->position_noise_mm,
              {"mm", 0.0, 50.0},
-             noise_words("a mark's position", usual.noise.position_mm, usual_check.position_mm));
+             noise_words("a mark's position", usual.noise.position_mm, usual_check.position_mm))
+.acts_on(facts::lattice | facts::check, "to be left out: it is of places that are measured at marks");
   add_measure_option(verb, options->measure);
   add_output(verb,
              "-o,--output",
@@ -268,12 +272,14 @@ void add_plan(Verb app, Run& run) {
              "The list with empty cells to fill in: CSV, or JSON if the name ends in .json; - is "
              "standard output")
       .shows_default();
-  verb.add_flag("--json", options->json, "Print the list as JSON, including the machine");
+  verb.add_flag("--json", options->json, "Print the list as JSON, including the machine")
+.acts_on(facts::lattice | facts::tape | facts::check, "to be left out with --after: the lines are as the file they go into");
   add_output(verb,
              "--page",
              options->page,
              {Origin::page},
-             "Write a page to print: the bed, the instructions, and lines to fill in");
+             "Write a page to print: the bed, the instructions, and lines to fill in")
+.acts_on(facts::lattice | facts::tape | facts::check, "to be left out with --after, which makes lines for a file");
   add_drill_options(verb, options->gcode, options->drill);
   add_output(verb,
              "--svg",

@@ -11,7 +11,7 @@
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/observation/measured_holes.hpp"
 #include "tools/cli/input_file.hpp"
-#include "tools/cli/option_rules.hpp"
+#include "tools/cli/arguments.hpp"
 
 namespace chaintrue::cli {
 

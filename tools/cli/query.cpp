@@ -18,7 +18,6 @@
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
-#include "tools/cli/option_rules.hpp"
 #include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
@@ -161,8 +160,7 @@ int query_anchors(const QueryCommand& command, const InputFile& file) {
 int run_query(Verb verb, const QueryCommand& command) {
   const InputFile file = open_input(command.map);
   require_kind(file, {FileKind::map, FileKind::anchors, FileKind::plotter});
-  refuse_what_does_nothing(verb,
-                           (file.kind == FileKind::map       ? facts::map
+  verb.refuse_what_does_nothing((file.kind == FileKind::map       ? facts::map
                             : file.kind == FileKind::anchors ? facts::anchors
                                                              : facts::plotter) |
                                (command.outside.way == "fade" ? facts::fade : 0U));
@@ -207,10 +205,15 @@ void add_query(Verb app, Run& run) {
                   "marks: coordinates as on the measured sheet; bed: as in the machine file, "
                   "without the sheet's placement")
       .one_of({"marks", "bed"})
-      .shows_default();
+      .shows_default()
+.acts_on(facts::map | facts::anchors, "\"marks\": a plotter counts as its controller does, and knows no other frame", "marks")
+.acts_on(facts::map, "\"marks\": belts count from where their frame's diagonals cross, and know no other frame", "marks");
   add_output(verb, "-o,--output", command->output, {Origin::table}, "- is standard output")
       .shows_default();
   add_outside_options(verb, command->outside, "by default as the map says");
+  verb.option("--outside")
+      .acts_on(facts::map | facts::anchors, "to be left out: a plotter has no surface that could end")
+      .acts_on(facts::map, "to be left out: four belts have no surface that could end");
   verb.add_flag("--json", command->json, "Print JSON instead of CSV");
   verb.footer(
       "status: inside the measured points, at their edge, extrapolated beyond them, or outside the "

@@ -17,7 +17,6 @@
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/map_document.hpp"
-#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
@@ -81,7 +80,7 @@ std::string source_of(const InputFile& file) {
 int run_report(Verb verb, const ReportCommand& command) {
   const InputFile file = open_input(command.input);
   require_kind(file, {FileKind::map, FileKind::diagnosis, FileKind::anchors});
-  refuse_what_does_nothing(verb, fact_of(file.kind));
+  verb.refuse_what_does_nothing(fact_of(file.kind));
   const std::string source = source_of(file);
   Reported made = file.kind == FileKind::map         ? of_map(file, command.certificate, source)
                   : file.kind == FileKind::diagnosis ? of_diagnosis(file, source)
@@ -115,7 +114,8 @@ void add_report(Verb app, Run& run) {
   add_output(
       verb, "-o,--output", command->output, {Origin::page}, "The HTML file; - is standard output")
       .required();
-  verb.add_flag("--certificate", command->certificate, "One page of a map, to print");
+  verb.add_flag("--certificate", command->certificate, "One page of a map, to print")
+.acts_on(facts::map, "to be left out: only a map has a certificate");
   verb.add_option("--date", command->date, "A date to print below the title, as in 2026-11-22");
   verb.footer(
       "Examples:\n"

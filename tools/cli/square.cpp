@@ -19,7 +19,6 @@
 #include "tools/cli/gcode_job.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
-#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/square_drawing.hpp"
 #include "tools/cli/square_program.hpp"
@@ -224,7 +223,7 @@ int run_square(Verb verb, const SquareOptions& options) {
   const Facts kind = machine == nullptr ? facts::machine
                      : plotter_of(machine) != nullptr ? facts::plotter
                                                       : facts::map;
-  refuse_what_does_nothing(verb, kind | (options.program.empty() ? 0U : facts::program));
+  verb.refuse_what_does_nothing(kind | (options.program.empty() ? 0U : facts::program));
   return square_with(options, machine);
 }
 
@@ -273,7 +272,9 @@ void add_square(Verb app, Run& run) {
              options->depth_mm,
              {"mm", 0.1, 100.0},
              "With --gcode: depth of "
-             "the holes");
+             "the holes")
+.acts_on(facts::program, "to be left out without --gcode")
+.acts_on(facts::map | facts::machine, "to be left out: a plotter's pen has no depth");
   verb.footer(
       "Examples:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"

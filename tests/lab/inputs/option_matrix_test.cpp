@@ -97,7 +97,7 @@ std::string fault_of_files(const InputFolder& folder, const Invocation& use, con
   std::vector<std::pair<std::string, std::string>> expected;
   for (const std::string& option : options) {
     const Telling* telling = telling_of(use.verb, option, use.name);
-    if (!writes_a_file(telling) || cli::refusal_of(use.verb, option, use.facts) != nullptr) continue;
+    if (!writes_a_file(telling) || refusal_of(use.verb, option, use.facts) != nullptr) continue;
     const std::string& words = telling->words;
     line = without(line, option) + " " + words;
     expected.emplace_back(option, words.substr(words.rfind(' ') + 1));
@@ -127,7 +127,7 @@ TEST_P(EveryOption, ChangesTheAnswer) {
     const Ran base = folder().run(call.line + then);
     const Ran plain = then.empty() ? base : folder().run(call.line);
     for (const std::string& option : options) {
-      if (cli::refusal_of(verb, option, call.facts) != nullptr) continue;
+      if (refusal_of(verb, option, call.facts) != nullptr) continue;
       const Telling* telling = telling_of(verb, option, call.name);
       if (writes_a_file(telling)) continue;
       const bool by_itself = telling != nullptr && (telling->shows == Shows::as_file ||
@@ -139,14 +139,16 @@ TEST_P(EveryOption, ChangesTheAnswer) {
   }
 }
 
-std::vector<std::string> verbs_with_rules() {
+std::vector<std::string> verbs_of_measurements() {
   std::set<std::string> all;
-  for (const cli::OptionRule& rule : cli::kOptionRules) all.emplace(rule.verb);
+  for (const Invocation& call : invocations()) {
+    if (call.facts != cli::facts::any) all.insert(call.verb);
+  }
   return {all.begin(), all.end()};
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    OfEveryVerb, EveryOption, testing::ValuesIn(verbs_with_rules()), [](const auto& verb) {
+    OfEveryVerb, EveryOption, testing::ValuesIn(verbs_of_measurements()), [](const auto& verb) {
       std::string name = verb.param;
       std::replace(name.begin(), name.end(), ' ', '_');
       return name;

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Which option acts on which kind of input: one table (option_rules.def) for all verbs. An option
-/// that would do nothing with what a verb was given is refused by the sentence that the table has
-/// for it, before any work; tests/inputs tries every cell.
+/// The kinds of input that an option applies to. An option that would do nothing with what its verb was
+/// given is refused before any work; tests/inputs tries each with every kind of input.
 ///
 /// \code
-///   refuse_what_does_nothing(verb, facts::grid | facts::several);
+///   verb.add_flag("--below", ...).acts_on(facts::map | facts::machine, "to be left out: ...");
+///   ...
+///   verb.refuse_what_does_nothing(facts::plotter);
 /// \endcode
 #pragma once
 
 #include <cstdint>
-#include <string_view>
-
-#include "tools/cli/arguments.hpp"
 
 namespace chaintrue::cli {
 
@@ -56,52 +54,22 @@ inline constexpr Facts causes = 1U << 24;
 inline constexpr Facts table = 1U << 28;
 /// fit and diagnose: a V-plotter's test drawing, alone.
 inline constexpr Facts drawing = 1U << 29;
-/// Everything that these take but that.
+/// Everything but a test drawing that fit and diagnose take.
 inline constexpr Facts no_drawing = grid | holes | belts | belt_holes;
 /// In a map's place: a V-plotter whose drawing was measured.
 inline constexpr Facts plotter = 1U << 30;
+/// plan: without --after; of those, at marks.
+inline constexpr Facts planned = lattice | tape | check;
+inline constexpr Facts planned_marks = lattice | check;
+/// simulate: marks that are visited; readings that are drawn.
+inline constexpr Facts session = lattice | scattered | marks;
+inline constexpr Facts drawn = session | tape | belts;
+/// What a program is compensated with.
+inline constexpr Facts target = map | anchors | plotter;
 /// Of an option that other verbs have of the same file.
 inline constexpr Facts nothing = 0;
 inline constexpr Facts any = ~0U;
 
 }  // namespace facts
-
-struct OptionRule {
-  std::string_view verb;  ///< "fit", "gcode check"
-  std::string_view option;
-  /// It acts where one of these holds; of what a verb is given at least one always does.
-  Facts acts_on;
-  /// What is expected instead where none does: "to be left out of holes: ...". Empty where it acts
-  /// on everything.
-  std::string_view otherwise;
-  /// A value that says what happens in any case, and is not refused.
-  std::string_view harmless = "";
-};
-
-/// Several of one option hold together.
-inline constexpr OptionRule kOptionRules[] = {
-#define CHAINTRUE_ACTS(verb, option) {verb, option, facts::any, ""},
-#define CHAINTRUE_ACTS_ON(verb, option, on, otherwise) {verb, option, on, otherwise},
-#define CHAINTRUE_ACTS_UNLESS(verb, option, on, otherwise, harmless) \
-  {verb, option, on, otherwise, harmless},
-#include "tools/cli/option_rules.def"
-#undef CHAINTRUE_ACTS
-#undef CHAINTRUE_ACTS_ON
-#undef CHAINTRUE_ACTS_UNLESS
-};
-
-/// The first rule that refuses the option there; null where it acts.
-[[nodiscard]] constexpr const OptionRule* refusal_of(std::string_view verb,
-                                                     std::string_view option,
-                                                     Facts facts) {
-  for (const OptionRule& rule : kOptionRules) {
-    if (rule.verb == verb && rule.option == option && (rule.acts_on & facts) == 0) return &rule;
-  }
-  return nullptr;
-}
-
-/// Of the options that were given to this verb. \throws files::InputError with a sentence for each
-/// that would do nothing.
-void refuse_what_does_nothing(Verb verb, Facts facts);
 
 }  // namespace chaintrue::cli
