@@ -12,7 +12,8 @@
 namespace chaintrue::grid::files {
 
 bool is_fluidnc(const std::string& text) {
-  const auto values = yaml_texts(text);
+  Problems problems("");
+  const auto values = yaml_texts(text, problems);
   return std::any_of(values.begin(), values.end(), [](const auto& value) {
     return value.first.starts_with("kinematics/WallPlotter/");
   });
@@ -27,7 +28,7 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
                  ProblemKind::missing);
     problems.throw_if_any();
   }
-  SettingReader settings(yaml_texts(text), problems);
+  SettingReader settings(yaml_texts(text, problems), problems);
   const auto number = [&](const std::string& path, const Range& range) {
     return settings.need(path, range).value_or(0.0);
   };

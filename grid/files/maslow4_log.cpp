@@ -26,9 +26,9 @@ class Settings {
  public:
   Settings(const Maslow4Options& options, std::vector<std::string>& assumed)
       : problems_(options.settings_file),
-        reader_(options.settings ? yaml_texts(*options.settings) : SettingTexts{}, problems_),
+        reader_(options.settings ? yaml_texts(*options.settings, problems_) : SettingTexts{}, problems_),
         assumed_(assumed) {
-    if (options.settings && yaml_texts(*options.settings).empty()) {
+    if (options.settings && reader_.empty()) {
       problems_.add("", "no settings", "the machine's maslow.yaml", ProblemKind::missing);
     }
   }

@@ -79,7 +79,7 @@ void warn_of_gondola(const PlotterMachine& machine, Problems& problems) {
 }
 
 SetPlotter of_fluidnc(const std::string& text, Problems& problems) {
-  SettingReader settings(yaml_texts(text), problems);
+  SettingReader settings(yaml_texts(text, problems), problems);
   const std::string anchors = "kinematics/WallPlotter/";
   const double left_x = needed(settings, anchors + "left_anchor_x", kOnTheWall);
   const double left_y = needed(settings, anchors + "left_anchor_y", kOnTheWall);

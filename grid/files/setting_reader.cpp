@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -24,6 +25,23 @@ constexpr std::size_t kMostSettings = 5000;
 constexpr std::size_t kMostNamed = 60;
 
 std::string line_place(std::size_t number) { return fmt::format("line {}", number); }
+
+/// \param places where each key stands so far
+/// \return false, and reported, if it stands there already
+bool is_first(std::map<std::string, std::string>& places,
+              const std::string& key,
+              const std::string& place,
+              std::string_view line,
+              Problems& problems) {
+  const auto [same, is_new] = places.emplace(key, place);
+  if (!is_new) {
+    problems.add(place,
+                 line,
+                 fmt::format("this key once; it stands at {} already", same->second),
+                 ProblemKind::repeated_key);
+  }
+  return is_new;
+}
 
 std::string at_most_settings() { return fmt::format("at most {} lines of settings", kMostSettings); }
 
@@ -125,13 +143,14 @@ void SettingReader::warn_of_others(std::string_view says_what) {
                              more == 0 ? "" : fmt::format(" and {} more", more)));
 }
 
-SettingTexts yaml_texts(const std::string& text) {
+SettingTexts yaml_texts(const std::string& text, Problems& problems) {
   struct Level {
     std::size_t indent;
     std::string path;
   };
   std::vector<Level> levels;
   SettingTexts texts;
+  std::map<std::string, std::string> places;
   std::istringstream lines(text);
   std::size_t number = 0;
   for (std::string line; texts.size() <= kMostSettings && std::getline(lines, line);) {
@@ -144,6 +163,8 @@ SettingTexts yaml_texts(const std::string& text) {
     const std::string key = line.substr(indent, colon - indent);
     const std::string path = levels.empty() ? key : levels.back().path + "/" + key;
     levels.push_back({indent, path});
+    const bool is_of_a_list = path.find("/-") != std::string::npos || path.starts_with("-");
+    if (!is_of_a_list && !is_first(places, path, line_place(number), trimmed(line), problems)) continue;
     const std::string_view value = trimmed(std::string_view(line).substr(colon + 1));
     if (!value.empty()) texts[path] = {std::string(value), line_place(number)};
   }
@@ -179,6 +200,7 @@ SettingTexts ini_texts(std::string_view text, Problems& problems) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     problems.add("", "an empty file", "an ini file with [sections]", ProblemKind::empty_file);
   }
+  std::map<std::string, std::string> places;
   std::string section;
   std::size_t strange = 0;
   std::size_t settings = 0;
@@ -205,15 +227,9 @@ SettingTexts ini_texts(std::string_view text, Problems& problems) {
       problems.add(place, "more settings", at_most_settings(), ProblemKind::too_many);
       break;
     }
-    const auto [same, is_new] =
-        texts.emplace(section + in_small_letters(trimmed(line.substr(0, sign))),
-                      SettingText{std::string(trimmed(line.substr(sign + 1))), place});
-    if (!is_new) {
-      problems.add(place,
-                   line,
-                   fmt::format("this key once; it stands at {} already", same->second.place),
-                   ProblemKind::repeated_key);
-    }
+    const std::string key = section + in_small_letters(trimmed(line.substr(0, sign)));
+    if (is_first(places, key, place, line, problems))
+      texts[key] = {std::string(trimmed(line.substr(sign + 1))), place};
   }
   return texts;
 }

@@ -4,7 +4,7 @@
 /// every importer. Private to grid/files.
 ///
 /// \code
-///   SettingReader settings(yaml_texts(text), problems);
+///   SettingReader settings(yaml_texts(text, problems), problems);
 ///   const double x = settings.need("kinematics/WallPlotter/left_anchor_x", kAnchor).value_or(0.0);
 ///   settings.warn_of_others("says where the pen hangs");
 /// \endcode
@@ -49,6 +49,8 @@ class SettingReader {
   /// nothing was asked for is named alone.
   void warn_of_others(std::string_view says_what);
 
+  [[nodiscard]] bool empty() const { return texts_.empty(); }
+
  private:
   SettingTexts texts_;
   Problems& problems_;
@@ -58,8 +60,8 @@ class SettingReader {
 };
 
 /// The part of YAML that FluidNC's settings use: keys by their indentation, and the value after the
-/// colon. "kinematics/WallPlotter/left_anchor_x".
-[[nodiscard]] SettingTexts yaml_texts(const std::string& text);
+/// colon. "kinematics/WallPlotter/left_anchor_x". Reports keys that occur twice at one place.
+[[nodiscard]] SettingTexts yaml_texts(const std::string& text, Problems& problems);
 
 /// Settings each on a line of its own, "key=12", "key: 12 mm"; `before` is what stands before a key,
 /// and other lines are left out.

@@ -107,7 +107,8 @@ CheckResult check_of_map(const CheckCommand& command,
           : with_settings_of(command.settings, command.map, as_measured, measured);
   CheckResult check = grid::check_map(in_force, measured, shown_progress());
   if (!check) return check;
-  if (auto changed = with_typed_settings(in_force, measured, *check, before)) check = *std::move(changed);
+  if (auto changed = with_typed_settings(in_force, measured, *check, before))
+    check = *std::move(changed);
   return check;
 }
 
@@ -177,18 +178,20 @@ void add_check(Verb app, Run& run) {
   add_input(verb, "map", command->map, "A chaintrue_map or chaintrue_anchors file").required();
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);
-  verb.option("--noise-dof").acts_on(facts::nothing, "to be left out: a check takes the noise as known");
+  verb.option("--noise-dof")
+      .acts_on(facts::nothing, "to be left out: a check takes the noise as known");
   add_input(verb,
             "--with",
             command->with,
             "More new points, or holes and distances, to compare with the map")
-.acts_on(facts::map, "to be left out: anchors are checked by one file of new places");
+      .acts_on(facts::map, "to be left out: anchors are checked by one file of new places");
   add_input(verb,
             "--settings",
             command->settings,
             "The controller's settings when the new points were commanded, if they had changed "
             "since the map was measured: groundcontrol.ini, webcontrol.json, or a machine file")
-.acts_on(facts::map, "to be left out: anchors are checked by what their own file says was commanded");
+      .acts_on(facts::map,
+               "to be left out: anchors are checked by what their own file says was commanded");
   verb.add_flag("--json", command->json, "Print all numbers as JSON");
   add_output(
       verb, "-o,--output", command->output, {Origin::table, Origin::check}, "- is standard output")

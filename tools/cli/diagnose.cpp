@@ -113,10 +113,12 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   add(command.report, [&] { return report::render_html(document); });
   add(command.extended_machine, [&] { return extended_machine_text(*found, source); });
   add(command.corrected_grid, [&] {
-    const auto ordered =
-        found->visiting_order ? grid::diagnosis::visited_in(input, found->visiting_order->order) : std::nullopt;
+    const auto ordered = found->visiting_order
+                             ? grid::diagnosis::visited_in(input, found->visiting_order->order)
+                             : std::nullopt;
     grid::MeasuredGrid corrected = ordered ? *ordered->grids().front() : *input.first_grid();
-    return corrected_grid_text(*found, std::move(corrected), ordered || !command.assume_order.empty());
+    return corrected_grid_text(
+        *found, std::move(corrected), ordered || !command.assume_order.empty());
   });
   tl::expected<std::string, std::string> law;
   if (!command.law.empty()) law = law_text(*found);
@@ -152,14 +154,16 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
              command.extended_machine,
              {Origin::machine},
              "The machine with calibrated settings and the causes that were named")
-.acts_on(facts::grid | facts::holes, "to be left out: belts and drawings are diagnosed by themselves, on the machine in their own file");
+      .acts_on(facts::grid | facts::holes,
+               "to be left out: belts and drawings are diagnosed by themselves, on the machine in "
+               "their own file");
   add_output(verb,
              "--corrected-grid",
              command.corrected_grid,
              {Origin::measured},
              "The points on that machine, with marks and readings corrected where they were the "
              "cause; the input for fit")
-.acts_on(facts::one_grid, "to be left out: a corrected grid is of one grid alone");
+      .acts_on(facts::one_grid, "to be left out: a corrected grid is of one grid alone");
   // A file of an effect is edited by hand, and replaced with --force alone.
   add_output(verb,
              "--law",
@@ -167,7 +171,7 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
              {Origin::list},
              "The most probable law of what no cause explains (90 % or more), as a file for "
              "--effects")
-.acts_on(facts::grid | facts::holes, "to be left out: a cause of your own acts on chains");
+      .acts_on(facts::grid | facts::holes, "to be left out: a cause of your own acts on chains");
   verb.add_flag("--json", command.json, "Print the diagnosis file on standard output");
 }
 
@@ -183,26 +187,29 @@ void add_diagnose(Verb app, Run& run) {
   add_effects_option(verb, command->input);
   add_input(
       verb, "--with", command->with, "More grids and holes of the same machine, used together")
-.acts_on(facts::grid | facts::holes, "to be left out: belts and drawings are diagnosed by themselves, on the machine in their own file");
+      .acts_on(facts::grid | facts::holes,
+               "to be left out: belts and drawings are diagnosed by themselves, on the machine in "
+               "their own file");
   add_diagnose_outputs(verb, *command);
   add_input(verb,
             "--held-out",
             command->held_out,
             "Another grid of the same machine, to test how well the result predicts it")
-.acts_on(facts::one_grid, "to be left out: it is of one grid, which is held against another");
+      .acts_on(facts::one_grid, "to be left out: it is of one grid, which is held against another");
   verb.add_option("--assume-order",
                   command->assume_order,
                   "Assumed order of visits where the points state none, in lines from the top "
                   "left. Drift, skips and hysteresis need an order; the verdict says that it was "
                   "assumed")
       .one_of({"rows", "columns", "serpentine_rows", "serpentine_columns"})
-.acts_on(facts::grid, "to be left out: it is of the points of a grid, which was not given");
+      .acts_on(facts::grid, "to be left out: it is of the points of a grid, which was not given");
   add_without_option(verb, command->without);
   verb.add_flag("--accept-class",
                 command->accept_class,
                 "If the points cannot tell long links from a long tape, assume the links, without "
                 "a measurement of them")
-.acts_on(facts::grid | facts::holes, "to be left out: it is of a chain or a tape that is long");
+      .acts_on(facts::grid | facts::holes,
+               "to be left out: it is of a chain or a tape that is long");
   add_number(verb,
              "--seed",
              command->seed,

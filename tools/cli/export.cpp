@@ -85,14 +85,17 @@ std::vector<std::string> next_of(const ExportCommand& command, bool is_worth_typ
 std::string words_of(const grid::Lacking& lacking, const model::Machine& machine) {
   if (lacking.what == "top_beam_tilt") {
     return fmt::format(
-        "The tilt of the beam has no number in GroundControl's own firmware, which costs {:.2f} mm of "
-        "that: level the beam. The holey firmware has topbeamtilt; where yours is that, say \"kind\": "
+        "The tilt of the beam has no number in GroundControl's own firmware, which costs {:.2f} mm "
+        "of "
+        "that: level the beam. The holey firmware has topbeamtilt; where yours is that, say "
+        "\"kind\": "
         "\"holey\" of the machine's /controller.\n",
         lacking.costs_mm);
   }
   if (lacking.what == "chain_stretch") {
     return fmt::format(
-        "The stretch of the chains has no number in GroundControl's own firmware, which costs {:.2f} mm "
+        "The stretch of the chains has no number in GroundControl's own firmware, which costs "
+        "{:.2f} mm "
         "of that.\n",
         lacking.costs_mm);
   }
@@ -138,10 +141,12 @@ std::string today_in_words(const grid::CompensationMap& map, const grid::Setting
 /// What becomes of a map once its numbers are typed in.
 std::string map_after_in_words(const ExportCommand& command) {
   if (command.map_after.empty())
-    return "The rest is corrected by gcode compensate with the map. Once the numbers are typed in, this "
+    return "The rest is corrected by gcode compensate with the map. Once the numbers are typed in, "
+           "this "
            "map is out of date; --map-after writes the one to use then.\n";
   return fmt::format(
-      "Type them in, measure five marks and check them with {0}. From then on run programs unchanged or, "
+      "Type them in, measure five marks and check them with {0}. From then on run programs "
+      "unchanged or, "
       "for better accuracy, compensate them with {0}. Do not use {1} again.\n",
       command.map_after,
       command.input);
@@ -167,11 +172,13 @@ grid::CompensationMap map_after_of(const grid::CompensationMap& map,
     model::Machine after = before;
     after.controller = now;
     numbers = fmt::format(" ({})",
-                          files::in_words(files::changed_settings(files::settings_in_force(before),
-                                                                  files::settings_in_force(after))));
+                          files::in_words(files::changed_settings(
+                              files::settings_in_force(before), files::settings_in_force(after))));
   }
   return grid::map_for_settings(
-      map, now, fmt::format("For a controller that holds the numbers of export groundcontrol{}.", numbers));
+      map,
+      now,
+      fmt::format("For a controller that holds the numbers of export groundcontrol{}.", numbers));
 }
 
 /// What the controller's formulas can make of the map.
@@ -184,12 +191,16 @@ Exported of_map(const grid::CompensationMap& map,
   if (map.machine() == nullptr) fail(grid::settings_to_type(map).error());
   model::Machine machine = *map.machine();
   const bool holds_numbers = machine.controller.settings.motor_spacing_mm.has_value();
-  const bool is_wall_plotter = machine.controller.kind == model::ControllerKind::fluidnc_wallplotter;
+  const bool is_wall_plotter =
+      machine.controller.kind == model::ControllerKind::fluidnc_wallplotter;
   machine.controller = controller_of(machine);
   const auto typed = grid::settings_to_type(map, machine.controller);
   Exported result;
   if (typed) {
-    result = {text_of(machine, *typed, fmt::format("the {} points of {}", typed->points, file), holds_numbers),
+    result = {text_of(machine,
+                      *typed,
+                      fmt::format("the {} points of {}", typed->points, file),
+                      holds_numbers),
               words_of(today_in_words(map, *typed), machine, *typed, holds_numbers),
               next_of(command, (typed->worth_typing || !holds_numbers) && !is_wall_plotter),
               map};
@@ -227,7 +238,8 @@ Exported of_machine(const model::Machine& stated,
   // If none can be found, the machine's own dimensions are the settings.
   if (!typed) return {files::write_groundcontrol(stated), "", std::move(next)};
   const std::string today = fmt::format(
-      "Were the machine as {} has it, the tool would be {:.2f} mm rms off with {}, {:.2f} mm at worst;",
+      "Were the machine as {} has it, the tool would be {:.2f} mm rms off with {}, {:.2f} mm at "
+      "worst;",
       file,
       typed->as_it_is.rms_mm,
       holds_numbers ? "today's settings" : "its own measures for settings",
@@ -239,7 +251,8 @@ Exported of_machine(const model::Machine& stated,
 
 /// True, with a message, where numbers would depend on an effect that a diagnosis put in and that may not
 /// act.
-bool refuses_weak_causes(const std::vector<model::AppliedEffect>& effects, const std::string& name) {
+bool refuses_weak_causes(const std::vector<model::AppliedEffect>& effects,
+                         const std::string& name) {
   std::vector<std::string> weak;
   for (const model::AppliedEffect& one : effects) {
     if (one.probability.value_or(1.0) >= grid::diagnosis::kSureOfCause) continue;
@@ -270,7 +283,8 @@ std::string left_out_in_words(const grid::diagnosis::Diagnosis& found) {
   for (const grid::diagnosis::Cause& cause : causes_left_out(found)) {
     if (std::none_of(cause.same_as.begin(), cause.same_as.end(), is_of_paper)) continue;
     words += fmt::format(
-        "These numbers leave out what may be {}{} or the tape that the marks were measured with. A map "
+        "These numbers leave out what may be {}{} or the tape that the marks were measured with. A "
+        "map "
         "corrects it either way: export its numbers instead.\n",
         cause.cause.effect->cause,
         grid::diagnosis::side_words(cause.cause));
@@ -287,8 +301,7 @@ std::vector<model::BedPoint> area_of(const grid::diagnosis::Diagnosis& found) {
   return area.size() < kFewest ? corners_of(found.extended_machine.bed) : area;
 }
 
-Exported of_diagnosis(const InputFile& file,
-                      const grid::diagnosis::Diagnosis& found) {
+Exported of_diagnosis(const InputFile& file, const grid::diagnosis::Diagnosis& found) {
   Exported exported =
       of_machine(found.extended_machine, file.name, area_of(found), settings_page(file.path));
   exported.words += left_out_in_words(found);
@@ -309,12 +322,12 @@ bool is_untyped_json(const InputFile& file) {
 }
 
 [[noreturn]] void refuse_drawing(const InputFile& file) {
-  throw files::InputError(
-      {{file.name,
-        "/observations",
-        "a diagnosis of a test drawing",
-        "one of another machine; of a V-plotter export plotter has the lines, from what fit makes of "
-        "the drawing"}});
+  throw files::InputError({{file.name,
+                            "/observations",
+                            "a diagnosis of a test drawing",
+                            "one of another machine; of a V-plotter export plotter has the lines, "
+                            "from what fit makes of "
+                            "the drawing"}});
 }
 
 Exported export_of(const InputFile& file, const ExportCommand& command, bool forced) {
@@ -407,7 +420,9 @@ int export_maslow4(Verb verb, const ExportCommand& command) {
   if (!settings) return kCheckFailed;
   write_output(command.output, settings->text);
   for (const std::string& remark : settings->remarks) fmt::print(stderr, "{}\n", remark);
-  fmt::print(stderr, "The machine forgets these lines when it is switched off, until $CD=/maslow.yaml has saved them.\n");
+  fmt::print(stderr,
+             "The machine forgets these lines when it is switched off, until $CD=/maslow.yaml has "
+             "saved them.\n");
   return kDone;
 }
 
@@ -463,11 +478,16 @@ void add_export(Verb app, Run& run) {
              command->map_after,
              {Origin::map},
              "With a map: also write the map that holds once these numbers are typed in")
-.acts_on(facts::map, "to be left out: only of a map follows the one that is right once the numbers are typed in");
+      .acts_on(facts::map,
+               "to be left out: only of a map follows the one that is right once the numbers are "
+               "typed in");
   groundcontrol.footer(fmt::format(
-      "The numbers that bring the controller nearest to the map, to the machine, or to the one that a "
-      "diagnosis found, and how near; what the firmware has no number for, and what that costs. All "
-      "others stay as they were, and all where the machine says no more than its settings. No number "
+      "The numbers that bring the controller nearest to the map, to the machine, or to the one "
+      "that a "
+      "diagnosis found, and how near; what the firmware has no number for, and what that costs. "
+      "All "
+      "others stay as they were, and all where the machine says no more than its settings. No "
+      "number "
       "rests on a cause that is less than 90 % sure: the exit code is 1 then, and nothing is "
       "written.\n\nOnce the numbers are typed in, stop using "
       "the old map: it corrects again what the numbers have mended, and parts come out wrong. Use "

@@ -261,15 +261,22 @@ void add_fit(Verb app, Run& run) {
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);
   add_effects_option(verb, command->input);
-  verb.option("--noise-dof").acts_on(facts::residual, "to be left out of a direct surface, which goes through the readings");
-  verb.option("--effects").acts_on(facts::residual, kNoMachine).acts_on(facts::causes, "to be left out with --plain: a map is on the machine file as it is, or on the causes that are found");
+  verb.option("--noise-dof")
+      .acts_on(facts::residual,
+               "to be left out of a direct surface, which goes through the readings");
+  verb.option("--effects")
+      .acts_on(facts::residual, kNoMachine)
+      .acts_on(facts::causes,
+               "to be left out with --plain: a map is on the machine file as it is, or on the "
+               "causes that are found");
   add_input(verb,
             "--with",
             command->with,
             "More files of the same machine: grids or chaintrue_holes; with belts, "
             "chaintrue_holes. All are fitted together, in the coordinates of the first")
-.acts_on(facts::no_drawing, "to be left out of a test drawing: all that is known of the plotter is in its file")
-.acts_on(facts::residual, "to be left out: a direct surface is of one grid alone");
+      .acts_on(facts::no_drawing,
+               "to be left out of a test drawing: all that is known of the plotter is in its file")
+      .acts_on(facts::residual, "to be left out: a direct surface is of one grid alone");
   add_output(verb,
              "-o,--output",
              command->output,
@@ -283,35 +290,47 @@ void add_fit(Verb app, Run& run) {
                   "through the lengths, without a machine")
       .one_of({"residual", "direct"})
       .shows_default()
-.acts_on(facts::grid | facts::holes, "to be left out: belts and drawings have settings for an answer, and no surface", "residual")
-.acts_on(facts::one_grid, "\"residual\": a direct surface needs chain lengths at known places, of one grid alone", "residual");
+      .acts_on(facts::grid | facts::holes,
+               "to be left out: belts and drawings have settings for an answer, and no surface",
+               "residual")
+      .acts_on(
+          facts::one_grid,
+          "\"residual\": a direct surface needs chain lengths at known places, of one grid alone",
+          "residual");
   verb.add_option("--ends", command->ends, "End condition of direct splines")
       .one_of({"not_a_knot", "natural", "parabolic", "clamped"})
       .shows_default()
-.acts_on(facts::direct, "to be left out without --surface direct, whose splines it ends");
+      .acts_on(facts::direct, "to be left out without --surface direct, whose splines it ends");
   add_outside_options(verb, command->outside, "continued by default");
   verb.option("--outside")
-      .acts_on(facts::grid | facts::holes, "to be left out: belts and drawings have no surface that could end")
-      .acts_on(facts::residual, "to be left out of a direct surface, which ends where its points do");
+      .acts_on(facts::grid | facts::holes,
+               "to be left out: belts and drawings have no surface that could end")
+      .acts_on(facts::residual,
+               "to be left out of a direct surface, which ends where its points do");
   verb.add_flag("--plain",
                 command->plain,
                 "Do not look for causes. By default, fit looks for causes as diagnose does and "
                 "uses those that improve the map at points left out")
-.acts_on(facts::grid | facts::holes, "to be left out: only maps rest on causes; chaintrue diagnose weighs those of belts and drawings")
-.acts_on(facts::residual, kNoMachine);
+      .acts_on(facts::grid | facts::holes,
+               "to be left out: only maps rest on causes; chaintrue diagnose weighs those of belts "
+               "and drawings")
+      .acts_on(facts::residual, kNoMachine);
   verb.add_flag("--accept-class",
                 command->accept_class,
                 "If the points cannot tell long links from a long tape, assume the links")
-.acts_on(facts::grid | facts::holes, "to be left out: it is of a chain or a tape that is long")
-.acts_on(facts::residual, kNoMachine)
-.acts_on(facts::causes, "to be left out with --plain: it says which of two causes acts");
+      .acts_on(facts::grid | facts::holes,
+               "to be left out: it is of a chain or a tape that is long")
+      .acts_on(facts::residual, kNoMachine)
+      .acts_on(facts::causes, "to be left out with --plain: it says which of two causes acts");
   add_number(verb,
              "--wish-mm",
              command->wish_mm,
              kWishMm,
              "The accuracy you want: fit says whether the map reaches it, and what would")
-.acts_on(facts::no_drawing, "to be left out of a test drawing: all that is known of the plotter is in its file")
-.acts_on(facts::residual, "to be left out of a direct surface: nobody knows how far the tool is off it");
+      .acts_on(facts::no_drawing,
+               "to be left out of a test drawing: all that is known of the plotter is in its file")
+      .acts_on(facts::residual,
+               "to be left out of a direct surface: nobody knows how far the tool is off it");
   verb.add_flag("-v,--verbose",
                 command->verbose,
                 "Also print the tables: settings, errors at points left out, each distance, left "

@@ -33,7 +33,8 @@ void require_gcode(const InputFile& file) {
       {{file.name,
         "/set/firmware",
         std::string(model::name(plotter)),
-        "a plotter that takes G-code, \"fluidnc\" or \"marlin\": this one is sent pictures, and draws "
+        "a plotter that takes G-code, \"fluidnc\" or \"marlin\": this one is sent pictures, and "
+        "draws "
         "them true once the lines of chaintrue export plotter are typed in"}});
 }
 
@@ -91,9 +92,14 @@ void add_map_options(Verb verb, GcodeOptions& options, bool map_required) {
   verb.add_option("--frame", options.frame, "Zero of the program: the marks' or the bed's")
       .one_of({"marks", "bed"})
       .shows_default()
-.acts_on(facts::target, "to be left out without --map, whose frames they are", "marks")
-.acts_on(facts::map | facts::anchors, "\"marks\": a plotter counts as its controller does, and knows no other frame", "marks")
-.acts_on(facts::map, "\"marks\": belts count from where their frame's diagonals cross, and know no other frame", "marks");
+      .acts_on(facts::target, "to be left out without --map, whose frames they are", "marks")
+      .acts_on(facts::map | facts::anchors,
+               "\"marks\": a plotter counts as its controller does, and knows no other frame",
+               "marks")
+      .acts_on(facts::map,
+               "\"marks\": belts count from where their frame's diagonals cross, and know no other "
+               "frame",
+               "marks");
 }
 
 void add_machine_options(Verb verb, GcodeOptions& options, bool map_required) {
@@ -109,9 +115,13 @@ void add_machine_options(Verb verb, GcodeOptions& options, bool map_required) {
             "The controller's settings now, if they have changed since the map was measured: "
             "groundcontrol.ini, webcontrol.json, FluidNC's config.yaml, or a machine file")
       .excludes(machine)
-.acts_on(facts::target, "to be left out without --map, whose machine holds these settings")
-.acts_on(facts::map | facts::anchors, "to be left out: what the controller of a plotter holds is given with --machine, as a chaintrue_plotter file")
-.acts_on(facts::map, "to be left out: what the controller of four belts holds is given with --machine, as a belts or anchors file");
+      .acts_on(facts::target, "to be left out without --map, whose machine holds these settings")
+      .acts_on(facts::map | facts::anchors,
+               "to be left out: what the controller of a plotter holds is given with --machine, as "
+               "a chaintrue_plotter file")
+      .acts_on(facts::map,
+               "to be left out: what the controller of four belts holds is given with --machine, "
+               "as a belts or anchors file");
   verb.add_option("--controller", options.controller, "Replaces the machine file's")
       .one_of({"maslow_classic", "holey", "fluidnc_wallplotter", "maslow4", "ideal"});
 }
@@ -123,23 +133,23 @@ void add_limits(Verb verb, GcodeOptions& options) {
              kToleranceMm,
              "Largest permitted error of the "
              "tool")
-.acts_on(facts::target, kNothingIsWritten);
+      .acts_on(facts::target, kNothingIsWritten);
   add_number(verb,
              "--decimals",
              options.decimals,
              {"", 2.0, 6.0},
              "Decimals of the output's "
              "coordinates")
-.acts_on(facts::target, kNothingIsWritten);
+      .acts_on(facts::target, kNothingIsWritten);
   add_number(verb,
              "--steepest-correction",
              options.steepest_correction,
              {"mm per mm", 1e-6, 10.0},
              "Refuse corrections that change faster than this [mm/mm]")
-.acts_on(facts::target, kNothingIsWritten);
+      .acts_on(facts::target, kNothingIsWritten);
   verb.add_flag(
-      "--keep-rapids-whole", options.keep_rapids_whole, "Correct rapids at their ends only")
-.acts_on(facts::target, kNothingIsWritten);
+          "--keep-rapids-whole", options.keep_rapids_whole, "Correct rapids at their ends only")
+      .acts_on(facts::target, kNothingIsWritten);
   add_option_check(verb, [&options](OptionProblems& problems) {
     if (!options.map.empty()) check_limits(options, problems);
   });
@@ -152,7 +162,7 @@ void add_refusals(Verb verb, GcodeOptions& options) {
              options.largest_correction_mm,
              {"mm", 0.001, 1000.0},
              "Refuse larger corrections")
-.acts_on(facts::target, kNothingIsWritten);
+      .acts_on(facts::target, kNothingIsWritten);
 }
 
 }  // namespace
@@ -259,7 +269,9 @@ void add_gcode(Verb app, Run& run) {
   explain.add_option("place", options->program, "FILE:LINE").required();
   add_machine_options(explain, *options, false);
   for (const char* name : {"--machine", "--controller"})
-    explain.option(name).acts_on(facts::target, "to be left out without --map: without it a line is explained as it is written");
+    explain.option(name).acts_on(
+        facts::target,
+        "to be left out without --map: without it a line is explained as it is written");
   explain.footer(
       "Example:\n"
       "  build/chaintrue gcode explain fixtures/gcode/bracket.nc:12");

@@ -31,32 +31,36 @@ void add_grid_options(Verb verb, GridInput& input) {
             input.machine,
             "A chaintrue_machine file that replaces the grid's own "
             "machine")
-.acts_on(facts::grid | facts::holes | facts::map, "to be left out: belts and drawings bring their own machine");
+      .acts_on(facts::grid | facts::holes | facts::map,
+               "to be left out: belts and drawings bring their own machine");
   add_number(verb,
              "--noise-length-mm",
              input.length_noise_mm,
              grid::files::kNoiseMm,
              "Standard deviation (1 sigma) of a measured chain length, replaces the grid's own")
-.acts_on(facts::grid, "to be left out: it is of the chain lengths of a grid, which was not given");
+      .acts_on(facts::grid,
+               "to be left out: it is of the chain lengths of a grid, which was not given");
   add_number(verb,
              "--noise-position-mm",
              input.position_noise_mm,
              grid::files::kNoiseMm,
              "Standard deviation (1 sigma) of a measured position on each axis, replaces the "
              "grid's own")
-.acts_on(facts::grid, "to be left out: it is of the places of a grid, which was not given");
+      .acts_on(facts::grid, "to be left out: it is of the places of a grid, which was not given");
   add_number(verb,
              "--noise-dof",
              input.noise_dof,
              grid::files::kNoiseDof,
              "Degrees of freedom of the noise: the higher, the more it is trusted (15 by "
              "default)")
-.acts_on(facts::grid, "to be left out: it is of the noise of a grid, which was not given");
+      .acts_on(facts::grid, "to be left out: it is of the noise of a grid, which was not given");
   verb.add_flag("--inches",
                 input.inches,
                 "In CSV tables, measured positions, lengths and distances are in inches, as "
                 "43.8125 or 43 13/16; commands stay in mm")
-.acts_on(facts::table, "to be left out: it is of tables (CSV), and the keys of a JSON file say that its numbers are mm");
+      .acts_on(facts::table,
+               "to be left out: it is of tables (CSV), and the keys of a JSON file say that its "
+               "numbers are mm");
 }
 
 void add_effects_option(Verb verb, GridInput& input) {
@@ -64,7 +68,7 @@ void add_effects_option(Verb verb, GridInput& input) {
             "--effects",
             input.effects,
             "chaintrue_effect files: causes of your own, tested along with the catalogue's")
-.acts_on(facts::grid | facts::holes, "to be left out: declared effects are of two chains");
+      .acts_on(facts::grid | facts::holes, "to be left out: declared effects are of two chains");
 }
 
 namespace {
@@ -131,28 +135,31 @@ void add_tape_options(Verb verb, TapeInput& input) {
              input.sigma_mm,
              grid::files::kTapeSigmaMm,
              "Holes: standard deviation (1 sigma) of a tape reading")
-.acts_on(facts::holes | facts::belt_holes, "to be left out: it is of a tape between holes, which were not given");
-  add_number(
-      verb,
-      "--hook-offset-mm",
-      input.tape_zero_offset_mm,
-      grid::files::kTapeZeroOffsetMm,
-      "Holes: the tape's zero error; every reading is longer than the distance by this much")
-.acts_on(facts::holes | facts::belt_holes, "to be left out: it is of a tape between holes, which were not given");
+      .acts_on(facts::holes | facts::belt_holes,
+               "to be left out: it is of a tape between holes, which were not given");
+  add_number(verb,
+             "--hook-offset-mm",
+             input.tape_zero_offset_mm,
+             grid::files::kTapeZeroOffsetMm,
+             "Holes: the tape's zero error; every reading is longer than the distance by this much")
+      .acts_on(facts::holes | facts::belt_holes,
+               "to be left out: it is of a tape between holes, which were not given");
   add_number(verb,
              "--hook-sigma-mm",
              input.tape_zero_offset_sigma_mm,
              grid::files::kHoleSigmaMm,
              "Holes: standard deviation (1 sigma) of the zero error, 3 mm by default; 0 if it is "
              "known exactly")
-.acts_on(facts::holes | facts::belt_holes, "to be left out: it is of a tape between holes, which were not given");
+      .acts_on(facts::holes | facts::belt_holes,
+               "to be left out: it is of a tape between holes, which were not given");
   add_number(verb,
              "--hole-sigma-mm",
              input.hole_sigma_mm,
              grid::files::kHoleSigmaMm,
              "Holes: standard deviation (1 sigma) of a hole's position on each axis, as the drill "
              "wanders")
-.acts_on(facts::holes | facts::belt_holes, "to be left out: it is of holes, which were not given");
+      .acts_on(facts::holes | facts::belt_holes,
+               "to be left out: it is of holes, which were not given");
 }
 
 grid::MeasuredGrid read_grid_input(const GridInput& input) {
@@ -237,7 +244,9 @@ void add_without_option(Verb verb, std::string& without) {
                   without,
                   "Points of a chaintrue_belts file to leave out, numbered from 1 as in messages, "
                   "such as 7,12")
-.acts_on(facts::belts, "to be left out: it is of points of a chaintrue_belts file; leave those of other files out of the file");
+      .acts_on(facts::belts,
+               "to be left out: it is of points of a chaintrue_belts file; leave those of other "
+               "files out of the file");
 }
 
 std::vector<std::size_t> points_left_out(const std::string& without) {

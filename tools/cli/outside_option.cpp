@@ -34,7 +34,7 @@ void add_outside_options(Verb verb, OutsideOption& option, const std::string& us
              option.fade_width_mm,
              grid::files::kFadeWidthMm,
              "The distance over which --outside fade ends the correction")
-.acts_on(facts::fade, "to be left out without --outside fade, whose width it is");
+      .acts_on(facts::fade, "to be left out without --outside fade, whose width it is");
 }
 
 grid::OutsideRule rule_of(const OutsideOption& option, const grid::OutsideRule& usual) {

@@ -127,7 +127,8 @@ int run_check_plan(Verb verb, PlanOptions options) {
   const model::Machine* machine = map.machine();
   request.margin_mm =
       options.margin_mm.value_or(machine == nullptr ? kReachableMm : reachable_mm(machine->bed));
-  verb.refuse_what_does_nothing(with_program(options, facts::check, drills_marks(options, map.machine())));
+  verb.refuse_what_does_nothing(
+      with_program(options, facts::check, drills_marks(options, map.machine())));
   return plan_the_check(map, options.check, outputs_of(options));
 }
 
@@ -136,9 +137,8 @@ int run_plan(Verb verb, PlanOptions options) {
   if (!options.check.map.empty()) return run_check_plan(verb, std::move(options));
   const bool of_tape = options.holes.request.holes != 0;
   const model::Machine machine = read_machine_input(options.machine);
-  verb.refuse_what_does_nothing(with_program(options,
-                                        of_tape ? facts::tape : facts::lattice,
-                                        of_tape || drills_marks(options, &machine)));
+  verb.refuse_what_does_nothing(with_program(
+      options, of_tape ? facts::tape : facts::lattice, of_tape || drills_marks(options, &machine)));
   if (of_tape) {
     options.holes.request.margin_mm = options.margin_mm.value_or(reachable_mm(machine.bed));
     const int code = plan_the_holes(options.holes, machine, outputs_of(options));
@@ -190,7 +190,8 @@ void add_plan(Verb app, Run& run) {
             options->machine,
             "chaintrue_machine file; - is standard input. With --after only where the grid "
             "names none, with --check not at all")
-.acts_on(facts::lattice | facts::tape | facts::grid | facts::holes, "to be left out: a map that is checked, and belts, name their own machine");
+      .acts_on(facts::lattice | facts::tape | facts::grid | facts::holes,
+               "to be left out: a map that is checked, and belts, name their own machine");
   const Option grid =
       add_input(verb,
                 "grid",
@@ -208,29 +209,33 @@ void add_plan(Verb app, Run& run) {
             options->follow_up.with,
             "With --after: the other files of the same diagnosis, as given to diagnose --with")
       .needs(after)
-.acts_on(facts::grid | facts::holes, "to be left out: belts are diagnosed by themselves");
+      .acts_on(facts::grid | facts::holes, "to be left out: belts are diagnosed by themselves");
   const grid::PlanRequest usual;
   const grid::CheckPlanRequest usual_check;
-  const Option points = add_number(
-      verb,
-      "--points",
-      options->points,
-      {"", 1.0, 1000.0},
-      fmt::format("Number of marks, {} to {}, {} by default; with --check {} to {}, {} by default",
-                  grid::kFewestPlanned,
-                  grid::kMostPlanned,
-                  usual.points,
-                  grid::kFewestCheckPoints,
-                  grid::kMostCheckPoints,
-                  usual_check.points))
-.acts_on(facts::lattice | facts::check, "to be left out with --after: the diagnosis says how many");
+  const Option points =
+      add_number(
+          verb,
+          "--points",
+          options->points,
+          {"", 1.0, 1000.0},
+          fmt::format(
+              "Number of marks, {} to {}, {} by default; with --check {} to {}, {} by default",
+              grid::kFewestPlanned,
+              grid::kMostPlanned,
+              usual.points,
+              grid::kFewestCheckPoints,
+              grid::kMostCheckPoints,
+              usual_check.points))
+          .acts_on(facts::lattice | facts::check,
+                   "to be left out with --after: the diagnosis says how many");
   add_number(verb,
              "--second-visits",
              options->second_visits,
              {"", 0.0, 66.0},
              "Number of marks measured twice, the first one at the end; they show what changes "
              "during the session")
-.acts_on(facts::lattice, "to be left out: it is of marks that are planned anew, in columns and rows");
+      .acts_on(facts::lattice,
+               "to be left out: it is of marks that are planned anew, in columns and rows");
   add_input(verb,
             "--check",
             options->check.map,
@@ -244,7 +249,8 @@ void add_plan(Verb app, Run& run) {
       fmt::format("Distance from the bed's edge to the outermost marks: {:g} by default, on a "
                   "small bed a fifth of its shorter side. Nearer to the edge, a sled tips over it",
                   kReachableMm))
-.acts_on(facts::lattice | facts::tape | facts::check, "to be left out with --after: the diagnosis says where");
+      .acts_on(facts::lattice | facts::tape | facts::check,
+               "to be left out with --after: the diagnosis says where");
   add_plan_holes_options(verb, options->holes, points);
   const auto noise_words = [](const char* what, double usually_mm, double in_check_mm) {
     return fmt::format("Standard deviation (1 sigma) of {}; {:g} by default, {:g} with --check",
@@ -257,13 +263,15 @@ void add_plan(Verb app, Run& run) {
              options->length_noise_mm,
              {"mm", 0.001, 50.0},
              noise_words("a chain length", usual.noise.length_mm, usual_check.length_mm))
-.acts_on(facts::lattice | facts::check, "to be left out: it is of chain lengths that are read at marks");
+      .acts_on(facts::lattice | facts::check,
+               "to be left out: it is of chain lengths that are read at marks");
   add_number(verb,
              "--position-noise-mm",
              options->position_noise_mm,
              {"mm", 0.0, 50.0},
              noise_words("a mark's position", usual.noise.position_mm, usual_check.position_mm))
-.acts_on(facts::lattice | facts::check, "to be left out: it is of places that are measured at marks");
+      .acts_on(facts::lattice | facts::check,
+               "to be left out: it is of places that are measured at marks");
   add_measure_option(verb, options->measure);
   add_output(verb,
              "-o,--output",
@@ -273,13 +281,15 @@ void add_plan(Verb app, Run& run) {
              "standard output")
       .shows_default();
   verb.add_flag("--json", options->json, "Print the list as JSON, including the machine")
-.acts_on(facts::lattice | facts::tape | facts::check, "to be left out with --after: the lines are as the file they go into");
+      .acts_on(facts::lattice | facts::tape | facts::check,
+               "to be left out with --after: the lines are as the file they go into");
   add_output(verb,
              "--page",
              options->page,
              {Origin::page},
              "Write a page to print: the bed, the instructions, and lines to fill in")
-.acts_on(facts::lattice | facts::tape | facts::check, "to be left out with --after, which makes lines for a file");
+      .acts_on(facts::lattice | facts::tape | facts::check,
+               "to be left out with --after, which makes lines for a file");
   add_drill_options(verb, options->gcode, options->drill);
   add_output(verb,
              "--svg",

@@ -10,8 +10,8 @@
 
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/observation/measured_holes.hpp"
-#include "tools/cli/input_file.hpp"
 #include "tools/cli/arguments.hpp"
+#include "tools/cli/input_file.hpp"
 
 namespace chaintrue::cli {
 

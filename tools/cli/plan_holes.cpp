@@ -55,7 +55,8 @@ void add_plan_holes_options(Verb verb, HolesPlanOptions& options, Option points)
                          grid::kMostPlannedHoles))
       .shows_default("")
       .excludes(points)
-.acts_on(facts::lattice | facts::tape, "to be left out with --after and --check, which plan something else");
+      .acts_on(facts::lattice | facts::tape,
+               "to be left out with --after and --check, which plan something else");
   add_number(verb,
              "--distances",
              request.distances,
@@ -63,30 +64,30 @@ void add_plan_holes_options(Verb verb, HolesPlanOptions& options, Option points)
              "With --holes: number of distances to measure; by default twice the holes plus two, "
              "and six more with --edges")
       .shows_default("")
-.acts_on(facts::tape, "to be left out without --holes");
+      .acts_on(facts::tape, "to be left out without --holes");
   verb.add_flag("--edges",
                 request.edges,
                 "With --holes: also measure to the sheet's edges, so that jobs lie where they "
                 "should on the sheet")
-.acts_on(facts::tape, "to be left out without --holes");
+      .acts_on(facts::tape, "to be left out without --holes");
   add_number(verb,
              "--tape-sigma-mm",
              request.tape_sigma_mm,
              grid::files::kTapeSigmaMm,
              "With --holes: standard deviation (1 sigma) of a tape reading")
-.acts_on(facts::tape, "to be left out without --holes");
+      .acts_on(facts::tape, "to be left out without --holes");
   add_number(verb,
              "--hole-sigma-mm",
              request.hole_sigma_mm,
              grid::files::kHoleSigmaMm,
              "With --holes: standard deviation (1 sigma) of a hole's position on each axis")
-.acts_on(facts::tape, "to be left out without --holes");
+      .acts_on(facts::tape, "to be left out without --holes");
   add_number(verb,
              "--tape-length-mm",
              request.longest_mm,
              {"mm", 500.0, 100000.0},
              "With --holes: length of the tape")
-.acts_on(facts::tape, "to be left out without --holes");
+      .acts_on(facts::tape, "to be left out without --holes");
 }
 
 int plan_the_holes(const HolesPlanOptions& options,

@@ -161,9 +161,9 @@ int run_query(Verb verb, const QueryCommand& command) {
   const InputFile file = open_input(command.map);
   require_kind(file, {FileKind::map, FileKind::anchors, FileKind::plotter});
   verb.refuse_what_does_nothing((file.kind == FileKind::map       ? facts::map
-                            : file.kind == FileKind::anchors ? facts::anchors
-                                                             : facts::plotter) |
-                               (command.outside.way == "fade" ? facts::fade : 0U));
+                                 : file.kind == FileKind::anchors ? facts::anchors
+                                                                  : facts::plotter) |
+                                (command.outside.way == "fade" ? facts::fade : 0U));
   if (file.kind == FileKind::anchors) return query_anchors(command, file);
   if (file.kind == FileKind::plotter)
     return answer_alone({*load_plotter_map(file, load_plotter(file).plotter)}, command);
@@ -188,8 +188,11 @@ void add_query(Verb app, Run& run) {
   Verb verb = app.add_verb("query",
                            "Compute chain lengths for points of the bed, or the point for chain "
                            "lengths");
-  add_input(
-      verb, "map", command->map, "A chaintrue_map or chaintrue_anchors file, or a chaintrue_plotter as fit makes it of a drawing; - is standard input")
+  add_input(verb,
+            "map",
+            command->map,
+            "A chaintrue_map or chaintrue_anchors file, or a chaintrue_plotter as fit makes it of "
+            "a drawing; - is standard input")
       .required();
   add_numbers(verb, "coordinates", command->coordinates, {"mm", -1e6, 1e6}, "Pairs X Y [mm]");
   add_input(
@@ -206,13 +209,19 @@ void add_query(Verb app, Run& run) {
                   "without the sheet's placement")
       .one_of({"marks", "bed"})
       .shows_default()
-.acts_on(facts::map | facts::anchors, "\"marks\": a plotter counts as its controller does, and knows no other frame", "marks")
-.acts_on(facts::map, "\"marks\": belts count from where their frame's diagonals cross, and know no other frame", "marks");
+      .acts_on(facts::map | facts::anchors,
+               "\"marks\": a plotter counts as its controller does, and knows no other frame",
+               "marks")
+      .acts_on(facts::map,
+               "\"marks\": belts count from where their frame's diagonals cross, and know no other "
+               "frame",
+               "marks");
   add_output(verb, "-o,--output", command->output, {Origin::table}, "- is standard output")
       .shows_default();
   add_outside_options(verb, command->outside, "by default as the map says");
   verb.option("--outside")
-      .acts_on(facts::map | facts::anchors, "to be left out: a plotter has no surface that could end")
+      .acts_on(facts::map | facts::anchors,
+               "to be left out: a plotter has no surface that could end")
       .acts_on(facts::map, "to be left out: four belts have no surface that could end");
   verb.add_flag("--json", command->json, "Print JSON instead of CSV");
   verb.footer(

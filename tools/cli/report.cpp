@@ -41,11 +41,10 @@ struct Reported {
 
 Reported of_map(const InputFile& file, bool as_certificate, std::string_view source) {
   const grid::CompensationMap map = load_map(file);
-  return Reported{
-      as_certificate ? certificate(map, source) : map_document(map, source),
-      map.machine() == nullptr
-          ? std::vector<std::string>{"query", file.path, "--help"}
-          : std::vector<std::string>{"plan", "--check", file.path, "-o", "check.csv"}};
+  return Reported{as_certificate ? certificate(map, source) : map_document(map, source),
+                  map.machine() == nullptr
+                      ? std::vector<std::string>{"query", file.path, "--help"}
+                      : std::vector<std::string>{"plan", "--check", file.path, "-o", "check.csv"}};
 }
 
 Reported of_diagnosis(const InputFile& file, std::string_view source) {
@@ -85,9 +84,11 @@ int run_report(Verb verb, const ReportCommand& command) {
   Reported made = file.kind == FileKind::map         ? of_map(file, command.certificate, source)
                   : file.kind == FileKind::diagnosis ? of_diagnosis(file, source)
                                                      : of_anchors(file, source);
-  if (!command.certificate) add_made_by(files::made_by_of(file.text, file.name), made.page.sections);
+  if (!command.certificate)
+    add_made_by(files::made_by_of(file.text, file.name), made.page.sections);
   // The clock is not asked: the same map gives the same page. A certificate has a line to write on.
-  const std::string date = command.date.empty() && command.certificate ? "date: ______________" : command.date;
+  const std::string date =
+      command.date.empty() && command.certificate ? "date: ______________" : command.date;
   if (!date.empty()) {
     std::string& subtitle = made.page.subtitle;
     subtitle += fmt::format("{}{}", subtitle.empty() ? "" : ", ", date);
@@ -115,7 +116,7 @@ void add_report(Verb app, Run& run) {
       verb, "-o,--output", command->output, {Origin::page}, "The HTML file; - is standard output")
       .required();
   verb.add_flag("--certificate", command->certificate, "One page of a map, to print")
-.acts_on(facts::map, "to be left out: only a map has a certificate");
+      .acts_on(facts::map, "to be left out: only a map has a certificate");
   verb.add_option("--date", command->date, "A date to print below the title, as in 2026-11-22");
   verb.footer(
       "Examples:\n"

@@ -49,9 +49,9 @@ constexpr const char* kSideNames[] = {"left", "top", "right", "bottom"};
 model::SquareTask task_of(const SquareOptions& options, model::BedPoint middle) {
   const double half_mm = 0.5 * options.size_mm;
   const model::BedPoint corner =
-      options.at.empty()
-          ? model::BedPoint{middle.x_mm - half_mm, middle.y_mm + (options.below ? half_mm : -half_mm)}
-          : model::BedPoint{options.at[0], options.at[1]};
+      options.at.empty() ? model::BedPoint{middle.x_mm - half_mm,
+                                           middle.y_mm + (options.below ? half_mm : -half_mm)}
+                         : model::BedPoint{options.at[0], options.at[1]};
   return {.size_mm = options.size_mm, .corner = corner, .below = options.below};
 }
 
@@ -192,10 +192,9 @@ const grid::KnownPlotter* plotter_of(const std::unique_ptr<const GcodeMachine>& 
 
 int square_with(const SquareOptions& options, const std::unique_ptr<const GcodeMachine>& machine) {
   const grid::KnownPlotter* plotter = plotter_of(machine);
-  const model::SquareTask task =
-      task_of(options, plotter == nullptr ? model::BedPoint{} : middle_of(machine->controller().sheet));
-  const auto square =
-      machine == nullptr ? by_machines(options, task) : by_map(task, *machine);
+  const model::SquareTask task = task_of(
+      options, plotter == nullptr ? model::BedPoint{} : middle_of(machine->controller().sheet));
+  const auto square = machine == nullptr ? by_machines(options, task) : by_map(task, *machine);
   if (!square) {
     const SquareRefusal& refusal = square.error();
     fmt::print(stderr,
@@ -220,7 +219,7 @@ int square_with(const SquareOptions& options, const std::unique_ptr<const GcodeM
 
 int run_square(Verb verb, const SquareOptions& options) {
   const auto machine = options.map.empty() ? nullptr : machine_of(options);
-  const Facts kind = machine == nullptr ? facts::machine
+  const Facts kind = machine == nullptr               ? facts::machine
                      : plotter_of(machine) != nullptr ? facts::plotter
                                                       : facts::map;
   verb.refuse_what_does_nothing(kind | (options.program.empty() ? 0U : facts::program));
@@ -273,8 +272,8 @@ void add_square(Verb app, Run& run) {
              {"mm", 0.1, 100.0},
              "With --gcode: depth of "
              "the holes")
-.acts_on(facts::program, "to be left out without --gcode")
-.acts_on(facts::map | facts::machine, "to be left out: a plotter's pen has no depth");
+      .acts_on(facts::program, "to be left out without --gcode")
+      .acts_on(facts::map | facts::machine, "to be left out: a plotter's pen has no depth");
   verb.footer(
       "Examples:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
