@@ -54,33 +54,6 @@ void check_unit(const MeasuredBelts& belts, const BeltPlaces& places, Problems& 
                                unit->found));
 }
 
-void check_orders(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
-  const auto with_order = static_cast<std::size_t>(
-      std::count_if(belts.points.begin(), belts.points.end(), [](const BeltPoint& point) {
-        return point.order.has_value();
-      }));
-  if (with_order == 0) return;
-  std::map<int, std::size_t> first_with;
-  for (std::size_t i = 0; i < belts.points.size(); ++i) {
-    const auto& order = belts.points[i].order;
-    if (!order) {
-      problems.add(
-          places.point(i, "order"),
-          "",
-          fmt::format("an order for every point or for none; {} points have one", with_order),
-          ProblemKind::missing);
-      continue;
-    }
-    const auto [other, is_new] = first_with.emplace(*order, i);
-    if (!is_new) {
-      problems.add(places.point(i, "order"),
-                   fmt::format("{}", *order),
-                   fmt::format("another number than that of {}", places.point(other->second, "")),
-                   ProblemKind::repeated_value);
-    }
-  }
-}
-
 void check_twice(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
   const bool has_repeats = holds_repeats(belts);
   std::map<std::array<double, 4>, std::size_t> first_with;
@@ -223,7 +196,9 @@ void check_nowhere(const MeasuredBelts& belts,
 
 void check_belt_points(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
   check_unit(belts, places, problems);
-  check_orders(belts, places, problems);
+  std::vector<StatedOrder> orders;
+  for (const BeltPoint& point : belts.points) orders.push_back({point.order});
+  check_orders(orders, places.point, problems);
   check_twice(belts, places, problems);
   check_pulled(belts, places, problems);
   check_pulls(belts, places, problems);
@@ -277,11 +252,12 @@ bool check_belts_together(const MeasuredBelts& belts,
     check_swap(belts, places, problems);
     if (problems.any()) return false;
     if (const auto other = second_frame_begins(belts)) {
-      problems.explain(places.point(*other, ""),
-                       ProblemKind::other_sheet,
-                       "from here on the places are of another frame than those before: each part agrees "
-                       "with itself, both together make no frame. A belt that was hooked in anew, an anchor "
-                       "that was moved, or two files in one make that; give each part as a file of its own");
+      problems.explain(
+          places.point(*other, ""),
+          ProblemKind::other_sheet,
+          "from here on the places are of another frame than those before: each part agrees "
+          "with itself, both together make no frame. A belt that was hooked in anew, an anchor "
+          "that was moved, or two files in one make that; give each part as a file of its own");
       return false;
     }
     if (const auto frame = frame_of_lengths(belts)) {

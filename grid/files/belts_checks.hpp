@@ -10,14 +10,14 @@
 
 #include "grid/belts/measured_belts.hpp"
 #include "grid/files/belts_file.hpp"
-#include "grid/files/problems.hpp"
+#include "grid/files/measured_entries.hpp"
 
 namespace chaintrue::grid::files {
 
 /// The places of values in their file, for messages.
 struct BeltPlaces {
   std::string points;
-  std::function<std::string(std::size_t index, std::string_view field)> point;
+  PlaceOf point;
   std::string machine;
 };
 

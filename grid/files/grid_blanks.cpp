@@ -12,47 +12,6 @@
 namespace chaintrue::grid::files {
 namespace {
 
-void keep_only(const std::vector<std::size_t>& kept,
-               std::vector<StatedPoint>& points,
-               PointPlaces& places) {
-  std::vector<StatedPoint> others;
-  for (const std::size_t i : kept) others.push_back(points[i]);
-  points = std::move(others);
-  places.of = [kept, of = places.of](std::size_t index, std::string_view field) {
-    return of(kept[index], field);
-  };
-}
-
-}  // namespace
-
-void leave_out_blanks(std::vector<StatedPoint>& points, PointPlaces& places, Problems& problems) {
-  std::vector<std::size_t> kept;
-  std::vector<std::string> blank;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].is_blank) {
-      blank.push_back(fmt::format("{}", points[i].order.value_or(static_cast<int>(i) + 1)));
-    } else {
-      kept.push_back(i);
-    }
-  }
-  if (blank.empty()) return;
-  if (kept.empty()) {
-    problems.add(places.all,
-                 fmt::format("{} points, all left blank", blank.size()),
-                 "the readings, written into the empty columns",
-                 ProblemKind::left_blank);
-    problems.throw_if_any();
-  }
-  problems.warn(places.all,
-                fmt::format("{} of {} points are left blank and left out: {}",
-                            blank.size(),
-                            points.size(),
-                            joined(blank)));
-  keep_only(kept, points, places);
-}
-
-namespace {
-
 /// A tape's or a laser's noise is a tenth of a millimetre and more: two visits agree in both lengths
 /// to a hundredth once in a thousand times or less.
 bool is_finer_than_noise(const std::vector<StatedPoint>& points) {
@@ -93,7 +52,7 @@ void count_copies_once(std::vector<StatedPoint>& points, PointPlaces& places, Pr
                   points.size() - kept.size(),
                   points.size(),
                   example));
-  keep_only(kept, points, places);
+  keep_only(kept, points, places.of);
 }
 
 namespace {
@@ -130,15 +89,10 @@ void warn_of_copies(const MeasuredGrid& grid, const PointPlaces& places, Problem
   // One in a hundred sound lists of such readings has more.
   const double by_rounding = copies_by_rounding(grid);
   if (static_cast<double>(copies.size()) <= by_rounding + 2.33 * std::sqrt(by_rounding)) return;
-  problems.warn(
-      places.all,
-      fmt::format(
-          "{} lie exactly where they were commanded, to the last digit. Were "
-          "they measured? Leave x_mm and y_mm blank where not",
-          copies.size() == grid.points.size()
-              ? fmt::format("all {} points", copies.size())
-              : fmt::format(
-                    "{} of {} points ({})", copies.size(), grid.points.size(), joined(copies))));
+  problems.warn(places.all,
+                fmt::format("{} lie exactly where they were commanded, to the last digit. Were "
+                            "they measured? Leave x_mm and y_mm blank where not",
+                            how_many(copies, grid.points.size(), "points")));
 }
 
 }  // namespace chaintrue::grid::files

@@ -49,38 +49,6 @@ void check_parts(const StatedPoint& point, const std::string& place, Problems& p
   }
 }
 
-void check_orders(const std::vector<StatedPoint>& points,
-                  const PointPlaces& places,
-                  Problems& problems) {
-  const auto with_order = static_cast<std::size_t>(
-      std::count_if(points.begin(), points.end(), [](const StatedPoint& point) {
-        return point.order.has_value();
-      }));
-  if (with_order == 0) return;
-  std::map<int, std::size_t> first_with;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].is_spoilt) continue;
-    if (!points[i].order) {
-      problems.add(
-          places.of(i, "order"),
-          "",
-          fmt::format(
-              "the number of the visit, as {} other points have it; all points have it or none",
-              with_order),
-          ProblemKind::missing);
-      continue;
-    }
-    const auto [other, is_new] = first_with.emplace(*points[i].order, i);
-    if (!is_new) {
-      problems.add(places.of(i, "order"),
-                   fmt::format("{}", *points[i].order),
-                   fmt::format("a number of its own for each visit; {} has the same",
-                               places.of(other->second, "")),
-                   ProblemKind::repeated_value);
-    }
-  }
-}
-
 /// The gradient of a plane fitted to some value of the points, value per mm of x and of y.
 struct Slope {
   double per_x = 0.0;
@@ -311,7 +279,7 @@ std::vector<MeasuredPoint> measured_points(const std::vector<StatedPoint>& state
                                            const PointPlaces& places,
                                            Problems& problems) {
   std::vector<MeasuredPoint> points;
-  points.reserve(stated.size());
+  std::vector<StatedOrder> orders;
   for (std::size_t i = 0; i < stated.size(); ++i) {
     const StatedPoint& from = stated[i];
     if (!from.is_spoilt) check_parts(from, places.of(i, ""), problems);
@@ -323,8 +291,9 @@ std::vector<MeasuredPoint> measured_points(const std::vector<StatedPoint>& state
     }
     point.order = from.order;
     points.push_back(point);
+    orders.push_back({from.order, from.is_spoilt});
   }
-  check_orders(stated, places, problems);
+  check_orders(orders, places.of, problems);
   return points;
 }
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "grid/files/problems.hpp"
+#include "grid/files/measured_entries.hpp"
 #include "grid/input_checks/findings.hpp"
 #include "grid/observation/measured_grid.hpp"
 
@@ -38,14 +38,9 @@ struct StatedPoint {
 struct PointPlaces {
   /// The points as a whole: "/points", or the header's line.
   std::string all;
-  /// One point, or one field of it: "/points/3", "line 5, column 8".
-  std::function<std::string(std::size_t index, std::string_view field)> of;
+  PlaceOf of;
   input_checks::Written written = input_checks::Written::in_json;
 };
-
-/// Removes the points that were left blank and reports them; `places` are then those of the others.
-/// \throws InputError if every point is blank.
-void leave_out_blanks(std::vector<StatedPoint>& points, PointPlaces& places, Problems& problems);
 
 /// Rows that equal another in every digit are counted once, with a warning; `places` are then those
 /// of the others. Applied only to lengths written to a hundredth of a millimetre or finer, and to

@@ -9,7 +9,6 @@
 #include "grid/files/csv_table.hpp"
 #include "grid/files/file_type.hpp"
 #include "grid/files/grid_checks.hpp"
-#include "grid/files/machine_file.hpp"
 #include "grid/files/machine_record.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/reading_record.hpp"
@@ -187,31 +186,20 @@ const Record<StatedGrid>& grid_record() {
   return record;
 }
 
-/// Reads the machine that the grid names, or uses the one given in its place.
-void fetch_machine(StatedGrid& grid, const GridOptions& options, Problems& problems) {
-  if (options.machine) {
-    grid.machine = options.machine;
-  } else if (!grid.machine_file.empty() && !grid.machine) {
-    const fs::path folder = fs::path(problems.file()).parent_path();
-    try {
-      ReadMachine read = read_machine_with_warnings(folder / grid.machine_file);
-      grid.machine = std::move(read.machine);
-      problems.add_warnings(read.warnings);
-    } catch (const InputError& error) {
-      problems.add_all(error);
-    }
-  }
-  if (!grid.machine && grid.machine_file.empty()) grid.machine = options.otherwise;
-}
-
 /// The common part of JSON and CSV, once the fields are read.
 ReadGrid finish(StatedGrid stated,
                 PointPlaces places,
                 const GridOptions& options,
                 Problems& problems) {
-  leave_out_blanks(stated.points, places, problems);
+  std::vector<std::string> blanks;
+  for (const StatedPoint& point : stated.points) {
+    const int number = point.order.value_or(static_cast<int>(blanks.size()) + 1);
+    blanks.push_back(point.is_blank ? fmt::format("{}", number) : "");
+  }
+  constexpr EntryWords kWords{"points", "the readings, written into the empty columns"};
+  keep_only(filled_in(blanks, kWords, places.all, problems), stated.points, places.of);
   count_copies_once(stated.points, places, problems);
-  fetch_machine(stated, options, problems);
+  fetch_machine(stated.machine, stated.machine_file, options.machine, options.otherwise, problems);
   ReadGrid read;
   MeasuredGrid& grid = read.grid;
   grid.name = std::move(stated.name);
@@ -240,10 +228,7 @@ ReadGrid parse_json_grid(const std::string& text, const GridOptions& options, Pr
   auto stated = grid_record().read(Cursor(json, problems), true);
   const bool has_points = json.is_object() && json.contains("points") && json["points"].is_array();
   if (!stated || !has_points) problems.throw_if_any();
-  const PointPlaces places{"/points", [](std::size_t index, std::string_view field) {
-                             return field.empty() ? fmt::format("/points/{}", index)
-                                                  : fmt::format("/points/{}/{}", index, field);
-                           }};
+  const PointPlaces places{"/points", place_in_json("/points")};
   return finish(std::move(stated.value()), places, options, problems);
 }
 

@@ -229,7 +229,8 @@ void check_tape_zero(const MeasuredHoles& set,
   constexpr double kAtZeroMm = 3.0;
   const double mark_mm =
       input_checks::kTapeMarkMm * std::round(total_mm / input_checks::kTapeMarkMm);
-  if (std::abs(total_mm - mark_mm) < (mark_mm == 0.0 ? kAtZeroMm : kAtTheMarkMm)) total_mm = mark_mm;
+  if (std::abs(total_mm - mark_mm) < (mark_mm == 0.0 ? kAtZeroMm : kAtTheMarkMm))
+    total_mm = mark_mm;
   const std::string state =
       fmt::format("give {:.0f} mm (hook_offset_mm of the tape, or --hook-offset-mm)", total_mm);
   if (is_stated) {
@@ -249,39 +250,6 @@ void check_tape_zero(const MeasuredHoles& set,
 }
 
 }  // namespace
-
-void leave_out_blanks(std::vector<StatedDistance>& distances,
-                      HolesPlaces& places,
-                      Problems& problems) {
-  std::vector<std::size_t> kept;
-  std::vector<std::string> blank;
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    if (distances[i].is_blank) {
-      blank.push_back(fmt::format("{}-{}", distances[i].from, distances[i].to));
-    } else {
-      kept.push_back(i);
-    }
-  }
-  if (blank.empty()) return;
-  if (kept.empty()) {
-    problems.add(places.distances,
-                 fmt::format("{} distances, all left blank", blank.size()),
-                 "tape readings, written into distance_mm",
-                 ProblemKind::left_blank);
-    problems.throw_if_any();
-  }
-  problems.warn(places.distances,
-                fmt::format("{} of {} distances are left blank and left out: {}",
-                            blank.size(),
-                            distances.size(),
-                            joined(blank)));
-  std::vector<StatedDistance> others;
-  for (const std::size_t i : kept) others.push_back(distances[i]);
-  distances = std::move(others);
-  places.distance = [kept, of = places.distance](std::size_t index, std::string_view field) {
-    return of(kept[index], field);
-  };
-}
 
 void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
   // A tape read to the millimetre equals the command now and then; read to the hundredth, or on
@@ -304,12 +272,7 @@ void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problem
   problems.warn(places.distances,
                 fmt::format("{} read exactly as commanded. Were they measured? Leave distance_mm "
                             "blank where not",
-                            copies.size() == set.distances.size()
-                                ? fmt::format("all {} distances", copies.size())
-                                : fmt::format("{} of {} distances ({})",
-                                              copies.size(),
-                                              set.distances.size(),
-                                              joined(copies))));
+                            how_many(copies, set.distances.size(), "distances")));
 }
 
 void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& problems) {

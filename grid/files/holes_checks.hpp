@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "grid/files/problems.hpp"
+#include "grid/files/measured_entries.hpp"
 #include "grid/input_checks/findings.hpp"
 #include "grid/observation/measured_holes.hpp"
 
@@ -33,15 +33,9 @@ struct HolesPlaces {
   std::string holes;
   std::string distances;
   std::function<std::string(std::size_t index)> hole;
-  std::function<std::string(std::size_t index, std::string_view field)> distance;
+  PlaceOf distance;
   input_checks::Written written = input_checks::Written::in_json;
 };
-
-/// Removes the distances that were left blank and reports them; `places` are then those of the
-/// others. \throws InputError if every distance is blank.
-void leave_out_blanks(std::vector<StatedDistance>& distances,
-                      HolesPlaces& places,
-                      Problems& problems);
 
 /// Missing names become the holes' numbers; names that repeat or equal an edge's are reported.
 void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& problems);

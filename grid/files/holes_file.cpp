@@ -7,39 +7,30 @@
 
 #include "grid/files/file_type.hpp"
 #include "grid/files/holes_record.hpp"
-#include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
 namespace fs = std::filesystem;
 
-void fetch_machine(StatedHoles& stated, const HolesOptions& options, Problems& problems) {
-  if (options.machine) {
-    stated.machine = options.machine;
-    stated.belt_machine.reset();
-  } else if (!stated.machine_file.empty() && !stated.machine) {
-    const fs::path folder = fs::path(problems.file()).parent_path();
-    try {
-      ReadMachine read = read_machine_with_warnings(folder / stated.machine_file);
-      stated.machine = std::move(read.machine);
-      problems.add_warnings(read.warnings);
-    } catch (const InputError& error) {
-      problems.add_all(error);
-    }
-  }
-  if (stated.belt_machine) return;
-  if (!stated.machine && stated.machine_file.empty()) stated.machine = options.otherwise;
-}
-
 /// The common part of JSON and CSV, once the fields are read.
 ReadHoles finish(StatedHoles stated,
                  HolesPlaces places,
                  const HolesOptions& options,
                  Problems& problems) {
-  leave_out_blanks(stated.distances, places, problems);
-  fetch_machine(stated, options, problems);
+  std::vector<std::string> blanks;
+  for (const StatedDistance& distance : stated.distances)
+    blanks.push_back(distance.is_blank ? fmt::format("{}-{}", distance.from, distance.to) : "");
+  constexpr EntryWords kWords{"distances", "tape readings, written into distance_mm"};
+  keep_only(
+      filled_in(blanks, kWords, places.distances, problems), stated.distances, places.distance);
+  if (options.machine) stated.belt_machine.reset();
+  if (!stated.belt_machine) {
+    fetch_machine(
+        stated.machine, stated.machine_file, options.machine, options.otherwise, problems);
+  }
   ReadHoles read;
   MeasuredHoles& set = read.holes;
   set.name = std::move(stated.name);
@@ -48,7 +39,8 @@ ReadHoles finish(StatedHoles stated,
   set.tape = stated.tape;
   set.tape.sigma_mm = options.tape_sigma_mm.value_or(set.tape.sigma_mm);
   set.tape.tape_zero_offset_mm = options.tape_zero_offset_mm.value_or(set.tape.tape_zero_offset_mm);
-  if (options.tape_zero_offset_sigma_mm) set.tape.tape_zero_offset_sigma_mm = options.tape_zero_offset_sigma_mm;
+  if (options.tape_zero_offset_sigma_mm)
+    set.tape.tape_zero_offset_sigma_mm = options.tape_zero_offset_sigma_mm;
   set.hole_sigma_mm = options.hole_sigma_mm.value_or(stated.hole_sigma_mm);
   set.noise_dof = stated.noise_dof;
   set.sheet = stated.sheet;
@@ -57,8 +49,8 @@ ReadHoles finish(StatedHoles stated,
   check_names(set.holes, places, problems);
   set.distances = resolved_distances(stated.distances, set.holes, places, problems);
   if (!problems.any()) {
-    const bool tape_zero_is_stated =
-        options.tape_zero_offset_mm || stated.tape_zero_is_stated || set.tape.tape_zero_offset_mm != 0.0;
+    const bool tape_zero_is_stated = options.tape_zero_offset_mm || stated.tape_zero_is_stated ||
+                                     set.tape.tape_zero_offset_mm != 0.0;
     check_holes_together(set, options.fewest_distances, tape_zero_is_stated, places, problems);
   }
   problems.throw_if_any();
@@ -76,10 +68,7 @@ ReadHoles parse_json_holes(const std::string& text,
   const HolesPlaces places{"/holes",
                            "/distances",
                            [](std::size_t index) { return fmt::format("/holes/{}", index); },
-                           [](std::size_t index, std::string_view field) {
-                             return field.empty() ? fmt::format("/distances/{}", index)
-                                                  : fmt::format("/distances/{}/{}", index, field);
-                           }};
+                           place_in_json("/distances")};
   return finish(std::move(stated.value()), places, options, problems);
 }
 

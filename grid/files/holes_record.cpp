@@ -238,7 +238,7 @@ const Record<StatedHoles>& holes_record() {
           .check([](const Cursor& at, StatedHoles& stated) {
             stated.tape_zero_is_stated = at.has("tape") && at.child("tape").json().is_object() &&
                                          at.child("tape").has("hook_offset_mm");
-            if (stated.machine && !stated.machine_file.empty()) {
+            if ((stated.machine || stated.belt_machine) && !stated.machine_file.empty()) {
               at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
             }
           });

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/measured_entries.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "grid/files/machine_file.hpp"
+
+namespace chaintrue::grid::files {
+
+PlaceOf place_in_json(std::string list) {
+  return [list = std::move(list)](std::size_t index, std::string_view field) {
+    return fmt::format("{}/{}{}{}", list, index, field.empty() ? "" : "/", field);
+  };
+}
+
+void fetch_machine(std::optional<model::Machine>& machine,
+                   const std::string& machine_file,
+                   const std::optional<model::Machine>& instead,
+                   const std::optional<model::Machine>& otherwise,
+                   Problems& problems) {
+  if (instead) {
+    machine = instead;
+  } else if (!machine_file.empty() && !machine) {
+    const auto folder = std::filesystem::path(problems.file()).parent_path();
+    try {
+      ReadMachine read = read_machine_with_warnings(folder / machine_file);
+      machine = std::move(read.machine);
+      problems.add_warnings(read.warnings);
+    } catch (const InputError& error) {
+      problems.add_all(error);
+    }
+  } else if (!machine) {
+    machine = otherwise;
+  }
+}
+
+std::vector<std::size_t> filled_in(const std::vector<std::string>& blank_names,
+                                   const EntryWords& words,
+                                   const std::string& place,
+                                   Problems& problems) {
+  std::vector<std::size_t> kept;
+  std::vector<std::string> blank;
+  for (std::size_t i = 0; i < blank_names.size(); ++i) {
+    if (blank_names[i].empty()) {
+      kept.push_back(i);
+    } else {
+      blank.push_back(blank_names[i]);
+    }
+  }
+  if (blank.empty()) return kept;
+  if (kept.empty()) {
+    problems.add(place,
+                 fmt::format("{} {}, all left blank", blank.size(), words.entries),
+                 std::string(words.to_write),
+                 ProblemKind::left_blank);
+    problems.throw_if_any();
+  }
+  problems.warn(place,
+                fmt::format("{} of {} {} are left blank and left out: {}",
+                            blank.size(),
+                            blank_names.size(),
+                            words.entries,
+                            joined(blank)));
+  return kept;
+}
+
+std::string how_many(const std::vector<std::string>& named,
+                     std::size_t count,
+                     std::string_view entries) {
+  return named.size() == count
+             ? fmt::format("all {} {}", count, entries)
+             : fmt::format("{} of {} {} ({})", named.size(), count, entries, joined(named));
+}
+
+void check_orders(const std::vector<StatedOrder>& orders,
+                  const PlaceOf& place_of,
+                  Problems& problems) {
+  const auto with_order = std::count_if(
+      orders.begin(), orders.end(), [](const StatedOrder& one) { return one.order.has_value(); });
+  if (with_order == 0) return;
+  std::map<int, std::size_t> first_with;
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    if (orders[i].is_spoilt) continue;
+    if (!orders[i].order) {
+      problems.add(
+          place_of(i, "order"),
+          "",
+          fmt::format(
+              "the number of the visit, as {} other points have it; all points have it or none",
+              with_order),
+          ProblemKind::missing);
+      continue;
+    }
+    const auto [other, is_new] = first_with.emplace(*orders[i].order, i);
+    if (!is_new) {
+      problems.add(place_of(i, "order"),
+                   fmt::format("{}", *orders[i].order),
+                   fmt::format("a number of its own for each visit; {} has the same",
+                               place_of(other->second, "")),
+                   ProblemKind::repeated_value);
+    }
+  }
+}
+
+}  // namespace chaintrue::grid::files
