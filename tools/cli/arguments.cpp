@@ -123,7 +123,17 @@ void Verb::add_flag(const std::string& name, const std::string& help) const {
 
 void Verb::footer(const std::string& text) const { app_->footer(text); }
 
-void Verb::when_chosen(std::function<void()> act) const { app_->callback(std::move(act)); }
+void Verb::when_chosen(Run run, std::function<void()> check) const {
+  app_->callback([run = std::move(run), check = std::move(check)] {
+    check();
+    chosen_run() = run;
+  });
+}
+
+Run& chosen_run() {
+  static Run run;
+  return run;
+}
 
 Option Verb::option(const std::string& name) const { return Option(*app_->get_option(name)); }
 
@@ -197,8 +207,7 @@ Verb Verb::with_name() const {
 std::vector<OptionRule> option_rules() {
   // Checks and places of other tables keep what they point at.
   static CLI::App app;
-  static Run run;
-#define CHAINTRUE_VERB(id) add_##id(Verb(app), run);
+#define CHAINTRUE_VERB(id) add_##id(Verb(app));
 #include "tools/cli/verbs.def"
 #undef CHAINTRUE_VERB
   std::vector<OptionRule> named;

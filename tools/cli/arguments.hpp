@@ -10,14 +10,16 @@
 ///   verb.add_option("--at", options->at, "X Y of the lower left corner, mm").takes(2);
 ///   verb.add_flag("--json", options->json, "JSON, all digits");
 ///   verb.footer("Example:\n  chaintrue square --map map.json");
-///   verb.when_chosen([options, &run] { run = [options] { return run_square(*options); }; });
+///   verb.runs(options, run_square);
 /// \endcode
 ///
 /// A name or a set of names that CLI11 does not take throws its exception when the verb is added.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "tools/cli/facts.hpp"
@@ -28,6 +30,9 @@ class Option;
 }  // namespace CLI
 
 namespace chaintrue::cli {
+
+/// What a verb does; throws files::InputError for bad input.
+using Run = std::function<int()>;
 
 class Option {
  public:
@@ -100,7 +105,23 @@ class Verb {
   /// A flag that is_given() tells.
   void add_flag(const std::string& name, const std::string& help) const;
   void footer(const std::string& text) const;
-  void when_chosen(std::function<void()> act) const;
+  /// What is done where the verb is chosen: `act(verb, *command)` or `act(*command)`, whose answer is
+  /// the exit code. `check(*command)` is asked first, for usage_error().
+  template <class Command, class Act>
+  void runs(const std::shared_ptr<Command>& command,
+            Act act,
+            std::function<void(const std::type_identity_t<Command>&)> check = {}) const {
+    when_chosen(
+        [command, act, verb = *this] {
+          if constexpr (std::is_invocable_v<Act, Verb, Command&>)
+            return act(verb, *command);
+          else
+            return act(*command);
+        },
+        [command, check] {
+          if (check) check(*command);
+        });
+  }
 
   [[nodiscard]] Option option(const std::string& name) const;
   [[nodiscard]] bool has_option(const std::string& name) const;
@@ -122,10 +143,15 @@ class Verb {
   [[nodiscard]] CLI::App& app() const { return *app_; }
 
  private:
+  void when_chosen(Run run, std::function<void()> check) const;
+
   CLI::App* app_ = nullptr;
 };
 
-/// For when_chosen(): ends the command with what is wrong with its usage, exit code 2.
+/// Of the verb that was chosen.
+[[nodiscard]] Run& chosen_run();
+
+/// For the check of runs(): ends the command with what is wrong with its usage, exit code 2.
 [[noreturn]] void usage_error(const std::string& verb, const std::string& sentence);
 [[noreturn]] void missing_option(const std::string& names);
 

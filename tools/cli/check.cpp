@@ -169,7 +169,7 @@ int run_check(Verb verb, const CheckCommand& command) {
 
 }  // namespace
 
-void add_check(Verb app, Run& run) {
+void add_check(Verb app) {
   auto command = std::make_shared<CheckCommand>();
   Verb verb =
       app.add_verb("check",
@@ -211,8 +211,7 @@ void add_check(Verb app, Run& run) {
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue check map.json fixtures/grids/five_new_points.json");
-  verb.when_chosen(
-      [command, verb, &run] { run = [command, verb] { return run_check(verb, *command); }; });
+  verb.runs(command, run_check);
 }
 
 }  // namespace chaintrue::cli

@@ -251,30 +251,28 @@ int print_manual(const CLI::App& app, const std::vector<std::string>& words) {
 
 }  // namespace
 
-void add_completion(Verb app, Run& run) {
+void add_completion(Verb app) {
   auto shell = std::make_shared<std::string>();
   Verb verb = app.add_verb("completion", "Print what bash, zsh or fish need to complete commands");
   verb.add_option("shell", *shell, "bash, zsh or fish").required().one_of({"bash", "zsh", "fish"});
   verb.footer("Example:\n  build/chaintrue completion bash > chaintrue.bash");
-  verb.when_chosen([shell, app, &run] {
-    run = [shell, app] {
-      const std::vector<Command> commands = commands_of(app.app());
-      fmt::print("{}",
-                 *shell == "bash"  ? bash(commands)
-                 : *shell == "zsh" ? zsh(commands)
-                                   : fish(commands));
-      return kDone;
-    };
+  verb.runs(shell, [app](const std::string& name) {
+    const std::vector<Command> commands = commands_of(app.app());
+    fmt::print("{}",
+               name == "bash"  ? bash(commands)
+               : name == "zsh" ? zsh(commands)
+                               : fish(commands));
+    return kDone;
   });
 }
 
-void add_man(Verb app, Run& run) {
+void add_man(Verb app) {
   auto words = std::make_shared<std::vector<std::string>>();
   Verb verb = app.add_verb("man", "Print a manual page (troff), as man -l - shows it");
   verb.add_option("verb", *words, "The verb; by default the command itself");
   verb.footer("Example:\n  build/chaintrue man gcode verify > chaintrue-gcode-verify.1");
-  verb.when_chosen(
-      [words, app, &run] { run = [words, app] { return print_manual(app.app(), *words); }; });
+  verb.runs(words,
+            [app](const std::vector<std::string>& own) { return print_manual(app.app(), own); });
 }
 
 }  // namespace chaintrue::cli

@@ -177,7 +177,7 @@ void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
 
 }  // namespace
 
-void add_diagnose(Verb app, Run& run) {
+void add_diagnose(Verb app) {
   auto command = std::make_shared<DiagnoseCommand>();
   Verb verb = app.add_verb("diagnose",
                            "Find what the machine does wrong and why, and how much knowing the "
@@ -230,8 +230,7 @@ void add_diagnose(Verb app, Run& run) {
       "  build/chaintrue diagnose fixtures/holes/nine_holes.json --report holes.html\n"
       "  build/chaintrue diagnose fixtures/belts/thirty_one_places.json -o belts_diagnosis.json\n"
       "  build/chaintrue diagnose fixtures/plotter/mural_drawing.json");
-  verb.when_chosen(
-      [command, verb, &run] { run = [command, verb] { return run_diagnose(verb, *command); }; });
+  verb.runs(command, run_diagnose);
 }
 
 }  // namespace chaintrue::cli

@@ -168,8 +168,7 @@ void print_strengths(const Effect& effect, const synthetic::EffectPicture& pictu
       size.name,
       short_number(picture.noise.length_mm),
       short_number(picture.noise.position_mm));
-  fmt::print(
-      "  {:>6}  {:>10}  {:>14}  {}\n", "points", "to show", "to be named", "nearest rival");
+  fmt::print("  {:>6}  {:>10}  {:>14}  {}\n", "points", "to show", "to be named", "nearest rival");
   for (const synthetic::StrengthAt& at : picture.strengths) {
     const synthetic::EffectStrength& s = at.strength;
     std::string nearest =
@@ -331,7 +330,8 @@ int run_effects(const EffectsOptions& options) {
     fmt::print("{}", model::effects::catalogue_document());
     return kDone;
   }
-  if (!options.atlas.empty()) return write_atlas(options.atlas, options.id, options.declared, options.output);
+  if (!options.atlas.empty())
+    return write_atlas(options.atlas, options.id, options.declared, options.output);
   if (options.id.empty()) {
     if (!options.json) {
       list_catalogue(machine_of(options));
@@ -360,7 +360,7 @@ int run_effects(const EffectsOptions& options) {
 
 }  // namespace
 
-void add_effects(Verb app, Run& run) {
+void add_effects(Verb app) {
   auto options = std::make_shared<EffectsOptions>();
   Verb verb = app.add_verb(
       "effects", "List the catalogue of effects, or show what one of them does to a machine");
@@ -413,7 +413,7 @@ void add_effects(Verb app, Run& run) {
       "stretch.svg");
   add_option_check(verb,
                    [options](OptionProblems& problems) { check_options(*options, problems); });
-  verb.when_chosen([options, &run] { run = [options] { return run_effects(*options); }; });
+  verb.runs(options, run_effects);
 }
 
 }  // namespace chaintrue::cli

@@ -26,10 +26,6 @@
 #include "model/effects/catalogue.hpp"
 #include "tools/cli/anchors_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
-#include "tools/cli/export_klipper.hpp"
-#include "tools/cli/export_linuxcnc.hpp"
-#include "tools/cli/export_plotter.hpp"
-#include "tools/cli/export_straight.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/map_words.hpp"
@@ -426,7 +422,7 @@ int export_maslow4(Verb verb, const ExportCommand& command) {
   return kDone;
 }
 
-void add_maslow4(Verb verb, Run& run) {
+void add_maslow4(Verb verb) {
   auto command = std::make_shared<ExportCommand>();
   Verb maslow4 = verb.add_verb("maslow4", "Print the lines to paste into a Maslow 4's terminal");
   add_input(maslow4,
@@ -444,14 +440,12 @@ void add_maslow4(Verb verb, Run& run) {
       "Example:\n"
       "  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json\n"
       "  build/chaintrue export maslow4 anchors.json");
-  maslow4.when_chosen([command, maslow4, &run] {
-    run = [command, maslow4] { return export_maslow4(maslow4, *command); };
-  });
+  maslow4.runs(command, export_maslow4);
 }
 
 }  // namespace
 
-void add_export(Verb app, Run& run) {
+void add_export(Verb app) {
   Verb verb = app.add_verb("export",
                            "Convert a map, machine or diagnosis into settings for other "
                            "programs");
@@ -496,14 +490,12 @@ void add_export(Verb app, Run& run) {
       "fixtures/machines/groundcontrol.json -o map.json\n  build/chaintrue export groundcontrol "
       "map.json -o settings.ini --map-after map.after.json",
       kExample));
-  groundcontrol.when_chosen([command, groundcontrol, &run] {
-    run = [command, groundcontrol] { return export_groundcontrol(groundcontrol, *command); };
-  });
-  add_maslow4(verb, run);
-  add_export_plotter(verb, run);
-  add_export_linuxcnc(verb, run);
-  add_export_klipper(verb, run);
-  add_export_straight(verb, run);
+  groundcontrol.runs(command, export_groundcontrol);
+  add_maslow4(verb);
+  add_export_plotter(verb);
+  add_export_linuxcnc(verb);
+  add_export_klipper(verb);
+  add_export_straight(verb);
 }
 
 }  // namespace chaintrue::cli

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/export_klipper.hpp"
-
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -16,6 +14,7 @@
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
+#include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -37,10 +36,10 @@ int export_klipper(Verb verb, const ExportKlipperCommand& command) {
     fmt::print(stderr, "{}: {}\n", file.name, nearest.error().sentence());
     return kNotSupportedOrOutside;
   }
-  const auto module = files::klipper_kinematics(
-      grid::MapInFrame(map),
-      {nearest->anchors, nearest->longer_mm},
-      std::filesystem::path(file.name).filename().string());
+  const auto module =
+      files::klipper_kinematics(grid::MapInFrame(map),
+                                {nearest->anchors, nearest->longer_mm},
+                                std::filesystem::path(file.name).filename().string());
   if (!module) {
     fmt::print(stderr,
                "{}: {}. A table needs lengths all over the map; fit it with --outside continued\n",
@@ -64,7 +63,7 @@ int export_klipper(Verb verb, const ExportKlipperCommand& command) {
 
 }  // namespace
 
-void add_export_klipper(Verb export_verb, Run& run) {
+void add_export_klipper(Verb export_verb) {
   auto command = std::make_shared<ExportKlipperCommand>();
   Verb verb =
       export_verb.add_verb("klipper",
@@ -79,11 +78,11 @@ void add_export_klipper(Verb export_verb, Run& run) {
       .shows_default();
   verb.footer(
       "Example:\n"
-      "  build/chaintrue fit fixtures/start/marks.csv --machine fixtures/machines/groundcontrol.json "
+      "  build/chaintrue fit fixtures/start/marks.csv --machine "
+      "fixtures/machines/groundcontrol.json "
       "-o map.json\n"
       "  build/chaintrue export klipper map.json -o chaintrue.py");
-  verb.when_chosen(
-      [command, verb, &run] { run = [command, verb] { return export_klipper(verb, *command); }; });
+  verb.runs(command, export_klipper);
 }
 
 }  // namespace chaintrue::cli

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/export_linuxcnc.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +15,7 @@
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
+#include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -86,7 +85,7 @@ int export_linuxcnc(Verb verb, const ExportLinuxcncCommand& command) {
 
 }  // namespace
 
-void add_export_linuxcnc(Verb export_verb, Run& run) {
+void add_export_linuxcnc(Verb export_verb) {
   auto command = std::make_shared<ExportLinuxcncCommand>();
   Verb verb =
       export_verb.add_verb("linuxcnc",
@@ -101,13 +100,13 @@ void add_export_linuxcnc(Verb export_verb, Run& run) {
       .shows_default();
   verb.footer(
       "Example:\n"
-      "  build/chaintrue fit fixtures/start/marks.csv --machine fixtures/machines/groundcontrol.json "
+      "  build/chaintrue fit fixtures/start/marks.csv --machine "
+      "fixtures/machines/groundcontrol.json "
       "-o map.json\n"
       "  build/chaintrue export linuxcnc map.json -o chaintrue_kins.c");
   add_option_check(verb,
                    [command](OptionProblems& problems) { check_linuxcnc(*command, problems); });
-  verb.when_chosen(
-      [command, verb, &run] { run = [command, verb] { return export_linuxcnc(verb, *command); }; });
+  verb.runs(command, export_linuxcnc);
 }
 
 }  // namespace chaintrue::cli

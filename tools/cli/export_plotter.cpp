@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/export_plotter.hpp"
-
 #include <memory>
 #include <string>
 
@@ -10,6 +8,7 @@
 #include "tools/cli/places.hpp"
 #include "tools/cli/start_plotter.hpp"
 #include "tools/cli/talk.hpp"
+#include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -43,7 +42,7 @@ int export_plotter(const ExportPlotterCommand& command) {
 
 }  // namespace
 
-void add_export_plotter(Verb export_verb, Run& run) {
+void add_export_plotter(Verb export_verb) {
   auto command = std::make_shared<ExportPlotterCommand>();
   Verb verb = export_verb.add_verb(
       "plotter", "Print the numbers to type into a V-plotter's controller after a test drawing");
@@ -56,7 +55,7 @@ void add_export_plotter(Verb export_verb, Run& run) {
       "Example:\n"
       "  build/chaintrue fit fixtures/plotter/mural_drawing.json -o found.json\n"
       "  build/chaintrue export plotter found.json");
-  verb.when_chosen([command, &run] { run = [command] { return export_plotter(*command); }; });
+  verb.runs(command, export_plotter);
 }
 
 }  // namespace chaintrue::cli

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/export_straight.hpp"
-
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -12,6 +10,7 @@
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
+#include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -66,7 +65,8 @@ std::string grblhal_lines(const grid::StraightSettings& s) {
 constexpr StraightController kFluidNc{
     grid::Anchors::free, fluidnc_lines, "Switch it on with the tool at 0, 0 of the sheet."};
 constexpr StraightController kGrblHal{
-    grid::Anchors::level, grblhal_lines,
+    grid::Anchors::level,
+    grblhal_lines,
     "It draws Y downwards: mirror a program, and move it by the place in the last line."};
 
 int export_straight(Verb verb,
@@ -92,7 +92,6 @@ int export_straight(Verb verb,
 }
 
 void add_controller(Verb export_verb,
-                    Run& run,
                     const char* name,
                     const char* description,
                     const StraightController& controller) {
@@ -102,29 +101,28 @@ void add_controller(Verb export_verb,
   add_output(
       verb, "-o,--output", command->output, {Origin::list}, "Output file; - is standard output")
       .shows_default();
-  verb.footer(fmt::format(
-      "For what they leave, compensate each program (gcode compensate).\n\n"
-      "Example:\n"
-      "  build/chaintrue fit fixtures/start/marks.csv --machine fixtures/machines/groundcontrol.json "
-      "-o map.json\n"
-      "  build/chaintrue export {} map.json",
-      name));
-  verb.when_chosen([command, verb, &controller, &run] {
-    run = [command, verb, &controller] { return export_straight(verb, *command, controller); };
+  verb.footer(
+      fmt::format("For what they leave, compensate each program (gcode compensate).\n\n"
+                  "Example:\n"
+                  "  build/chaintrue fit fixtures/start/marks.csv --machine "
+                  "fixtures/machines/groundcontrol.json "
+                  "-o map.json\n"
+                  "  build/chaintrue export {} map.json",
+                  name));
+  verb.runs(command, [&controller](Verb chosen, const auto& own) {
+    return export_straight(chosen, own, controller);
   });
 }
 
 }  // namespace
 
-void add_export_straight(Verb export_verb, Run& run) {
+void add_export_straight(Verb export_verb) {
   add_controller(export_verb,
-                 run,
                  "fluidnc",
                  "Find the WallPlotter settings that come closest to a map, and the error they "
                  "leave",
                  kFluidNc);
   add_controller(export_verb,
-                 run,
                  "grblhal",
                  "Find grblHAL's wall plotter settings that come closest to a map, and the error "
                  "they leave",

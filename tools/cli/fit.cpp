@@ -253,7 +253,7 @@ int run_fit(Verb verb, const FitCommand& command) {
 
 }  // namespace
 
-void add_fit(Verb app, Run& run) {
+void add_fit(Verb app) {
   auto command = std::make_shared<FitCommand>();
   Verb verb = app.add_verb("fit",
                            "Compute a map from measured points, anchors from belt lengths, "
@@ -347,11 +347,10 @@ void add_fit(Verb app, Run& run) {
       "fixtures/holes/nine_holes.json -o map.json\n"
       "  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json\n"
       "  build/chaintrue fit fixtures/plotter/mural_drawing.json -o found.json");
-  verb.when_chosen([command, verb, &run] {
-    if (command->json && command->output == "-") {
+  verb.runs(command, run_fit, [](const auto& own) {
+    if (own.json && own.output == "-") {
       usage_error("fit", "--json and the map cannot both go to standard output");
     }
-    run = [command, verb] { return run_fit(verb, *command); };
   });
 }
 

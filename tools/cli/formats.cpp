@@ -49,7 +49,7 @@ int run_formats(Verb verb, const FormatsCommand& command) {
 
 }  // namespace
 
-void add_formats(Verb app, Run& run) {
+void add_formats(Verb app) {
   auto command = std::make_shared<FormatsCommand>();
   Verb verb =
       app.add_verb("formats",
@@ -64,8 +64,7 @@ void add_formats(Verb app, Run& run) {
       "Example:\n"
       "  build/chaintrue formats machine\n"
       "  build/chaintrue formats grid --schema");
-  verb.when_chosen(
-      [command, verb, &run] { run = [command, verb] { return run_formats(verb, *command); }; });
+  verb.runs(command, run_formats);
 }
 
 }  // namespace chaintrue::cli

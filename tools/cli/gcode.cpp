@@ -52,7 +52,6 @@ void open_map(Verb verb, GcodeOptions& options) {
 }
 
 Verb add(Verb parent,
-         Run& run,
          const std::shared_ptr<GcodeOptions>& options,
          const char* name,
          const char* help,
@@ -76,11 +75,9 @@ Verb add(Verb parent,
   add_option_check(verb, [options](OptionProblems& problems) {
     problems.take_from([&options] { (void)options->home_mm(); });
   });
-  verb.when_chosen([options, action, verb, &run] {
-    run = [options, action, verb] {
-      open_map(verb, *options);
-      return action(*options);
-    };
+  verb.runs(options, [action](Verb chosen, GcodeOptions& own) {
+    open_map(chosen, own);
+    return action(own);
   });
   return verb;
 }
@@ -167,14 +164,13 @@ void add_refusals(Verb verb, GcodeOptions& options) {
 
 }  // namespace
 
-void add_gcode(Verb app, Run& run) {
+void add_gcode(Verb app) {
   auto options = std::make_shared<GcodeOptions>();
   Verb gcode =
       app.add_verb("gcode", "Check, explain and compensate G-code; chain lengths along its path");
   gcode.require_verb();
 
   Verb check = add(gcode,
-                   run,
                    options,
                    "check",
                    "List what the program does and what would go wrong, by line",
@@ -188,8 +184,8 @@ void add_gcode(Verb app, Run& run) {
       "Example:\n"
       "  build/chaintrue gcode check fixtures/gcode/bracket.nc");
 
-  Verb lengths = add(
-      gcode, run, options, "lengths", "Print the chain lengths along the path", run_gcode_lengths);
+  Verb lengths =
+      add(gcode, options, "lengths", "Print the chain lengths along the path", run_gcode_lengths);
   add_input(lengths, "file", options->program, "G-code; - is standard input").required();
   add_map_options(lengths, *options, true);
   add_output(lengths, "-o,--output", options->output, {Origin::table}, "CSV; - is standard output")
@@ -206,7 +202,6 @@ void add_gcode(Verb app, Run& run) {
       "  build/chaintrue gcode lengths fixtures/gcode/bracket.nc --map map.json -o lengths.csv");
 
   Verb compensate = add(gcode,
-                        run,
                         options,
                         "compensate",
                         "Rewrite a program so that the tool follows its coordinates",
@@ -237,7 +232,6 @@ void add_gcode(Verb app, Run& run) {
 
   Verb verify =
       add(gcode,
-          run,
           options,
           "verify",
           "Run a program on a simulated controller and machine; exit code 1 if the tool strays "
@@ -261,7 +255,6 @@ void add_gcode(Verb app, Run& run) {
       "  build/chaintrue gcode verify fixtures/gcode/bracket.nc bracket.true.nc --map map.json");
 
   Verb explain = add(gcode,
-                     run,
                      options,
                      "explain",
                      "Print the state before and after a line, its moves and their corrections",

@@ -13,8 +13,6 @@
 #include "grid/files/optical_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/import_maslow4.hpp"
-#include "tools/cli/import_plotter.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
@@ -63,7 +61,7 @@ int import_optical(const OpticalCommand& command) {
   return kDone;
 }
 
-void add_optical(Verb import, Run& run) {
+void add_optical(Verb import) {
   auto command = std::make_shared<OpticalCommand>();
   Verb verb = import.add_verb("optical",
                               "Convert a scan by WebControl's or GroundControl's optical "
@@ -98,7 +96,7 @@ void add_optical(Verb import, Run& run) {
       "A scan made with compensation switched on shows only what was left, and cannot be imported "
       "this way.\n\nExample:\n  build/chaintrue import optical fixtures/good/optical_scan.csv \\\n "
       "   --machine fixtures/machines/groundcontrol.json -o grid.json");
-  verb.when_chosen([command, &run] { run = [command] { return import_optical(*command); }; });
+  verb.runs(command, import_optical);
 }
 
 struct GroundcontrolCommand {
@@ -119,7 +117,7 @@ int import_groundcontrol(const GroundcontrolCommand& command) {
   return kDone;
 }
 
-void add_groundcontrol(Verb import, Run& run) {
+void add_groundcontrol(Verb import) {
   auto command = std::make_shared<GroundcontrolCommand>();
   Verb verb =
       import.add_verb("groundcontrol", "Convert GroundControl's settings into a machine file");
@@ -139,12 +137,12 @@ void add_groundcontrol(Verb import, Run& run) {
       "Example:\n"
       "  build/chaintrue import groundcontrol fixtures/good/groundcontrol_ring.ini \\\n"
       "    -o machine.json");
-  verb.when_chosen([command, &run] { run = [command] { return import_groundcontrol(*command); }; });
+  verb.runs(command, import_groundcontrol);
 }
 
 }  // namespace
 
-void add_import(Verb app, Run& run) {
+void add_import(Verb app) {
   Verb verb = app.add_verb("import",
                            "Convert files of other programs into machine, plotter, grid and "
                            "belts files");
@@ -153,10 +151,10 @@ void add_import(Verb app, Run& run) {
       "Example:\n"
       "  build/chaintrue import groundcontrol fixtures/good/groundcontrol_ring.ini \\\n"
       "    -o machine.json");
-  add_optical(verb, run);
-  add_groundcontrol(verb, run);
-  add_import_maslow4(verb, run);
-  add_import_plotter(verb, run);
+  add_optical(verb);
+  add_groundcontrol(verb);
+  add_import_maslow4(verb);
+  add_import_plotter(verb);
 }
 
 }  // namespace chaintrue::cli

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/import_maslow4.hpp"
-
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -14,6 +12,7 @@
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
+#include "tools/cli/verb.hpp"
 #include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
@@ -127,15 +126,16 @@ int import_maslow4(const Maslow4Command& command) {
 
 }  // namespace
 
-void add_import_maslow4(Verb import, Run& run) {
+void add_import_maslow4(Verb import) {
   auto command = std::make_shared<Maslow4Command>();
   Verb verb =
       import.add_verb("maslow4", "Convert the log of a Maslow 4's Find Anchors into a belts file");
-  add_input(verb,
-            "file",
-            command->inputs,
-            "The log, or a list of readings {bl:.., br:.., tr:.., tl:..}; - is standard input. Several "
-            "logs are runs of one session on one frame, each with a pull of its own")
+  add_input(
+      verb,
+      "file",
+      command->inputs,
+      "The log, or a list of readings {bl:.., br:.., tr:.., tl:..}; - is standard input. Several "
+      "logs are runs of one session on one frame, each with a pull of its own")
       .required();
   add_input(verb, "--settings", command->settings, "The machine's maslow.yaml");
   verb.add_option("--lengths",
@@ -167,9 +167,10 @@ void add_import_maslow4(Verb import, Run& run) {
       "Examples:\n"
       "  build/chaintrue import maslow4 fixtures/good/maslow4_log.txt \\\n"
       "    --settings fixtures/machines/maslow.yaml -o belts.json\n"
-      "  build/chaintrue import maslow4 fixtures/good/maslow4_log.txt fixtures/good/maslow4_log.txt \\\n"
+      "  build/chaintrue import maslow4 fixtures/good/maslow4_log.txt "
+      "fixtures/good/maslow4_log.txt \\\n"
       "    --pulls 1,1.6 -o two_pulls.json");
-  verb.when_chosen([command, &run] { run = [command] { return import_maslow4(*command); }; });
+  verb.runs(command, import_maslow4);
 }
 
 }  // namespace chaintrue::cli

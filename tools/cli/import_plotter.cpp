@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/import_plotter.hpp"
-
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +7,7 @@
 #include "tools/cli/places.hpp"
 #include "tools/cli/start_plotter.hpp"
 #include "tools/cli/talk.hpp"
+#include "tools/cli/verb.hpp"
 #include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
@@ -33,7 +32,7 @@ int import_plotter(const PlotterCommand& command) {
 
 }  // namespace
 
-void add_import_plotter(Verb import, Run& run) {
+void add_import_plotter(Verb import) {
   auto command = std::make_shared<PlotterCommand>();
   Verb verb = import.add_verb("plotter",
                               "Convert the settings of a V-plotter's controller into a plotter "
@@ -54,7 +53,7 @@ void add_import_plotter(Verb import, Run& run) {
       "What the settings do not say is assumed, and said so here and in the file.\n\n"
       "Example:\n"
       "  build/chaintrue import plotter fixtures/plotter/mural.txt -o plotter.json");
-  verb.when_chosen([command, &run] { run = [command] { return import_plotter(*command); }; });
+  verb.runs(command, import_plotter);
 }
 
 }  // namespace chaintrue::cli

@@ -65,12 +65,12 @@ int finish_standard_output(int code, int error_number) {
         grid::ProblemKind::output_place}}));
 }
 
-int run_verb(const Run& run, const std::string& verb, int threads) {
+int run_verb(const std::string& verb, int threads) {
   try {
     check_command_line();
     grid::use_threads(threads);
     const ProgressLine line(verb);
-    return finish_standard_output(run(), 0);
+    return finish_standard_output(chosen_run()(), 0);
   } catch (const grid::files::InputError& error) {
     return report_bad_input(error);
   } catch (const grid::files::ReaderGone&) {
@@ -126,8 +126,7 @@ int main_with_exit_code(int argc, char** argv) {
              "on it");
   app.footer("chaintrue help VERB, or VERB --help, lists the options of a verb, with an example.");
   app.set_help_all_flag("--help-all", "The help of every verb");
-  Run run;
-#define CHAINTRUE_VERB(id) add_##id(Verb(app), run);
+#define CHAINTRUE_VERB(id) add_##id(Verb(app));
 #include "tools/cli/verbs.def"
 #undef CHAINTRUE_VERB
   let_verbs_pass_on(app);
@@ -148,7 +147,7 @@ int main_with_exit_code(int argc, char** argv) {
     return finish_standard_output(app.exit(error) == 0 ? kDone : kUsage, 0);
   }
   QuietTalk talk(is_quiet);
-  const int code = run_verb(run, app.get_subcommands().front()->get_name(), threads);
+  const int code = run_verb(app.get_subcommands().front()->get_name(), threads);
   talk.end(code != kDone && code != kCheckFailed);
   return code;
 }

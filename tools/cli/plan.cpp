@@ -181,7 +181,7 @@ int run_plan(Verb verb, PlanOptions options) {
 
 }  // namespace
 
-void add_plan(Verb app, Run& run) {
+void add_plan(Verb app) {
   auto options = std::make_shared<PlanOptions>();
   Verb verb = app.add_verb(
       "plan", "Plan where to measure: a list for the workshop, and how accurate the map will be");
@@ -314,12 +314,10 @@ void add_plan(Verb app, Run& run) {
       "0.5 -o holes.csv --gcode holes.nc --svg holes.svg\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue plan --check map.json -o five.csv --svg five.svg");
-  verb.when_chosen([options, verb, &run] {
-    if (options->follow_up.after.empty() && !options->follow_up.file.empty())
-      missing_option("--after");
-    if (options->follow_up.after.empty() && options->check.map.empty() && options->machine.empty())
+  verb.runs(options, run_plan, [](const auto& own) {
+    if (own.follow_up.after.empty() && !own.follow_up.file.empty()) missing_option("--after");
+    if (own.follow_up.after.empty() && own.check.map.empty() && own.machine.empty())
       missing_option("--machine");
-    run = [options, verb] { return run_plan(verb, *options); };
   });
 }
 

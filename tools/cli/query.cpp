@@ -183,7 +183,7 @@ void check_usage(const QueryCommand& command) {
 
 }  // namespace
 
-void add_query(Verb app, Run& run) {
+void add_query(Verb app) {
   auto command = std::make_shared<QueryCommand>();
   Verb verb = app.add_verb("query",
                            "Compute chain lengths for points of the bed, or the point for chain "
@@ -237,10 +237,7 @@ void add_query(Verb app, Run& run) {
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue query map.json 100 200 -1000 -450");
-  verb.when_chosen([command, verb, &run] {
-    check_usage(*command);
-    run = [command, verb] { return run_query(verb, *command); };
-  });
+  verb.runs(command, run_query, check_usage);
 }
 
 }  // namespace chaintrue::cli

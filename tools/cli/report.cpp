@@ -102,7 +102,7 @@ int run_report(Verb verb, const ReportCommand& command) {
 
 }  // namespace
 
-void add_report(Verb app, Run& run) {
+void add_report(Verb app) {
   auto command = std::make_shared<ReportCommand>();
   Verb verb = app.add_verb("report",
                            "Write a map, a diagnosis or the anchors of four belts as a web page "
@@ -124,8 +124,7 @@ void add_report(Verb app, Run& run) {
       "  build/chaintrue report map.json -o report.html\n"
       "  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n"
       "  build/chaintrue report diagnosis.json -o diagnosis.html");
-  verb.when_chosen(
-      [command, verb, &run] { run = [command, verb] { return run_report(verb, *command); }; });
+  verb.runs(command, run_report);
 }
 
 }  // namespace chaintrue::cli

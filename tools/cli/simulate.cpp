@@ -338,7 +338,7 @@ void add_truth_options(Verb verb, SimulateOptions& o) {
 
 }  // namespace
 
-void add_simulate(Verb app, Run& run) {
+void add_simulate(Verb app) {
   auto options = std::make_shared<SimulateOptions>();
   Verb verb = app.add_verb("simulate", "Simulate measurements on a machine with hidden effects");
   auto machine = verb.add_choice("machine");
@@ -387,11 +387,10 @@ void add_simulate(Verb app, Run& run) {
       "  build/chaintrue simulate --belts fixtures/belts/thirty_one_places.json --grid 9x9 "
       "--effect belt_stretch:-:elongation=0.004 --offset tl_x_mm=12 --seed 1 -o belts.json");
   add_option_check(verb, [options](OptionProblems& problems) { check_words(*options, problems); });
-  verb.when_chosen([options, verb, &run] {
-    if (!options->belts.empty() && options->grid.empty()) {
+  verb.runs(options, run_simulate, [](const auto& own) {
+    if (!own.belts.empty() && own.grid.empty()) {
       usage_error("simulate", "--belts goes with --grid, columns x rows of places");
     }
-    run = [options, verb] { return run_simulate(verb, *options); };
   });
 }
 

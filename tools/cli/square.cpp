@@ -228,7 +228,7 @@ int run_square(Verb verb, const SquareOptions& options) {
 
 }  // namespace
 
-void add_square(Verb app, Run& run) {
+void add_square(Verb app) {
   auto options = std::make_shared<SquareOptions>();
   Verb verb = app.add_verb(
       "square", "Predict the sides, diagonals and bows of a test square, and write its program");
@@ -281,12 +281,11 @@ void add_square(Verb app, Run& run) {
       "  build/chaintrue square --machine fixtures/machines/classic.json --controller-machine "
       "fixtures/machines/believed_straight.json --size-mm 100 --at -1040 535 --below -o "
       "square.svg");
-  verb.when_chosen([options, verb, &run] {
-    if (options->map.empty()) {
-      if (options->machine.empty()) missing_option("--map, or --machine,");
-      if (options->controller_machine.empty()) missing_option("--controller-machine");
+  verb.runs(options, run_square, [](const auto& own) {
+    if (own.map.empty()) {
+      if (own.machine.empty()) missing_option("--map, or --machine,");
+      if (own.controller_machine.empty()) missing_option("--controller-machine");
     }
-    run = [options, verb] { return run_square(verb, *options); };
   });
 }
 

@@ -64,9 +64,8 @@ std::vector<FolderFile> sheets_of(const model::Machine& machine, const Plans& pl
   const Sheet sheet{
       plans.marks.marks,
       SheetOf::places,
-      grid::with_second_visits(
-          plans.marks.marks.size(),
-          std::min(grid::kUsualSecondVisits, plans.marks.marks.size() / 3))};
+      grid::with_second_visits(plans.marks.marks.size(),
+                               std::min(grid::kUsualSecondVisits, plans.marks.marks.size() / 3))};
   std::vector<DrillPlace> holes;
   for (const grid::Hole& hole : plans.holes.set.holes)
     holes.push_back({"hole " + hole.name, hole.commanded});
@@ -159,7 +158,7 @@ int run_start(Verb verb, const StartCommand& command) {
 
 }  // namespace
 
-void add_start(Verb app, Run& run) {
+void add_start(Verb app) {
   auto command = std::make_shared<StartCommand>();
   Verb verb = app.add_verb(
       "start", "Create a folder for your machine: its file, the next steps, and sheets to print");
@@ -175,8 +174,7 @@ void add_start(Verb app, Run& run) {
       "  build/chaintrue start fixtures/good/groundcontrol_ring.ini my-machine\n"
       "  build/chaintrue start fixtures/plotter/mural.txt my-mural\n"
       "  build/chaintrue start");
-  verb.when_chosen(
-      [command, verb, &run] { run = [command, verb] { return run_start(verb, *command); }; });
+  verb.runs(command, run_start);
 }
 
 }  // namespace chaintrue::cli

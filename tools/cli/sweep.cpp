@@ -49,7 +49,8 @@ sweep::Share parse_shard(const std::string& text, OptionProblems& problems) {
   constexpr int kMost = 1000000;
   const auto numbers = files::pair_of(text, '/', 1, kMost);
   if (numbers && (*numbers)[0] <= (*numbers)[1])
-    return {static_cast<std::uint64_t>((*numbers)[0]) - 1, static_cast<std::uint64_t>((*numbers)[1])};
+    return {static_cast<std::uint64_t>((*numbers)[0]) - 1,
+            static_cast<std::uint64_t>((*numbers)[1])};
   problems.add("--shard", text, "shard/shards, as in 3/16", grid::ProblemKind::bad_syntax);
   return {};
 }
@@ -95,7 +96,8 @@ int assemble(Verb verb,
                cells.size(),
                options.directory);
     std::vector<std::string> next = {"sweep", options.specification, "-o", options.directory};
-    for (const std::string& effect : options.effects) next.insert(next.end(), {"--effects", effect});
+    for (const std::string& effect : options.effects)
+      next.insert(next.end(), {"--effects", effect});
     next.emplace_back("--resume");
     say_next(next);
     return kDone;
@@ -138,10 +140,7 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
         run.progress = [](std::uint64_t finished, std::uint64_t total) {
           progress_is(static_cast<double>(finished), static_cast<double>(total));
         };
-      sweep::run_sweep(
-          read->spec,
-          files::cells_kept_in(options.directory, *read, run.share),
-          run);
+      sweep::run_sweep(read->spec, files::cells_kept_in(options.directory, *read, run.share), run);
     } catch (...) {
       failure = std::current_exception();
     }
@@ -157,7 +156,7 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
 
 }  // namespace
 
-void add_sweep(Verb app, Run& run) {
+void add_sweep(Verb app) {
   auto options = std::make_shared<SweepOptions>();
   Verb verb = app.add_verb("sweep", "Simulate the accuracy of maps over combinations of factors");
   add_input(verb, "specification", options->specification, "chaintrue_sweep file").required();
@@ -181,8 +180,7 @@ void add_sweep(Verb app, Run& run) {
       "  build/chaintrue sweep fixtures/sweeps/quick.json -o sweep");
   add_option_check(verb,
                    [options](OptionProblems& problems) { check_options(*options, problems); });
-  verb.when_chosen(
-      [options, verb, &run] { run = [options, verb] { return run_sweep_verb(verb, *options); }; });
+  verb.runs(options, run_sweep_verb);
 }
 
 }  // namespace chaintrue::cli

@@ -4,16 +4,14 @@
 /// one line in verbs.def.
 ///
 /// \code
-///   void add_fit(Verb app, Run& run) {
+///   void add_fit(Verb app) {
 ///     auto options = std::make_shared<FitOptions>();
 ///     Verb verb = app.add_verb("fit", "...");
 ///     verb.footer("Example:\n  chaintrue fit grid.json -o map.json");
-///     verb.when_chosen([options, &run] { run = [options] { return run_fit(*options); }; });
+///     verb.runs(options, run_fit);
 ///   }
 /// \endcode
 #pragma once
-
-#include <functional>
 
 #include "tools/cli/arguments.hpp"
 
@@ -29,11 +27,16 @@ enum ExitCode {
   kInternal = 5,
 };
 
-/// What the chosen verb will do; throws files::InputError for bad input.
-using Run = std::function<int()>;
-
-#define CHAINTRUE_VERB(id) void add_##id(Verb app, Run& run);
+#define CHAINTRUE_VERB(id) void add_##id(Verb app);
 #include "tools/cli/verbs.def"
 #undef CHAINTRUE_VERB
+
+/// Below import and export.
+void add_import_maslow4(Verb import);
+void add_import_plotter(Verb import);
+void add_export_plotter(Verb export_verb);
+void add_export_linuxcnc(Verb export_verb);
+void add_export_klipper(Verb export_verb);
+void add_export_straight(Verb export_verb);
 
 }  // namespace chaintrue::cli
