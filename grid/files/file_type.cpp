@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <utility>
 
 #include "grid/files/csv_table.hpp"
 #include "grid/files/formats.hpp"
@@ -67,20 +65,10 @@ class TypeFinder : public nlohmann::json_sax<Json> {
   bool is_type_ = false;
 };
 
-constexpr std::array<std::pair<const Format*, FileKind>, 9> kKinds = {
-    {{&kMachineFormat, FileKind::machine},
-     {&kGridFormat, FileKind::grid},
-     {&kHolesFormat, FileKind::holes},
-     {&kBeltsFormat, FileKind::belts},
-     {&kMapFormat, FileKind::map},
-     {&kAnchorsFormat, FileKind::anchors},
-     {&kDiagnosisFormat, FileKind::diagnosis},
-     {&kPlotterFormat, FileKind::plotter},
-     {&kDrawingFormat, FileKind::drawing}}};
-
 FileKind kind_of_csv(std::string_view text) {
   const std::vector<std::string> header = csv_header(text);
-  const bool is_of_holes = !header.empty() && (header.front() == "hole" || header.front().starts_with("from"));
+  const bool is_of_holes =
+      !header.empty() && (header.front() == "hole" || header.front().starts_with("from"));
   return is_of_holes ? FileKind::holes : FileKind::grid;
 }
 
@@ -94,9 +82,9 @@ bool names_belts(const std::string& text, const std::string& file) {
 
 std::string words_of(FileKind kind) {
   if (kind == FileKind::belt_holes) return R"("chaintrue_holes" of a machine on four belts)";
-  const auto* const named =
-      std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& one) { return one.second == kind; });
-  return named == kKinds.end() ? "" : fmt::format("\"{}\"", named->first->file_type);
+  const auto named = std::find_if(
+      kFormats.begin(), kFormats.end(), [&](const Format* one) { return one->kind == kind; });
+  return kind == FileKind::other ? "" : fmt::format("\"{}\"", (*named)->file_type);
 }
 
 }  // namespace
@@ -108,7 +96,8 @@ bool is_json(std::string_view text) {
   if (first == std::string_view::npos) return false;
   // "[EMC]" is a section of an ini file, "[true]" is JSON that nothing here takes.
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
-  const bool is_section = text[first] == '[' && first + 1 < text.size() && is_letter(text[first + 1]);
+  const bool is_section =
+      text[first] == '[' && first + 1 < text.size() && is_letter(text[first + 1]);
   return text[first] == '{' || (text[first] == '[' && !is_section);
 }
 
@@ -125,52 +114,22 @@ std::string file_type_of(const std::string& text, const std::string& file) {
 }
 
 std::string what_takes(std::string_view file_type) {
-  struct Kind {
-    std::string_view file_type;
-    std::string_view noun;
-    std::string_view verbs;
-  };
-  constexpr Kind kTakers[] = {
-      {"chaintrue_machine", "a machine", "plan, simulate or export"},
-      {"chaintrue_grid", "a grid of measured points", "fit, diagnose or check"},
-      {"chaintrue_holes", "a set of holes", "fit, diagnose or check"},
-      {"chaintrue_belts", "a set of belt lengths", "fit, diagnose or check"},
-      {"chaintrue_anchors", "a set of fitted anchors", "report, query, gcode or export maslow4"},
-      {"chaintrue_map", "a map", "report, query, gcode or export"},
-      {"chaintrue_diagnosis", "a diagnosis", "report or plan --after"},
-      {"chaintrue_sweep", "a sweep", "sweep"},
-      {"chaintrue_plotter", "a V-plotter", "start or export plotter"},
-      {"chaintrue_drawing", "a test drawing of a V-plotter", "fit"},
-      {"chaintrue_effect",
-       "a declared effect",
-       "effects --effects, diagnose --effects or simulate --effects"},
-  };
-  constexpr Kind kResults[] = {{"chaintrue_fit", "the result of a fit", "fit"},
-                               {"chaintrue_check", "the result of a check", "check"},
-                               {"chaintrue_answer", "what a simulation hid", "simulate"}};
-  for (const Kind& kind : kResults) {
-    if (file_type == kind.file_type) {
-      return fmt::format("; this is {}, no measurement: give the file that chaintrue {} was given, or the "
-                         "one that it wrote with -o",
-                         kind.noun,
-                         kind.verbs);
-    }
-  }
-  for (const Kind& kind : kTakers) {
-    if (file_type == kind.file_type) {
-      return fmt::format("; this is {}; did you mean chaintrue {}?", kind.noun, kind.verbs);
-    }
-  }
-  return {};
+  const Format* format = format_of(file_type);
+  if (format == nullptr || format->noun.empty()) return {};
+  return format->is_result()
+             ? fmt::format(
+                   "; this is {}, no measurement: give the file that chaintrue {} was given, "
+                   "or the one that it wrote with -o",
+                   format->noun,
+                   format->verbs)
+             : fmt::format("; this is {}; did you mean chaintrue {}?", format->noun, format->verbs);
 }
 
 FileKind kind_of(const std::string& text, const std::string& file) {
   if (!is_json(text)) return kind_of_csv(text);
-  const std::string type = file_type_of(text, file);
-  const auto* const named = std::find_if(
-      kKinds.begin(), kKinds.end(), [&](const auto& one) { return one.first->file_type == type; });
-  if (named == kKinds.end()) return FileKind::other;
-  if (named->second != FileKind::holes) return named->second;
+  const Format* format = format_of(file_type_of(text, file));
+  if (format == nullptr || format->kind != FileKind::holes)
+    return format == nullptr ? FileKind::other : format->kind;
   return names_belts(text, file) ? FileKind::belt_holes : FileKind::holes;
 }
 

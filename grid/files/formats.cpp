@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/formats.hpp"
 
+#include <algorithm>
+
 namespace chaintrue::grid::files {
+
+const Format* format_of(std::string_view file_type) {
+  const auto found = std::find_if(kFormats.begin(), kFormats.end(), [&](const Format* one) {
+    return one->file_type == file_type;
+  });
+  return found == kFormats.end() ? nullptr : *found;
+}
 
 std::string name_of(const Format& format) {
   constexpr std::string_view kBegin = "chaintrue_";

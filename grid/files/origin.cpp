@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "grid/files/content_hash.hpp"
+#include "grid/files/formats.hpp"
 #include "grid/files/input_error.hpp"
 #include "grid/files/json_text.hpp"
 
@@ -17,18 +17,16 @@ constexpr std::string_view kSignature =
 constexpr std::string_view kMark = "<!-- made by chaintrue -->";
 constexpr std::string_view kPageHead = "<!DOCTYPE html>\n";
 
-constexpr std::array kPlainTypes = {std::pair{"chaintrue_map", Origin::map},
-                                    std::pair{"chaintrue_diagnosis", Origin::diagnosis},
-                                    std::pair{"chaintrue_anchors", Origin::anchors},
-                                    std::pair{"chaintrue_answer", Origin::answer},
-                                    std::pair{"chaintrue_check", Origin::check},
-                                    std::pair{"chaintrue_sweep_summary", Origin::table}};
-constexpr std::array kSignedTypes = {std::pair{"chaintrue_grid", Origin::measured},
-                                     std::pair{"chaintrue_holes", Origin::measured},
-                                     std::pair{"chaintrue_belts", Origin::measured},
-                                     std::pair{"chaintrue_drawing", Origin::measured},
-                                     std::pair{"chaintrue_plotter", Origin::machine},
-                                     std::pair{"chaintrue_machine", Origin::machine}};
+/// A kind that may hold what somebody measured or typed.
+bool is_signed(Origin kind) { return kind == Origin::measured || kind == Origin::machine; }
+
+/// foreign where the text is none of a format.
+Origin origin_by_type(const Json& document) {
+  if (!document.is_object() || !document.contains("file_type")) return Origin::foreign;
+  const Json& type = document.at("file_type");
+  const Format* format = type.is_string() ? format_of(type.get<std::string>()) : nullptr;
+  return format == nullptr ? Origin::foreign : format->origin;
+}
 
 /// The first words of the description of a file format.
 constexpr std::string_view kPageOfFormat = "This page is written by `chaintrue formats ";
@@ -79,15 +77,8 @@ Origin origin_of_json(const std::string& text) {
   } catch (const InputError&) {
     return Origin::foreign;
   }
-  if (!document.is_object() || !document.contains("file_type")) return Origin::foreign;
-  const Json type = document.at("file_type");
-  for (const auto& [name, origin] : kPlainTypes) {
-    if (type == name) return origin;
-  }
-  for (const auto& [name, origin] : kSignedTypes) {
-    if (type == name) return is_as_signed(document) ? origin : Origin::changed;
-  }
-  return Origin::foreign;
+  const Origin origin = origin_by_type(document);
+  return is_signed(origin) && !is_as_signed(document) ? Origin::changed : origin;
 }
 
 /// The last line of a signed list.
@@ -102,18 +93,10 @@ Origin origin_of_list(std::string_view text) {
                                                                      : Origin::changed;
 }
 
-/// A file that bears a signature and is of this kind; others keep their bytes, maps have a hash of their own.
-bool is_signed_kind(const Json& document, Origin kind) {
-  return document.is_object() && document.contains("file_type") &&
-         std::any_of(kSignedTypes.begin(), kSignedTypes.end(), [&](const auto& type) {
-           return type.second == kind && document.at("file_type") == type.first;
-         });
-}
-
 std::string signed_json(const std::string& text, Origin kind) {
   Problems ignored("");
   const Json document = parse_json(text, ignored);
-  if (!is_signed_kind(document, kind)) return text;
+  if (origin_by_type(document) != kind) return text;
   Json comments = Json::array();
   for (const std::string& comment : comments_of(document)) {
     if (!is_signature(comment)) comments.push_back(comment);
@@ -151,8 +134,7 @@ Origin origin_of(std::string_view text) {
 }
 
 std::string signed_text(const std::string& text, Origin kind) {
-  if (text.starts_with("{") && (kind == Origin::measured || kind == Origin::machine))
-    return signed_json(text, kind);
+  if (text.starts_with("{") && is_signed(kind)) return signed_json(text, kind);
   if (kind == Origin::list && !text.starts_with("{")) return text + signature_line(text);
   if (kind == Origin::page && text.starts_with(kPageHead))
     return std::string(kPageHead) + std::string(kMark) + "\n" + text.substr(kPageHead.size());
