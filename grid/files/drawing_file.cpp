@@ -63,7 +63,6 @@ void check_middle(const Cursor& at, MeasureInFile& measure) {
 const Record<MeasureInFile>& measure_record() {
   using Kind = DrawnMeasure::Kind;
   using Measure = MeasureInFile;
-  static const Value<double> value = number(kPlaceMm);
   static const auto record =
       Record<Measure>("a measure on a drawing")
           .required("kind",
@@ -76,19 +75,12 @@ const Record<MeasureInFile>& measure_record() {
                   "For a bow: the cross on the line at which it was measured.",
                   &Measure::middle,
                   text())
-          .custom(
+          .nullable(
               "value_mm",
               "The reading; null: not measured. A bow is positive if the line is on the left, "
               "looking from its first cross to its last.",
-              false,
-              value.expected,
-              [](const Cursor& at, Measure& measure) {
-                if (!at.json().is_null()) measure.value_mm = value.read(at);
-              },
-              // A null is there to be filled in.
-              [](const Measure& measure) -> std::optional<Json> {
-                return measure.value_mm ? value.write(*measure.value_mm) : Json();
-              })
+              &Measure::value_mm,
+              number(kPlaceMm))
           .optional("sigma_mm",
                     "Noise of the reading, 1 sigma.",
                     &Measure::sigma_mm,

@@ -54,28 +54,23 @@ const Record<DeclaredParameter>& parameter_record() {
                     &DeclaredParameter::role,
                     choice<ParameterRole>(
                         {{"size", ParameterRole::size}, {"place", ParameterRole::place}}))
-          .custom(
+          .computed(
               "null",
               "The size at which there is no effect; default 0. A place has none.",
               false,
-              number(kAnyNumber).expected,
-              [](const Cursor& at, DeclaredParameter& p) {
-                p.null = number(kAnyNumber).read(at).value_or(0.0);
-              },
-              [](const DeclaredParameter& p) -> std::optional<Json> {
-                if (p.role == ParameterRole::place) return std::nullopt;
-                return Json(p.null);
+              number(kAnyNumber),
+              [](DeclaredParameter& p, double null) { p.null = null; },
+              [](const DeclaredParameter& p) {
+                return p.role == ParameterRole::place ? std::nullopt : std::optional(p.null);
               })
-          .custom(
+          .computed(
               "nominal",
               "The usual value. Default for a size: one sigma from null; for a place: 0, or the "
               "middle of its bounds.",
               false,
-              number(kAnyNumber).expected,
-              [](const Cursor& at, DeclaredParameter& p) {
-                p.nominal = number(kAnyNumber).read(at).value_or(0.0);
-              },
-              [](const DeclaredParameter& p) { return std::optional<Json>(p.nominal); })
+              number(kAnyNumber),
+              [](DeclaredParameter& p, double nominal) { p.nominal = nominal; },
+              [](const DeclaredParameter& p) { return p.nominal; })
           .required("prior_sigma",
                     "Prior sigma of a size about null, of a place about nominal.",
                     &DeclaredParameter::prior_sigma,

@@ -40,20 +40,23 @@ class PlainMember : public Member {
 
 class OptionalMember : public Member {
  public:
-  OptionalMember(std::shared_ptr<const Codec> codec, const OptionalAccess& access)
-      : codec_(std::move(codec)), access_(access) {}
+  OptionalMember(std::shared_ptr<const Codec> codec,
+                 const OptionalAccess& access,
+                 IfEmpty::As empty)
+      : codec_(std::move(codec)), access_(access), empty_(empty) {}
   void read(const Cursor& at, void* member) const override {
     if (!codec_->read(at, access_.emplace(member))) access_.reset(member);
   }
   [[nodiscard]] std::optional<Json> write(const void* member) const override {
     const void* value = access_.value(member);
-    if (value == nullptr) return std::nullopt;
-    return codec_->write(value);
+    if (value != nullptr) return codec_->write(value);
+    return empty_ == IfEmpty::null ? std::optional<Json>(nullptr) : std::nullopt;
   }
 
  private:
   std::shared_ptr<const Codec> codec_;
   OptionalAccess access_;
+  IfEmpty::As empty_;
 };
 
 class ConstantMember : public Member {
@@ -124,9 +127,10 @@ void RecordTable::add_plain(Field field, std::shared_ptr<const Codec> codec, IfE
 
 void RecordTable::add_optional(Field field,
                                std::shared_ptr<const Codec> codec,
-                               const OptionalAccess& access) {
+                               const OptionalAccess& access,
+                               IfEmpty::As written) {
   field.expected = codec->expected();
-  field.member = std::make_shared<OptionalMember>(std::move(codec), access);
+  field.member = std::make_shared<OptionalMember>(std::move(codec), access, written);
   add(std::move(field));
 }
 

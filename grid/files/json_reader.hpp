@@ -152,7 +152,10 @@ class RecordTable {
   void add(Field field) { fields_.push_back(std::move(field)); }
   /// These complete the field by what its codec expects.
   void add_plain(Field field, std::shared_ptr<const Codec> codec, IfEmpty empty = {});
-  void add_optional(Field field, std::shared_ptr<const Codec> codec, const OptionalAccess& access);
+  void add_optional(Field field,
+                    std::shared_ptr<const Codec> codec,
+                    const OptionalAccess& access,
+                    IfEmpty::As written = IfEmpty::absent);
   /// An optional field with a default, which becomes part of the schema.
   void add_defaulted(Field field, std::shared_ptr<const Codec> codec, Make make);
   void add_constant(Field field, const std::string& word);
@@ -232,6 +235,15 @@ class Record : public RecordTable {
   template <class V>
   Record& nullable(Text key, Text meaning, V T::*member, const Value<V>& value) {
     return add_if_empty(key, meaning, member, value, IfEmpty::null);
+  }
+
+  template <class V>
+  Record& nullable(Text key, Text meaning, std::optional<V> T::*member, const Value<V>& value) {
+    add_optional(field(key, meaning, false, path(member).offset),
+                 value.codec,
+                 kOptionalAccess<V>,
+                 IfEmpty::null);
+    return *this;
   }
 
   /// `write` returns nothing if the key is to be left out.

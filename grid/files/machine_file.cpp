@@ -115,43 +115,21 @@ const Record<Brackets>& brackets_record() {
   return record;
 }
 
-/// One kind of attachment: reading and writing the variant's alternative.
-struct AttachmentKind {
-  std::function<void(const Cursor&, Attachment&)> read;
-  std::function<std::optional<Json>(const Attachment&)> write;
-};
-
-template <class Kind>
-AttachmentKind attachment_kind(const Record<Kind>& record) {
-  return {[&record](const Cursor& at, Attachment& attachment) {
-            if (const auto value = record.read(at)) attachment = *value;
-          },
-          [&record](const Attachment& attachment) -> std::optional<Json> {
-            const Kind* value = std::get_if<Kind>(&attachment);
-            return value != nullptr ? std::optional<Json>(record.write(*value)) : std::nullopt;
-          }};
-}
-
-const std::map<std::string, AttachmentKind>& attachment_kinds() {
-  static const std::map<std::string, AttachmentKind> kinds = {
-      {"ring", attachment_kind(ring_record())}, {"brackets", attachment_kind(brackets_record())}};
-  return kinds;
-}
-
 void read_attachment(const Cursor& at, Machine& machine) {
   if (!at.json().is_object()) return at.expect(R"(an object with "kind": "ring" or "brackets")");
   const Cursor kind = at.child("kind");
   if (!at.has("kind")) return kind.missing(R"("ring" or "brackets")");
-  if (const auto name = one_of({"ring", "brackets"}).read(kind)) {
-    attachment_kinds().at(*name).read(at, machine.attachment);
+  const auto name = one_of({"ring", "brackets"}).read(kind);
+  if (name == "ring") {
+    if (const auto ring = ring_record().read(at)) machine.attachment = *ring;
+  } else if (name) {
+    if (const auto brackets = brackets_record().read(at)) machine.attachment = *brackets;
   }
 }
 
 std::optional<Json> write_attachment(const Machine& machine) {
-  for (const auto& [name, kind] : attachment_kinds()) {
-    if (auto json = kind.write(machine.attachment)) return json;
-  }
-  return std::nullopt;
+  if (const auto* ring = std::get_if<Ring>(&machine.attachment)) return ring_record().write(*ring);
+  return brackets_record().write(std::get<Brackets>(machine.attachment));
 }
 
 const Record<Chain>& chain_record() {

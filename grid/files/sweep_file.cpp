@@ -158,7 +158,6 @@ Record<StatedSweep> make_record() {
                                              {"direct", SurfaceLevel::direct},
                                              {"direct_parabolic", SurfaceLevel::direct_parabolic},
                                              {"direct_natural", SurfaceLevel::direct_natural}});
-  const auto raster = grid_size(1);
   return Record<StatedSweep>("a chaintrue_sweep file", kSweepFormat)
       .required("name", "Name of the sweep.", of_spec(&SweepSpec::name), text())
       .optional("question",
@@ -185,20 +184,17 @@ Record<StatedSweep> make_record() {
                 "Evaluate the map over the whole bed, not only the measured part.",
                 of_spec(&SweepSpec::whole_bed),
                 boolean())
-      .custom(
+      .computed(
           "evaluation",
           "Columns x rows of places where the map is compared with the truth.",
           false,
-          raster.expected,
-          [raster](const Cursor& at, StatedSweep& stated) {
-            if (const auto size = raster.read(at)) {
-              stated.spec.evaluation_columns = size->columns;
-              stated.spec.evaluation_rows = size->rows;
-            }
+          grid_size(1),
+          [](StatedSweep& stated, const GridLevel& size) {
+            stated.spec.evaluation_columns = size.columns;
+            stated.spec.evaluation_rows = size.rows;
           },
-          [raster](const StatedSweep& stated) {
-            return std::optional<Json>(
-                raster.write({stated.spec.evaluation_columns, stated.spec.evaluation_rows}));
+          [](const StatedSweep& stated) {
+            return GridLevel{stated.spec.evaluation_columns, stated.spec.evaluation_rows};
           })
       .optional("grids",
                 "Columns x rows of marks; a factor.",
