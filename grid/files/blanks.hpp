@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Blanks around words in a line of text. Private to grid/files.
+/// Blanks around words in a line of text, and what may stand before a text. Private to grid/files.
 #pragma once
 
 #include <string_view>
@@ -12,6 +12,13 @@ namespace chaintrue::grid::files {
 [[nodiscard]] inline std::string_view trimmed(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// Some programs write a second byte order mark.
+[[nodiscard]] inline std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  while (text.starts_with(kMark)) text.remove_prefix(kMark.size());
   return text;
 }
 

@@ -12,19 +12,12 @@
 namespace chaintrue::grid::files {
 namespace {
 
-constexpr std::string_view kCsvByteOrderMark = "\xEF\xBB\xBF";
 /// Nobody writes more lines of words above a table.
 constexpr std::size_t kMostAboveHeader = 8;
 /// A hundred thousand lines of eight columns, five times the most points of any verb.
 constexpr std::size_t kMostCells = 800'000;
 /// Of a line, in bytes: more than any spreadsheet's row of columns that have a name here.
 constexpr std::size_t kLongestLine = std::size_t{1} << 16U;
-
-std::string_view without_byte_order_mark(std::string_view text) {
-  // Some programs write a second byte order mark.
-  while (text.starts_with(kCsvByteOrderMark)) text.remove_prefix(kCsvByteOrderMark.size());
-  return text;
-}
 
 bool is_skipped(std::string_view line) {
   const auto first = std::find_if_not(line.begin(), line.end(), is_blank);

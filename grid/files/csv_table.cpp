@@ -7,6 +7,7 @@
 
 #include "grid/files/csv_numbers.hpp"
 #include "grid/files/length_text.hpp"
+#include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -54,10 +55,9 @@ ColumnName column_name(std::string_view text) {
     if (is_gap && (name.empty() || name.back() == '_')) continue;
     name += is_gap ? '_' : (c >= 'A' && c <= 'Z') ? static_cast<char>(c - 'A' + 'a') : c;
   }
-  constexpr double kMmPerInch = 25.4;
   for (const std::string_view unit : {"_inches", "_inch", "_in"}) {
     if (name.ends_with(unit))
-      return {name.substr(0, name.size() - unit.size()) + "_mm", kMmPerInch};
+      return {name.substr(0, name.size() - unit.size()) + "_mm", input_checks::kMmPerInch};
   }
   return {std::move(name)};
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "grid/files/blanks.hpp"
 #include "grid/files/csv_table.hpp"
 #include "grid/files/formats.hpp"
 #include "grid/files/json_text.hpp"
@@ -90,8 +91,7 @@ std::string words_of(FileKind kind) {
 }  // namespace
 
 bool is_json(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  text = without_byte_order_mark(text);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return false;
   // "[EMC]" is a section of an ini file, "[true]" is JSON that nothing here takes.

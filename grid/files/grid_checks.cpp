@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 
+#include "grid/input_checks/number_checks.hpp"
 #include "grid/input_checks/point_checks.hpp"
 
 namespace chaintrue::grid::files {
@@ -224,7 +225,6 @@ double width_across_best_line(const std::vector<MeasuredPoint>& points) {
 /// Commands and marks both in inches are consistent with each other; only the bed shows that they
 /// cover a twenty-fifth of it. True if so.
 bool warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
-  constexpr double kInchMm = 25.4;
   if (!grid.machine) return false;
   double half_width_mm = 0.0;
   double half_height_mm = 0.0;
@@ -233,8 +233,8 @@ bool warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Pr
     half_height_mm = std::max(half_height_mm, std::abs(point.mark.y_mm));
   }
   const model::Bed& bed = grid.machine->bed;
-  if (2.0 * half_width_mm * kInchMm > bed.width_mm ||
-      2.0 * half_height_mm * kInchMm > bed.height_mm)
+  if (2.0 * half_width_mm * input_checks::kMmPerInch > bed.width_mm ||
+      2.0 * half_height_mm * input_checks::kMmPerInch > bed.height_mm)
     return false;
   problems.warn(
       places.all,

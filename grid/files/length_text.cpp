@@ -6,11 +6,12 @@
 
 #include "grid/files/blanks.hpp"
 #include "grid/files/number_text.hpp"
+#include "grid/input_checks/number_checks.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
-constexpr double kMmPerInch = 25.4;
+using input_checks::kMmPerInch;
 constexpr double kInchesPerFoot = 12.0;
 /// The sign that spreadsheets and word processors make of a minus.
 constexpr std::string_view kLongMinus = "\xE2\x88\x92";

@@ -194,8 +194,7 @@ SettingTexts line_texts(const std::string& text, char separator, std::string_vie
 }
 
 SettingTexts ini_texts(std::string_view text, Problems& problems) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  text = without_byte_order_mark(text);
   SettingTexts texts;
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     problems.add("", "an empty file", "an ini file with [sections]", ProblemKind::empty_file);
