@@ -220,7 +220,7 @@ int write_lengths(const GcodeTarget& target, const GcodeOptions& options) {
   Findings findings;
   const auto outcome = gcode::path_lengths(source,
                                            options.dialect(),
-                                           target.target(),
+                                           *target.lengths,
                                            options.every_mm,
                                            write,
                                            findings);
@@ -244,7 +244,7 @@ int run_gcode_check(const GcodeOptions& options) {
 }
 
 int run_gcode_lengths(const GcodeOptions& options) {
-  return write_lengths(GcodeTarget(options), options);
+  return write_lengths(open_target(options), options);
 }
 
 }  // namespace chaintrue::cli

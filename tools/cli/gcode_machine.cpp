@@ -57,7 +57,8 @@ gcode::Dialect GcodeOptions::dialect() const {
   dialect.home_mm = {zero.x_mm, zero.y_mm};
   dialect.home_is_zero = home_is_zero;
   // Without a map nothing is written, so every controller's codes may be read.
-  dialect.passes_plotter_codes = map_file ? map_file->kind == FileKind::plotter : controller.empty();
+  dialect.passes_plotter_codes =
+      map_file ? map_file->kind == FileKind::plotter : controller.empty();
   dialect.step_budget = step_budget;
   if (map_file && map_file->kind == FileKind::plotter) {
     const grid::SetPlotter set = load_plotter(*map_file).plotter.set;
@@ -133,7 +134,7 @@ GcodeController controller_of_belts(const GcodeOptions& options, const GcodeTarg
                        "\"maslow4\", or to be left out: anchors of four belts are of a Maslow 4"}});
   }
   const model::BeltMachine believed =
-      options.machine.empty() ? *target.belts_in_force() : read_belt_machine_input(options.machine);
+      options.machine.empty() ? *target.belts_in_force : read_belt_machine_input(options.machine);
   return {std::make_unique<const model::BeltController>(believed),
           &gcode::firmware_of_four_belts(),
           std::nullopt,
@@ -154,26 +155,26 @@ interp::Rectangle rectangle_of(const grid::SetPlotter& set) {
 /// By the names that a chaintrue_plotter file has for them.
 std::vector<grid::files::NamedSetting> settings_of(const grid::SetPlotter& set) {
   const model::PlotterMachine& m = set.machine;
-  return {{"firmware", std::string(model::name(set.firmware))},
-          {"pin_spacing_mm", fmt::format("{:.4f}", m.pin_spacing_mm)},
-          {"pin_rise_mm", fmt::format("{:.4f}", m.pin_rise_mm)},
-          {"zero", fmt::format("{:.4f} {:.4f}", m.zero_mm.left_mm, m.zero_mm.right_mm)},
-          {"scale",
-           fmt::format("{:.6f} {:.6f}", m.scale_mm_per_m.left_mm, m.scale_mm_per_m.right_mm)}};
+  return {
+      {"firmware", std::string(model::name(set.firmware))},
+      {"pin_spacing_mm", fmt::format("{:.4f}", m.pin_spacing_mm)},
+      {"pin_rise_mm", fmt::format("{:.4f}", m.pin_rise_mm)},
+      {"zero", fmt::format("{:.4f} {:.4f}", m.zero_mm.left_mm, m.zero_mm.right_mm)},
+      {"scale", fmt::format("{:.6f} {:.6f}", m.scale_mm_per_m.left_mm, m.scale_mm_per_m.right_mm)}};
 }
 
 /// What the controller of a V-plotter holds now.
 GcodeController controller_of_plotter(const GcodeOptions& options, const GcodeTarget& target) {
   const grid::SetPlotter set = options.machine.empty()
-                                   ? target.plotter()->set
+                                   ? target.plotter->set
                                    : load_plotter(open_input(options.machine)).plotter.set;
-  if (set.firmware != target.plotter()->set.firmware) {
-    throw InputError({{options.machine,
-                       "/set/firmware",
-                       std::string(model::name(set.firmware)),
-                       fmt::format("\"{}\", as in {}",
-                                   model::name(target.plotter()->set.firmware),
-                                   options.map)}});
+  if (set.firmware != target.plotter->set.firmware) {
+    throw InputError(
+        {{options.machine,
+          "/set/firmware",
+          std::string(model::name(set.firmware)),
+          fmt::format(
+              "\"{}\", as in {}", model::name(target.plotter->set.firmware), options.map)}});
   }
   const auto firmware = std::make_shared<gcode::Firmware>(gcode::firmware(set.firmware));
   if (firmware->pieces_per_second > 0.0) firmware->pieces_per_second = set.segments_per_second;
@@ -185,14 +186,14 @@ GcodeController controller_of_plotter(const GcodeOptions& options, const GcodeTa
                                    "controller is",
                                    firmware->name)}});
   }
-  return {std::make_unique<const model::PlotterController>(
-              set.firmware, set.machine, set.pins_middle),
-          firmware.get(),
-          std::nullopt,
-          rectangle_of(set),
-          {},
-          settings_of(set),
-          firmware};
+  return {
+      std::make_unique<const model::PlotterController>(set.firmware, set.machine, set.pins_middle),
+      firmware.get(),
+      std::nullopt,
+      rectangle_of(set),
+      {},
+      settings_of(set),
+      firmware};
 }
 
 model::Machine believed_machine(const GcodeOptions& options, const grid::CompensationMap& map) {
@@ -222,18 +223,19 @@ void say_other_controller(const grid::CompensationMap& map, model::ControllerKin
 }
 
 GcodeController controller_of(const GcodeOptions& options, const GcodeTarget& target) {
-  if (target.plotter() != nullptr) return controller_of_plotter(options, target);
-  if (target.map() == nullptr) return controller_of_belts(options, target);
+  if (target.plotter) return controller_of_plotter(options, target);
+  if (target.map == nullptr) return controller_of_belts(options, target);
   if (options.controller == kMarlinName) {
-    throw InputError({{"--controller",
-                       "",
-                       options.controller,
-                       "a controller of a router: Marlin's is of a V-plotter, whose drawing's fit takes "
-                       "the map's place"}});
+    throw InputError(
+        {{"--controller",
+          "",
+          options.controller,
+          "a controller of a router: Marlin's is of a V-plotter, whose drawing's fit takes "
+          "the map's place"}});
   }
-  model::Machine machine = believed_machine(options, *target.map());
+  model::Machine machine = believed_machine(options, *target.map);
   if (const auto kind = controller_kind(options.controller)) {
-    say_other_controller(*target.map(), *kind);
+    say_other_controller(*target.map, *kind);
     machine.controller.kind = *kind;
   }
   return {model::make_controller_kinematics(machine),
@@ -244,39 +246,13 @@ GcodeController controller_of(const GcodeOptions& options, const GcodeTarget& ta
           grid::files::settings_in_force(machine)};
 }
 
-}  // namespace
-
-GcodeTarget::GcodeTarget(const GcodeOptions& options) : GcodeTarget(of_any(options)) {}
-
-GcodeTarget::GcodeTarget(Parts parts)
-    : source_(std::move(parts.source)),
-      target_(std::move(parts.target)),
-      in_belts_mm_(std::move(parts.in_belts_mm)) {}
-
-const grid::CompensationMap* GcodeTarget::map() const {
-  const auto* map = std::get_if<std::unique_ptr<const grid::CompensationMap>>(&source_);
-  return map == nullptr ? nullptr : map->get();
+GcodeTarget target_of_plotter(const GcodeOptions& options) {
+  GcodeTarget target{.plotter = load_plotter(*options.map_file).plotter};
+  target.lengths = load_plotter_map(*options.map_file, *target.plotter);
+  return target;
 }
 
-const grid::KnownPlotter* GcodeTarget::plotter() const {
-  return std::get_if<grid::KnownPlotter>(&source_);
-}
-
-const model::BeltMachine* GcodeTarget::belts_in_force() const {
-  return std::get_if<model::BeltMachine>(&source_);
-}
-
-GcodeTarget::Parts GcodeTarget::of_any(const GcodeOptions& options) {
-  if (options.map_file->kind == FileKind::anchors) return of_belts(options);
-  return options.map_file->kind == FileKind::plotter ? of_plotter(options) : of_map(options);
-}
-
-GcodeTarget::Parts GcodeTarget::of_plotter(const GcodeOptions& options) {
-  const grid::KnownPlotter plotter = load_plotter(*options.map_file).plotter;
-  return {plotter, load_plotter_map(*options.map_file, plotter)};
-}
-
-GcodeTarget::Parts GcodeTarget::of_belts(const GcodeOptions& options) {
+GcodeTarget target_of_belts(const GcodeOptions& options) {
   const grid::files::FittedAnchors found = load_anchors(*options.map_file);
   const grid::HolesWithBelts* holes = found.holes ? &*found.holes : nullptr;
   if (holes == nullptr && !found.fit.coordinates.front().stated_mm) {
@@ -289,21 +265,21 @@ GcodeTarget::Parts GcodeTarget::of_belts(const GcodeOptions& options) {
     problems.throw_if_any();
   }
   auto map = std::make_unique<const grid::BeltMap>(found.fit, holes);
-  std::unique_ptr<const grid::LengthMap> in_belts_mm;
+  GcodeTarget target{.belts_in_force = map->in_force()};
   if (!found.fit.scale) {
     grid::BeltsFit taken_as_true = found.fit;
     taken_as_true.scale = grid::BeltScale{};
-    in_belts_mm = std::make_unique<const grid::BeltMap>(taken_as_true, holes);
+    target.in_belts_mm = std::make_unique<const grid::BeltMap>(taken_as_true, holes);
     fmt::print(stderr,
                "The scale is not known: parts come out as true as a turn of the encoder is {:g} mm "
                "of belt. One long taped distance, or holes, tells it.\n",
                found.fit.machine.belt_turn_mm);
   }
-  const model::BeltMachine in_force = map->in_force();
-  return {in_force, std::move(map), std::move(in_belts_mm)};
+  target.lengths = std::move(map);
+  return target;
 }
 
-GcodeTarget::Parts GcodeTarget::of_map(const GcodeOptions& options) {
+GcodeTarget target_of_map(const GcodeOptions& options) {
   if (options.controller == kFourBeltsName) {
     throw InputError({{options.map,
                        "/file_type",
@@ -311,16 +287,24 @@ GcodeTarget::Parts GcodeTarget::of_map(const GcodeOptions& options) {
                        "\"chaintrue_anchors\", as chaintrue fit makes of belts: a Maslow 4 goes by "
                        "these in place of a map"}});
   }
-  auto map = std::make_unique<const grid::CompensationMap>(load_map(*options.map_file));
-  auto target = std::make_unique<const grid::MapInFrame>(
-      *map, options.frame == "bed" ? grid::MapFrame::bed : grid::MapFrame::marks);
-  return {std::move(map), std::move(target)};
+  GcodeTarget target{std::make_unique<const grid::CompensationMap>(load_map(*options.map_file))};
+  target.lengths = std::make_unique<const grid::MapInFrame>(
+      *target.map, options.frame == "bed" ? grid::MapFrame::bed : grid::MapFrame::marks);
+  return target;
+}
+
+}  // namespace
+
+GcodeTarget open_target(const GcodeOptions& options) {
+  if (options.map_file->kind == FileKind::anchors) return target_of_belts(options);
+  return options.map_file->kind == FileKind::plotter ? target_of_plotter(options)
+                                                     : target_of_map(options);
 }
 
 GcodeMachine::GcodeMachine(const GcodeOptions& options)
-    : target_(options),
+    : target_(open_target(options)),
       controller_(controller_of(options, target_)),
-      corrector_(target_.target(), *controller_.kinematics, *controller_.firmware) {}
+      corrector_(*target_.lengths, *controller_.kinematics, *controller_.firmware) {}
 
 interp::Rectangle sheet_of(const GcodeOptions& options) {
   if (options.machine.empty()) return rectangle_of(model::Bed{});

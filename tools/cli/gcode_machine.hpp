@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "grid/files/controller_settings.hpp"
@@ -61,40 +60,18 @@ struct GcodeOptions {
 /// That of --controller, a Maslow 4 and Marlin among them; null where nothing is stated.
 [[nodiscard]] const gcode::Firmware* stated_firmware(std::string_view name);
 
-/// The map, the fit of four belts or the plotter that a drawing found, that a program aims at.
-class GcodeTarget {
- public:
-  /// Of --map. \throws InputError for a bad file.
-  explicit GcodeTarget(const GcodeOptions& options);
-  [[nodiscard]] const grid::LengthMap& target() const { return *target_; }
-  /// That with an error but for the scale, of four belts whose scale nobody taped; else null.
-  [[nodiscard]] const grid::LengthMap* in_belts_mm() const { return in_belts_mm_.get(); }
-  /// Null of four belts and of a V-plotter.
-  [[nodiscard]] const grid::CompensationMap* map() const;
-  /// Null of all but a V-plotter.
-  [[nodiscard]] const grid::KnownPlotter* plotter() const;
-  /// The machine that was in force when they were measured; null of all but four belts.
-  [[nodiscard]] const model::BeltMachine* belts_in_force() const;
-
- private:
-  using Source = std::variant<std::unique_ptr<const grid::CompensationMap>,
-                              model::BeltMachine,
-                              grid::KnownPlotter>;
-  struct Parts {
-    Source source;
-    std::unique_ptr<const grid::LengthMap> target;
-    std::unique_ptr<const grid::LengthMap> in_belts_mm = nullptr;
-  };
-  explicit GcodeTarget(Parts parts);
-  static Parts of_map(const GcodeOptions& options);
-  static Parts of_belts(const GcodeOptions& options);
-  static Parts of_plotter(const GcodeOptions& options);
-  static Parts of_any(const GcodeOptions& options);
-
-  Source source_;
-  std::unique_ptr<const grid::LengthMap> target_;
-  std::unique_ptr<const grid::LengthMap> in_belts_mm_;
+/// What a program aims at: a map, the fit of four belts, or the plotter that a drawing found.
+struct GcodeTarget {
+  std::unique_ptr<const grid::CompensationMap> map = {};  ///< null of four belts and of a V-plotter
+  std::optional<grid::KnownPlotter> plotter = {};
+  /// Of four belts: the machine that was in force when they were measured.
+  std::optional<model::BeltMachine> belts_in_force = {};
+  std::unique_ptr<const grid::LengthMap> lengths = {};
+  /// Those with an error but for the scale, of four belts whose scale nobody taped; else null.
+  std::unique_ptr<const grid::LengthMap> in_belts_mm = {};
 };
+/// Of --map. \throws InputError for a bad file.
+[[nodiscard]] GcodeTarget open_target(const GcodeOptions& options);
 
 /// What the machine's controller does with a program.
 struct GcodeController {
@@ -118,12 +95,14 @@ class GcodeMachine {
   /// \throws InputError for bad files, or where neither map nor --machine says what the controller
   /// believes.
   explicit GcodeMachine(const GcodeOptions& options);
-  [[nodiscard]] const grid::LengthMap& target() const { return target_.target(); }
-  /// As GcodeTarget::in_belts_mm().
-  [[nodiscard]] const grid::LengthMap* in_belts_mm() const { return target_.in_belts_mm(); }
+  [[nodiscard]] const grid::LengthMap& target() const { return *target_.lengths; }
+  /// As GcodeTarget::in_belts_mm.
+  [[nodiscard]] const grid::LengthMap* in_belts_mm() const { return target_.in_belts_mm.get(); }
   /// Null of four belts and of a V-plotter.
-  [[nodiscard]] const grid::CompensationMap* map() const { return target_.map(); }
-  [[nodiscard]] const grid::KnownPlotter* plotter() const { return target_.plotter(); }
+  [[nodiscard]] const grid::CompensationMap* map() const { return target_.map.get(); }
+  [[nodiscard]] const grid::KnownPlotter* plotter() const {
+    return target_.plotter ? &*target_.plotter : nullptr;
+  }
   [[nodiscard]] const gcode::Corrector& corrector() const { return corrector_; }
   [[nodiscard]] const GcodeController& controller() const { return controller_; }
 
