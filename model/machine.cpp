@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <string_view>
 
 #include "model/machine_ranges.hpp"
@@ -176,6 +177,13 @@ void check_machine(const Machine& machine, Checker& check) {
 
 double Sprocket::effective_radius_mm() const {
   return radius_mm.value_or(pitch_mm * teeth / (2.0 * std::numbers::pi));
+}
+
+void require_none(const std::vector<MachineProblem>& problems) {
+  if (problems.empty()) return;
+  const MachineProblem& first = problems.front();
+  throw std::invalid_argument(
+      fmt::format("{}: found {}, expected {}", first.parameter, first.value, first.expected));
 }
 
 std::vector<MachineProblem> problems_of(const Machine& machine) {

@@ -84,7 +84,7 @@ struct Uncertainty {
   double ring_radius_mm = 1.0;
 };
 
-/// An effect that acts on this machine: of the catalogue (effects/effects.def), or declared for it.
+/// An effect that acts on this machine: of the catalogue (chains/chain_effects.cpp), or declared for it.
 struct AppliedEffect {
   std::string effect;
   /// "left", "right", "both", "x", "y" or "" where the effect has no side.
@@ -122,6 +122,9 @@ struct MachineProblem {
   std::string value;
   std::string expected;
 };
+
+/// \throws std::invalid_argument with the first of them, if there is one.
+void require_none(const std::vector<MachineProblem>& problems);
 
 /// All problems at once; empty when the machine is valid. Ranges are wide (any real hanging router
 /// passes), so that a value outside is a mistake in units or typing: inches for mm, grams for kg,

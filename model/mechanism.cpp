@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/mechanism.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <stdexcept>
+
+#include "model/effects/effect_table.hpp"
 
 namespace chaintrue::model {
 
@@ -58,6 +63,42 @@ std::vector<MechanismChange> Mechanism::possible_changes() const {
     changes.push_back(std::move(other));
   }
   return changes;
+}
+
+std::shared_ptr<const Mechanism> MechanismBase::with_values(const Eigen::VectorXd& values) const {
+  if (values.size() != values_.size() || !values.allFinite()) {
+    throw std::invalid_argument(fmt::format(
+        "{} values of {} parameters of {}, or not finite", values.size(), values_.size(), kind()));
+  }
+  return made_anew(values, applied_);
+}
+
+std::vector<MachineProblem> MechanismBase::problems_of_effects(
+    const std::vector<AppliedEffect>& applied) const {
+  std::vector<MachineProblem> problems = effects::problems_in(effects_, applied);
+  for (std::size_t i = 0; problems.empty() && i < applied.size(); ++i) {
+    const effects::Part part = effects::find_effect(effects_, applied[i].effect)->part;
+    if (!has(part))
+      problems.push_back({fmt::format("/{}/effect", i),
+                          applied[i].effect,
+                          fmt::format("{} to act on", effects::name(part))});
+  }
+  for (MachineProblem& problem : problems) problem.parameter = "/effects" + problem.parameter;
+  return problems;
+}
+
+std::shared_ptr<const Mechanism> MechanismBase::with_effects(
+    const std::vector<AppliedEffect>& applied) const {
+  require_none(problems_of_effects(applied));
+  std::vector<AppliedEffect> all = applied_;
+  all.insert(all.end(), applied.begin(), applied.end());
+  return made_anew(values_, std::move(all));
+}
+
+void MechanismBase::require_all(const Eigen::VectorXd& lengths_mm) const {
+  if (lengths_mm.size() != std::ssize(lengths()))
+    throw std::invalid_argument(
+        fmt::format("{} lengths of {} {}", lengths_mm.size(), lengths().size(), kind()));
 }
 
 tl::expected<ChainLengths, MechanismFailure> Mechanism::first_lengths(

@@ -172,6 +172,46 @@ class Mechanism {
   [[nodiscard]] virtual std::vector<MechanismChange> possible_changes() const;
 };
 
+/// What the mechanisms of this library share: values, parameters and effects are held here, and a
+/// mechanism says how it is made anew with others.
+class MechanismBase : public Mechanism {
+ public:
+  [[nodiscard]] std::span<const MechanismParameter> parameters() const final { return parameters_; }
+  [[nodiscard]] const Eigen::VectorXd& values() const final { return values_; }
+  [[nodiscard]] std::span<const effects::Effect* const> effects() const final { return effects_; }
+  /// \throws std::invalid_argument also for values that are not finite, or too few or too many.
+  [[nodiscard]] std::shared_ptr<const Mechanism> with_values(
+      const Eigen::VectorXd& values) const final;
+  [[nodiscard]] std::shared_ptr<const Mechanism> with_effects(
+      const std::vector<AppliedEffect>& applied) const final;
+  [[nodiscard]] std::vector<MachineProblem> problems_of_effects(
+      const std::vector<AppliedEffect>& applied) const override;
+
+ protected:
+  MechanismBase(std::vector<const effects::Effect*> effects,
+                std::vector<MechanismParameter> parameters,
+                Eigen::VectorXd values,
+                std::vector<AppliedEffect> applied)
+      : effects_(std::move(effects)),
+        parameters_(std::move(parameters)),
+        values_(std::move(values)),
+        applied_(std::move(applied)) {}
+  /// The same mechanism with these values and these effects alone.
+  [[nodiscard]] virtual std::shared_ptr<const Mechanism> made_anew(
+      const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const = 0;
+  [[nodiscard]] virtual bool has(effects::Part /*part*/) const { return true; }
+  [[nodiscard]] const std::vector<MechanismParameter>& stated() const { return parameters_; }
+  [[nodiscard]] const std::vector<AppliedEffect>& applied() const { return applied_; }
+  /// \throws std::invalid_argument for lengths that are not as many as lengths().
+  void require_all(const Eigen::VectorXd& lengths_mm) const;
+
+ private:
+  std::vector<const effects::Effect*> effects_;
+  std::vector<MechanismParameter> parameters_;
+  Eigen::VectorXd values_;
+  std::vector<AppliedEffect> applied_;
+};
+
 /// One sigma of how far a parameter has moved that nothing is known of beforehand, in its own unit.
 inline constexpr double kParameterShiftSigma = 5.0;
 

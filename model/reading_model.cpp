@@ -18,7 +18,6 @@ namespace {
 
 using effects::ActingEffect;
 using effects::acts_on;
-using effects::ChainAddition;
 
 // Steps of the five-point difference
 //   f'(0) = (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / (12 h)                                   (1)
@@ -28,22 +27,23 @@ constexpr double kStepMm = 4.0;
 constexpr std::array<double, 4> kStencil = {-2.0, -1.0, 1.0, 2.0};
 constexpr std::array<double, 4> kWeights = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
 
-// The numbers of a chain, besides its length, that effects depend on.
-struct StateNumbers {
-  double angle_rad = 0.0;
-  double free_mm = 0.0;
-  double tension_n = 0.0;
-  double horizontal_n = 0.0;
-};
+// What a chain's length may depend on, or the slopes of that, in the order of LengthVariable.
+using StateNumbers = Eigen::Matrix<double, effects::kLengthVariables, 1>;
 
 void add_weighted(PerSide<StateNumbers>& sum, const Pose& pose, double weight) {
   for (const Side side : kSides) {
     const ChainState& chain = pose.chains[side];
-    sum[side].angle_rad += weight * chain.angle_rad;
-    sum[side].free_mm += weight * chain.free_length_mm;
-    sum[side].tension_n += weight * chain.tension_at_sprocket_n;
-    sum[side].horizontal_n += weight * chain.horizontal_n;
+    sum[side][effects::kAngle] += weight * chain.angle_rad;
+    sum[side][effects::kFree] += weight * chain.free_length_mm;
+    sum[side][effects::kTension] += weight * chain.tension_at_sprocket_n;
+    sum[side][effects::kHorizontal] += weight * chain.horizontal_n;
   }
+}
+
+// The slopes of a pose have to be known for these.
+bool depends_on_state(const effects::Number& added) {
+  return added.d[effects::kAngle] != 0.0 || added.d[effects::kFree] != 0.0 ||
+         added.d[effects::kTension] != 0.0 || added.d[effects::kHorizontal] != 0.0;
 }
 
 bool is_motor_setting(Setting setting) { return setting <= Setting::motor_right_y_mm; }
@@ -74,41 +74,10 @@ Parameter parameter_of(Setting setting) {
   }
 }
 
-void require_sound(const Machine& machine) {
-  const std::vector<MachineProblem> problems = problems_of(machine);
-  if (problems.empty()) return;
-  const MachineProblem& first = problems.front();
-  throw std::invalid_argument(
-      fmt::format("{}: found {}, expected {}", first.parameter, first.value, first.expected));
-}
-
 double sign_of_change(double change, double last) {
   if (change > 0.0) return 1.0;
   if (change < 0.0) return -1.0;
   return last;
-}
-
-// The first effect of the catalogue that depends on the direction of travel: the effects before it
-// make the length whose change gives the direction.
-std::size_t place_of_direction() {
-  const auto table = effects::catalogue();
-  const auto found = std::find_if(table.begin(), table.end(), [](const effects::Effect* e) {
-    return e->add_by_direction != nullptr;
-  });
-  return static_cast<std::size_t>(found - table.begin());
-}
-
-double length(const Pose& pose, Side side) { return pose.lengths[side]; }
-
-void accumulate(ChainAddition& sum, const ChainAddition& part) {
-  sum.length_mm += part.length_mm;
-  sum.per_angle_mm_per_rad += part.per_angle_mm_per_rad;
-  sum.per_free_length += part.per_free_length;
-  sum.per_length += part.per_length;
-  sum.per_tension_mm_per_n += part.per_tension_mm_per_n;
-  sum.per_horizontal_mm_per_n += part.per_horizontal_mm_per_n;
-  sum.per_x += part.per_x;
-  sum.per_y += part.per_y;
 }
 
 // f'(0) by (1); with a smaller step where a neighbour has no pose. `pose_at(t)` is the pose t mm
@@ -117,7 +86,7 @@ template <class PoseAt>
 tl::expected<PerSide<StateNumbers>, PoseFailure> state_slope(const PoseAt& pose_at) {
   PoseFailure reason = PoseReason::not_converged;
   for (const double step_mm : {kStepMm, kStepMm / 16.0, kStepMm / 256.0}) {
-    PerSide<StateNumbers> slope;
+    PerSide<StateNumbers> slope{StateNumbers::Zero(), StateNumbers::Zero()};
     bool complete = true;
     for (std::size_t i = 0; i < kStencil.size() && complete; ++i) {
       const PoseResult neighbour = pose_at(kStencil[i] * step_mm);
@@ -141,60 +110,62 @@ struct ReadingModel::State {
   EquilibriumParameters parameters;
   std::unique_ptr<const Kinematics> kinematics;
   std::vector<ActingEffect> acting;
-  double turn_mm = 0.0;
   /// Sum of the elongations of a chain.
   PerSide<double> elongation;
-  /// An effect depends on the chain's angle or free length.
-  bool looks_at_state = false;
 
-  enum class Part { before_direction, after_direction, whole };
-  [[nodiscard]] ChainAddition additions(const Pose& pose, Side side, Part part) const;
-  [[nodiscard]] double zero(Side side) const { return machine.chain_zero[side]; }
-  /// The reading of a chain paid out to this length, with all effects.
+  /// What effects add to a chain, without those of the visit.
+  [[nodiscard]] effects::Number added(const Pose& pose, Side side) const;
+  [[nodiscard]] PerSide<effects::Number> added(const Pose& pose) const {
+    return {added(pose, Side::left), added(pose, Side::right)};
+  }
+  /// What a visit adds to the reading of a chain.
+  [[nodiscard]] double added_at_visit(Side side, int order, double direction) const;
+  /// The reading of a chain paid out to this length.
   [[nodiscard]] double counted(double length_mm, Side side) const {
-    return length_mm / (1.0 + elongation[side]) + zero(side);
+    return length_mm / (1.0 + elongation[side]) + machine.chain_zero[side];
   }
   /// d(reading)/d(anything) from the slopes of the pose's lengths, of its chains' states and of the
   /// tool's position.
-  [[nodiscard]] Eigen::Vector2d through_effects(const Pose& pose,
+  [[nodiscard]] Eigen::Vector2d through_effects(const PerSide<effects::Number>& added,
                                                 const Eigen::Vector2d& length_slope,
-                                                const PerSide<StateNumbers>& slope,
+                                                PerSide<StateNumbers> slope,
                                                 const Eigen::Vector2d& position_slope) const;
   [[nodiscard]] PoseResult pose_near(BedPoint point, Setting setting, double change_mm) const;
 };
 
-ChainAddition ReadingModel::State::additions(const Pose& pose, Side side, Part part) const {
-  static const std::size_t direction = place_of_direction();
-  const effects::ChainAtRest chain =
-      effects::chain_at_rest(pose, side, turn_mm, machine.sprocket.pitch_mm);
-  ChainAddition sum;
+effects::Number ReadingModel::State::added(const Pose& pose, Side side) const {
+  const effects::LengthState chain = effects::chain_at_rest(pose, side, machine.sprocket);
+  effects::Number sum;
   for (const ActingEffect& one : acting) {
-    if (one.effect->add == nullptr || !acts_on(one.side, side)) continue;
-    // What is declared is there before the direction shows.
-    const bool before =
-        one.effect->law != nullptr || effects::place_in_catalogue(*one.effect) < direction;
-    if (part == Part::whole || before == (part == Part::before_direction)) {
-      accumulate(sum, one.effect->add(chain, one.values));
-    }
+    if (one.effect->add != nullptr && !depends_on_visit(*one.effect) && acts_on(one.side, side))
+      sum = sum + one.effect->add(chain, one.values);
   }
   return sum;
 }
 
-Eigen::Vector2d ReadingModel::State::through_effects(const Pose& pose,
+double ReadingModel::State::added_at_visit(Side side, int order, double direction) const {
+  const effects::LengthState chain{
+      .tooth_mm = machine.sprocket.pitch_mm, .direction = direction, .order = order};
+  double sum = 0.0;
+  for (const ActingEffect& one : acting) {
+    if (!depends_on_visit(*one.effect) || !acts_on(one.side, side)) continue;
+    const double added_mm = one.effect->add(chain, one.values).value;
+    sum += one.effect->by_direction ? added_mm / (1.0 + elongation[side]) : added_mm;
+  }
+  return sum;
+}
+
+Eigen::Vector2d ReadingModel::State::through_effects(const PerSide<effects::Number>& added,
                                                      const Eigen::Vector2d& length_slope,
-                                                     const PerSide<StateNumbers>& slope,
+                                                     PerSide<StateNumbers> slope,
                                                      const Eigen::Vector2d& position_slope) const {
   Eigen::Vector2d result;
   for (const Side side : kSides) {
     const Eigen::Index row = side == Side::left ? 0 : 1;
-    const ChainAddition added = additions(pose, side, Part::whole);
-    result[row] = (length_slope[row] * (1.0 + added.per_length) +
-                   added.per_angle_mm_per_rad * slope[side].angle_rad +
-                   added.per_free_length * slope[side].free_mm +
-                   added.per_tension_mm_per_n * slope[side].tension_n +
-                   added.per_horizontal_mm_per_n * slope[side].horizontal_n +
-                   added.per_x * position_slope[0] + added.per_y * position_slope[1]) /
-                  (1.0 + elongation[side]);
+    slope[side][effects::kLength] = length_slope[row];
+    slope[side].tail<2>() = position_slope;
+    const StateNumbers by = Eigen::Map<const StateNumbers>(added[side].d.data());
+    result[row] = (length_slope[row] + by.dot(slope[side])) / (1.0 + elongation[side]);
   }
   return result;
 }
@@ -208,16 +179,14 @@ PoseResult ReadingModel::State::pose_near(BedPoint point,
 }
 
 ReadingModel::ReadingModel(const Machine& machine, Model model) {
-  require_sound(machine);
+  require_none(problems_of(machine));
   auto state = std::make_shared<State>();
   state->machine = machine;
   state->model = model;
   state->acting = effects::acting_effects(machine);
-  state->turn_mm = machine.sprocket.teeth * machine.sprocket.pitch_mm;
   state->parameters = equilibrium_parameters(machine);
   for (const ActingEffect& one : state->acting) {
     if (one.effect->alter != nullptr) one.effect->alter(state->parameters, one.values);
-    state->looks_at_state = state->looks_at_state || one.effect->add != nullptr;
     if (one.effect->elongation == nullptr) continue;
     for (const Side side : kSides) {
       if (acts_on(one.side, side)) state->elongation[side] += one.effect->elongation(one.values);
@@ -237,15 +206,13 @@ tl::expected<PointReading, PoseFailure> ReadingModel::at(BedPoint point) const {
   if (!pose) return tl::unexpected(pose.error());
   PointReading reading;
   reading.pose = *pose;
-  for (const Side side : kSides) {
-    const double paid_out =
-        length(*pose, side) + state.additions(*pose, side, State::Part::whole).length_mm;
-    reading.lengths[side] = state.counted(paid_out, side);
-  }
+  const PerSide<effects::Number> added = state.added(*pose);
+  for (const Side side : kSides)
+    reading.lengths[side] = state.counted(pose->lengths[side] + added[side].value, side);
   const Eigen::Matrix2d lengths_by_point = state.kinematics->jacobian(*pose);
   for (const Eigen::Index axis : {0, 1}) {
-    PerSide<StateNumbers> slope;
-    if (state.looks_at_state) {
+    PerSide<StateNumbers> slope{StateNumbers::Zero(), StateNumbers::Zero()};
+    if (depends_on_state(added.left) || depends_on_state(added.right)) {
       const auto found = state_slope([&](double mm) {
         return state.kinematics->inverse(axis == 0 ? BedPoint{point.x_mm + mm, point.y_mm}
                                                    : BedPoint{point.x_mm, point.y_mm + mm});
@@ -254,7 +221,7 @@ tl::expected<PointReading, PoseFailure> ReadingModel::at(BedPoint point) const {
       slope = *found;
     }
     reading.position_jacobian.col(axis) = state.through_effects(
-        *pose, lengths_by_point.col(axis), slope, Eigen::Vector2d::Unit(axis));
+        added, lengths_by_point.col(axis), slope, Eigen::Vector2d::Unit(axis));
   }
   return reading;
 }
@@ -267,15 +234,16 @@ Eigen::Vector2d ReadingModel::sensitivity(const PointReading& reading, Setting s
     throw std::invalid_argument(
         "sensitivity: the sheet's settings move the point, not the machine");
   }
-  PerSide<StateNumbers> slope;
-  if (state.looks_at_state) {
+  const PerSide<effects::Number> added = state.added(reading.pose);
+  PerSide<StateNumbers> slope{StateNumbers::Zero(), StateNumbers::Zero()};
+  if (depends_on_state(added.left) || depends_on_state(added.right)) {
     const auto found = state_slope(
         [&](double mm) { return state.pose_near(reading.pose.position, setting, mm); });
     // A pose exists here but not at its neighbours within 16 um: at the very edge only the length's
     // own slope is used.
     if (found) slope = *found;
   }
-  return state.through_effects(reading.pose,
+  return state.through_effects(added,
                                state.kinematics->sensitivity(reading.pose, parameter_of(setting)),
                                slope,
                                Eigen::Vector2d::Zero());
@@ -307,19 +275,8 @@ tl::expected<PointReading, PoseFailure> ReadingModel::find(ChainLengths lengths,
 }
 
 ChainLengths ReadingModel::added_at_visit(int order, const PerSide<double>& direction) const {
-  ChainLengths added;
-  for (const Side side : kSides) {
-    for (const ActingEffect& one : state_->acting) {
-      if (!acts_on(one.side, side)) continue;
-      if (one.effect->add_by_direction != nullptr) {
-        added[side] += one.effect->add_by_direction(direction[side], one.values) /
-                       (1.0 + state_->elongation[side]);
-      }
-      if (one.effect->misread != nullptr)
-        added[side] += one.effect->misread({order, state_->machine.sprocket.pitch_mm}, one.values);
-    }
-  }
-  return added;
+  return {state_->added_at_visit(Side::left, order, direction.left),
+          state_->added_at_visit(Side::right, order, direction.right)};
 }
 
 /// The state of a session: the direction in which each chain last moved.
@@ -336,25 +293,12 @@ class Session {
 
  private:
   double chain(const Pose& pose, Side side, int order) {
-    using Part = ReadingModel::State::Part;
-    const double before =
-        length(pose, side) + state_.additions(pose, side, Part::before_direction).length_mm;
+    const double before = pose.lengths[side] + state_.added(pose, side).value;
     if (last_length_mm_[side]) {
       direction_[side] = sign_of_change(before - *last_length_mm_[side], direction_[side]);
     }
     last_length_mm_[side] = before;
-    double paid_out = before;
-    for (const ActingEffect& one : state_.acting) {
-      if (one.effect->add_by_direction == nullptr || !acts_on(one.side, side)) continue;
-      paid_out += one.effect->add_by_direction(direction_[side], one.values);
-    }
-    paid_out += state_.additions(pose, side, Part::after_direction).length_mm;
-    double reading = state_.counted(paid_out, side);
-    for (const ActingEffect& one : state_.acting) {
-      if (one.effect->misread == nullptr || !acts_on(one.side, side)) continue;
-      reading += one.effect->misread({order, state_.machine.sprocket.pitch_mm}, one.values);
-    }
-    return reading;
+    return state_.counted(before, side) + state_.added_at_visit(side, order, direction_[side]);
   }
 
   const ReadingModel::State& state_;

@@ -25,7 +25,7 @@ using Believed = std::vector<std::optional<FramePoint>>;
 
 Believed believed(const model::BeltMachine& by,
                   const model::BeltMachine& real,
-                  const std::vector<model::belts::ResolvedBeltEffect>& effects,
+                  const std::vector<model::effects::ActingEffect>& effects,
                   const std::vector<FramePoint>& places) {
   Believed result;
   for (const FramePoint& at : places) {

@@ -14,11 +14,10 @@ namespace chaintrue::grid::diagnosis {
 using model::Belt;
 using model::kBelts;
 
-std::vector<model::belts::ResolvedBeltEffect> resolved(const std::vector<SizedCause>& causes) {
-  std::vector<model::belts::ResolvedBeltEffect> effects;
+std::vector<model::effects::ActingEffect> resolved(const std::vector<SizedCause>& causes) {
+  std::vector<model::effects::ActingEffect> effects;
   for (const SizedCause& own : causes) {
-    effects.push_back(
-        {model::belts::belt_effect_of(*own.cause.effect), own.cause.side, own.values});
+    effects.push_back({own.cause.effect, own.cause.side, own.values});
   }
   return effects;
 }

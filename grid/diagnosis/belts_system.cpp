@@ -49,7 +49,7 @@ constexpr Teeth kTeeth[] = {{1.0, 0.25},
 CausePrior prior_of_belts() {
   constexpr double kRarerThanChains = 3.0;
   CausePrior prior{.shares = 0.0, .odds_given_discrepancy = 1.0};
-  for (const model::belts::BeltEffect* effect : model::belts::belt_effects()) {
+  for (const model::effects::Effect* effect : model::belts::belt_effects()) {
     if (!(effect->expected > 0.0)) prior.shares += kRarerThanChains * effect->share;
   }
   return prior;
@@ -191,7 +191,7 @@ Candidates candidates(const MeasuredBelts& belts) {
     for (const Belt belt : kBelts) is_pulled_anywhere[is_pulled(point, belt) ? 1 : 0] = true;
   }
   const bool tells_pull = is_pulled_anywhere[0] && is_pulled_anywhere[1];
-  const auto hidden_because = [&](const model::belts::BeltEffect* effect, EffectSide side) {
+  const auto hidden_because = [&](const model::effects::Effect* effect, EffectSide side) {
     if (effect == &model::belts::anchor_moved && side == EffectSide::all)
       return "a frame that stands elsewhere as a whole, with the places in it, changes no length: "
              "measure a hole that the machine cut from two edges of the sheet";
@@ -207,9 +207,9 @@ Candidates candidates(const MeasuredBelts& belts) {
     return "";
   };
   Candidates result;
-  for (const model::belts::BeltEffect* effect : model::belts::belt_effects()) {
+  for (const model::effects::Effect* effect : model::belts::belt_effects()) {
     for (const EffectSide side : effect->sides) {
-      const CauseId cause{&model::belts::described(*effect), side};
+      const CauseId cause{effect, side};
       const std::string reason = hidden_because(effect, side);
       if (reason.empty()) {
         result.testable.push_back(cause);

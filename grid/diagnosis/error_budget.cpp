@@ -35,8 +35,8 @@ double mean_square(const Shifts& shifts) {
 }
 
 BudgetLine::ChangesWith changes_with(const model::effects::Effect& effect) {
-  if (effect.add_by_direction != nullptr) return BudgetLine::ChangesWith::direction;
-  if (effect.misread != nullptr) return BudgetLine::ChangesWith::order;
+  if (effect.by_direction) return BudgetLine::ChangesWith::direction;
+  if (effect.station == model::effects::Station::reading) return BudgetLine::ChangesWith::order;
   return BudgetLine::ChangesWith::place;
 }
 

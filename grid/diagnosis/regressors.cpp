@@ -59,26 +59,23 @@ std::optional<Eigen::VectorXd> predicted(const ObservationSet& session, const St
   return all;
 }
 
+bool is_of_readings(CauseId cause) {
+  return cause.effect->station == model::effects::Station::reading;
+}
+
 /// What an effect adds to the chains at a place, or to what is written down there.
 Eigen::Vector2d added_at(const SystemPlace& place,
                          const model::Sprocket& sprocket,
                          CauseId cause,
                          const std::vector<double>& values) {
   Eigen::Vector2d mm = Eigen::Vector2d::Zero();
-  if (cause.effect->misread != nullptr && !place.ordered) return mm;
+  if (is_of_readings(cause) && !place.ordered) return mm;
   const model::Pose& pose = place.state.reading.pose;
   for (const model::Side side : model::kSides) {
     if (!model::effects::acts_on(cause.side, side)) continue;
-    const Eigen::Index row = row_of(side);
-    if (cause.effect->misread != nullptr) {
-      mm(row) = cause.effect->misread({place.order, sprocket.pitch_mm}, values);
-    } else {
-      mm(row) = cause.effect
-                    ->add(model::effects::chain_at_rest(
-                              pose, side, sprocket.teeth * sprocket.pitch_mm, sprocket.pitch_mm),
-                          values)
-                    .length_mm;
-    }
+    model::effects::LengthState chain = model::effects::chain_at_rest(pose, side, sprocket);
+    chain.order = place.order;
+    mm(row_of(side)) = cause.effect->add(chain, values).value;
   }
   return mm;
 }
@@ -254,7 +251,7 @@ std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
                                          const RegressorSystem& system,
                                          CauseId cause,
                                          const std::vector<double>& values) {
-  if (cause.effect->add != nullptr || cause.effect->misread != nullptr) {
+  if (!state.mechanism && cause.effect->add != nullptr && !cause.effect->by_direction) {
     return added(system, state.machine.sprocket, cause, values);
   }
   if (!problems_with_effect(state, cause, values).empty()) return std::nullopt;

@@ -52,7 +52,7 @@ Eigen::VectorXd left_of(const Analysis& a,
     const Regressor& d = a.system.regressor(model.regressors[k]);
     // A drift, a skip or a miscount belongs to its session; play belongs to the machine, but shows
     // only where the order of the visits is known.
-    if (d.cause.effect->misread != nullptr) continue;
+    if (d.cause.effect->station == model::effects::Station::reading) continue;
     if (d.cause.effect->needs == model::effects::DataNeed::order && !to.ordered()) continue;
     const auto g = signature(to, state, system, d.cause, d.values);
     if (g) left -= *g * model.coefficient(as_index(k));

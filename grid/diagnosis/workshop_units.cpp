@@ -10,8 +10,8 @@
 #include <span>
 
 #include "grid/containers.hpp"
-#include "model/belts/effects/belt_effect.hpp"
-#include "model/plotter/effects/plotter_effect.hpp"
+#include "model/belts/belt_effects.hpp"
+#include "model/plotter/plotter_effects.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -102,11 +102,6 @@ std::string with_sigma(double value, double sigma) {
 
 namespace {
 
-bool is_of_cords(const model::effects::Effect& effect) {
-  const auto cords = model::plotter::described_plotter_effects();
-  return contains(cords, &effect);
-}
-
 std::string worded(const Unit& unit, const ParameterEstimate& estimate) {
   const bool whole = unit.parameter == "links" || unit.parameter == "teeth" ||
                      (unit.parameter.ends_with("visit") && !unit.parameter.starts_with("rate"));
@@ -145,8 +140,8 @@ std::string in_workshop_units(const CauseId& cause, const ParameterEstimate& est
   if (cause.effect->law != nullptr)
     return fmt::format("{} = {}", estimate.parameter, with_sigma(estimate.value, estimate.sigma));
   std::span<const UnitOfEffect> of_mechanism;
-  if (model::belts::belt_effect_of(*cause.effect) != nullptr) of_mechanism = kBeltUnits;
-  if (is_of_cords(*cause.effect)) of_mechanism = kCordUnits;
+  if (contains(model::belts::belt_effects(), cause.effect)) of_mechanism = kBeltUnits;
+  if (contains(model::plotter::plotter_effects(), cause.effect)) of_mechanism = kCordUnits;
   for (const UnitOfEffect& own : of_mechanism) {
     const bool fits = own.effect.empty() || own.effect == cause.effect->id;
     if (fits && own.unit.parameter == estimate.parameter) return worded(own.unit, estimate);

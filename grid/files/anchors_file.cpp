@@ -140,7 +140,7 @@ const Record<BeltsFit>& both_predictions_record() {
 /// Of the belts' table, with values that it may have.
 void check_cause(const Cursor& at, CauseInAnchorFit& cause) {
   const std::vector<model::AppliedEffect> applied = {{cause.effect, cause.side, cause.parameters}};
-  for (const model::MachineProblem& problem : model::belts::problems_of(applied))
+  for (const model::MachineProblem& problem : model::effects::problems_in(model::belts::belt_effects(), applied))
     at.problems().add(at.pointer() + problem.parameter.substr(2), problem);
 }
 

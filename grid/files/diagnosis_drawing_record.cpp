@@ -2,7 +2,7 @@
 // The results from a test drawing in a chaintrue_diagnosis file.
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/record_values.hpp"
-#include "model/plotter/effects/plotter_effect.hpp"
+#include "model/plotter/plotter_effects.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -47,7 +47,7 @@ const Record<DrawnValue>& drawn_value_record() {
 }
 
 void take_cause_of_cords(CauseId& cause) {
-  for (const model::effects::Effect* own : model::plotter::described_plotter_effects()) {
+  for (const model::effects::Effect* own : model::plotter::plotter_effects()) {
     if (cause.effect != nullptr && cause.effect->id == own->id) cause.effect = own;
   }
 }

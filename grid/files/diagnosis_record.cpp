@@ -8,10 +8,10 @@
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/effect_record.hpp"
 #include "grid/files/record_values.hpp"
-#include "model/belts/effects/belt_effect.hpp"
+#include "model/belts/belt_effects.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
-#include "model/plotter/effects/plotter_effect.hpp"
+#include "model/plotter/plotter_effects.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -44,12 +44,9 @@ constexpr EffectSide kSides[] = {EffectSide::left,
 Value<const Effect*> effect_word() {
   std::vector<std::pair<std::string, const Effect*>> names;
   for (const Effect* effect : model::effects::catalogue()) names.emplace_back(effect->id, effect);
-  for (const model::belts::BeltEffect* effect : model::belts::belt_effects()) {
-    if (model::effects::find_effect(effect->id) == nullptr)
-      names.emplace_back(effect->id, &model::belts::described(*effect));
-  }
-  for (const Effect* effect : model::plotter::described_plotter_effects()) {
-    if (model::effects::find_effect(effect->id) == nullptr) names.emplace_back(effect->id, effect);
+  for (const auto table : {model::belts::belt_effects(), model::plotter::plotter_effects()}) {
+    for (const Effect* effect : table)
+      if (model::effects::find_effect(effect->id) == nullptr) names.emplace_back(effect->id, effect);
   }
   return choice<const Effect*>(std::move(names));
 }
@@ -103,9 +100,10 @@ void cause_keys(Record<T>& record, const Access& id) {
     CauseId& found = id(object);
     if (found.effect == nullptr || acts_at(*found.effect, found.side)) return;
     // Both chains and belts have drift and skips: the side decides which.
-    const model::belts::BeltEffect* of_belts = model::belts::find_belt_effect(found.effect->id);
-    if (of_belts != nullptr && acts_at(model::belts::described(*of_belts), found.side)) {
-      found.effect = &model::belts::described(*of_belts);
+    const Effect* of_belts =
+        model::effects::find_effect(model::belts::belt_effects(), found.effect->id);
+    if (of_belts != nullptr && acts_at(*of_belts, found.side)) {
+      found.effect = of_belts;
     } else {
       at.child("side").expect(fmt::format("a side on which {} acts", found.effect->id));
     }

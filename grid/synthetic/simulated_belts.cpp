@@ -59,7 +59,7 @@ std::optional<BeltsUnreachable> add_pass(const model::BeltMachine& stated,
                                          const std::optional<BeltPull>& pull,
                                          Random& noise,
                                          MeasuredBelts& belts) {
-  const auto effects = model::belts::resolve_belt_effects(spec.hidden);
+  const auto effects = model::effects::resolve(model::belts::belt_effects(), spec.hidden);
   const std::vector<model::BedPoint> commands = commands_of(stated, spec);
   const double over_least =
       pull ? pull->value / *min_element(spec.pulls) : 1.0;

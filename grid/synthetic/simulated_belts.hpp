@@ -43,7 +43,7 @@ struct BeltsSpec {
 using BeltsUnreachable = Failure<model::BeltReason, model::BedPoint>;
 
 /// Rows from below, there and back. \throws std::logic_error for anchors that are not known, effects
-/// with problems (model::belts::problems_of), fewer than two columns or rows, or more bad readings
+/// with problems (model::effects::problems_in), fewer than two columns or rows, or more bad readings
 /// than there are points.
 [[nodiscard]] tl::expected<MeasuredBelts, BeltsUnreachable> simulate_belts(
     const model::BeltMachine& stated, const model::BeltMachine& truth, const BeltsSpec& spec);

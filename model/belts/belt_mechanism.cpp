@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/belts/belt_mechanism.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 namespace chaintrue::model {
 namespace {
@@ -51,13 +48,13 @@ std::vector<MechanismParameter> stated_parameters(const BeltMachine& machine,
   return parameters;
 }
 
-void require_sound(const BeltMachine& machine) {
-  const std::vector<MachineProblem> problems = problems_of(machine);
-  if (problems.empty()) return;
-  throw std::invalid_argument(fmt::format("{}: found {}, expected {}",
-                                          problems.front().parameter,
-                                          problems.front().value,
-                                          problems.front().expected));
+Eigen::VectorXd stated_values(const BeltMachine& machine, std::size_t parameters) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters));
+  for (std::size_t i = 0; machine.anchors_known && i < kCoordinates.size(); ++i) {
+    const Coordinate& own = kCoordinates[i];
+    values[static_cast<Eigen::Index>(i)] = machine.anchors[own.belt].*own.member;
+  }
+  return values;
 }
 
 }  // namespace
@@ -87,23 +84,23 @@ std::shared_ptr<const BeltMechanism> make_belt_mechanism(const BeltMachine& mach
 BeltMechanism::BeltMechanism(const BeltMachine& machine,
                              std::optional<double> anchor_sigma_mm,
                              std::optional<BeltScaleKnowledge> scale)
-    : BeltMechanism(machine, stated_parameters(machine, anchor_sigma_mm, scale), {}) {
-  require_sound(machine);
+    : BeltMechanism(machine,
+                    stated_parameters(machine, anchor_sigma_mm, scale),
+                    stated_values(machine, kCoordinates.size() + (scale ? 1 : 0)),
+                    {}) {
+  require_none(problems_of(machine));
 }
 
 BeltMechanism::BeltMechanism(BeltMachine machine,
                              std::vector<MechanismParameter> parameters,
+                             Eigen::VectorXd values,
                              std::vector<AppliedEffect> applied)
-    : machine_(std::move(machine)),
-      parameters_(std::move(parameters)),
-      values_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters_.size()))),
-      applied_(std::move(applied)),
-      resolved_(belts::resolve_belt_effects(applied_)) {
-  for (std::size_t i = 0; machine_.anchors_known && i < kCoordinates.size(); ++i) {
-    const Coordinate& own = kCoordinates[i];
-    values_[static_cast<Eigen::Index>(i)] = machine_.anchors[own.belt].*own.member;
-  }
-}
+    : MechanismBase({belts::belt_effects().begin(), belts::belt_effects().end()},
+                    std::move(parameters),
+                    std::move(values),
+                    std::move(applied)),
+      machine_(std::move(machine)),
+      acting_(effects::resolve(belts::belt_effects(), this->applied())) {}
 
 std::span<const std::string_view> BeltMechanism::lengths() const { return kBeltLengths; }
 
@@ -116,20 +113,15 @@ MechanismExtent BeltMechanism::extent() const {
           std::min(a.tl.y_mm, a.tr.y_mm) - reach};
 }
 
-std::shared_ptr<const Mechanism> BeltMechanism::with_values(const Eigen::VectorXd& values) const {
-  if (values.size() != values_.size() || !values.allFinite()) {
-    throw std::invalid_argument(fmt::format(
-        "{} values of {} parameters of four belts, or not finite", values.size(), values_.size()));
-  }
+std::shared_ptr<const Mechanism> BeltMechanism::made_anew(
+    const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const {
   BeltMachine changed = machine_;
   for (std::size_t i = 0; i < kCoordinates.size(); ++i)
     changed.anchors[kCoordinates[i].belt].*kCoordinates[i].member =
         values[static_cast<Eigen::Index>(i)];
-  changed.anchors_known = true;
-  std::shared_ptr<BeltMechanism> result(
-      new BeltMechanism(std::move(changed), parameters_, applied_));
-  result->values_ = values;
-  return result;
+  changed.anchors_known = machine_.anchors_known || values != this->values();
+  return std::shared_ptr<const Mechanism>(new BeltMechanism(
+      std::move(changed), stated(), values, std::move(applied)));
 }
 
 std::vector<FixedPoint> BeltMechanism::fixed_points() const {
@@ -138,7 +130,7 @@ std::vector<FixedPoint> BeltMechanism::fixed_points() const {
     const Anchor& anchor = machine_.anchors[belt];
     FixedPoint point{kBeltLengths.at(static_cast<std::size_t>(belt)),
                      {anchor.x_mm, anchor.y_mm},
-                     Eigen::Matrix2Xd::Zero(2, values_.size())};
+                     Eigen::Matrix2Xd::Zero(2, values().size())};
     for (std::size_t i = 0; i < kCoordinates.size(); ++i) {
       if (kCoordinates[i].belt == belt)
         point.by_parameter(kCoordinates[i].axis, static_cast<Eigen::Index>(i)) = 1.0;
@@ -149,37 +141,11 @@ std::vector<FixedPoint> BeltMechanism::fixed_points() const {
 }
 
 FrameScale BeltMechanism::frame_scale() const {
-  FrameScale scale{1.0, Eigen::RowVectorXd::Zero(values_.size())};
-  if (values_.size() <= kScale) return scale;
-  scale.factor = std::exp(values_[kScale]);
+  FrameScale scale{1.0, Eigen::RowVectorXd::Zero(values().size())};
+  if (values().size() <= kScale) return scale;
+  scale.factor = std::exp(values()[kScale]);
   scale.by_parameter[kScale] = scale.factor;
   return scale;
-}
-
-std::span<const effects::Effect* const> BeltMechanism::effects() const {
-  return belts::described_belt_effects();
-}
-
-std::vector<MachineProblem> BeltMechanism::problems_of_effects(
-    const std::vector<AppliedEffect>& applied) const {
-  std::vector<MachineProblem> problems = belts::problems_of(applied);
-  for (MachineProblem& problem : problems) problem.parameter = "/effects" + problem.parameter;
-  return problems;
-}
-
-std::shared_ptr<const Mechanism> BeltMechanism::with_effects(
-    const std::vector<AppliedEffect>& applied) const {
-  if (const auto problems = problems_of_effects(applied); !problems.empty()) {
-    throw std::invalid_argument(fmt::format("{}: found {}, expected {}",
-                                            problems.front().parameter,
-                                            problems.front().value,
-                                            problems.front().expected));
-  }
-  std::vector<AppliedEffect> all = applied_;
-  all.insert(all.end(), applied.begin(), applied.end());
-  std::shared_ptr<BeltMechanism> result(new BeltMechanism(machine_, parameters_, std::move(all)));
-  result->values_ = values_;
-  return result;
 }
 
 tl::expected<LengthsPrediction, MechanismFailure> BeltMechanism::predict(
@@ -198,7 +164,7 @@ tl::expected<LengthsPrediction, MechanismFailure> BeltMechanism::predict(
     const auto row = static_cast<Eigen::Index>(belt);
     const FramePoint place{position.x_mm, position.y_mm};
     // The same without effects, in a third of the time; of printed spans but for rounding.
-    if (resolved_.empty() && machine_.lengths != BeltLengths::span) {
+    if (acting_.empty() && machine_.lengths != BeltLengths::span) {
       const auto reading = reading_at(machine_, belt, place);
       if (!reading) return tl::unexpected(mechanism_failure(reading.error()));
       result.lengths_mm[row] = reading->length_mm;
@@ -207,14 +173,14 @@ tl::expected<LengthsPrediction, MechanismFailure> BeltMechanism::predict(
       continue;
     }
     const auto reading = belts::read_belt_with_slope(
-        machine_, resolved_, {belt, pulled, visit.order, visit.pull}, place);
+        machine_, acting_, {belt, pulled, visit.order, visit.pull}, place);
     if (!reading) return tl::unexpected(mechanism_failure(reading.error()));
     result.lengths_mm[row] = reading->length_mm;
     result.by_position.row(row) = reading->by_place;
     by_anchor[belt] = reading->by_anchor;
   }
   const bool all = wanted == Derivatives::by_position_and_parameter;
-  result.by_parameter = Eigen::MatrixXd::Zero(4, all ? values_.size() : 0);
+  result.by_parameter = Eigen::MatrixXd::Zero(4, all ? values().size() : 0);
   for (std::size_t i = 0; all && i < kCoordinates.size(); ++i) {
     for (const Belt belt : kBelts) {
       result.by_parameter(static_cast<Eigen::Index>(belt), static_cast<Eigen::Index>(i)) =
@@ -226,8 +192,7 @@ tl::expected<LengthsPrediction, MechanismFailure> BeltMechanism::predict(
 
 tl::expected<ToolPosition, MechanismFailure> BeltMechanism::locate(
     const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const {
-  if (lengths_mm.size() != 4)
-    throw std::invalid_argument(fmt::format("{} lengths of four belts", lengths_mm.size()));
+  require_all(lengths_mm);
   if (!machine_.anchors_known) return tl::unexpected(kAnchorsNotKnown);
   const auto start = place_of_upper(machine_, lengths_mm[0], lengths_mm[1]);
   if (!start) return tl::unexpected(mechanism_failure(start.error()));
@@ -236,7 +201,7 @@ tl::expected<ToolPosition, MechanismFailure> BeltMechanism::locate(
 
 tl::expected<ChainLengths, MechanismFailure> BeltMechanism::first_lengths(
     const ToolPosition& position) const {
-  if (!machine_.anchors_known || !applied_.empty()) return Mechanism::first_lengths(position);
+  if (!machine_.anchors_known || !acting_.empty()) return Mechanism::first_lengths(position);
   const auto left = reading_at(machine_, Belt::tl, {position.x_mm, position.y_mm});
   if (!left) return tl::unexpected(mechanism_failure(left.error()));
   const auto right = reading_at(machine_, Belt::tr, {position.x_mm, position.y_mm});
@@ -246,7 +211,7 @@ tl::expected<ChainLengths, MechanismFailure> BeltMechanism::first_lengths(
 
 tl::expected<ToolPosition, MechanismFailure> BeltMechanism::locate_by_first(
     ChainLengths lengths) const {
-  if (!machine_.anchors_known || !applied_.empty()) return Mechanism::locate_by_first(lengths);
+  if (!machine_.anchors_known || !acting_.empty()) return Mechanism::locate_by_first(lengths);
   const auto place = place_of_upper(machine_, lengths.left_mm, lengths.right_mm);
   if (!place) return tl::unexpected(mechanism_failure(place.error()));
   return ToolPosition{place->x_mm, place->y_mm};

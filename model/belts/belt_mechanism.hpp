@@ -27,7 +27,7 @@ struct BeltScaleKnowledge {
   std::optional<double> sigma;  ///< about 0; empty: nothing
 };
 
-class BeltMechanism final : public Mechanism {
+class BeltMechanism final : public MechanismBase {
  public:
   /// `anchor_sigma_mm` is the standard deviation of the stated anchors; if it is absent, or the
   /// anchors are not known, they have no prior. \throws std::invalid_argument for a machine with
@@ -38,20 +38,9 @@ class BeltMechanism final : public Mechanism {
 
   [[nodiscard]] std::string_view kind() const override { return "belts"; }
   [[nodiscard]] std::span<const std::string_view> lengths() const override;
-  [[nodiscard]] std::span<const MechanismParameter> parameters() const override {
-    return parameters_;
-  }
-  [[nodiscard]] const Eigen::VectorXd& values() const override { return values_; }
   /// Points inside the anchors' rectangle that are farther from its edges than arm and extension
   /// are long.
   [[nodiscard]] MechanismExtent extent() const override;
-  [[nodiscard]] std::shared_ptr<const Mechanism> with_values(
-      const Eigen::VectorXd& values) const override;
-  [[nodiscard]] std::span<const effects::Effect* const> effects() const override;
-  [[nodiscard]] std::vector<MachineProblem> problems_of_effects(
-      const std::vector<AppliedEffect>& applied) const override;
-  [[nodiscard]] std::shared_ptr<const Mechanism> with_effects(
-      const std::vector<AppliedEffect>& applied) const override;
   /// Fails with anchors_not_known, or with a failure of belt_kinematics.hpp.
   [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
       const ToolPosition& position,
@@ -73,20 +62,17 @@ class BeltMechanism final : public Mechanism {
 
   /// The machine with the values of the parameters.
   [[nodiscard]] const BeltMachine& machine() const { return machine_; }
-  [[nodiscard]] const std::vector<belts::ResolvedBeltEffect>& resolved_effects() const {
-    return resolved_;
-  }
 
  private:
   BeltMechanism(BeltMachine machine,
                 std::vector<MechanismParameter> parameters,
+                Eigen::VectorXd values,
                 std::vector<AppliedEffect> applied);
+  [[nodiscard]] std::shared_ptr<const Mechanism> made_anew(
+      const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const override;
 
   BeltMachine machine_;
-  std::vector<MechanismParameter> parameters_;
-  Eigen::VectorXd values_;
-  std::vector<AppliedEffect> applied_;
-  std::vector<belts::ResolvedBeltEffect> resolved_;
+  std::vector<effects::ActingEffect> acting_;
 };
 
 /// One sigma of what a belt's zero is off by after it jumped: a turn of the encoder is 44 mm, a tooth 2.

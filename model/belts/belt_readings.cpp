@@ -3,57 +3,58 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-
-#include "model/effects/effect_table.hpp"
 
 namespace chaintrue::model::belts {
 
-std::vector<MachineProblem> problems_of(const std::vector<AppliedEffect>& applied) {
-  return effects::problems_in(described_belt_effects(), applied);
-}
-
-std::vector<ResolvedBeltEffect> resolve_belt_effects(const std::vector<AppliedEffect>& applied) {
-  std::vector<ResolvedBeltEffect> resolved;
-  for (effects::TableEffect& own : effects::resolve(described_belt_effects(), applied))
-    resolved.push_back({belt_effects()[own.number], own.side, std::move(own.values)});
-  return resolved;
+bool acts_on(effects::EffectSide side, Belt belt) {
+  return side == effects::EffectSide::none || side == effects::EffectSide::all ||
+         name(side) == model::name(belt);
 }
 
 namespace {
 
+// 43.975 mm of belt with teeth 2 mm apart.
+constexpr double kTeethInATurn = 22.0;
+
 /// L of a belt, with d(L)/d(place).
 tl::expected<BeltReading, BeltFailure> belt_itself(const BeltMachine& machine,
-                                                   const std::vector<ResolvedBeltEffect>& effects,
+                                                   const std::vector<effects::ActingEffect>& effects,
                                                    const BeltVisit& visit,
                                                    FramePoint place) {
   BeltMachine real = machine;
   // The horizontal span is the same for both printed forms of the real belt.
   real.lengths =
       machine.lengths == BeltLengths::belt_and_arm ? BeltLengths::belt_and_arm : BeltLengths::belt;
-  for (const ResolvedBeltEffect& own : effects) {
-    if (own.effect->alter != nullptr && acts_on(own.side, visit.belt))
-      own.effect->alter(real.anchors[visit.belt], visit, own.values);
+  for (const effects::ActingEffect& own : effects) {
+    if (own.effect->alter_anchor != nullptr && acts_on(own.side, visit.belt))
+      own.effect->alter_anchor(real.anchors[visit.belt], visit.order, own.values);
   }
   auto reading = reading_at(real, visit.belt, place);
   if (reading && real.lengths == BeltLengths::belt_and_arm) reading->length_mm -= reach_mm(machine);
   return reading;
 }
 
-bool by_tension(const std::vector<ResolvedBeltEffect>& effects) {
-  return std::any_of(effects.begin(), effects.end(), [](const ResolvedBeltEffect& own) {
+bool by_tension(const std::vector<effects::ActingEffect>& effects) {
+  return std::any_of(effects.begin(), effects.end(), [](const effects::ActingEffect& own) {
     return own.effect->by_tension;
   });
 }
 
-/// K of a belt.
-double count_of(const std::vector<ResolvedBeltEffect>& effects,
-                const BeltVisit& visit,
-                const BeltState& belt) {
-  double count_mm = belt.length_mm;
-  for (const ResolvedBeltEffect& own : effects) {
+/// K of a belt, with its derivatives by L and T.
+effects::Number count_of(const BeltMachine& machine,
+                         const std::vector<effects::ActingEffect>& effects,
+                         const BeltVisit& visit,
+                         double length_mm,
+                         double tension) {
+  const effects::LengthState belt{.length_mm = effects::variable(length_mm, effects::kLength),
+                                  .tension = effects::variable(tension, effects::kTension),
+                                  .turn_mm = machine.belt_turn_mm,
+                                  .tooth_mm = machine.belt_turn_mm / kTeethInATurn,
+                                  .order = visit.order};
+  effects::Number count_mm = belt.length_mm;
+  for (const effects::ActingEffect& own : effects) {
     if (own.effect->add != nullptr && acts_on(own.side, visit.belt))
-      count_mm += own.effect->add(belt, visit, own.values);
+      count_mm = count_mm + own.effect->add(belt, own.values);
   }
   return count_mm;
 }
@@ -70,52 +71,46 @@ tl::expected<double, BeltFailure> printed(const BeltMachine& machine, Belt belt,
 }  // namespace
 
 tl::expected<double, BeltFailure> read_belt(const BeltMachine& machine,
-                                            const std::vector<ResolvedBeltEffect>& effects,
+                                            const std::vector<effects::ActingEffect>& effects,
                                             const BeltVisit& visit,
                                             FramePoint place) {
   const auto belt = belt_itself(machine, effects, visit, place);
   if (!belt) return tl::unexpected(belt.error());
-  BeltState state{belt->length_mm, machine.belt_turn_mm};
-  if (by_tension(effects))
-    state.tension = tensions_of(machine, visit.pulled, visit.pull, place)[visit.belt];
-  return printed(machine, visit.belt, count_of(effects, visit, state));
+  const double tension =
+      by_tension(effects) ? tensions_of(machine, visit.pulled, visit.pull, place)[visit.belt] : 0.0;
+  return printed(machine,
+                 visit.belt,
+                 count_of(machine, effects, visit, belt->length_mm, tension).value);
 }
 
 tl::expected<BeltReadingSlopes, BeltFailure> read_belt_with_slope(
     const BeltMachine& machine,
-    const std::vector<ResolvedBeltEffect>& effects,
+    const std::vector<effects::ActingEffect>& effects,
     const BeltVisit& visit,
     FramePoint place) {
   const auto belt = belt_itself(machine, effects, visit, place);
   if (!belt) return tl::unexpected(belt.error());
-  BeltState state{belt->length_mm, machine.belt_turn_mm};
   const bool loaded = by_tension(effects);
   const BeltTensions tensions = loaded
                                     ? tensions_at(machine, visit.pulled, visit.pull, place)
                                     : BeltTensions{};
-  if (loaded) state.tension = tensions.tension[visit.belt];
-  const double count_mm = count_of(effects, visit, state);
-  const auto length = printed(machine, visit.belt, count_mm);
+  const effects::Number count = count_of(
+      machine, effects, visit, belt->length_mm, loaded ? tensions.tension[visit.belt] : 0.0);
+  const auto length = printed(machine, visit.belt, count.value);
   if (!length) return tl::unexpected(length.error());
   double print_slope = 1.0;
   if (machine.lengths == BeltLengths::span) {
     const double c = height_mm(machine, visit.belt);
-    print_slope = count_mm / std::sqrt((count_mm - c) * (count_mm + c));
+    print_slope = count.value / std::sqrt((count.value - c) * (count.value + c));
   }
-  const auto slope_by = [&](double BeltState::* quantity) {
-    BeltState less = state, more = state;
-    less.*quantity -= 0.5;
-    more.*quantity += 0.5;
-    return print_slope * (count_of(effects, visit, more) - count_of(effects, visit, less));
-  };
   BeltReadingSlopes result;
   result.length_mm = *length;
-  const double by_tension_mm = loaded ? slope_by(&BeltState::tension) : 0.0;
   for (const Belt anchor : kBelts) {
     Eigen::RowVector2d& own = result.by_anchor[anchor];
     own.setZero();
-    if (loaded) own = by_tension_mm * tensions.by_anchor[visit.belt][anchor];
-    if (anchor == visit.belt) own -= slope_by(&BeltState::length_mm) * belt->by_place;
+    if (loaded)
+      own = print_slope * count.d[effects::kTension] * tensions.by_anchor[visit.belt][anchor];
+    if (anchor == visit.belt) own -= print_slope * count.d[effects::kLength] * belt->by_place;
     result.by_place -= own;
   }
   return result;

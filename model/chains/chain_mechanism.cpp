@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/chains/chain_mechanism.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cstdlib>
-#include <stdexcept>
 
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
@@ -26,6 +23,13 @@ std::vector<MechanismParameter> stated_parameters(const Machine& machine) {
                               setting == Setting::chain_zero_right_mm});
   }
   return parameters;
+}
+
+Eigen::VectorXd values_of(const Machine& machine) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(kMachineSettings.size()));
+  for (std::size_t i = 0; i < kMachineSettings.size(); ++i)
+    values[static_cast<Eigen::Index>(i)] = stated_value(machine, kMachineSettings[i]);
+  return values;
 }
 
 /// The chains that a word of `side` means.
@@ -74,14 +78,12 @@ ChainMechanism::ChainMechanism(ReadingModel readings)
     : ChainMechanism(readings, stated_parameters(readings.machine())) {}
 
 ChainMechanism::ChainMechanism(ReadingModel readings, std::vector<MechanismParameter> parameters)
-    : readings_(std::move(readings)),
-      frame_(machine()),
-      effects_(effects::effects_of(machine())),
-      parameters_(std::move(parameters)),
-      values_(static_cast<Eigen::Index>(kMachineSettings.size())) {
-  for (std::size_t i = 0; i < kMachineSettings.size(); ++i)
-    values_[static_cast<Eigen::Index>(i)] = stated_value(machine(), kMachineSettings[i]);
-}
+    : MechanismBase(effects::effects_of(readings.machine()),
+                    std::move(parameters),
+                    values_of(readings.machine()),
+                    readings.machine().effects),
+      readings_(std::move(readings)),
+      frame_(machine()) {}
 
 std::span<const std::string_view> ChainMechanism::lengths() const { return kChainLengths; }
 
@@ -90,35 +92,23 @@ MechanismExtent ChainMechanism::extent() const {
   return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
 }
 
-std::shared_ptr<const Mechanism> ChainMechanism::with_values(const Eigen::VectorXd& values) const {
-  if (values.size() != values_.size()) {
-    throw std::invalid_argument(
-        fmt::format("{} values of {} parameters", values.size(), values_.size()));
-  }
+std::shared_ptr<const Mechanism> ChainMechanism::made_anew(
+    const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const {
   Machine changed = machine();
+  changed.effects = std::move(applied);
   for (std::size_t i = 0; i < kMachineSettings.size(); ++i) {
     changed =
         with_setting(std::move(changed), kMachineSettings[i], values[static_cast<Eigen::Index>(i)]);
   }
   return std::shared_ptr<const Mechanism>(
-      new ChainMechanism(ReadingModel(changed, readings_.model()), parameters_));
+      new ChainMechanism(ReadingModel(changed, readings_.model()), stated()));
 }
-
-std::span<const effects::Effect* const> ChainMechanism::effects() const { return effects_; }
 
 std::vector<MachineProblem> ChainMechanism::problems_of_effects(
     const std::vector<AppliedEffect>& applied) const {
   Machine changed = machine();
   changed.effects.insert(changed.effects.end(), applied.begin(), applied.end());
   return effects::problems_of_effects(changed);
-}
-
-std::shared_ptr<const Mechanism> ChainMechanism::with_effects(
-    const std::vector<AppliedEffect>& applied) const {
-  Machine changed = machine();
-  changed.effects.insert(changed.effects.end(), applied.begin(), applied.end());
-  return std::shared_ptr<const Mechanism>(
-      new ChainMechanism(ReadingModel(changed, readings_.model()), parameters_));
 }
 
 tl::expected<LengthsPrediction, MechanismFailure> ChainMechanism::predict(
@@ -131,7 +121,7 @@ tl::expected<LengthsPrediction, MechanismFailure> ChainMechanism::predict(
                                       reading->lengths.right_mm + added.right_mm);
   result.by_position = reading->position_jacobian;
   const bool all = wanted == Derivatives::by_position_and_parameter;
-  result.by_parameter.resize(2, all ? values_.size() : 0);
+  result.by_parameter.resize(2, all ? values().size() : 0);
   for (Eigen::Index i = 0; i < result.by_parameter.cols(); ++i) {
     result.by_parameter.col(i) =
         readings_.sensitivity(*reading, kMachineSettings[static_cast<std::size_t>(i)]);
@@ -141,8 +131,7 @@ tl::expected<LengthsPrediction, MechanismFailure> ChainMechanism::predict(
 
 tl::expected<ToolPosition, MechanismFailure> ChainMechanism::locate(
     const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const {
-  if (lengths_mm.size() != 2)
-    throw std::invalid_argument(fmt::format("{} lengths of two chains", lengths_mm.size()));
+  require_all(lengths_mm);
   const ChainLengths added = readings_.added_at_visit(visit.order, directions_of(visit));
   const auto found = readings_.find({lengths_mm[0] - added.left_mm, lengths_mm[1] - added.right_mm},
                                     BedPoint{0.0, 0.0});
@@ -182,7 +171,7 @@ std::vector<MechanismChange> ChainMechanism::possible_changes() const {
   std::vector<MechanismChange> changes = changes_of_chains(machine().sprocket.pitch_mm);
   MechanismChange motors{Change::motors, "", false, kChangePriors.motors};
   for (std::size_t i = 0; i < kMachineSettings.size(); ++i) {
-    if (parameters_[i].set_by_zeroing) continue;
+    if (parameters()[i].set_by_zeroing) continue;
     motors.quantities.push_back({.kind = ChangedQuantity::Kind::parameter,
                                  .parameter = i,
                                  .sigma = kMotorShiftSigmaMm});

@@ -14,7 +14,7 @@
 
 namespace chaintrue::model {
 
-class ChainMechanism final : public Mechanism {
+class ChainMechanism final : public MechanismBase {
  public:
   /// \throws std::invalid_argument as ReadingModel.
   explicit ChainMechanism(const Machine& machine, Model model = Model::elastic);
@@ -22,17 +22,9 @@ class ChainMechanism final : public Mechanism {
 
   [[nodiscard]] std::string_view kind() const override { return "chains"; }
   [[nodiscard]] std::span<const std::string_view> lengths() const override;
-  [[nodiscard]] std::span<const MechanismParameter> parameters() const override {
-    return parameters_;
-  }
-  [[nodiscard]] const Eigen::VectorXd& values() const override { return values_; }
   [[nodiscard]] MechanismExtent extent() const override;
-  [[nodiscard]] std::shared_ptr<const Mechanism> with_values(
-      const Eigen::VectorXd& values) const override;
-  [[nodiscard]] std::span<const effects::Effect* const> effects() const override;
+  /// Values of effects are not left out.
   [[nodiscard]] std::vector<MachineProblem> problems_of_effects(
-      const std::vector<AppliedEffect>& applied) const override;
-  [[nodiscard]] std::shared_ptr<const Mechanism> with_effects(
       const std::vector<AppliedEffect>& applied) const override;
   [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
       const ToolPosition& position,
@@ -49,12 +41,11 @@ class ChainMechanism final : public Mechanism {
 
  private:
   ChainMechanism(ReadingModel readings, std::vector<MechanismParameter> parameters);
+  [[nodiscard]] std::shared_ptr<const Mechanism> made_anew(
+      const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const override;
 
   ReadingModel readings_;
   MarkFrame frame_;
-  std::vector<const effects::Effect*> effects_;
-  std::vector<MechanismParameter> parameters_;
-  Eigen::VectorXd values_;
 };
 
 [[nodiscard]] std::shared_ptr<const ChainMechanism> make_chain_mechanism(const Machine& machine);

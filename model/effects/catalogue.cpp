@@ -3,103 +3,37 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <stdexcept>
-#include <utility>
 
 #include "model/effects/declared_effect.hpp"
 
 namespace chaintrue::model::effects {
 
-// Each effect's file has a namespace of its own, so that files compiled together may use the same names.
-#define CHAINTRUE_EFFECT(id)  \
-  namespace id##_effect {     \
-  extern const Effect id;     \
-  }                           \
-  using id##_effect::id;
-#include "model/effects/effects.def"
-#undef CHAINTRUE_EFFECT
-
 namespace {
 
-constexpr const Effect* kCatalogue[] = {
-#define CHAINTRUE_EFFECT(id) &id,
-#include "model/effects/effects.def"
-#undef CHAINTRUE_EFFECT
-};
-
-std::string quoted_list(std::span<const std::string_view> names) {
-  std::string list;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) list += i + 1 == names.size() ? " or " : ", ";
-    list += fmt::format("\"{}\"", names[i]);
+/// The catalogue with what is declared: in the place of the effect that it stands for, or at the end.
+std::vector<const Effect*> table_of(const Machine& machine, bool with_replaced) {
+  std::vector<const Effect*> all;
+  const auto declared_for = [&](const Effect* stood) {
+    std::vector<const Effect*> own;
+    for (const Effect* declared : machine.declared)
+      if (find_effect(declaration_of(*declared)->instead_of) == stood) own.push_back(declared);
+    return own;
+  };
+  for (const Effect* effect : catalogue()) {
+    const std::vector<const Effect*> own = declared_for(effect);
+    if (own.empty() || with_replaced) all.push_back(effect);
+    all.insert(all.end(), own.begin(), own.end());
   }
-  return list;
+  const std::vector<const Effect*> more = declared_for(nullptr);
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
 }
 
-std::string known_ids(const Machine& machine) {
-  std::vector<std::string_view> ids;
-  for (const Effect* effect : effects_of(machine)) ids.push_back(effect->id);
-  return quoted_list(ids);
-}
-
-std::string expected_sides(const Effect& effect) {
-  if (effect.sides.front() == EffectSide::none) return "no side (null): it has none";
-  std::vector<std::string_view> names;
-  for (const EffectSide side : effect.sides) names.push_back(name(side));
-  return quoted_list(names);
-}
-
-std::string expected_value(const EffectParameter& parameter) {
-  return fmt::format("{} from {} to {}",
-                     parameter.integer ? "a whole number" : "a number",
-                     parameter.lower,
-                     parameter.upper);
-}
-
-/// Where it acts among the others: in the catalogue's order, those that are declared at the end, by
-/// their names.
-std::size_t order_of(const Effect& effect) {
-  const Declaration* declaration = declaration_of(effect);
-  if (declaration == nullptr) return place_in_catalogue(effect);
-  const Effect* stood = find_effect(declaration->instead_of);
-  return stood != nullptr ? place_in_catalogue(*stood) : std::size(kCatalogue);
-}
-
-const EffectSide* find_side(const Effect& effect, std::string_view side) {
-  const auto found = std::find_if(
-      effect.sides.begin(), effect.sides.end(), [&](EffectSide s) { return name(s) == side; });
-  return found == effect.sides.end() ? nullptr : &*found;
-}
-
-bool acceptable(const EffectParameter& parameter, double value) {
-  return value >= parameter.lower && value <= parameter.upper &&
-         (!parameter.integer || value == std::floor(value));
-}
-
-void check_parameters(const Effect& effect,
-                      const AppliedEffect& applied,
-                      const std::string& place,
-                      std::vector<MachineProblem>& problems) {
-  std::vector<std::string_view> names;
-  for (const EffectParameter& parameter : effect.parameters) {
-    names.push_back(parameter.name);
-    const std::string at = fmt::format("{}/parameters/{}", place, parameter.name);
-    const auto found = applied.parameters.find(std::string(parameter.name));
-    if (found == applied.parameters.end()) {
-      problems.push_back(
-          {at, "", fmt::format("{}: {}", expected_value(parameter), parameter.meaning)});
-    } else if (!acceptable(parameter, found->second)) {
-      problems.push_back({at, fmt::format("{}", found->second), expected_value(parameter)});
-    }
-  }
-  for (const auto& [key, value] : applied.parameters) {
-    if (std::find(names.begin(), names.end(), key) != names.end()) continue;
-    problems.push_back({fmt::format("{}/parameters/{}", place, key),
-                        fmt::format("{}", value),
-                        fmt::format("{} takes {}", effect.id, quoted_list(names))});
-  }
+bool has(const EquilibriumParameters& parameters, Part part) {
+  const bool ring = std::holds_alternative<Ring>(parameters.attachment);
+  return part == Part::none || (part == Part::ring && ring) || (part == Part::brackets && !ring);
 }
 
 // Ranges of the sums of the machine's own numbers and its effects.
@@ -109,19 +43,13 @@ void check_sums(const Machine& machine, std::vector<MachineProblem>& problems) {
     const AppliedEffect& named = machine.effects[i];
     const Effect& effect = *find_effect(machine, named.effect);
     if (effect.alter == nullptr) continue;
-    const std::string place = fmt::format("/effects/{}", i);
-    if (effect.needs_machine != nullptr) {
-      const std::string_view needed = effect.needs_machine(parameters);
-      if (!needed.empty()) {
-        problems.push_back({place + "/effect", named.effect, fmt::format("{} to act on", needed)});
-        continue;
-      }
+    const std::string place = fmt::format("/{}", i);
+    if (!has(parameters, effect.part)) {
+      problems.push_back(
+          {place + "/effect", named.effect, fmt::format("{} to act on", name(effect.part))});
+      continue;
     }
-    std::vector<double> values;
-    for (const EffectParameter& parameter : effect.parameters) {
-      values.push_back(named.parameters.at(std::string(parameter.name)));
-    }
-    effect.alter(parameters, values);
+    effect.alter(parameters, resolve(std::array{&effect}, {named}).front().values);
     const auto* ring = std::get_if<Ring>(&parameters.attachment);
     const bool sound =
         parameters.sprocket_radius_mm > 0.0 && parameters.chain_weight_n_per_mm > 0.0 &&
@@ -139,87 +67,25 @@ void check_sums(const Machine& machine, std::vector<MachineProblem>& problems) {
 
 }  // namespace
 
-std::span<const Effect* const> catalogue() { return kCatalogue; }
+const Effect* find_effect(std::string_view id) { return find_effect(catalogue(), id); }
 
-const Effect* find_effect(std::string_view id) {
-  const auto found = std::find_if(std::begin(kCatalogue),
-                                  std::end(kCatalogue),
-                                  [&](const Effect* effect) { return effect->id == id; });
-  return found == std::end(kCatalogue) ? nullptr : *found;
-}
-
-std::vector<const Effect*> effects_of(const Machine& machine) {
-  std::vector<const Effect*> all(std::begin(kCatalogue), std::end(kCatalogue));
-  for (const Effect* own : machine.declared) {
-    const std::string& instead_of = declaration_of(*own)->instead_of;
-    const auto stood = std::find_if(
-        all.begin(), all.end(), [&](const Effect* effect) { return effect->id == instead_of; });
-    if (stood == all.end()) {
-      all.push_back(own);
-    } else {
-      *stood = own;
-    }
-  }
-  return all;
-}
+std::vector<const Effect*> effects_of(const Machine& machine) { return table_of(machine, false); }
 
 const Effect* find_effect(const Machine& machine, std::string_view id) {
-  for (const Effect* own : machine.declared) {
-    if (own->id == id) return own;
-  }
-  return find_effect(id);
-}
-
-std::size_t place_in_catalogue(const Effect& effect) {
-  const auto found = std::find(std::begin(kCatalogue), std::end(kCatalogue), &effect);
-  if (found == std::end(kCatalogue)) {
-    throw std::invalid_argument(fmt::format("effect {} is not in effects.def", effect.id));
-  }
-  return static_cast<std::size_t>(found - std::begin(kCatalogue));
+  return find_effect(table_of(machine, true), id);
 }
 
 std::vector<MachineProblem> problems_of_effects(const Machine& machine) {
-  std::vector<MachineProblem> problems;
-  for (std::size_t i = 0; i < machine.effects.size(); ++i) {
-    const AppliedEffect& applied = machine.effects[i];
-    const std::string place = fmt::format("/effects/{}", i);
-    const Effect* effect = find_effect(machine, applied.effect);
-    if (effect == nullptr) {
-      problems.push_back(
-          {place + "/effect", applied.effect, "an effect of the catalogue: " + known_ids(machine)});
-      continue;
-    }
-    if (find_side(*effect, applied.side) == nullptr) {
-      problems.push_back(
-          {place + "/side", applied.side.empty() ? "null" : applied.side, expected_sides(*effect)});
-    }
-    check_parameters(*effect, applied, place, problems);
-  }
+  std::vector<MachineProblem> problems =
+      problems_in(table_of(machine, true), machine.effects, true);
   if (problems.empty()) check_sums(machine, problems);
+  for (MachineProblem& problem : problems) problem.parameter = "/effects" + problem.parameter;
   return problems;
 }
 
 std::vector<ActingEffect> acting_effects(const Machine& machine) {
-  const std::vector<MachineProblem> problems = problems_of_effects(machine);
-  if (!problems.empty()) {
-    const MachineProblem& first = problems.front();
-    throw std::invalid_argument(
-        fmt::format("{}: found {}, expected {}", first.parameter, first.value, first.expected));
-  }
-  std::vector<ActingEffect> acting;
-  for (const AppliedEffect& applied : machine.effects) {
-    const Effect* effect = find_effect(machine, applied.effect);
-    ActingEffect one{effect, *find_side(*effect, applied.side), {}};
-    for (const EffectParameter& parameter : effect->parameters) {
-      one.values.push_back(applied.parameters.at(std::string(parameter.name)));
-    }
-    acting.push_back(std::move(one));
-  }
-  std::stable_sort(acting.begin(), acting.end(), [](const ActingEffect& a, const ActingEffect& b) {
-    return std::pair(order_of(*a.effect), a.effect->id) <
-           std::pair(order_of(*b.effect), b.effect->id);
-  });
-  return acting;
+  require_none(problems_of_effects(machine));
+  return resolve(table_of(machine, true), machine.effects);
 }
 
 AppliedEffect applied(const Effect& effect, EffectSide side, Values values) {

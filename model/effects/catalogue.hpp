@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The catalogue as a table, and the effects of a machine file looked up in it.
+/// The catalogue of effects of two chains, and the effects of a machine file looked up in it.
 ///
 /// \code
 ///   for (const Effect* effect : catalogue()) fmt::print("{}: {}\n", effect->id, effect->cause);
@@ -8,19 +8,16 @@
 /// \endcode
 #pragma once
 
-#include <cstddef>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "model/effects/effect.hpp"
-#include "model/machine.hpp"
+#include "model/effects/effect_table.hpp"
 
 namespace chaintrue::model::effects {
 
-/// Every effect of effects.def, in that order.
-[[nodiscard]] std::span<const Effect* const> catalogue();
+/// Every effect of chains/chain_effects.cpp.
+[[nodiscard]] EffectTable catalogue();
 /// Null where no effect of the catalogue has this name.
 [[nodiscard]] const Effect* find_effect(std::string_view id);
 
@@ -30,21 +27,11 @@ namespace chaintrue::model::effects {
 /// Among these; null where none has this name.
 [[nodiscard]] const Effect* find_effect(const Machine& machine, std::string_view id);
 
-/// Its index in the table; precondition: an effect of the catalogue.
-[[nodiscard]] std::size_t place_in_catalogue(const Effect& effect);
-
 /// All problems of the machine's effects, each with its JSON pointer below the machine
 /// ("/effects/0/side"): unknown effects, sides and parameters, missing parameters, values out of
 /// range, and sums that are not physical (a chain without mass, a ring without radius). Empty: the
 /// effects are valid.
 [[nodiscard]] std::vector<MachineProblem> problems_of_effects(const Machine& machine);
-
-/// An effect with its side and its values, looked up once.
-struct ActingEffect {
-  const Effect* effect = nullptr;
-  EffectSide side = EffectSide::none;
-  std::vector<double> values;
-};
 
 /// The machine's effects in the order of effects_of().
 /// \throws std::invalid_argument with the first of problems_of_effects where there is one.

@@ -16,18 +16,10 @@ using Problems = std::vector<DeclarationProblem>;
 /// Below what the equilibrium's lengths are solved to.
 constexpr double kNothingMm = 1e-9;
 
-/// A place at which formulas are tried.
+/// A place or a visit at which formulas are tried.
 struct Trial {
   std::string where;
-  std::optional<ChainAtRest> chain;
-  std::optional<VisitNote> visit;
-  std::optional<MarkPoint> mark;
-  [[nodiscard]] ChainValues values(Values parameters) const {
-    if (chain) return values_of(*chain, 1.0, parameters);
-    if (visit) return values_of(*visit, parameters);
-    if (mark) return values_of(*mark, parameters);
-    return values_of(parameters);
-  }
+  LengthState state;
 };
 
 /// The bed with its edges and corners, in columns and rows.
@@ -48,29 +40,22 @@ std::vector<Trial> trials_of(const Declaration& own, const Machine& machine) {
   if (!own.elongation.empty()) return {Trial{}};
   if (own.acts_on == ActsOn::reading || own.acts_on == ActsOn::visit) {
     for (const int visit : {0, 1, 2, 9, 10, 11, 100, 1000})
-      trials.push_back(
-          {fmt::format("visit {}", visit), {}, VisitNote{visit, machine.sprocket.pitch_mm}, {}});
+      trials.push_back({fmt::format("visit {}", visit),
+                        {.tooth_mm = machine.sprocket.pitch_mm, .order = visit}});
     return trials;
   }
   const auto kinematics = make_kinematics(equilibrium_parameters(machine));
   over_the_bed(machine.bed, [&](double x_mm, double y_mm) {
     const std::string where = fmt::format("({:.0f}, {:.0f}) mm", x_mm, y_mm);
     if (own.acts_on == ActsOn::paper) {
-      trials.push_back({where, {}, {}, MarkPoint{x_mm, y_mm}});
+      trials.push_back({where, {.x_mm = x_mm, .y_mm = y_mm}});
       return;
     }
     const PoseResult pose = kinematics->inverse({x_mm, y_mm});
     // Where the sled cannot be held there is nothing to add to.
     if (!pose) return;
-    for (const Side side : kSides) {
-      trials.push_back({where,
-                        chain_at_rest(*pose,
-                                      side,
-                                      machine.sprocket.teeth * machine.sprocket.pitch_mm,
-                                      machine.sprocket.pitch_mm),
-                        {},
-                        {}});
-    }
+    for (const Side side : kSides)
+      trials.push_back({where, chain_at_rest(*pose, side, machine.sprocket)});
   });
   return trials;
 }
@@ -128,8 +113,11 @@ class FormulaOnBed {
   }
 
  private:
+  [[nodiscard]] std::vector<Number> values_of(const Trial& trial, Values values) const {
+    return values_at(own_.acts_on, trial.state, values);
+  }
   [[nodiscard]] double value(const Trial& trial, const std::vector<double>& values) const {
-    return formula_.evaluate(trial.values(values).span()).value;
+    return formula_.evaluate(std::span<const Number>(values_of(trial, values))).value;
   }
   [[nodiscard]] DeclarationProblem at(std::size_t offset,
                                       std::string value,
@@ -140,10 +128,11 @@ class FormulaOnBed {
   [[nodiscard]] std::optional<DeclarationProblem> not_finite(
       const std::vector<double>& values) const {
     for (const Trial& trial : trials_) {
-      const ChainValues all = trial.values(values);
+      const std::vector<Number> all = values_of(trial, values);
+      const std::span<const Number> given(all);
       const bool shortened = !own_.elongation.empty() && value(trial, values) <= -1.0;
-      if (is_finite(formula_.evaluate(all.span())) && !shortened) continue;
-      const std::size_t offset = shortened ? 0 : formula_.first_not_finite(all.span());
+      if (is_finite(formula_.evaluate(given)) && !shortened) continue;
+      const std::size_t offset = shortened ? 0 : formula_.first_not_finite(given);
       return at(
           offset,
           shortened ? "a chain without length" : "not finite",
@@ -187,10 +176,10 @@ class FormulaOnBed {
 
   [[nodiscard]] std::optional<DeclarationProblem> not_in_proportion_to_place() const {
     for (const std::vector<double>& values : settings_of(own_)) {
-      const double by_x = value({"", {}, {}, MarkPoint{1.0, 0.0}}, values);
-      const double by_y = value({"", {}, {}, MarkPoint{0.0, 1.0}}, values);
+      const double by_x = value({"", {.x_mm = 1.0}}, values);
+      const double by_y = value({"", {.y_mm = 1.0}}, values);
       for (const Trial& trial : trials_) {
-        const double line = by_x * trial.mark->x_mm + by_y * trial.mark->y_mm;
+        const double line = by_x * trial.state.x_mm.value + by_y * trial.state.y_mm.value;
         // A slope of 0.05 over 1220 mm is rounded to 1e-13; 1e-7 is far above and far below a tape.
         if (std::abs(value(trial, values) - line) <= 1e-7) continue;
         return at(

@@ -16,6 +16,8 @@ namespace {
 
 using Problems = std::vector<DeclarationProblem>;
 
+constexpr std::size_t kMostDeclared = 2;
+
 bool is_identifier(std::string_view text) {
   const auto fits = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
@@ -110,7 +112,7 @@ void check_parameter(const Declaration& own, std::size_t index, Problems& proble
   }
   std::set<std::string> taken = {
       "pi", "mm", "sin", "cos", "exp", "log", "sqrt", "abs", "min", "max", "step", "ramp"};
-  for (const FormulaName& variable : variables_of(own.acts_on)) taken.insert(variable.name);
+  for (const FormulaVariable& variable : variables_of(own.acts_on)) taken.emplace(variable.name);
   for (std::size_t i = 0; i < index; ++i) taken.insert(own.parameters[i].name);
   if (!is_identifier(p.name) || taken.contains(p.name)) {
     problems.push_back(
@@ -141,7 +143,7 @@ void check_parameter(const Declaration& own, std::size_t index, Problems& proble
 }
 
 void check_parameters(const Declaration& own, Problems& problems) {
-  if (own.parameters.empty() || own.parameters.size() > kMostParameters) {
+  if (own.parameters.empty() || own.parameters.size() > kMostDeclared) {
     problems.push_back({"/parameters",
                         {},
                         fmt::format("{} parameters", own.parameters.size()),

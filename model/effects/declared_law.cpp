@@ -28,70 +28,71 @@ std::optional<Formula> parsed(const Declaration& declaration,
   return *std::move(formula);
 }
 
-ChainAddition added_to_chain(const DeclaredLaw& law, const ChainAtRest& chain, Values values) {
-  const ChainDual sum = law.adds()->evaluate(values_of(chain, 1.0, values).span());
-  return {.length_mm = sum.value,
-          .per_angle_mm_per_rad = sum.d[0],
-          .per_free_length = sum.d[1],
-          .per_length = sum.d[2],
-          .per_tension_mm_per_n = sum.d[3],
-          .per_horizontal_mm_per_n = sum.d[4],
-          .per_x = sum.d[5],
-          .per_y = sum.d[6]};
-}
-
-double added_by_direction(const DeclaredLaw& law, double direction, Values values) {
-  return law.adds()->evaluate(values_of(ChainAtRest{}, direction, values).span()).value;
+Number added_by(const DeclaredLaw& law, const LengthState& state, Values values) {
+  if (law.effect().at_one_visit && state.order != values.back()) return {};
+  return law.value(law.adds(), state, values);
 }
 
 double elongation_of(const DeclaredLaw& law, Values values) {
-  return law.elongation()->evaluate(values_of(values).span()).value;
-}
-
-double misread_at(const DeclaredLaw& law, const VisitNote& visit, Values values) {
-  if (law.effect().at_one_visit && visit.order != values.back()) return 0.0;
-  return law.adds()->evaluate(values_of(visit, values).span()).value;
+  return law.value(law.elongation(), {}, values).value;
 }
 
 MarkPoint written_at(const DeclaredLaw& law, MarkPoint mark, EffectSide side, Values values) {
-  const ChainValues at = values_of(mark, values);
+  const LengthState at{.x_mm = mark.x_mm, .y_mm = mark.y_mm};
   MarkPoint written = mark;
   if (law.adds_x() && side != EffectSide::y)
-    written.x_mm += law.adds_x()->evaluate(at.span()).value;
+    written.x_mm += law.value(law.adds_x(), at, values).value;
   if (law.adds_y() && side != EffectSide::x)
-    written.y_mm += law.adds_y()->evaluate(at.span()).value;
+    written.y_mm += law.value(law.adds_y(), at, values).value;
   return written;
 }
 
-/// Parameters first.
-ChainValues begun(Values parameters) {
-  ChainValues values;
-  for (const double parameter : parameters) values.all.at(values.count++) = parameter;
-  return values;
+/// At the middle itself the distance has no slope; 0 is its mean over all directions.
+Number distance_of(const LengthState& s) {
+  const Number square = s.x_mm * s.x_mm + s.y_mm * s.y_mm;
+  return square.value > 0.0 ? sqrt(square) : Number{};
 }
+
+constexpr FormulaVariable kOfPaper[] = {
+    {"x", kMm, [](const LengthState& s) { return s.x_mm; }},
+    {"y", kMm, [](const LengthState& s) { return s.y_mm; }},
+};
+constexpr FormulaVariable kOfChain[] = {
+    {"phi", {}, [](const LengthState& s) { return s.angle_rad; }},
+    {"S", kMm, [](const LengthState& s) { return s.free_mm; }},
+    {"L0", kMm, [](const LengthState& s) { return s.length_mm; }},
+    {"T", kNewton, [](const LengthState& s) { return s.tension; }},
+    {"H", kNewton, [](const LengthState& s) { return s.horizontal_n; }},
+    kOfPaper[0],
+    kOfPaper[1],
+    {"turn", kMm, [](const LengthState& s) { return Number(s.turn_mm); }},
+    {"pitch", kMm, [](const LengthState& s) { return Number(s.tooth_mm); }},
+    {"r", kMm, distance_of},
+    {"d", {}, [](const LengthState& s) { return Number(s.direction); }},
+    {"side", {}, [](const LengthState& s) { return Number(s.side); }},
+};
+constexpr FormulaVariable kOfReading[] = {
+    {"n", {}, [](const LengthState& s) { return Number(s.order); }},
+    kOfChain[8],
+};
 
 }  // namespace
 
-std::vector<FormulaName> variables_of(ActsOn acts_on) {
+std::span<const FormulaVariable> variables_of(ActsOn acts_on) {
   switch (acts_on) {
     case ActsOn::paper:
-      return {{"x", kMm}, {"y", kMm}};
+      return kOfPaper;
     case ActsOn::chain:
-      return {{"phi", {}},
-              {"S", kMm},
-              {"L0", kMm},
-              {"T", kNewton},
-              {"H", kNewton},
-              {"x", kMm},
-              {"y", kMm},
-              {"turn", kMm},
-              {"pitch", kMm},
-              {"r", kMm},
-              {"d", {}},
-              {"side", {}}};
+      return kOfChain;
     default:
-      return {{"n", {}}, {"pitch", kMm}};
+      return kOfReading;
   }
+}
+
+std::vector<Number> values_at(ActsOn acts_on, const LengthState& state, Values parameters) {
+  std::vector<Number> values(parameters.begin(), parameters.end());
+  for (const FormulaVariable& variable : variables_of(acts_on)) values.push_back(variable.of(state));
+  return values;
 }
 
 std::vector<FormulaName> names_of(const Declaration& declaration, bool elongation) {
@@ -99,51 +100,10 @@ std::vector<FormulaName> names_of(const Declaration& declaration, bool elongatio
   for (const DeclaredParameter& parameter : declaration.parameters)
     names.push_back({parameter.name, unit_of_name(parameter.name).value_or(FormulaUnit{})});
   if (elongation) return names;
-  const std::vector<FormulaName> variables = variables_of(declaration.acts_on);
-  names.insert(names.end(), variables.begin(), variables.end());
+  for (const FormulaVariable& variable : variables_of(declaration.acts_on))
+    names.push_back({std::string(variable.name), variable.unit});
   return names;
 }
-
-ChainValues values_of(const ChainAtRest& chain, double direction, Values parameters) {
-  ChainValues values = begun(parameters);
-  const auto variable = [](double value, int slope) { return ChainDual::variable(value, slope); };
-  const ChainDual x = variable(chain.position.x_mm, 5);
-  const ChainDual y = variable(chain.position.y_mm, 6);
-  // At the middle itself the distance has no slope; 0 is its mean over all directions.
-  const ChainDual square = x * x + y * y;
-  const ChainDual distance = square.value > 0.0 ? sqrt(square) : ChainDual{};
-  for (const ChainDual& value : {variable(chain.state.angle_rad, 0),
-                                 variable(chain.state.free_length_mm, 1),
-                                 variable(chain.length_mm, 2),
-                                 variable(chain.state.tension_at_sprocket_n, 3),
-                                 variable(chain.state.horizontal_n, 4),
-                                 x,
-                                 y,
-                                 ChainDual(chain.turn_mm),
-                                 ChainDual(chain.pitch_mm),
-                                 distance,
-                                 ChainDual(direction),
-                                 ChainDual(chain.side)}) {
-    values.all.at(values.count++) = value;
-  }
-  return values;
-}
-
-ChainValues values_of(const VisitNote& visit, Values parameters) {
-  ChainValues values = begun(parameters);
-  values.all.at(values.count++) = static_cast<double>(visit.order);
-  values.all.at(values.count++) = visit.pitch_mm;
-  return values;
-}
-
-ChainValues values_of(const MarkPoint& mark, Values parameters) {
-  ChainValues values = begun(parameters);
-  values.all.at(values.count++) = mark.x_mm;
-  values.all.at(values.count++) = mark.y_mm;
-  return values;
-}
-
-ChainValues values_of(Values parameters) { return begun(parameters); }
 
 DeclaredLaw::DeclaredLaw(const Declaration& declaration)
     : declaration_(declaration),
@@ -154,9 +114,9 @@ DeclaredLaw::DeclaredLaw(const Declaration& declaration)
   sides_ = declaration.sides;
   if (sides_.empty()) sides_ = {EffectSide::none};
   for (const DeclaredParameter& p : declaration_.parameters) {
-    parameters_.push_back({.name = p.name,
-                           .symbol = p.symbol,
-                           .meaning = p.meaning,
+    effect_.parameters.push_back({.name = p.name,
+                                  .symbol = p.symbol,
+                                  .meaning = p.meaning,
                            .role = p.role,
                            .null = p.null,
                            .nominal = p.nominal,
@@ -179,7 +139,6 @@ void DeclaredLaw::describe() {
     equation_ += fmt::format("{}y_written = y + {}", equation_.empty() ? "" : "; ", own.adds_y_mm);
   effect_.id = own.id;
   effect_.sides = sides_;
-  effect_.parameters = parameters_;
   effect_.cause = own.cause;
   effect_.signature = own.signature;
   effect_.equation = equation_;
@@ -201,19 +160,25 @@ void DeclaredLaw::connect() {
       effect_.station = Station::chain;
       if (elongation_) {
         effect_.elongation = {*this, elongation_of};
-      } else if (uses("d")) {
-        effect_.add_by_direction = {*this, added_by_direction};
       } else {
-        effect_.add = {*this, added_to_chain};
+        effect_.add = {*this, added_by};
+        effect_.by_direction = uses("d");
       }
       break;
     default:
       effect_.station = Station::reading;
-      effect_.misread = {*this, misread_at};
+      effect_.add = {*this, added_by};
       effect_.at_one_visit = declaration_.acts_on == ActsOn::visit;
       break;
   }
   effect_.needs = depends_on_visit(effect_) ? DataNeed::order : DataNeed::positions;
+}
+
+Number DeclaredLaw::value(const std::optional<Formula>& formula,
+                          const LengthState& state,
+                          Values parameters) const {
+  const std::vector<Number> values = values_at(declaration_.acts_on, state, parameters);
+  return formula->evaluate(std::span<const Number>(values));
 }
 
 bool DeclaredLaw::uses(std::string_view name) const {

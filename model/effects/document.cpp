@@ -72,8 +72,8 @@ std::string paragraph(const Effect& effect) {
 std::string catalogue_document() {
   std::string text =
       "# The catalogue of effects\n\n"
-      "Printed by `chaintrue effects --markdown`; the source is one file an effect in "
-      "model/effects/.\n\n"
+      "Printed by `chaintrue effects --markdown`; the source is the table "
+      "model/chains/chain_effects.cpp.\n\n"
       "A reading passes four stations, and each effect stands at exactly one of them. phi is a "
       "chain's angle below "
       "the horizontal where it leaves the sprocket, T and H its tension there and the horizontal "

@@ -34,6 +34,29 @@ std::string_view name(DataNeed need) {
   return word(need, std::array<std::string_view, 2>{"positions", "positions and order"});
 }
 
+std::string_view name(Part part) {
+  return word(part,
+              std::array<std::string_view, 5>{"",
+                                              "a sled on a ring (\"kind\": \"ring\")",
+                                              "a sled on brackets (\"kind\": \"brackets\")",
+                                              "a gondola that two points hold",
+                                              "a pulley or spool with its radius"});
+}
+
+LengthState chain_at_rest(const Pose& pose, Side side, const Sprocket& sprocket) {
+  const ChainState& chain = pose.chains[side];
+  return {.angle_rad = variable(chain.angle_rad, kAngle),
+          .free_mm = variable(chain.free_length_mm, kFree),
+          .length_mm = variable(pose.lengths[side], kLength),
+          .tension = variable(chain.tension_at_sprocket_n, kTension),
+          .horizontal_n = variable(chain.horizontal_n, kHorizontal),
+          .x_mm = variable(pose.position.x_mm, kX),
+          .y_mm = variable(pose.position.y_mm, kY),
+          .turn_mm = sprocket.teeth * sprocket.pitch_mm,
+          .tooth_mm = sprocket.pitch_mm,
+          .side = side == Side::left ? 1.0 : -1.0};
+}
+
 EffectSide mirrored(EffectSide side) {
   switch (side) {
     case EffectSide::left:

@@ -1,34 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// An effect of the catalogue: texts, parameters and one pure function in one constant.
+/// An effect: something that may be wrong with a machine or its readings. Texts, parameters and one
+/// pure function in one constant, for two chains, four belts and V-plotters alike.
 ///
 /// A reading is computed in four stages, and each effect acts at exactly one of them:
 ///
 ///   paper     the mark is not where it is assumed to be     `write`
-///   machine   geometry and forces of the equilibrium        `alter`
-///   chain     what is paid out: added to a chain,           `add`, `add_by_direction`
-///             in the catalogue's order, and at last
+///   machine   geometry and forces of the equilibrium        `alter`, `alter_anchor`, `alter_cords`
+///   chain     what is paid out: added to a length,          `add`
+///             in the table's order, and at last
 ///             the length of the counted links               `elongation`
-///   reading   what is written down                          `misread`
+///   reading   what is written down                          `add`
 ///
-/// Of the six functions an effect sets exactly one. A new effect is one file that defines its
-/// constant and one line in effects.def; a line without its file does not link, and the contract
-/// suite runs over the table. A user declares an effect in a file: declared_effect.hpp.
+/// Of these functions an effect sets exactly one. The effects of a mechanism are a table:
+/// chains/chain_effects.cpp, belts/belt_effects.cpp, plotter/plotter_effects.cpp; the contract suite
+/// runs over each. A user declares an effect in a file: declared_effect.hpp.
 ///
-/// Symbols used by the equations of the catalogue, i = left or right:
+/// Symbols used by the equations, i = a chain, a belt or a cord:
 ///   phi_i  angle of the chain below the horizontal where it leaves the sprocket [rad]
-///   T_i    tension there [N]
+///   T_i    tension there [N]; of a belt over the pull that sizes refer to
 ///   H_i    its horizontal part [N]
 ///   S_i    free unstretched chain [mm]
-///   L0_i   wrap + S, unstretched chain past 12 o'clock [mm]
+///   L0_i   wrap + S, unstretched chain past 12 o'clock [mm]; L of a belt, slanting, and of a cord
 ///   n      number of the visit (`order`)
 #pragma once
 
+#include <array>
+#include <concepts>
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <string_view>
 
+#include "model/dual.hpp"
 #include "model/kinematics.hpp"
+
+namespace chaintrue::model {
+struct Anchor;
+namespace plotter {
+struct Statics;
+}
+}  // namespace chaintrue::model
 
 namespace chaintrue::model::effects {
 
@@ -70,44 +82,55 @@ struct EffectParameter {
 /// The parameters' values, in the order in which the effect lists them.
 using Values = std::span<const double>;
 
-/// One chain of the equilibrium, with every machine effect on.
-struct ChainAtRest {
-  ChainState state;
-  double length_mm = 0.0;  ///< L0
-  double turn_mm = 0.0;    ///< teeth * pitch: what one turn of the sprocket pays out
-  double pitch_mm = 0.0;
-  BedPoint position;  ///< of the tool
-  double side = 1.0;  ///< 1 of the left chain, -1 of the right
+/// The parameters of an effect, sizes first.
+class EffectParameters {
+ public:
+  static constexpr std::size_t kMost = 3;
+  constexpr EffectParameters() = default;
+  constexpr EffectParameters(std::initializer_list<EffectParameter> parameters) {
+    for (const EffectParameter& parameter : parameters) push_back(parameter);
+  }
+  constexpr void push_back(const EffectParameter& parameter) { all_.at(count_++) = parameter; }
+  [[nodiscard]] constexpr const EffectParameter* begin() const { return all_.data(); }
+  [[nodiscard]] constexpr const EffectParameter* end() const { return begin() + count_; }
+  [[nodiscard]] constexpr std::size_t size() const { return count_; }
+  [[nodiscard]] constexpr const EffectParameter& operator[](std::size_t i) const { return all_[i]; }
+  [[nodiscard]] constexpr const EffectParameter& front() const { return all_[0]; }
+  [[nodiscard]] constexpr const EffectParameter& back() const { return all_[count_ - 1]; }
+
+ private:
+  std::array<EffectParameter, kMost> all_;
+  std::size_t count_ = 0;
 };
-[[nodiscard]] inline ChainAtRest chain_at_rest(const Pose& pose,
-                                               Side side,
-                                               double turn_mm,
-                                               double pitch_mm) {
-  return {pose.chains[side],
-          pose.lengths[side],
-          turn_mm,
-          pitch_mm,
-          pose.position,
-          side == Side::left ? 1.0 : -1.0};
+
+/// What the length of a chain, a belt or a cord may depend on.
+enum LengthVariable { kAngle, kFree, kLength, kTension, kHorizontal, kX, kY, kLengthVariables };
+/// A number with its derivatives by these.
+using Number = Dual<kLengthVariables>;
+constexpr Number variable(double value, LengthVariable which) {
+  return Number::variable(value, which);
 }
 
-/// The change of a chain's length, and its derivatives by what effects depend on.
-struct ChainAddition {
-  double length_mm = 0.0;
-  double per_angle_mm_per_rad = 0.0;     ///< d/d phi
-  double per_free_length = 0.0;          ///< d/d S
-  double per_length = 0.0;               ///< d/d L0
-  double per_tension_mm_per_n = 0.0;     ///< d/d T
-  double per_horizontal_mm_per_n = 0.0;  ///< d/d H
-  double per_x = 0.0;                    ///< d/d x of the tool, the chain's state held
-  double per_y = 0.0;
+/// A chain, a belt or a cord at a visit, with every machine effect on. What a mechanism does not have
+/// is 0.
+struct LengthState {
+  Number angle_rad = {};       ///< phi
+  Number free_mm = {};         ///< S
+  Number length_mm = {};       ///< L0
+  Number tension = {};         ///< T
+  Number horizontal_n = {};    ///< H
+  Number x_mm = {}, y_mm = {};  ///< of the tool, the rest of the state held
+  double turn_mm = 0.0;     ///< what one turn of the sprocket, pulley or spool pays out
+  double tooth_mm = 0.0;    ///< of a chain its nominal pitch
+  double side = 1.0;        ///< 1 of the left one, -1 of the right
+  double direction = 1.0;   ///< 1 where it has been paid out to its length, -1 where taken in
+  int order = 0;            ///< n
 };
+/// Of a chain in equilibrium, without a visit.
+[[nodiscard]] LengthState chain_at_rest(const Pose& pose, Side side, const Sprocket& sprocket);
 
-/// What the written reading depends on besides the lengths.
-struct VisitNote {
-  int order = 0;          ///< n
-  double pitch_mm = 0.0;  ///< nominal, of the sprocket
-};
+/// A part that a machine may lack.
+enum class Part { none, ring, brackets, body, pulley };
 
 /// What a declared effect is made of (declared_effect.hpp).
 class DeclaredLaw;
@@ -123,8 +146,9 @@ class EffectFunction<Result(Arguments...)> {
   using OfCatalogue = Result (*)(Arguments...);
   using OfFormula = Result (*)(const DeclaredLaw&, Arguments...);
 
-  constexpr EffectFunction(std::nullptr_t = nullptr) {}  // NOLINT(google-explicit-constructor)
-  constexpr EffectFunction(OfCatalogue function)         // NOLINT(google-explicit-constructor)
+  constexpr EffectFunction() = default;
+  template <std::convertible_to<OfCatalogue> Function>
+  constexpr EffectFunction(Function function)  // NOLINT(google-explicit-constructor)
       : of_catalogue_(function) {}
   /// `law` must outlive it.
   constexpr EffectFunction(const DeclaredLaw& law, OfFormula function)
@@ -147,7 +171,7 @@ struct Effect {
   std::string_view id;
   Station station = Station::paper;
   std::span<const EffectSide> sides;
-  std::span<const EffectParameter> parameters;
+  EffectParameters parameters;
 
   std::string_view cause;      ///< what is wrong with the machine or the data
   std::string_view signature;  ///< what the user sees on the bed
@@ -160,20 +184,29 @@ struct Effect {
   std::string_view remedy;  ///< what to do about it
 
   /// The written position of a mark whose true position is given.
-  EffectFunction<MarkPoint(MarkPoint, EffectSide, Values)> write = nullptr;
+  EffectFunction<MarkPoint(MarkPoint, EffectSide, Values)> write = {};
+  /// Of two chains, of the anchor of a belt at visit `order`, and of a plotter by the directions in
+  /// which its cords moved.
   void (*alter)(EquilibriumParameters&, Values) = nullptr;
-  EffectFunction<ChainAddition(const ChainAtRest&, Values)> add = nullptr;
-  /// `direction` is +1 where the chain has been paid out to its length, -1 where it has been taken
-  /// in. In mm.
-  EffectFunction<double(double direction, Values)> add_by_direction = nullptr;
-  /// e: a counted length is the true one divided by 1 + e, after all additions to the chain.
-  EffectFunction<double(Values)> elongation = nullptr;
+  void (*alter_anchor)(Anchor&, int order, Values) = nullptr;
+  void (*alter_cords)(plotter::Statics&, EffectSide, const PerSide<double>&, Values) = nullptr;
   /// In mm.
-  EffectFunction<double(const VisitNote&, Values)> misread = nullptr;
+  EffectFunction<Number(const LengthState&, Values)> add = {};
+  /// e: a counted length is the true one divided by 1 + e, after all additions to the chain.
+  EffectFunction<double(Values)> elongation = {};
+  /// `add` depends on the direction, and on the parameters alone besides.
+  bool by_direction = false;
+  /// `add` is in proportion to the tension.
+  bool by_tension = false;
   /// It acts only at the visit that its place parameter names.
   bool at_one_visit = false;
-  /// Empty where the effect can act on such a machine, otherwise what it needs.
-  std::string_view (*needs_machine)(const EquilibriumParameters&) = nullptr;
+  /// What a machine needs for the effect to act on.
+  Part part = Part::none;
+  /// Of four belts: how often it acts, against the others.
+  double share = 1.0;
+  /// Of four belts: what machines in order do as often as not, as its part of all that is expected; 0 of
+  /// every other effect.
+  double expected = 0.0;
   /// Of a declared effect; null for those of the catalogue.
   const DeclaredLaw* law = nullptr;
 };
@@ -182,10 +215,11 @@ struct Effect {
 [[nodiscard]] std::string_view name(EffectSide side);  ///< "" for none
 [[nodiscard]] std::string_view name(RemedyKind kind);
 [[nodiscard]] std::string_view name(DataNeed need);
+[[nodiscard]] std::string_view name(Part part);  ///< in words: "a sled on a ring ..."
 
-/// It depends on the visit and not on the point alone: drift, skips, hysteresis.
+/// Of two chains: it depends on the visit and not on the point alone: drift, skips, hysteresis.
 [[nodiscard]] inline bool depends_on_visit(const Effect& effect) {
-  return effect.add_by_direction != nullptr || effect.misread != nullptr;
+  return effect.by_direction || effect.station == Station::reading;
 }
 
 /// Left becomes right and right left; the others stay.

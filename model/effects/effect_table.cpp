@@ -5,57 +5,67 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <stdexcept>
 
 namespace chaintrue::model::effects {
 namespace {
 
-std::optional<EffectSide> side_of(const Effect& effect, std::string_view word) {
-  for (const EffectSide side : effect.sides) {
-    if (word == name(side)) return side;
+std::string quoted_list(const std::vector<std::string_view>& names) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) list += i + 1 == names.size() ? " or " : ", ";
+    list += fmt::format("\"{}\"", names[i]);
   }
-  return std::nullopt;
+  return list;
 }
 
-std::string joined_names(EffectTable table) {
-  std::string ids;
-  for (const Effect* known : table) ids += fmt::format("{}{}", ids.empty() ? "" : ", ", known->id);
-  return ids;
+std::string expected_sides(const Effect& effect) {
+  if (effect.sides.front() == EffectSide::none) return "no side (null): it has none";
+  std::vector<std::string_view> names;
+  for (const EffectSide side : effect.sides) names.push_back(name(side));
+  return quoted_list(names);
 }
 
-std::string sides_in_words(const Effect& effect) {
-  std::string words;
-  for (const EffectSide side : effect.sides) {
-    words +=
-        fmt::format("{}{}", words.empty() ? "" : ", ", side == EffectSide::none ? "-" : name(side));
-  }
-  return words;
+std::string expected_value(const EffectParameter& parameter) {
+  return fmt::format("{} from {} to {}",
+                     parameter.integer ? "a whole number" : "a number",
+                     parameter.lower,
+                     parameter.upper);
 }
 
-void check_values(const Effect& effect,
-                  const AppliedEffect& applied,
-                  const std::string& place,
-                  std::vector<MachineProblem>& problems) {
-  for (const auto& [key, value] : applied.parameters) {
-    const auto known = std::find_if(
-        effect.parameters.begin(), effect.parameters.end(), [&wanted = key](const auto& parameter) {
-          return parameter.name == wanted;
-        });
-    if (known == effect.parameters.end()) {
-      std::string names;
-      for (const auto& parameter : effect.parameters)
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", parameter.name);
-      problems.push_back({place, key, fmt::format("a parameter of {}: {}", effect.id, names)});
-    } else if (!(value >= known->lower && value <= known->upper) ||
-               (known->integer && value != std::floor(value))) {
-      problems.push_back({place,
-                          fmt::format("{}={}", key, value),
-                          fmt::format("a {}number from {} to {}",
-                                      known->integer ? "whole " : "",
-                                      known->lower,
-                                      known->upper)});
+const EffectSide* find_side(const Effect& effect, std::string_view side) {
+  const auto found = std::find_if(
+      effect.sides.begin(), effect.sides.end(), [&](EffectSide s) { return name(s) == side; });
+  return found == effect.sides.end() ? nullptr : &*found;
+}
+
+bool acceptable(const EffectParameter& parameter, double value) {
+  return value >= parameter.lower && value <= parameter.upper &&
+         (!parameter.integer || value == std::floor(value));
+}
+
+void check_parameters(const Effect& effect,
+                      const AppliedEffect& applied,
+                      const std::string& place,
+                      bool all_stated,
+                      std::vector<MachineProblem>& problems) {
+  std::vector<std::string_view> names;
+  for (const EffectParameter& parameter : effect.parameters) {
+    names.push_back(parameter.name);
+    const std::string at = fmt::format("{}/parameters/{}", place, parameter.name);
+    const auto found = applied.parameters.find(std::string(parameter.name));
+    if (found == applied.parameters.end()) {
+      if (all_stated)
+        problems.push_back(
+            {at, "", fmt::format("{}: {}", expected_value(parameter), parameter.meaning)});
+    } else if (!acceptable(parameter, found->second)) {
+      problems.push_back({at, fmt::format("{}", found->second), expected_value(parameter)});
     }
+  }
+  for (const auto& [key, value] : applied.parameters) {
+    if (std::find(names.begin(), names.end(), key) != names.end()) continue;
+    problems.push_back({fmt::format("{}/parameters/{}", place, key),
+                        fmt::format("{}", value),
+                        fmt::format("{} takes {}", effect.id, quoted_list(names))});
   }
 }
 
@@ -68,39 +78,38 @@ const Effect* find_effect(EffectTable table, std::string_view id) {
 }
 
 std::vector<MachineProblem> problems_in(EffectTable table,
-                                        const std::vector<AppliedEffect>& applied) {
+                                        const std::vector<AppliedEffect>& applied,
+                                        bool all_stated) {
   std::vector<MachineProblem> problems;
   for (std::size_t i = 0; i < applied.size(); ++i) {
+    const std::string place = fmt::format("/{}", i);
     const Effect* effect = find_effect(table, applied[i].effect);
     if (effect == nullptr) {
-      problems.push_back(
-          {fmt::format("/{}/effect", i), applied[i].effect, "one of " + joined_names(table)});
+      std::vector<std::string_view> ids;
+      for (const Effect* known : table) ids.push_back(known->id);
+      problems.push_back({place + "/effect",
+                          applied[i].effect,
+                          "an effect of the catalogue: " + quoted_list(ids)});
       continue;
     }
-    if (!side_of(*effect, applied[i].side)) {
-      problems.push_back({fmt::format("/{}/side", i),
-                          applied[i].side.empty() ? "-" : applied[i].side,
-                          fmt::format("a side of {}: {}", effect->id, sides_in_words(*effect))});
+    if (find_side(*effect, applied[i].side) == nullptr) {
+      problems.push_back({place + "/side",
+                          applied[i].side.empty() ? "null" : applied[i].side,
+                          expected_sides(*effect)});
     }
-    check_values(*effect, applied[i], fmt::format("/{}/parameters", i), problems);
+    check_parameters(*effect, applied[i], place, all_stated, problems);
   }
   return problems;
 }
 
-std::vector<TableEffect> resolve(EffectTable table, const std::vector<AppliedEffect>& applied) {
-  if (const auto problems = problems_in(table, applied); !problems.empty()) {
-    throw std::logic_error(fmt::format("{}: found {}, expected {}",
-                                       problems.front().parameter,
-                                       problems.front().value,
-                                       problems.front().expected));
-  }
-  std::vector<TableEffect> resolved;
-  for (std::size_t k = 0; k < table.size(); ++k) {
-    const Effect& effect = *table[k];
+std::vector<ActingEffect> resolve(EffectTable table, const std::vector<AppliedEffect>& applied) {
+  require_none(problems_in(table, applied));
+  std::vector<ActingEffect> resolved;
+  for (const Effect* effect : table) {
     for (const AppliedEffect& one : applied) {
-      if (one.effect != effect.id) continue;
-      TableEffect own{k, *side_of(effect, one.side), {}};
-      for (const EffectParameter& parameter : effect.parameters) {
+      if (one.effect != effect->id) continue;
+      ActingEffect own{effect, *find_side(*effect, one.side), {}};
+      for (const EffectParameter& parameter : effect->parameters) {
         const auto given = one.parameters.find(std::string(parameter.name));
         own.values.push_back(given == one.parameters.end() ? parameter.nominal : given->second);
       }

@@ -1,35 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Effects of a file looked up in a mechanism's own table: what is wrong with them, and their values.
-/// Values that a file leaves out are nominal.
+/// Effects of a file looked up in a mechanism's table: what is wrong with them, and their values.
 #pragma once
 
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "model/effects/catalogue.hpp"
+#include "model/effects/effect.hpp"
+#include "model/machine.hpp"
 
 namespace chaintrue::model::effects {
 
+/// In the order in which they act.
 using EffectTable = std::span<const Effect* const>;
 
 /// Null where none of the table has this name.
 [[nodiscard]] const Effect* find_effect(EffectTable table, std::string_view id);
 
-/// Unknown effects, sides and parameters, values out of range. Places are "/0/side" and the like, by
-/// the effect's number.
+/// Unknown effects, sides and parameters, values out of range, and with `all_stated` missing values.
+/// Places are "/0/side", "/0/parameters/scale" and the like, by the effect's number.
 [[nodiscard]] std::vector<MachineProblem> problems_in(EffectTable table,
-                                                      const std::vector<AppliedEffect>& applied);
+                                                      const std::vector<AppliedEffect>& applied,
+                                                      bool all_stated = false);
 
-/// In the table's order, each with its number in it.
-struct TableEffect {
-  std::size_t number = 0;
+/// An effect with its side and its values, looked up once.
+struct ActingEffect {
+  const Effect* effect = nullptr;
   EffectSide side = EffectSide::none;
   std::vector<double> values;
 };
-/// \throws std::logic_error for effects with problems.
-[[nodiscard]] std::vector<TableEffect> resolve(EffectTable table,
-                                               const std::vector<AppliedEffect>& applied);
+/// In the table's order. Values that are not stated are nominal. \throws std::logic_error for
+/// effects with problems.
+[[nodiscard]] std::vector<ActingEffect> resolve(EffectTable table,
+                                                const std::vector<AppliedEffect>& applied);
 
 }  // namespace chaintrue::model::effects

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/plotter/plotter_mechanism.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
-#include "model/plotter/effects/plotter_effect.hpp"
+#include "model/plotter/plotter_effects.hpp"
 
 namespace chaintrue::model {
 namespace {
@@ -44,21 +41,9 @@ std::vector<MechanismParameter> stated_parameters(const PlotterMachine& machine)
           {"scale_right_mm_per_m", "mm_per_m", v[kScaleRight], sigma.scale_mm_per_m}};
 }
 
-void require_sound(const std::vector<MachineProblem>& problems) {
-  if (problems.empty()) return;
-  throw std::invalid_argument(fmt::format("{}: found {}, expected {}",
-                                          problems.front().parameter,
-                                          problems.front().value,
-                                          problems.front().expected));
-}
-
-plotter::CordVisit visit_of(const PlotterMachine& machine, const MechanismVisit& visit) {
-  plotter::CordVisit own;
-  if (!visit.direction.empty()) own.direction = {visit.direction.at(0), visit.direction.at(1)};
-  own.order = visit.order;
-  own.turn_mm = 2.0 * std::numbers::pi * machine.pulley_radius_mm;
-  own.tooth_mm = machine.cord.tooth_mm;
-  return own;
+std::vector<const effects::Effect*> all_effects() {
+  const effects::EffectTable table = plotter::plotter_effects();
+  return {table.begin(), table.end()};
 }
 
 }  // namespace
@@ -77,13 +62,12 @@ PlotterMechanism::PlotterMechanism(const PlotterMachine& machine)
 PlotterMechanism::PlotterMechanism(PlotterMachine machine,
                                    std::vector<MechanismParameter> parameters,
                                    std::vector<AppliedEffect> applied)
-    : machine_(std::move(machine)),
+    : MechanismBase(
+          all_effects(), std::move(parameters), values_of(machine), std::move(applied)),
+      machine_(std::move(machine)),
       statics_(plotter::statics_of(machine_)),
-      parameters_(std::move(parameters)),
-      values_(values_of(machine_)),
-      applied_(std::move(applied)),
-      acting_(effects::resolve(plotter::described_plotter_effects(), applied_)) {
-  require_sound(problems_of(machine_));
+      acting_(effects::resolve(plotter::plotter_effects(), this->applied())) {
+  require_none(problems_of(machine_));
 }
 
 std::span<const std::string_view> PlotterMechanism::lengths() const { return kCordLengths; }
@@ -93,62 +77,29 @@ MechanismExtent PlotterMechanism::extent() const {
   return {area.left_mm, area.right_mm, area.bottom_mm, area.top_mm};
 }
 
-std::shared_ptr<const Mechanism> PlotterMechanism::with_values(
-    const Eigen::VectorXd& values) const {
-  if (values.size() != kPlotterParameters || !values.allFinite()) {
-    throw std::invalid_argument(
-        fmt::format("{} values of {} parameters of a plotter, or not finite",
-                    values.size(),
-                    kPlotterParameters + 0));
-  }
+std::shared_ptr<const Mechanism> PlotterMechanism::made_anew(
+    const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const {
   PlotterMachine changed = machine_;
   const auto settings = settings_of(changed);
   for (std::size_t i = 0; i < settings.size(); ++i)
     *settings[i] = values[static_cast<Eigen::Index>(i)];
-  return std::shared_ptr<const Mechanism>(
-      new PlotterMechanism(std::move(changed), parameters_, applied_));
+  return std::shared_ptr<const Mechanism>(new PlotterMechanism(
+      std::move(changed), stated(), std::move(applied)));
 }
 
-std::span<const effects::Effect* const> PlotterMechanism::effects() const {
-  return plotter::described_plotter_effects();
-}
-
-std::vector<MachineProblem> PlotterMechanism::problems_of_effects(
-    const std::vector<AppliedEffect>& applied) const {
-  const auto table = plotter::described_plotter_effects();
-  std::vector<MachineProblem> problems = effects::problems_in(table, applied);
-  if (problems.empty()) {
-    for (std::size_t i = 0; i < applied.size(); ++i) {
-      const std::size_t number = effects::resolve(table, {applied[i]}).front().number;
-      const auto needs = plotter::plotter_effects()[number]->needs;
-      const std::string_view needed = needs != nullptr ? needs(machine_) : "";
-      if (!needed.empty()) {
-        problems.push_back(
-            {fmt::format("/{}/effect", i), applied[i].effect, fmt::format("{} to act on", needed)});
-      }
-    }
-  }
-  for (MachineProblem& problem : problems) problem.parameter = "/effects" + problem.parameter;
-  return problems;
-}
-
-std::shared_ptr<const Mechanism> PlotterMechanism::with_effects(
-    const std::vector<AppliedEffect>& applied) const {
-  require_sound(problems_of_effects(applied));
-  std::vector<AppliedEffect> all = applied_;
-  all.insert(all.end(), applied.begin(), applied.end());
-  return std::shared_ptr<const Mechanism>(
-      new PlotterMechanism(machine_, parameters_, std::move(all)));
+bool PlotterMechanism::has(effects::Part part) const {
+  return (part != effects::Part::body || !is_point(machine_.gondola)) &&
+         (part != effects::Part::pulley || machine_.pulley_radius_mm > 0.0);
 }
 
 tl::expected<LengthsPrediction, MechanismFailure> PlotterMechanism::predict(
     const ToolPosition& position, const MechanismVisit& visit, Derivatives wanted) const {
-  using plotter::Number;
-  const plotter::CordVisit at = visit_of(machine_, visit);
+  PerSide<double> direction{1.0, 1.0};
+  if (!visit.direction.empty()) direction = {visit.direction.at(0), visit.direction.at(1)};
   plotter::Statics statics = statics_;
-  for (const effects::TableEffect& own : acting_) {
-    const auto alter = plotter::plotter_effects()[own.number]->alter;
-    if (alter != nullptr) alter(statics, own.side, at, own.values);
+  for (const effects::ActingEffect& own : acting_) {
+    if (own.effect->alter_cords != nullptr)
+      own.effect->alter_cords(statics, own.side, direction, own.values);
   }
   const auto cords = plotter::cords_at(
       statics, {position.x_mm, position.y_mm, machine_.pin_spacing_mm, machine_.pin_rise_mm});
@@ -160,12 +111,19 @@ tl::expected<LengthsPrediction, MechanismFailure> PlotterMechanism::predict(
   result.by_parameter = Eigen::MatrixXd::Zero(2, all ? +kPlotterParameters : 0);
   for (const Side side : kSides) {
     const Eigen::Index row = side == Side::left ? 0 : 1;
-    Number counted = (*cords)[side].length_mm;
-    for (const effects::TableEffect& own : acting_) {
-      const auto add = plotter::plotter_effects()[own.number]->add;
-      if (add != nullptr && effects::acts_on(own.side, side))
-        counted = counted + add((*cords)[side], at, own.values);
+    const plotter::Number& cord = (*cords)[side].length_mm;
+    const effects::LengthState state{
+        .length_mm = effects::variable(cord.value, effects::kLength),
+        .turn_mm = 2.0 * std::numbers::pi * machine_.pulley_radius_mm,
+        .tooth_mm = machine_.cord.tooth_mm,
+        .direction = direction[side],
+        .order = visit.order};
+    effects::Number sum = state.length_mm;
+    for (const effects::ActingEffect& own : acting_) {
+      if (own.effect->add != nullptr && effects::acts_on(own.side, side))
+        sum = sum + own.effect->add(state, own.values);
     }
+    const plotter::Number counted = cord.chained(sum.value, sum.d[effects::kLength]);
     const double scale = 1.0 + 1e-3 * machine_.scale_mm_per_m[side];
     result.lengths_mm[row] = counted.value * scale + machine_.zero_mm[side];  // (1)
     for (const Eigen::Index axis : {0, 1})
@@ -204,8 +162,7 @@ tl::expected<ToolPosition, MechanismFailure> PlotterMechanism::straight_place(
 
 tl::expected<ToolPosition, MechanismFailure> PlotterMechanism::locate(
     const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const {
-  if (lengths_mm.size() != 2)
-    throw std::invalid_argument(fmt::format("{} lengths of two cords", lengths_mm.size()));
+  require_all(lengths_mm);
   const auto start = straight_place({lengths_mm[0], lengths_mm[1]});
   if (!start) return tl::unexpected(start.error());
   return locate_by_newton(*this, lengths_mm, visit, *start);

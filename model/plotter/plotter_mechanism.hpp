@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// A V-plotter as a Mechanism: the equilibrium of plotter_statics.hpp with the settings of its
-/// controller as parameters and the effects of effects/plotter_effects.def. Positions are the pen's, in
+/// controller as parameters and the effects of plotter_effects.cpp. Positions are the pen's, in
 /// the frame of plotter_machine.hpp; lengths are left, right, as the controller counts them:
 ///
 ///   K = (L + what effects add) (1 + scale / 1000) + zero                                    (1)
@@ -24,26 +24,15 @@
 
 namespace chaintrue::model {
 
-class PlotterMechanism final : public Mechanism {
+class PlotterMechanism final : public MechanismBase {
  public:
   /// \throws std::invalid_argument for a machine with problems, with the first of them.
   explicit PlotterMechanism(const PlotterMachine& machine);
 
   [[nodiscard]] std::string_view kind() const override { return "plotter"; }
   [[nodiscard]] std::span<const std::string_view> lengths() const override;
-  [[nodiscard]] std::span<const MechanismParameter> parameters() const override {
-    return parameters_;
-  }
-  [[nodiscard]] const Eigen::VectorXd& values() const override { return values_; }
   /// The drawing area.
   [[nodiscard]] MechanismExtent extent() const override;
-  [[nodiscard]] std::shared_ptr<const Mechanism> with_values(
-      const Eigen::VectorXd& values) const override;
-  [[nodiscard]] std::span<const effects::Effect* const> effects() const override;
-  [[nodiscard]] std::vector<MachineProblem> problems_of_effects(
-      const std::vector<AppliedEffect>& applied) const override;
-  [[nodiscard]] std::shared_ptr<const Mechanism> with_effects(
-      const std::vector<AppliedEffect>& applied) const override;
   /// Fails with a PlotterReason's name.
   [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
       const ToolPosition& position,
@@ -61,16 +50,16 @@ class PlotterMechanism final : public Mechanism {
   PlotterMechanism(PlotterMachine machine,
                    std::vector<MechanismParameter> parameters,
                    std::vector<AppliedEffect> applied);
+  [[nodiscard]] std::shared_ptr<const Mechanism> made_anew(
+      const Eigen::VectorXd& values, std::vector<AppliedEffect> applied) const override;
+  [[nodiscard]] bool has(effects::Part part) const override;
   /// Where straight cords of these lengths end.
   [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> straight_place(
       ChainLengths lengths) const;
 
   PlotterMachine machine_;
   plotter::Statics statics_;
-  std::vector<MechanismParameter> parameters_;
-  Eigen::VectorXd values_;
-  std::vector<AppliedEffect> applied_;
-  std::vector<effects::TableEffect> acting_;
+  std::vector<effects::ActingEffect> acting_;
 };
 
 [[nodiscard]] std::shared_ptr<const PlotterMechanism> make_plotter_mechanism(

@@ -12,7 +12,7 @@
 #include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
-#include "model/belts/effects/belt_effect.hpp"
+#include "model/belts/belt_effects.hpp"
 #include "tests/belts/frame.hpp"
 
 namespace chaintrue::grid {

@@ -5,7 +5,7 @@
 
 #include "grid/belts/belts_fit.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
-#include "model/belts/effects/belt_effect.hpp"
+#include "model/belts/belt_effects.hpp"
 #include "tests/belts/frame.hpp"
 
 namespace chaintrue::grid {
@@ -30,7 +30,7 @@ TEST(SimulatedBelts, WithoutNoiseTheTrueAnchorsAreFound) {
 }
 
 TEST(SimulatedBelts, EveryCauseShowsInWhatFiveAnchorsLeave) {
-  for (const model::belts::BeltEffect* effect : model::belts::belt_effects()) {
+  for (const model::effects::Effect* effect : model::belts::belt_effects()) {
     synthetic::BeltsSpec spec;
     spec.noise_mm = 0.05;
     std::map<std::string, double> parameters;

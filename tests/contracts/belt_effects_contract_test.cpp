@@ -10,6 +10,9 @@
 namespace chaintrue::model::belts {
 namespace {
 
+using effects::Effect;
+using effects::EffectSide;
+
 BeltMachine frame(BeltLengths lengths = BeltLengths::span) {
   BeltMachine machine;
   machine.anchors_known = true;
@@ -20,16 +23,17 @@ BeltMachine frame(BeltLengths lengths = BeltLengths::span) {
 }
 
 double read(const BeltMachine& machine,
-            const std::vector<ResolvedBeltEffect>& effects,
+            const std::vector<effects::ActingEffect>& effects,
             const BeltVisit& visit,
             FramePoint place) {
   return read_belt(machine, effects, visit, place).value();
 }
 
 TEST(BeltEffects, StandAtOneStationAndAreFoundByTheirIds) {
-  for (const BeltEffect* effect : belt_effects()) {
-    EXPECT_NE(effect->alter != nullptr, effect->add != nullptr) << effect->id;
-    EXPECT_EQ(find_belt_effect(effect->id), effect);
+  for (const Effect* effect : belt_effects()) {
+    EXPECT_NE(effect->alter_anchor != nullptr, effect->add != nullptr) << effect->id;
+    EXPECT_EQ(effect->alter_anchor != nullptr, effect->station == effects::Station::machine);
+    EXPECT_EQ(effects::find_effect(belt_effects(), effect->id), effect);
   }
 }
 
@@ -38,7 +42,7 @@ TEST(BeltEffects, EachEquationByHand) {
   const FramePoint place{900.0, 600.0};
   const double bl = reading_at(machine, Belt::bl, place)->length_mm;
   const auto added =
-      [&](const BeltEffect& effect, BeltSide side, std::vector<double> values, BeltVisit visit) {
+      [&](const Effect& effect, EffectSide side, std::vector<double> values, BeltVisit visit) {
         return read(machine, {{&effect, side, std::move(values)}}, visit, place) -
                reading_at(machine, visit.belt, place)->length_mm;
       };
@@ -46,30 +50,30 @@ TEST(BeltEffects, EachEquationByHand) {
   const BeltVisit held{Belt::bl, {}, 12};
   const BeltVisit harder{Belt::bl, kLowerBeltsPulled, 12, 1.6};
   // Rounding of 3 m.
-  EXPECT_NEAR(added(belt_stretch, BeltSide::none, {0.004}, pulled), -0.004 * bl, 1e-11);
-  EXPECT_EQ(added(belt_stretch, BeltSide::none, {0.004}, held), 0.0);
-  EXPECT_NEAR(added(anchor_flex, BeltSide::none, {1.5}, pulled), -1.5, 1e-11);
-  EXPECT_EQ(added(anchor_flex, BeltSide::none, {1.5}, held), 0.0);
+  EXPECT_NEAR(added(belt_stretch, EffectSide::none, {0.004}, pulled), -0.004 * bl, 1e-11);
+  EXPECT_EQ(added(belt_stretch, EffectSide::none, {0.004}, held), 0.0);
+  EXPECT_NEAR(added(anchor_flex, EffectSide::none, {1.5}, pulled), -1.5, 1e-11);
+  EXPECT_EQ(added(anchor_flex, EffectSide::none, {1.5}, held), 0.0);
   // What gives with the pull scales with it, what the encoder counts does not.
-  EXPECT_NEAR(added(belt_stretch, BeltSide::none, {0.004}, harder), -0.0064 * bl, 1e-11);
-  EXPECT_NEAR(added(anchor_flex, BeltSide::none, {1.5}, harder), -2.4, 1e-11);
-  EXPECT_EQ(added(belt_scale, BeltSide::bl, {0.01}, harder),
-            added(belt_scale, BeltSide::bl, {0.01}, pulled));
-  EXPECT_NEAR(added(belt_scale, BeltSide::bl, {0.01}, held), bl / 1.01 - bl, 1e-11);
-  EXPECT_NEAR(added(belt_zero, BeltSide::all, {-153.4}, held), -153.4, 1e-11);
-  EXPECT_NEAR(added(tooth_skip, BeltSide::bl, {22.0, 12.0}, held), 43.975, 1e-11);
-  EXPECT_EQ(added(tooth_skip, BeltSide::bl, {22.0, 13.0}, held), 0.0);
-  EXPECT_NEAR(added(zero_shift, BeltSide::bl, {-3.7, 12.0}, held), -3.7, 1e-11);
-  EXPECT_EQ(added(zero_shift, BeltSide::bl, {-3.7, 13.0}, held), 0.0);
-  EXPECT_NEAR(added(drift, BeltSide::all, {0.05}, held), 0.6, 1e-11);
+  EXPECT_NEAR(added(belt_stretch, EffectSide::none, {0.004}, harder), -0.0064 * bl, 1e-11);
+  EXPECT_NEAR(added(anchor_flex, EffectSide::none, {1.5}, harder), -2.4, 1e-11);
+  EXPECT_EQ(added(belt_scale, EffectSide::bl, {0.01}, harder),
+            added(belt_scale, EffectSide::bl, {0.01}, pulled));
+  EXPECT_NEAR(added(belt_scale, EffectSide::bl, {0.01}, held), bl / 1.01 - bl, 1e-11);
+  EXPECT_NEAR(added(belt_zero, EffectSide::all, {-153.4}, held), -153.4, 1e-11);
+  EXPECT_NEAR(added(tooth_skip, EffectSide::bl, {22.0, 12.0}, held), 43.975, 1e-11);
+  EXPECT_EQ(added(tooth_skip, EffectSide::bl, {22.0, 13.0}, held), 0.0);
+  EXPECT_NEAR(added(zero_shift, EffectSide::bl, {-3.7, 12.0}, held), -3.7, 1e-11);
+  EXPECT_EQ(added(zero_shift, EffectSide::bl, {-3.7, 13.0}, held), 0.0);
+  EXPECT_NEAR(added(drift, EffectSide::all, {0.05}, held), 0.6, 1e-11);
   const double level = std::hypot(900.0, 600.0) - 153.4;
   EXPECT_NEAR(
-      added(anchor_height, BeltSide::bl, {40.0}, held), std::hypot(level, 74.0) - bl, 1e-11);
+      added(anchor_height, EffectSide::bl, {40.0}, held), std::hypot(level, 74.0) - bl, 1e-11);
   const double moved = std::hypot(900.0 - 3.0, 600.0) - 153.4;
-  EXPECT_NEAR(added(anchor_moved, BeltSide::bl, {3.0, 0.0, 12.0}, held),
+  EXPECT_NEAR(added(anchor_moved, EffectSide::bl, {3.0, 0.0, 12.0}, held),
               std::hypot(moved, 34.0) - bl,
               1e-11);
-  EXPECT_EQ(added(anchor_moved, BeltSide::bl, {3.0, 0.0, 13.0}, held), 0.0);
+  EXPECT_EQ(added(anchor_moved, EffectSide::bl, {3.0, 0.0, 13.0}, held), 0.0);
 }
 
 TEST(BeltEffects, BeltsThatHoldGiveByWhatTheyCarry) {
@@ -80,10 +84,10 @@ TEST(BeltEffects, BeltsThatHoldGiveByWhatTheyCarry) {
     const BeltVisit visit{belt, kLowerBeltsPulled, 12, 1.6};
     const double plain = reading_at(machine, belt, place)->length_mm;
     // Rounding of 3 m.
-    EXPECT_NEAR(read(machine, {{&belt_stretch, BeltSide::none, {0.002}}}, visit, place),
+    EXPECT_NEAR(read(machine, {{&belt_stretch, EffectSide::none, {0.002}}}, visit, place),
                 plain - 0.002 * tension[belt] * plain,
                 1e-11);
-    EXPECT_NEAR(read(machine, {{&anchor_flex, BeltSide::none, {1.5}}}, visit, place),
+    EXPECT_NEAR(read(machine, {{&anchor_flex, EffectSide::none, {1.5}}}, visit, place),
                 plain - 1.5 * tension[belt],
                 1e-11);
   }
@@ -95,23 +99,29 @@ TEST(BeltEffects, ALevelPrintTakesOutTheHeightsThatTheMachineBelieves) {
   const BeltVisit visit{Belt::bl, kLowerBeltsPulled, 0};
   const double count = std::hypot(std::hypot(900.0, 600.0) - 153.4, 34.0 + 40.0);
   // Rounding of 1 m.
-  EXPECT_NEAR(read(machine, {{&anchor_height, BeltSide::bl, {40.0}}}, visit, place),
+  EXPECT_NEAR(read(machine, {{&anchor_height, EffectSide::bl, {40.0}}}, visit, place),
               std::sqrt(count * count - 34.0 * 34.0) + 153.4,
               1e-11);
 }
 
 TEST(BeltEffects, WhatCannotBeIsReported) {
-  EXPECT_TRUE(problems_of({{"belt_zero", "all", {{"offset_mm", 2.0}}}}).empty());
-  const auto problems = problems_of({{"belt_shrink", "", {}},
-                                     {"belt_scale", "left", {{"scale", 0.2}}},
-                                     {"tooth_skip", "tl", {{"teeth", 1.5}, {"links", 1.0}}}});
+  EXPECT_TRUE(
+      effects::problems_in(belt_effects(), {{"belt_zero", "all", {{"offset_mm", 2.0}}}}).empty());
+  const auto problems =
+      effects::problems_in(belt_effects(),
+                           {{"belt_shrink", "", {}},
+                            {"belt_scale", "left", {{"scale", 0.2}}},
+                            {"tooth_skip", "tl", {{"teeth", 1.5}, {"links", 1.0}}}});
   ASSERT_EQ(problems.size(), 5U);
   EXPECT_EQ(problems[0].parameter, "/0/effect");
   EXPECT_EQ(problems[1].parameter, "/1/side");
-  EXPECT_EQ(problems[2].value, "scale=0.2");
-  EXPECT_EQ(problems[3].value, "links");
-  EXPECT_EQ(problems[4].value, "teeth=1.5");
-  EXPECT_THROW((void)resolve_belt_effects({{"belt_shrink", "", {}}}), std::logic_error);
+  EXPECT_EQ(problems[2].parameter, "/1/parameters/scale");
+  EXPECT_EQ(problems[2].value, "0.2");
+  EXPECT_EQ(problems[3].parameter, "/2/parameters/teeth");
+  EXPECT_EQ(problems[3].value, "1.5");
+  EXPECT_EQ(problems[4].parameter, "/2/parameters/links");
+  EXPECT_THROW((void)effects::resolve(belt_effects(), {{"belt_shrink", "", {}}}),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -104,18 +104,17 @@ class ToyMechanism final : public Mechanism {
   }
 
  private:
-  static constexpr effects::EffectParameter kKnotSize[] = {{.name = "knot_mm",
+  static constexpr effects::EffectSide kNoSide[] = {effects::EffectSide::none};
+  static constexpr effects::Effect kKnot = {.id = "toy_knot",
+                                            .station = effects::Station::chain,
+                                            .sides = kNoSide,
+                                            .parameters = {{.name = "knot_mm",
                                                             .symbol = "k",
                                                             .meaning = "what the knots take",
                                                             .nominal = 2.0,
                                                             .lower = 0.0,
                                                             .upper = 50.0,
-                                                            .prior_sigma = 2.0}};
-  static constexpr effects::EffectSide kNoSide[] = {effects::EffectSide::none};
-  static constexpr effects::Effect kKnot = {.id = "toy_knot",
-                                            .station = effects::Station::chain,
-                                            .sides = kNoSide,
-                                            .parameters = kKnotSize,
+                                                            .prior_sigma = 2.0}},
                                             .cause = "all strings were knotted",
                                             .signature = "all lengths are short everywhere",
                                             .equation = "- k",

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <array>
 
-#include "model/belts/effects/belt_effect.hpp"
+#include "model/belts/belt_effects.hpp"
 #include "model/effects/catalogue.hpp"
-#include "model/plotter/effects/plotter_effect.hpp"
+#include "model/plotter/plotter_effects.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -20,10 +20,8 @@ using testing::Not;
 std::vector<const model::effects::Effect*> all_effects() {
   std::vector<const model::effects::Effect*> all(model::effects::catalogue().begin(),
                                                  model::effects::catalogue().end());
-  for (const model::belts::BeltEffect* effect : model::belts::belt_effects())
-    all.push_back(&model::belts::described(*effect));
-  for (const model::effects::Effect* effect : model::plotter::described_plotter_effects())
-    all.push_back(effect);
+  for (const auto table : {model::belts::belt_effects(), model::plotter::plotter_effects()})
+    all.insert(all.end(), table.begin(), table.end());
   return all;
 }
 
@@ -90,9 +88,9 @@ TEST(WorkshopUnits, TheSignChoosesTheWord) {
 
 TEST(Remedies, CausesOfTwoSidesThatAskForTheSameShareALine) {
   using model::effects::EffectSide;
-  const auto cause_of = [](const model::belts::BeltEffect& effect, EffectSide side) {
+  const auto cause_of = [](const model::effects::Effect& effect, EffectSide side) {
     Cause cause;
-    cause.cause = {&model::belts::described(effect), side};
+    cause.cause = {&effect, side};
     return cause;
   };
   const Cause right = cause_of(model::belts::belt_scale, EffectSide::br);

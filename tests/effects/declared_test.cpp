@@ -68,7 +68,7 @@ TEST(DeclaredEffect, IsAnEffectLikeThoseOfTheCatalogue) {
   const Effect& effect = declared_effect(wave());
   EXPECT_EQ(effect.station, Station::chain);
   EXPECT_NE(effect.add, nullptr);
-  EXPECT_EQ(effect.misread, nullptr);
+  EXPECT_FALSE(depends_on_visit(effect));
   EXPECT_EQ(&effect, &declared_effect(wave())) << "equal declarations are one effect";
   Machine machine;
   machine.declared = {&effect};
@@ -95,10 +95,10 @@ TEST(DeclaredEffect, ADirectionGivesAnEffectOfTheVisit) {
   own.parameters = {size("half_width_mm")};
   own.adds_mm = "half_width_mm * d";
   const Effect& effect = declared_effect(own);
-  ASSERT_NE(effect.add_by_direction, nullptr);
+  ASSERT_TRUE(effect.by_direction);
   const double values[] = {0.3};
-  EXPECT_EQ(effect.add_by_direction(1.0, values), 0.3);
-  EXPECT_EQ(effect.add_by_direction(-1.0, values), -0.3);
+  EXPECT_EQ(effect.add({.direction = 1.0}, values).value, 0.3);
+  EXPECT_EQ(effect.add({.direction = -1.0}, values).value, -0.3);
   EXPECT_EQ(effect.needs, DataNeed::order);
 }
 

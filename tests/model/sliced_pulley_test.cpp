@@ -93,10 +93,9 @@ TEST(SlicedPulley, LineIsTheCataloguesAngularKink) {
   ASSERT_NE(effect, nullptr);
   const LinearKink line = firepick_delta_pulley().fit_line(-54.0 * kDegree, -72.0 * kDegree, 181);
   for (const double angle_deg : {10.0, 57.0, 58.0, 67.2, 80.0}) {
-    effects::ChainAtRest chain;
-    chain.state.angle_rad = angle_deg * kDegree;
+    const effects::LengthState chain{.angle_rad = angle_deg * kDegree};
     const std::array<double, 2> values{line.slope_mm_per_rad, line.knee_rad};
-    EXPECT_DOUBLE_EQ(effect->add(chain, values).length_mm, line(angle_deg * kDegree)) << angle_deg;
+    EXPECT_DOUBLE_EQ(effect->add(chain, values).value, line(angle_deg * kDegree)) << angle_deg;
   }
 }
 

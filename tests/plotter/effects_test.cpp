@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Effects of V-plotters: each equation by hand, and what is refused. Their laws are those of every
 /// mechanism's effects (tests/contracts/mechanism_contract_test.cpp).
-#include "model/plotter/effects/plotter_effect.hpp"
+#include "model/plotter/plotter_effects.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,9 +25,9 @@ Eigen::Vector2d added(const PlotterMachine& machine,
 }
 
 TEST(PlotterEffects, StandAtOneStage) {
-  for (const plotter::PlotterEffect* own : plotter::plotter_effects()) {
-    EXPECT_NE(own->alter != nullptr, own->add != nullptr) << own->described.id;
-    EXPECT_EQ(own->described.station == effects::Station::machine, own->alter != nullptr);
+  for (const effects::Effect* own : plotter::plotter_effects()) {
+    EXPECT_NE(own->alter_cords != nullptr, own->add != nullptr) << own->id;
+    EXPECT_EQ(own->station == effects::Station::machine, own->alter_cords != nullptr);
   }
 }
 
@@ -125,8 +125,10 @@ TEST(PlotterEffects, WhatCannotBeIsReported) {
   EXPECT_EQ(problem_of(point, {"spool_eccentricity", "left", {}}), "/effects/0/effect");
   EXPECT_EQ(problem_of(point, {"cord_stretch", "both", {}}), "");
   EXPECT_EQ(problem_of(point, {"cord_stretch", "x", {}}), "/effects/0/side");
-  EXPECT_EQ(problem_of(point, {"standoff", "", {{"offset_mm", 1e6}}}), "/effects/0/parameters");
-  EXPECT_EQ(problem_of(point, {"tooth_skip", "left", {{"teeth", 0.5}}}), "/effects/0/parameters");
+  EXPECT_EQ(problem_of(point, {"standoff", "", {{"offset_mm", 1e6}}}),
+            "/effects/0/parameters/offset_mm");
+  EXPECT_EQ(problem_of(point, {"tooth_skip", "left", {{"teeth", 0.5}}}),
+            "/effects/0/parameters/teeth");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "grid/belts/scale_by_tape.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
-#include "model/belts/effects/belt_effect.hpp"
+#include "model/belts/belt_effects.hpp"
 #include "tools/cli/belts_frame_chart.hpp"
 #include "tools/cli/map_words.hpp"
 
@@ -35,9 +35,10 @@ std::string share_in_words(double share, double sigma) {
 
 /// A cause by its words; empty for one that the belts' table does not have.
 std::string sized(const grid::CauseInAnchorFit& cause) {
-  const model::belts::BeltEffect* effect = model::belts::find_belt_effect(cause.effect);
+  const model::effects::Effect* effect =
+      model::effects::find_effect(model::belts::belt_effects(), cause.effect);
   if (effect == nullptr) return {};
-  grid::diagnosis::CauseId id{&model::belts::described(*effect)};
+  grid::diagnosis::CauseId id{effect};
   for (const model::effects::EffectSide side : id.effect->sides) {
     if (model::effects::name(side) == cause.side) id.side = side;
   }

@@ -121,7 +121,8 @@ synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& pro
   spec.bad_size_mm = options.bad.size_mm;
   spec.seed = options.seed;
   spec.hidden = parse_effect_words(options.effects, problems);
-  for (const model::MachineProblem& problem : model::belts::problems_of(spec.hidden)) {
+  for (const model::MachineProblem& problem :
+       model::effects::problems_in(model::belts::belt_effects(), spec.hidden)) {
     std::size_t index = 0;
     std::from_chars(
         problem.parameter.data() + 1, problem.parameter.data() + problem.parameter.size(), index);

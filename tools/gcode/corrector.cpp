@@ -57,9 +57,11 @@ std::string_view sentence_of(CorrectionReason reason) {
 model::ChainLengths half_play_mm(const model::Machine& machine) {
   model::ChainLengths half;
   for (const model::effects::ActingEffect& one : model::effects::acting_effects(machine)) {
-    if (one.effect->add_by_direction == nullptr) continue;
-    const double width = 0.5 * (one.effect->add_by_direction(1.0, one.values) -
-                                one.effect->add_by_direction(-1.0, one.values));
+    if (!one.effect->by_direction) continue;
+    const auto added_mm = [&one](double direction) {
+      return one.effect->add({.direction = direction}, one.values).value;
+    };
+    const double width = 0.5 * (added_mm(1.0) - added_mm(-1.0));
     for (const model::Side side : model::kSides) {
       if (model::effects::acts_on(one.side, side)) half[side] += width;
     }

@@ -11,7 +11,7 @@
 #include "grid/diagnosis/anchors_with_causes.hpp"
 #include "grid/random.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
-#include "model/belts/effects/belt_effect.hpp"
+#include "model/belts/belt_effects.hpp"
 
 namespace chaintrue::sealed {
 namespace {
@@ -36,14 +36,15 @@ model::BeltMachine frame() {
 }
 
 /// All four belts together change the scale, which no belt shows, and a frame as a whole no length.
-bool shows(const UsualCause& cause, model::belts::BeltSide side) {
-  return side != model::belts::BeltSide::all ||
+bool shows(const UsualCause& cause, model::effects::EffectSide side) {
+  return side != model::effects::EffectSide::all ||
          (cause.effect != "belt_scale" && cause.effect != "anchor_moved");
 }
 
 model::AppliedEffect drawn(const UsualCause& cause, int places, grid::Random& random) {
-  const model::belts::BeltEffect& effect = *model::belts::find_belt_effect(cause.effect);
-  std::vector<model::belts::BeltSide> sides;
+  const model::effects::Effect& effect =
+      *model::effects::find_effect(model::belts::belt_effects(), cause.effect);
+  std::vector<model::effects::EffectSide> sides;
   for (const auto side : effect.sides) {
     if (shows(cause, side)) sides.push_back(side);
   }

@@ -8,48 +8,18 @@
 ///   added = k max(0, phi - m)                                                               (1)
 #include <numbers>
 
-#include "model/effects/sides.hpp"
+#include "model/effects/notation.hpp"
 
-namespace chaintrue::model::effects::angular_kink_effect {
-namespace {
-
-constexpr EffectParameter kParameters[] = {
-    {
-        .name = "slope_mm_per_rad",
-        .symbol = "k",
-        .meaning = "chain added per radian beyond the knee",
-        .nominal = 4.5,
-        .lower = -60.0,
-        .upper = 60.0,
-        .prior_sigma = 4.5,
-    },
-    {
-        .name = "knee_rad",
-        .symbol = "m",
-        .meaning = "the angle below the horizontal at which it sets in",
-        .role = ParameterRole::place,
-        .null = 0.9,
-        .nominal = 0.9,
-        .lower = -std::numbers::pi / 2.0,
-        .upper = std::numbers::pi / 2.0,
-        .prior_sigma = 0.3,
-    },
-};
-
-// (1)
-ChainAddition add(const ChainAtRest& chain, Values values) {
-  const double beyond = chain.state.angle_rad - values[1];
-  if (beyond <= 0.0) return {};
-  return {.length_mm = values[0] * beyond, .per_angle_mm_per_rad = values[0]};
-}
-
-}  // namespace
+namespace chaintrue::model::effects {
 
 extern constinit const Effect angular_kink{
     .id = "angular_kink",
     .station = Station::chain,
     .sides = kOneChain,
-    .parameters = kParameters,
+    .parameters = {size("slope_mm_per_rad", "k", "chain added per radian beyond the knee", 4.5,
+                        -60.0, 60.0),
+                   place("knee_rad", "m", "the angle below the horizontal at which it sets in", 0.9,
+                         -std::numbers::pi / 2.0, std::numbers::pi / 2.0, 0.3)},
     .cause =
         "a guard, a bracket or a cut pulley touches the chain once it hangs steeper than some "
         "angle",
@@ -64,7 +34,10 @@ extern constinit const Effect angular_kink{
     .remedy =
         "look for what the chain touches below that angle (guard, bracket, cut sprocket) and clear "
         "it",
-    .add = add,
+    .add =
+        [](const LengthState& chain, Values v) -> Number {
+          return v[0] * max(chain.angle_rad - v[1], Number(0.0));
+        },
 };
 
-}  // namespace chaintrue::model::effects::angular_kink_effect
+}  // namespace chaintrue::model::effects

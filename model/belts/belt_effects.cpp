@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/belts/belt_effects.hpp"
+
+#include <cmath>
+
+#include "model/belts/belt_machine.hpp"
+#include "model/effects/notation.hpp"
+
+namespace chaintrue::model::belts {
+
+using namespace effects;  // NOLINT(google-build-using-namespace): the words of the table
+
+// machine: the same of all four moves the frame as a whole, which changes no length
+constinit const Effect anchor_moved{
+    .id = "anchor_moved",
+    .station = Station::machine,
+    .sides = kOneBeltOrAll,
+    .parameters = {size("distance_mm", "d", "how far the anchor moved", 3.0, 0.0, 100.0),
+                   place("direction_rad", "a", "which way, from x towards y", 0.0, -3.2, 3.2, 1.8),
+                   first_visit()},
+    .cause = "an anchor slipped or its screw came loose while the machine measured",
+    .signature =
+        "from one visit on, one belt disagrees with the other three, most where it points along "
+        "the slip",
+    .equation = "anchor + d (cos a, sin a) for n >= m",
+    .source = "geometry",
+    .not_modelled = "an anchor that creeps; use drift for it",
+    .typical = "1 to 10 mm",
+    .needs = DataNeed::order,
+    .remedy = "fasten that anchor and let the machine find its anchors again",
+    .alter_anchor =
+        [](Anchor& anchor, int order, Values v) {
+          if (order < v[2]) return;
+          anchor.x_mm += v[0] * std::cos(v[1]);
+          anchor.y_mm += v[0] * std::sin(v[1]);
+        },
+    // An anchor that slips by just a tooth along its belt is rarer than a belt that skips, and as rare as a
+    // belt that slips where it is clamped, which looks nearly the same.
+    .share = 0.01,
+};
+
+constinit const Effect anchor_height{
+    .id = "anchor_height",
+    .station = Station::machine,
+    .sides = kOneBelt,
+    .parameters = {size("offset_mm", "h", "how far the anchor is above its setting", 20.0, -300.0,
+                        300.0)},
+    .cause =
+        "an anchor is not at the height that the settings say, or arms are mounted in another "
+        "order",
+    .signature = "one belt reads long where it is short",
+    .equation = "z + h",
+    .source = "kinematics: L^2 = B^2 + c^2",
+    .not_modelled = "a sled that tilts on uneven heights",
+    .typical = "10 to 40 mm",
+    .remedy_kind = RemedyKind::change_the_machine,
+    .remedy = "measure the anchors' heights over the bed and enter them (tlZ, trZ, blZ, brZ)",
+    .alter_anchor = [](Anchor& anchor, int, Values v) { anchor.z_mm += v[0]; },
+};
+
+// belt: T of belt_statics.hpp; belts that hold carry the reaction of those that are pulled
+constinit const Effect belt_stretch{
+    .id = "belt_stretch",
+    .station = Station::chain,
+    .sides = kNoSide,
+    .parameters = {size("elongation", "e", "stretch of a belt at the pull of the motors", 0.002, 0.0,
+                        0.03)},
+    .cause = "belts, anchors or arms give with the pull, in proportion to the belt's length",
+    .signature =
+        "belts read short by what they carry, the long ones more; with the upper belts held, the "
+        "frame comes out some millimetres too small at the bottom",
+    .equation =
+        "- e T L, T the belt's tension over the pull of the first pass: 1 of a pulled belt, of one "
+        "that holds what the balance takes",
+    .source =
+        "four owners' sets: 0.13 to 0.26 %; a tension test: 0.1 to 0.15 % between two pulls; "
+        "MaslowCNC/Maslow_4 pull 1060: EA = 178,900 N",
+    .not_modelled = "the sled's friction on the sheet; a weight other than 0.3 of the pull",
+    .typical = "0.1 to 0.3 %",
+    .remedy_kind = RemedyKind::change_the_machine,
+    .remedy =
+        "pull with less current while the anchors are found "
+        "(Maslow_Calibration_Current_Threshold), or fit the stretch together with the anchors",
+    .add = [](const LengthState& belt, Values v) { return -v[0] * belt.tension * belt.length_mm; },
+    .by_tension = true,
+    // All four published frames give with the pull. Three tell the belts' stretch from anchors that give, by
+    // factors of 1000 and more; the fourth does not tell.
+    .expected = 0.8,
+};
+
+constinit const Effect anchor_flex{
+    .id = "anchor_flex",
+    .station = Station::chain,
+    .sides = kNoSide,
+    .parameters = {size("give_mm", "g",
+                        "how far an anchor moves towards the tool at the pull of the motors", 1.0,
+                        0.0, 20.0)},
+    .cause = "anchors, arms or the frame give when belts are pulled",
+    .signature = "belts read short by what they carry, however long they are",
+    .equation =
+        "- g T, T the belt's tension over the pull of the first pass: 1 of a pulled belt, of one "
+        "that holds what the balance takes",
+    .source = "a cantilever gives in proportion to its load; the motors pull to one current",
+    .not_modelled =
+        "anchors giving unequally, and across the pull; the sled's friction on the sheet",
+    .typical = "0.5 to 2 mm",
+    .remedy = "brace the frame and the anchors; pull with less current while the anchors are found",
+    .add = [](const LengthState& belt, Values v) { return -v[0] * belt.tension; },
+    .by_tension = true,
+    .expected = 0.2,  // as of belt_stretch
+};
+
+constinit const Effect belt_scale{
+    .id = "belt_scale",
+    .station = Station::chain,
+    .sides = kOneBeltOrAll,
+    .parameters = {size("scale", "s", "how much more belt a turn pays out, as a share", 0.002, -0.05,
+                        0.05)},
+    .cause = "one belt is worn, of another make, or runs on another pulley than the other three",
+    .signature =
+        "one belt reads short or long in proportion to its length; with all four, the frame and "
+        "all cuts are of another size, and no reading shows it",
+    .equation = "L / (1 + s)",
+    .source = "an encoder turn is 43.975 mm of belt in the firmware, the same for all four",
+    .not_modelled = "a scale that all four share: only a taped distance shows it",
+    .typical = "0.1 to 0.3 %",
+    .remedy = "look at that belt's pulley and teeth, change the belt",
+    .add = [](const LengthState& belt, Values v) { return belt.length_mm / (1.0 + v[0]) - belt.length_mm; },
+};
+
+constinit const Effect belt_zero{
+    .id = "belt_zero",
+    .station = Station::chain,
+    .sides = kOneBeltOrAll,
+    .parameters = {size("offset_mm", "z", "what every reading is too long by", 2.0, -500.0, 500.0,
+                        3.0)},
+    .cause =
+        "a belt was not retracted to its end before it was counted; for all four, arm or extension "
+        "are set wrong",
+    .signature =
+        "one belt is off by the same everywhere; all four: a frame too large or small, and four "
+        "lengths that never quite meet",
+    .equation = "+ z",
+    .source = "kinematics: arm and extension are added to every belt",
+    .not_modelled = "an arm that turns aside under load",
+    .typical = "1 to 5 mm; 153.4 mm where lengths leave arm and extension out",
+    .remedy =
+        "retract all belts and extend them again; measure arm and extension and enter them; say "
+        "with lengths what a length counts",
+    .add = [](const LengthState&, Values v) { return Number(v[0]); },
+};
+
+constinit const Effect tooth_skip{
+    .id = "tooth_skip",
+    .station = Station::chain,
+    .sides = kOneBelt,
+    .parameters = {whole(size("teeth", "k", "whole teeth, positive where too much is read", 1.0,
+                              -110.0, 110.0, 3.0)),
+                   first_visit()},
+    .cause = "a belt jumped over teeth of its pulley, or its encoder lost turns",
+    .signature = "from one visit on, one belt is off by a whole number of teeth",
+    .equation = "+ k turn / 22 for n >= m",
+    .source = "MaslowCNC/Maslow_4: 43.975 mm of belt for a turn of the encoder; teeth of 2 mm",
+    .not_modelled = "a second skip back; give it as an effect of its own",
+    .typical = "1 tooth, 2.0 mm; a turn, 44 mm",
+    .needs = DataNeed::order,
+    .remedy =
+        "look for a worn belt or a loose magnet of the encoder; retract and extend all belts and "
+        "measure again",
+    .add = teeth_skipped,
+    .share = 0.3,
+};
+
+constinit const Effect drift{
+    .id = "drift",
+    .station = Station::chain,
+    .sides = kOneBeltOrAll,
+    .parameters = {size("rate_mm_per_visit", "d", "what a reading gains with each visit", 0.03, -1.0,
+                        1.0)},
+    .cause = "a belt, an anchor or the frame crept while the machine measured",
+    .signature = "the last places disagree with the first ones",
+    .equation = "+ d n",
+    .source = "four belts pull at a frame for as long as it is measured",
+    .not_modelled = "a drift that levels off, and pauses between visits",
+    .typical = "0.01 to 0.05 mm a visit",
+    .needs = DataNeed::order,
+    .remedy = "let the frame stand under tension before measuring, and measure again",
+    .add = drifted,
+};
+
+constinit const Effect zero_shift{
+    .id = "zero_shift",
+    .station = Station::chain,
+    .sides = kOneBelt,
+    // As a belt's own zero: a belt that is retracted anew, or slips in its clamp, does so by millimetres.
+    .parameters = {size("shift_mm", "z", "how much too long each later reading is", 2.0, -500.0,
+                        500.0, 3.0),
+                   first_visit()},
+    .cause = "the zero of a belt moved while the machine measured",
+    .signature =
+        "from one visit on, one belt is off by the same amount, which need not be whole teeth",
+    .equation = "+ z for n >= m",
+    .source = "a belt that was retracted and extended anew, or slips where it is clamped",
+    .not_modelled = "a second shift; give it as an effect of its own",
+    .typical = "1 to 10 mm",
+    .needs = DataNeed::order,
+    .remedy =
+        "look where the belt is clamped and at its retraction; retract and extend all belts and "
+        "measure again",
+    .add = zero_shifted,
+    // What sets in during a session is rare, and a skip is the usual form of it.
+    .share = 0.01,
+};
+
+EffectTable belt_effects() {
+  static constexpr const Effect* kEffects[] = {&anchor_moved,
+                                               &anchor_height,
+                                               &belt_stretch,
+                                               &anchor_flex,
+                                               &belt_scale,
+                                               &belt_zero,
+                                               &tooth_skip,
+                                               &drift,
+                                               &zero_shift};
+  return kEffects;
+}
+
+}  // namespace chaintrue::model::belts

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/plotter/plotter_effects.hpp"
+
+#include <numbers>
+
+#include "model/effects/notation.hpp"
+#include "model/plotter/plotter_equations.hpp"
+
+namespace chaintrue::model::plotter {
+namespace {
+
+using namespace effects;  // NOLINT(google-build-using-namespace): the words of the table
+
+// machine
+
+constexpr Effect pen_off_centre{
+    .id = "pen_off_centre",
+    .station = Station::machine,
+    .sides = kNoSide,
+    .parameters = {mirrored(size("offset_mm", "o", "how far the pen is right of its setting", 5.0,
+                                 -200.0, 200.0))},
+    .cause = "the pen does not sit in the middle of the gondola",
+    .signature =
+        "verticals lean and horizontals bow where the gondola tilts: most near the sides, in "
+        "opposite directions left and right",
+    .equation = "pen_right + o",
+    .source = "a point of a rigid body turns with it",
+    .not_modelled = "a pen that wobbles in its holder",
+    .typical = "1 to 10 mm",
+    .remedy_kind = RemedyKind::change_the_machine,
+    .remedy = "put the pen into the middle between the cords, or enter its offset",
+    .alter_cords =
+        [](Statics& m, EffectSide, const PerSide<double>&, Values v) { m.pen_right_mm += v[0]; },
+    .part = Part::body,
+};
+
+constexpr Effect servo_arm{
+    .id = "servo_arm",
+    .station = Station::machine,
+    .sides = kNoSide,
+    .parameters = {mirrored(size("offset_mm", "o",
+                                 "how far the centre of mass is right of its setting", 4.0, -200.0,
+                                 200.0))},
+    .cause = "the servo's arm, a battery or a cable holds the gondola's mass to one side",
+    .signature =
+        "the gondola hangs askew in the middle of the wall, and the drawing leans to one side",
+    .equation = "mass_right + o",
+    .source = "moments about the middle between the cords",
+    .not_modelled = "an arm that moves the mass while it draws",
+    .typical = "1 to 10 mm",
+    .remedy_kind = RemedyKind::change_the_machine,
+    .remedy = "balance the gondola until it hangs level in the middle, with the pen down",
+    .alter_cords =
+        [](Statics& m, EffectSide, const PerSide<double>&, Values v) { m.mass_right_mm += v[0]; },
+    .part = Part::body,
+};
+
+constexpr Effect gondola_width{
+    .id = "gondola_width",
+    .station = Station::machine,
+    .sides = kNoSide,
+    .parameters = {size("offset_mm", "w", "how much farther apart they are than set", 2.0, -50.0,
+                        50.0)},
+    .cause = "the gondola's pulleys or eyelets are farther apart than set",
+    .signature = "as a change of the spacing of the pins, less what the tilt makes of it",
+    .equation = "spacing + w",
+    .source = "statics of a body on two cords",
+    .not_modelled = "pulleys at different heights in the gondola",
+    .typical = "1 to 3 mm",
+    .remedy_kind = RemedyKind::change_the_machine,
+    .remedy = "measure between the axles of the pulleys and enter it",
+    .alter_cords =
+        [](Statics& m, EffectSide, const PerSide<double>&, Values v) { m.spacing_mm += v[0]; },
+    .part = Part::body,
+};
+
+constexpr Effect standoff{
+    .id = "standoff",
+    .station = Station::machine,
+    .sides = kNoSide,
+    .parameters = {size("offset_mm", "d", "how much farther off the wall they are than set", 10.0,
+                        -100.0, 100.0)},
+    .cause =
+        "pins, or the pulleys of the gondola, are nearer to the wall or farther off it than set",
+    .signature =
+        "short cords are too short by more than long ones: the top of the drawing is stretched",
+    .equation = "standoff + d",
+    .source = "geometry: a cord that slants to the wall",
+    .not_modelled = "pins of different depths",
+    .typical = "5 to 20 mm",
+    .remedy_kind = RemedyKind::change_the_machine,
+    .remedy = "measure how far pins and pulleys stand off the wall and enter the difference",
+    .alter_cords =
+        [](Statics& m, EffectSide, const PerSide<double>&, Values v) { m.standoff_mm += v[0]; },
+};
+
+constexpr Effect gondola_mass{
+    .id = "gondola_mass",
+    .station = Station::machine,
+    .sides = kNoSide,
+    .parameters = {size("relative", "g", "how much heavier it is than set, as a share", -0.4, -0.9,
+                        9.0)},
+    .cause = "the gondola is too light to keep its cords straight, or heavier than set",
+    .signature =
+        "with heavy cords the long ones sag: horizontals bow at the sides; with cords that stretch "
+        "the drawing is taller at the bottom",
+    .equation = "W (1 + g)",
+    .source = "elastic catenary",
+    .not_modelled = "cords that keep the curl of their spool",
+    .typical = "20 to 50 %",
+    .remedy_kind = RemedyKind::change_the_machine,
+    .remedy = "weigh the gondola and enter it; add weight until the cords hang straight",
+    .alter_cords =
+        [](Statics& m, EffectSide, const PerSide<double>&, Values v) { m.weight_n *= 1.0 + v[0]; },
+};
+
+constexpr Effect pen_friction{
+    .id = "pen_friction",
+    .station = Station::machine,
+    .sides = kNoSide,
+    .parameters = {size("force_n", "F", "force of the pen against the move", 0.2, 0.0, 5.0)},
+    .cause = "the pen is pressed on too hard, or the wall is rough, for so light a gondola",
+    .signature = "the same line lies elsewhere when it is drawn from the other end",
+    .equation = "force F against the move",
+    .source = "Coulomb friction",
+    .not_modelled = "a force that grows with the pull to the wall",
+    .typical = "0.1 to 0.5 N",
+    .needs = DataNeed::order,
+    .remedy_kind = RemedyKind::change_the_machine,
+    .remedy = "press the pen less, or add weight to the gondola",
+    // A gondola that moves down is held up.
+    .alter_cords =
+        [](Statics& m, EffectSide, const PerSide<double>& direction, Values v) {
+          m.side_n -= 0.5 * v[0] * (direction.left - direction.right);
+          m.lift_n += 0.5 * v[0] * (direction.left + direction.right);
+        },
+};
+
+constexpr Effect cord_stretch{
+    .id = "cord_stretch",
+    .station = Station::machine,
+    .sides = kAnyChain,
+    .parameters = {size("compliance_per_n", "c",
+                        "how much more it stretches per newton, as a share of its length", 2e-4, 0.0,
+                        0.01)},
+    .cause = "cords or belts stretch under the gondola more than set",
+    .signature =
+        "the pen hangs low where its cords are long and where they pull hard: horizontals bow at "
+        "the top of the drawing, and its bottom is low",
+    .equation = "S (1 + (compliance + c) T)",
+    .source = "Hooke; nikivanov/mural sets 5e-5 per N",
+    .not_modelled = "creep",
+    .typical = "1e-4 to 5e-4 per N",
+    .remedy_kind = RemedyKind::change_the_machine,
+    .remedy = "use belts with glass fibre, or enter how much they stretch",
+    .alter_cords =
+        [](Statics& m, EffectSide side, const PerSide<double>&, Values v) {
+          for (const Side own : kSides)
+            if (acts_on(side, own)) m.cord[own].compliance_per_n += v[0];
+        },
+};
+
+constexpr Effect cord_weight{
+    .id = "cord_weight",
+    .station = Station::machine,
+    .sides = kAnyChain,
+    .parameters = {size("more_g_per_m", "m", "how much heavier a metre of it is", 8.0, 0.0, 200.0)},
+    .cause = "a cord, chain or belt weighs more than set and sags",
+    .signature = "horizontals hang through at the sides, where one cord is long and slack",
+    .equation = "catenary of w + m",
+    .source = "elastic catenary (Irvine)",
+    .not_modelled = "a cable that is tied to a cord in places",
+    .typical = "5 to 10 g/m",
+    .remedy_kind = RemedyKind::change_the_machine,
+    .remedy = "weigh a length of it and enter it, or use a lighter cord or a heavier gondola",
+    .alter_cords =
+        [](Statics& m, EffectSide side, const PerSide<double>&, Values v) {
+          constexpr double kNewtonPerMmOfGramPerM = 9.80665e-6;
+          for (const Side own : kSides)
+            if (acts_on(side, own)) m.cord[own].weight_n_per_mm += v[0] * kNewtonPerMmOfGramPerM;
+        },
+};
+
+// cord
+
+constexpr Effect spool_eccentricity{
+    .id = "spool_eccentricity",
+    .station = Station::chain,
+    .sides = kOneChain,
+    .parameters = {size("amplitude_mm", "a", "how far its centre is from its axis", 0.2, 0.0, 10.0),
+                   place("phase_rad", "p", "where in its turn it stands at length 0", 0.0, -6.3, 6.3,
+                         3.2)},
+    .cause = "a pulley or spool is bored off its centre, or its shaft is bent",
+    .signature = "a wave along every line that repeats with each turn of one pulley",
+    .equation = "+ a sin(2 pi L / u + p)",
+    .source = "run-out of a wheel on its axis, first harmonic",
+    .not_modelled = "the second harmonic, below a^2 / r",
+    .typical = "0.1 to 0.5 mm",
+    .remedy_kind = RemedyKind::repair,
+    .remedy = "change the pulley: no setting holds it",
+    .add =
+        [](const LengthState& cord, Values v) {
+          return v[0] * sin(2.0 * std::numbers::pi / cord.turn_mm * cord.length_mm + v[1]);
+        },
+    .part = Part::pulley,
+};
+
+constexpr Effect spool_layers{
+    .id = "spool_layers",
+    .station = Station::chain,
+    .sides = kAnyChain,
+    .parameters = {size("growth_mm_per_m2", "b",
+                        "how much more is counted for the second metre than for the first", 5.0, 0.0,
+                        500.0)},
+    .cause = "the cord winds in layers on its spool, whose diameter shrinks as it pays out",
+    .signature = "the drawing shrinks to the bottom, and verticals lean towards the spool",
+    .equation = "+ b L^2 / 2",
+    .source =
+        "length on a spool of Archimedes; RepRapFirmware HangprinterKinematics.cpp takes the same "
+        "as a root of L",
+    .not_modelled = "the step from one layer to the next",
+    .typical = "2 to 20 mm/m^2",
+    .remedy_kind = RemedyKind::repair,
+    .remedy = "wind the cord side by side in one layer, or use a toothed belt on a pulley",
+    .add =
+        [](const LengthState& cord, Values v) {
+          const auto metres = 1e-3 * cord.length_mm;
+          return 0.5 * v[0] * metres * metres;
+        },
+};
+
+constexpr Effect tooth_skip{
+    .id = "tooth_skip",
+    .station = Station::chain,
+    .sides = kOneChain,
+    .parameters = {whole(size("teeth", "k", "whole teeth, positive where too much is counted", 1.0,
+                              -200.0, 200.0, 3.0)),
+                   first_visit()},
+    .cause = "a belt jumped over teeth of its pulley, or a motor lost steps",
+    .signature = "from one line on, all are shifted and bent",
+    .equation = "+ k p for n >= m",
+    .source = "GT2 belts have teeth of 2 mm",
+    .not_modelled = "a second skip; give it as an effect of its own",
+    .typical = "1 or 2 teeth, 2 or 4 mm",
+    .needs = DataNeed::order,
+    .remedy_kind = RemedyKind::repair,
+    .remedy = "draw slower, tighten the belt on its pulley, set the zeros and draw again",
+    .add = teeth_skipped,
+};
+
+constexpr Effect zero_shift{
+    .id = "zero_shift",
+    .station = Station::chain,
+    .sides = kOneChain,
+    .parameters = {size("shift_mm", "z", "how much too much is counted from then on", 2.0, -500.0,
+                        500.0, 3.0),
+                   first_visit()},
+    .cause = "a cord slipped in its clamp or on its pulley while the machine drew",
+    .signature = "from one line on, all are shifted and bent",
+    .equation = "+ z for n >= m",
+    .source = "a clamp that gives",
+    .not_modelled = "a second shift; give it as an effect of its own",
+    .typical = "1 to 10 mm",
+    .needs = DataNeed::order,
+    .remedy_kind = RemedyKind::repair,
+    .remedy = "look where the cord is clamped; set the zeros and draw again",
+    .add = zero_shifted,
+};
+
+constexpr Effect drift{
+    .id = "drift",
+    .station = Station::chain,
+    .sides = kAnyChain,
+    .parameters = {size("rate_mm_per_visit", "d", "what is counted too much with each visit", 0.03,
+                        -1.0, 1.0)},
+    .cause = "a cord crept, or slips a little with each move",
+    .signature = "the last lines do not meet the first",
+    .equation = "+ d n",
+    .source = "cords of plastic creep under load",
+    .not_modelled = "a drift that levels off",
+    .typical = "0.01 to 0.05 mm a visit",
+    .needs = DataNeed::order,
+    .remedy_kind = RemedyKind::repair,
+    .remedy = "let the gondola hang an hour before drawing; use belts with glass fibre",
+    .add = drifted,
+};
+
+constexpr const Effect* kEffects[] = {&pen_off_centre,
+                                      &servo_arm,
+                                      &gondola_width,
+                                      &standoff,
+                                      &gondola_mass,
+                                      &pen_friction,
+                                      &cord_stretch,
+                                      &cord_weight,
+                                      &spool_eccentricity,
+                                      &spool_layers,
+                                      &tooth_skip,
+                                      &zero_shift,
+                                      &drift};
+
+}  // namespace
+
+effects::EffectTable plotter_effects() { return kEffects; }
+
+}  // namespace chaintrue::model::plotter
