@@ -52,10 +52,16 @@ constexpr std::array kUnits = {
     Unit{"distance_mm", 1.0, "{} mm"},
 };
 
-/// What belts or cords have words of their own for; `effect` empty: of any.
+/// What has words of its own; `effect` empty: of any.
 struct UnitOfEffect {
   std::string_view effect;
   Unit unit;
+};
+
+constexpr std::array kSledUnits = {
+    UnitOfEffect{"sled_width", {"offset_mm", 1.0, "{} mm wider", "{} mm narrower"}},
+    UnitOfEffect{"sled_height", {"offset_mm", 1.0, "{} mm higher", "{} mm lower"}},
+    UnitOfEffect{"sled_cg", {"offset_mm", 1.0, "{} mm lower", "{} mm higher"}},
 };
 
 constexpr std::array kBeltUnits = {
@@ -139,7 +145,7 @@ std::string in_workshop_units(const CauseId& cause, const ParameterEstimate& est
   // What the name of a declared effect's parameter means, only its owner knows.
   if (cause.effect->law != nullptr)
     return fmt::format("{} = {}", estimate.parameter, with_sigma(estimate.value, estimate.sigma));
-  std::span<const UnitOfEffect> of_mechanism;
+  std::span<const UnitOfEffect> of_mechanism = kSledUnits;
   if (contains(model::belts::belt_effects(), cause.effect)) of_mechanism = kBeltUnits;
   if (contains(model::plotter::plotter_effects(), cause.effect)) of_mechanism = kCordUnits;
   for (const UnitOfEffect& own : of_mechanism) {

@@ -81,10 +81,10 @@ Json square_json(const synthetic::ShiftedSquare& square) {
 
 }  // namespace
 
-std::string write_catalogue(const model::Machine& machine) {
+std::string write_catalogue(const std::vector<const Effect*>& effects) {
   Json file = headed(kEffectsFormat);
   file["effects"] = Json::array();
-  for (const Effect* effect : model::effects::effects_of(machine))
+  for (const Effect* effect : effects)
     file["effects"].push_back(effect_json(*effect));
   return print_json(file);
 }

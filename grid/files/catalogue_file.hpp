@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "grid/synthetic/effect_picture.hpp"
 
@@ -11,7 +12,8 @@ namespace chaintrue::grid::files {
 
 /// { "file_type": "chaintrue_effects", ..., "effects": [ {"effect", "station", "sides",
 /// "parameters", words ...} ] }
-[[nodiscard]] std::string write_catalogue(const model::Machine& machine = {});
+[[nodiscard]] std::string write_catalogue(
+    const std::vector<const model::effects::Effect*>& effects);
 /// { "file_type": "chaintrue_effect_picture", ..., "effect", "marks", "squares", "strength" }
 [[nodiscard]] std::string write_effect_picture(const synthetic::EffectPicture& picture);
 

@@ -218,7 +218,7 @@ std::vector<std::pair<std::string, Machine>> machines_without(const Machine& mac
   for (const model::AppliedEffect& applied : machine.effects) {
     const std::string& id = applied.effect;
     const bool is_known = id == "ring_radius" || id == "chain_pitch_error" || id == "chain_sag" ||
-                          id == "chain_stretch";
+                          id == "chain_stretch" || id.starts_with("sled_");
     if (!is_known) without.emplace_back(id, without_effect(machine, id));
   }
   return without;

@@ -15,6 +15,11 @@ extern const Effect angular_kink;
 
 namespace {
 
+/// Precondition: Part::brackets.
+Brackets& brackets_of(EquilibriumParameters& parameters) {
+  return std::get<Brackets>(parameters.attachment);
+}
+
 // paper
 
 constexpr Effect tape_scale{
@@ -86,6 +91,62 @@ constexpr Effect ring_radius{
           if (auto* ring = std::get_if<Ring>(&p.attachment)) ring->radius_mm += v[0];
         },
     .part = Part::ring,
+};
+
+constexpr Effect sled_width{
+    .id = "sled_width",
+    .station = Station::machine,
+    .sides = kNoSide,
+    .parameters = {size("offset_mm", "w", "true distance between the brackets less the file's", 5.0, -200.0, 200.0)},
+    .cause = "the brackets of the sled are farther apart or nearer together than the machine file says",
+    .signature =
+        "both chains too short or too long by nearly the same, most in the upper corners, where they lie "
+        "flat",
+    .equation = "spacing = spacing_stated + w",
+    .source = "statics of a sled on two brackets, which turns about the bit",
+    .not_modelled = "brackets that stand at different heights or distances from the bit",
+    .typical = "2 to 15 mm",
+    .remedy_kind = RemedyKind::change_the_machine,
+    .remedy = "measure between the points where the chains hold the brackets and enter it (sledwidth)",
+    .alter = [](EquilibriumParameters& p, Values v) { brackets_of(p).spacing_mm += v[0]; },
+    .part = Part::brackets,
+};
+
+constexpr Effect sled_height{
+    .id = "sled_height",
+    .station = Station::machine,
+    .sides = kNoSide,
+    .parameters = {size("offset_mm", "h", "true height of the brackets over the bit less the file's", 5.0, -200.0, 200.0)},
+    .cause = "the brackets of the sled are higher or lower over the bit than the machine file says",
+    .signature =
+        "the whole bed shifted up or down, a little less where the sled tilts, in the lower corners",
+    .equation = "height = height_stated + h",
+    .source = "statics of a sled on two brackets, which turns about the bit",
+    .not_modelled = "brackets that stand at different heights or distances from the bit",
+    .typical = "2 to 10 mm",
+    .remedy_kind = RemedyKind::change_the_machine,
+    .remedy = "measure from the bit up to the line between the brackets and enter it (sledheight)",
+    .alter = [](EquilibriumParameters& p, Values v) { brackets_of(p).height_mm += v[0]; },
+    .part = Part::brackets,
+};
+
+constexpr Effect sled_cg{
+    .id = "sled_cg",
+    .station = Station::machine,
+    .sides = kNoSide,
+    .parameters = {size("offset_mm", "g", "how much farther below the bit the centre of gravity is than the file says", 10.0, -500.0, 500.0)},
+    .cause = "the sled's centre of gravity is higher or lower than the machine file says",
+    .signature =
+        "the sled tilts more or less at the sides: nothing on the middle line, opposite errors left and "
+        "right of it",
+    .equation = "cg = cg_stated + g",
+    .source = "statics of a sled on two brackets, which turns about the bit",
+    .not_modelled = "brackets that stand at different heights or distances from the bit",
+    .typical = "5 to 30 mm",
+    .remedy_kind = RemedyKind::change_the_machine,
+    .remedy = "balance the sled on an edge, measure from there to the bit and enter it (sledcg)",
+    .alter = [](EquilibriumParameters& p, Values v) { brackets_of(p).cg_below_bit_mm += v[0]; },
+    .part = Part::brackets,
 };
 
 constexpr Effect sprocket_radius{
@@ -326,6 +387,9 @@ constexpr const Effect* kCatalogue[] = {
     &tape_scale,
     &axes_skew,
     &ring_radius,
+    &sled_width,
+    &sled_height,
+    &sled_cg,
     &sprocket_radius,
     &chain_sag,
     &chain_stretch,

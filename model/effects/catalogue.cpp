@@ -31,8 +31,8 @@ std::vector<const Effect*> table_of(const Machine& machine, bool with_replaced) 
   return all;
 }
 
-bool has(const EquilibriumParameters& parameters, Part part) {
-  const bool ring = std::holds_alternative<Ring>(parameters.attachment);
+bool has(const Attachment& attachment, Part part) {
+  const bool ring = std::holds_alternative<Ring>(attachment);
   return part == Part::none || (part == Part::ring && ring) || (part == Part::brackets && !ring);
 }
 
@@ -44,22 +44,24 @@ void check_sums(const Machine& machine, std::vector<MachineProblem>& problems) {
     const Effect& effect = *find_effect(machine, named.effect);
     if (effect.alter == nullptr) continue;
     const std::string place = fmt::format("/{}", i);
-    if (!has(parameters, effect.part)) {
+    if (!has(machine.attachment, effect.part)) {
       problems.push_back(
           {place + "/effect", named.effect, fmt::format("{} to act on", name(effect.part))});
       continue;
     }
     effect.alter(parameters, resolve(std::array{&effect}, {named}).front().values);
     const auto* ring = std::get_if<Ring>(&parameters.attachment);
+    const auto* brackets = std::get_if<Brackets>(&parameters.attachment);
     const bool sound =
         parameters.sprocket_radius_mm > 0.0 && parameters.chain_weight_n_per_mm > 0.0 &&
-        parameters.chain_compliance_per_n >= 0.0 && (ring == nullptr || ring->radius_mm >= 0.0);
+        parameters.chain_compliance_per_n >= 0.0 && (ring == nullptr || ring->radius_mm >= 0.0) &&
+        (brackets == nullptr || (brackets->spacing_mm > 0.0 && brackets->height_mm >= 0.0));
     if (!sound) {
       problems.push_back(
           {place,
            named.effect,
-           "together with the machine's own values: sprocket radius and chain mass above 0, ring "
-           "radius and compliance not below 0"});
+           "together with the machine's own values: sprocket radius, chain mass and spacing of "
+           "brackets above 0, ring radius, height of brackets and compliance not below 0"});
       return;
     }
   }
@@ -69,7 +71,15 @@ void check_sums(const Machine& machine, std::vector<MachineProblem>& problems) {
 
 const Effect* find_effect(std::string_view id) { return find_effect(catalogue(), id); }
 
-std::vector<const Effect*> effects_of(const Machine& machine) { return table_of(machine, false); }
+std::vector<const Effect*> listed_effects(const Machine& machine) {
+  return table_of(machine, false);
+}
+
+std::vector<const Effect*> effects_of(const Machine& machine) {
+  std::vector<const Effect*> all = listed_effects(machine);
+  std::erase_if(all, [&](const Effect* effect) { return !has(machine.attachment, effect->part); });
+  return all;
+}
 
 const Effect* find_effect(const Machine& machine, std::string_view id) {
   return find_effect(table_of(machine, true), id);
@@ -98,12 +108,6 @@ AppliedEffect applied(const Effect& effect, EffectSide side, Values values) {
     result.parameters.emplace(effect.parameters[i].name, values[i]);
   }
   return result;
-}
-
-std::vector<double> null_values(const Effect& effect) {
-  std::vector<double> values;
-  for (const EffectParameter& parameter : effect.parameters) values.push_back(parameter.null);
-  return values;
 }
 
 std::vector<double> nominal_values(const Effect& effect) {

@@ -21,15 +21,18 @@ namespace chaintrue::model::effects {
 /// Null where no effect of the catalogue has this name.
 [[nodiscard]] const Effect* find_effect(std::string_view id);
 
-/// The effects that may act on a machine: the catalogue, then those declared for it; one that is
-/// declared in place of an effect of the catalogue stands where that stood.
+/// The catalogue, then what is declared for a machine; what is declared in place of an effect of the
+/// catalogue stands where that stood.
+[[nodiscard]] std::vector<const Effect*> listed_effects(const Machine& machine);
+/// Those of them that may act on it: on a ring none of brackets, and the other way round.
 [[nodiscard]] std::vector<const Effect*> effects_of(const Machine& machine);
 /// Among these; null where none has this name.
 [[nodiscard]] const Effect* find_effect(const Machine& machine, std::string_view id);
 
 /// All problems of the machine's effects, each with its JSON pointer below the machine
 /// ("/effects/0/side"): unknown effects, sides and parameters, missing parameters, values out of
-/// range, and sums that are not physical (a chain without mass, a ring without radius). Empty: the
+/// range, effects of a part that the machine lacks, and sums that are not physical (a chain without mass, a
+/// ring without radius). Empty: the
 /// effects are valid.
 [[nodiscard]] std::vector<MachineProblem> problems_of_effects(const Machine& machine);
 
@@ -39,9 +42,7 @@ namespace chaintrue::model::effects {
 
 /// The effect as in a machine file: `applied(effect, EffectSide::left, values)`.
 [[nodiscard]] AppliedEffect applied(const Effect& effect, EffectSide side, Values values);
-/// Null and nominal values, in the order of the parameters; parameters that are places are nominal
-/// in both.
-[[nodiscard]] std::vector<double> null_values(const Effect& effect);
+/// In the order of the parameters.
 [[nodiscard]] std::vector<double> nominal_values(const Effect& effect);
 /// The effect of the machine's mirror image.
 [[nodiscard]] ActingEffect mirrored(const ActingEffect& acting);

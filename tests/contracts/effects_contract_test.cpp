@@ -39,14 +39,22 @@ std::vector<Case> cases_of(std::span<const Effect* const> effects) {
   return cases;
 }
 
-/// Another effect of each station, of the catalogue's first and last.
+/// A machine that has the part that an effect needs.
+Machine machine_for(const Effect& effect) {
+  Machine machine;
+  if (effect.part == Part::brackets) machine.attachment = Brackets{};
+  machine.declared = declared_examples();
+  return machine;
+}
+
+/// Another effect of each station, of the first and last that may act together with it.
 std::vector<Case> partners_of(const Effect& effect) {
   std::vector<Case> partners;
-  const std::vector<Case> all = cases_of(catalogue());
+  const std::vector<Case> all = cases_of(effects_of(machine_for(effect)));
   for (const Station station :
        {Station::paper, Station::machine, Station::chain, Station::reading}) {
     const auto fits = [&](const Case& c) {
-      return c.effect != &effect && c.effect->station == station;
+      return c.effect != &effect && c.effect->law == nullptr && c.effect->station == station;
     };
     const auto first = std::find_if(all.begin(), all.end(), fits);
     if (first == all.end()) continue;
@@ -72,13 +80,6 @@ std::vector<Visit> session() {
   return visits;
 }
 
-Machine machine_with(const std::vector<AppliedEffect>& effects) {
-  Machine machine;
-  machine.effects = effects;
-  machine.declared = declared_examples();
-  return machine;
-}
-
 // Everything observable in a session: the written coordinates of each mark and the reading there,
 // one after the other.
 std::vector<double> found(const Machine& machine, const std::vector<Visit>& visits) {
@@ -92,10 +93,6 @@ std::vector<double> found(const Machine& machine, const std::vector<Visit>& visi
                    {mark.x_mm, mark.y_mm, (*lengths)[i].left_mm, (*lengths)[i].right_mm});
   }
   return numbers;
-}
-
-std::vector<double> seen_with(const std::vector<AppliedEffect>& effects) {
-  return found(machine_with(effects), session());
 }
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -121,6 +118,14 @@ class EffectContract : public ::testing::TestWithParam<Case> {
   [[nodiscard]] EffectSide side() const { return GetParam().side; }
   [[nodiscard]] AppliedEffect with(const std::vector<double>& values) const {
     return applied(effect(), side(), values);
+  }
+  [[nodiscard]] Machine machine_with(const std::vector<AppliedEffect>& effects) const {
+    Machine machine = machine_for(effect());
+    machine.effects = effects;
+    return machine;
+  }
+  [[nodiscard]] std::vector<double> seen_with(const std::vector<AppliedEffect>& effects) const {
+    return found(machine_with(effects), session());
   }
 };
 

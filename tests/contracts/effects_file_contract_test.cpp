@@ -16,7 +16,7 @@ namespace {
 TEST(EffectFileContract, EveryEffectComesBackFromAMachineFile) {
   Machine declaring;
   declaring.declared = declared_examples();
-  for (const Effect* effect : effects_of(declaring)) {
+  for (const Effect* effect : listed_effects(declaring)) {
     for (const EffectSide side : effect->sides) {
       SCOPED_TRACE(std::string(effect->id) + " " + std::string(name(side)));
       std::vector<double> values = nominal_values(*effect);
@@ -26,6 +26,7 @@ TEST(EffectFileContract, EveryEffectComesBackFromAMachineFile) {
       }
       Machine machine;
       if (effect->law != nullptr) machine.declared = {effect};
+      if (effect->part == Part::brackets) machine.attachment = Brackets{};
       machine.effects = {applied(*effect, side, values)};
       const std::string text = grid::files::write_machine(machine);
       const Machine back = grid::files::parse_machine(text, "machine.json");

@@ -106,6 +106,11 @@ inline PlotterMachine mirrored(PlotterMachine machine) {
   return machine;
 }
 
+inline Machine on_brackets(Machine machine) {
+  machine.attachment = Brackets{};
+  return machine;
+}
+
 inline std::vector<Tested> every_mechanism() {
   std::vector<Tested> all;
   for (const PlotterMachine& machine : plotters()) {
@@ -118,6 +123,11 @@ inline std::vector<Tested> every_mechanism() {
   all.push_back({"chains",
                  [] { return make_chain_mechanism(leaning()); },
                  [] { return make_chain_mechanism(leaning_mirrored()); },
+                 0.0,
+                 {1, 0}});
+  all.push_back({"chains_to_brackets",
+                 [] { return make_chain_mechanism(on_brackets(leaning())); },
+                 [] { return make_chain_mechanism(on_brackets(leaning_mirrored())); },
                  0.0,
                  {1, 0}});
   for (const BeltLengths lengths :

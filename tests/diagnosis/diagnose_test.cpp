@@ -118,12 +118,14 @@ class EveryEffect : public testing::TestWithParam<const model::effects::Effect*>
 TEST_P(EveryEffect, IsFoundWithItsSize) {
   const model::effects::Effect& effect = *GetParam();
   const auto side = effect.sides.front();
+  model::Machine machine;
+  if (effect.part == model::effects::Part::brackets) machine.attachment = model::Brackets{};
   std::vector<double> values = model::effects::nominal_values(effect);
   if (!effect.parameters.front().integer) {
     // A signal-to-noise ratio of about 25 on the 7 x 4 grid of the default machine, computed from
     // the strength at the usual size.
     synthetic::StrengthTable table(
-        model::Machine{}, synthetic::regular_session({}, 7, 4), StatedNoise{0.2, 0.3, 12.0});
+        machine, synthetic::regular_session({}, 7, 4), StatedNoise{0.2, 0.3, 12.0});
     const double factor = 25.0 / table.strength(effect, side).signal_to_noise;
     const double limit = effect.parameters.front().upper / values.front();
     values.front() *= std::min(factor, 0.9 * limit);
@@ -132,7 +134,7 @@ TEST_P(EveryEffect, IsFoundWithItsSize) {
     }
   }
   const auto applied = model::effects::applied(effect, side, values);
-  const auto answer = diagnose(session_of({applied}, 7), verdict_alone());
+  const auto answer = diagnose(session_of({applied}, 7, 7, 4, machine), verdict_alone());
   ASSERT_TRUE(answer) << answer.error().sentence();
   SCOPED_TRACE(answer->sentence);
   ASSERT_FALSE(answer->causes.empty());

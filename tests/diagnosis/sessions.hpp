@@ -16,7 +16,8 @@ namespace chaintrue::grid::diagnosis::testing_support {
 inline MeasuredGrid session_of(const std::vector<model::AppliedEffect>& hidden,
                                std::uint64_t seed,
                                int columns = 7,
-                               int rows = 4) {
+                               int rows = 4,
+                               const model::Machine& machine = {}) {
   synthetic::SyntheticSpec spec;
   spec.design.columns = columns;
   spec.design.rows = rows;
@@ -26,7 +27,7 @@ inline MeasuredGrid session_of(const std::vector<model::AppliedEffect>& hidden,
   spec.stated = StatedNoise{0.2, 0.3, 12.0};
   spec.hidden = hidden;
   spec.seed = seed;
-  return synthetic::generate(model::Machine{}, spec).value().grid;
+  return synthetic::generate(machine, spec).value().grid;
 }
 
 inline DiagnosisOptions verdict_alone() {

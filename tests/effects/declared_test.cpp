@@ -74,7 +74,7 @@ TEST(DeclaredEffect, IsAnEffectLikeThoseOfTheCatalogue) {
   machine.declared = {&effect};
   EXPECT_EQ(find_effect(machine, "wave"), &effect);
   EXPECT_EQ(find_effect("wave"), nullptr);
-  EXPECT_EQ(effects_of(machine).size(), catalogue().size() + 1);
+  EXPECT_EQ(effects_of(machine).size(), effects_of(Machine{}).size() + 1);
   EXPECT_EQ(effects_of(machine).back(), &effect);
 }
 
@@ -83,7 +83,7 @@ TEST(DeclaredEffect, StandsInPlaceOfOneOfTheCatalogue) {
   own.instead_of = "sprocket_eccentricity";
   Machine machine;
   machine.declared = {&declared_effect(own)};
-  const std::vector<const Effect*> all = effects_of(machine);
+  const std::vector<const Effect*> all = listed_effects(machine);
   ASSERT_EQ(all.size(), catalogue().size());
   for (std::size_t i = 0; i < all.size(); ++i)
     EXPECT_EQ(all[i]->id, catalogue()[i]->id == own.instead_of ? "wave" : catalogue()[i]->id);

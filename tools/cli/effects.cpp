@@ -72,15 +72,22 @@ std::string sides_of(const Effect& effect) {
   return list;
 }
 
-void list_catalogue(const model::Machine& machine) {
+/// Of a machine what may act on it.
+std::vector<const Effect*> listed(const EffectsOptions& options) {
+  const model::Machine machine = machine_of(options);
+  return options.machine.empty() ? model::effects::listed_effects(machine)
+                                 : model::effects::effects_of(machine);
+}
+
+void list_catalogue(const std::vector<const Effect*>& effects) {
   std::string station;
   bool declared = false;
-  for (const Effect* effect : model::effects::effects_of(machine)) {
+  for (const Effect* effect : effects) {
     if (effect->law != nullptr && !declared) fmt::print("\ndeclared\n");
     declared = declared || effect->law != nullptr;
     if (!declared && name(effect->station) != station) {
       station = name(effect->station);
-      fmt::print("{}{}\n", effect == model::effects::catalogue().front() ? "" : "\n", station);
+      fmt::print("{}{}\n", effect == effects.front() ? "" : "\n", station);
     }
     std::string parameters;
     for (const EffectParameter& parameter : effect->parameters) {
@@ -334,11 +341,11 @@ int run_effects(const EffectsOptions& options) {
     return write_atlas(options.atlas, options.id, options.declared, options.output);
   if (options.id.empty()) {
     if (!options.json) {
-      list_catalogue(machine_of(options));
+      list_catalogue(listed(options));
       say_next({"effects", std::string(model::effects::catalogue().front()->id)});
       return kDone;
     }
-    fmt::print("{}", files::write_catalogue(machine_of(options)));
+    fmt::print("{}", files::write_catalogue(listed(options)));
     return kDone;
   }
   const model::Machine machine = machine_of(options);
