@@ -10,6 +10,7 @@
 /// \endcode
 #pragma once
 
+#include <concepts>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -72,5 +73,27 @@ struct Failure {
     return failure.reason == why;
   }
 };
+
+namespace model {
+
+/// A reason with its words. Both strings have static lifetime.
+struct MechanismReason {
+  std::string_view name;   ///< stable, for programs: "outside_verticals"
+  std::string_view words;  ///< for a person
+  friend bool operator==(const MechanismReason&, const MechanismReason&) = default;
+};
+[[nodiscard]] inline std::string_view sentence_of(const MechanismReason& reason) {
+  return reason.words;
+}
+
+/// An enum of reasons with a function named(reason).
+template <class Reason>
+concept NamedReason = requires(Reason reason) {
+  { named(reason) } -> std::same_as<MechanismReason>;
+};
+[[nodiscard]] std::string_view name(NamedReason auto reason) { return named(reason).name; }
+[[nodiscard]] std::string_view sentence_of(NamedReason auto reason) { return named(reason).words; }
+
+}  // namespace model
 
 }  // namespace chaintrue

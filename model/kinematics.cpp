@@ -95,40 +95,19 @@ EquilibriumParameters equilibrium_parameters(const Machine& machine) {
   return p;
 }
 
-std::string_view name(PoseReason reason) {
-  switch (reason) {
-    case PoseReason::outside_verticals:
-      return "outside_verticals";
-    case PoseReason::above_sprockets:
-      return "above_sprockets";
-    case PoseReason::link_does_not_fit:
-      return "link_does_not_fit";
-    case PoseReason::slack:
-      return "slack";
-    case PoseReason::too_short:
-      return "too_short";
-    case PoseReason::not_converged:
-      break;
-  }
-  return "not_converged";
-}
-
-std::string_view sentence_of(PoseReason reason) {
-  switch (reason) {
-    case PoseReason::outside_verticals:
-      return "the point does not lie between the two motors: no sled can hang outside them";
-    case PoseReason::above_sprockets:
-      return "the point lies as high as the motors or higher: a sled can only hang below them";
-    case PoseReason::link_does_not_fit:
-      return "the point is so close to a sprocket that the ring or bracket would reach past it";
-    case PoseReason::slack:
-      return "one chain would have to push: it hangs slack";
-    case PoseReason::too_short:
-      return "the chains are too short to meet";
-    case PoseReason::not_converged:
-      break;
-  }
-  return "no resting place of the sled was found";
+MechanismReason named(PoseReason reason) {
+  constexpr std::array<MechanismReason, 6> kReasons = {{
+      {"outside_verticals",
+       "the point does not lie between the two motors: no sled can hang outside them"},
+      {"above_sprockets",
+       "the point lies as high as the motors or higher: a sled can only hang below them"},
+      {"link_does_not_fit",
+       "the point is so close to a sprocket that the ring or bracket would reach past it"},
+      {"slack", "one chain would have to push: it hangs slack"},
+      {"too_short", "the chains are too short to meet"},
+      {"not_converged", "no resting place of the sled was found"},
+  }};
+  return kReasons.at(static_cast<std::size_t>(reason));
 }
 
 std::unique_ptr<const Kinematics> make_kinematics(const EquilibriumParameters& parameters,

@@ -62,10 +62,7 @@ enum class PoseReason {
   not_converged,      ///< the iteration did not converge
 };
 
-/// Stable names (`outside_verticals`, ...), used in files and tests.
-[[nodiscard]] std::string_view name(PoseReason reason);
-/// A sentence for a machinist.
-[[nodiscard]] std::string_view sentence_of(PoseReason reason);
+[[nodiscard]] MechanismReason named(PoseReason reason);
 using PoseFailure = Failure<PoseReason>;
 
 /// One chain in equilibrium. s = 0 is the sled's end.

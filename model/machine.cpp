@@ -101,30 +101,38 @@ void check_attachment(const Attachment& attachment, Checker& check) {
   check.range("/attachment/cg_below_bit_mm", brackets.cg_below_bit_mm, 0, 2000, "mm");
 }
 
-void check_controller(const ControllerSettings& s, Checker& check) {
-  const auto optional = [&check](std::string_view key,
-                                 const std::optional<double>& value,
-                                 double least,
-                                 double most,
-                                 std::string_view unit) {
-    if (value) check.range(fmt::format("/controller/settings/{}", key), *value, least, most, unit);
-  };
-  optional("bedwidth", s.bed_width_mm, 100, 20000, "mm");
-  optional("bedheight", s.bed_height_mm, 100, 20000, "mm");
-  optional("motorspacingx", s.motor_spacing_mm, 300, 40000, "mm");
-  optional("motoroffsety", s.motor_offset_y_mm, 0, 10000, "mm");
-  optional("rotationradius", s.rotation_radius_mm, 0, 1000, "mm");
-  optional("sledwidth", s.sled_width_mm, 20, 2000, "mm");
-  optional("sledheight", s.sled_height_mm, 0, 2000, "mm");
-  optional("sledcg", s.sled_cg_mm, 0, 2000, "mm");
-  optional("chainsagcorrection", s.chain_sag_correction, -1000, 1000, "(1e-12 / mm^2)");
-  optional("leftchaintolerance", s.left_chain_tolerance_percent, -10, 10, "percent");
-  optional("rightchaintolerance", s.right_chain_tolerance_percent, -10, 10, "percent");
-  optional("topbeamtilt", s.top_beam_tilt_deg, -20, 20, "degrees");
-  optional("chainpitch", s.chain_pitch_mm, 1, 50, "mm");
-  optional("gearteeth", s.gear_teeth, 3, 100, "teeth");
-  optional("sledweight", s.sled_weight_n, 1e-3, 10000, "N");
-  optional("chainelongationfactor", s.chain_elongation_per_n, 0, 1e-3, "1/N");
+struct ControllerRange {
+  std::string_view key;
+  std::optional<double> ControllerSettings::*value;
+  double least, most;
+  std::string_view unit;
+};
+
+constexpr ControllerRange kControllerRanges[] = {
+    {"bedwidth", &ControllerSettings::bed_width_mm, 100, 20000, "mm"},
+    {"bedheight", &ControllerSettings::bed_height_mm, 100, 20000, "mm"},
+    {"motorspacingx", &ControllerSettings::motor_spacing_mm, 300, 40000, "mm"},
+    {"motoroffsety", &ControllerSettings::motor_offset_y_mm, 0, 10000, "mm"},
+    {"rotationradius", &ControllerSettings::rotation_radius_mm, 0, 1000, "mm"},
+    {"sledwidth", &ControllerSettings::sled_width_mm, 20, 2000, "mm"},
+    {"sledheight", &ControllerSettings::sled_height_mm, 0, 2000, "mm"},
+    {"sledcg", &ControllerSettings::sled_cg_mm, 0, 2000, "mm"},
+    {"chainsagcorrection", &ControllerSettings::chain_sag_correction, -1000, 1000, "(1e-12 / mm^2)"},
+    {"leftchaintolerance", &ControllerSettings::left_chain_tolerance_percent, -10, 10, "percent"},
+    {"rightchaintolerance", &ControllerSettings::right_chain_tolerance_percent, -10, 10, "percent"},
+    {"topbeamtilt", &ControllerSettings::top_beam_tilt_deg, -20, 20, "degrees"},
+    {"chainpitch", &ControllerSettings::chain_pitch_mm, 1, 50, "mm"},
+    {"gearteeth", &ControllerSettings::gear_teeth, 3, 100, "teeth"},
+    {"sledweight", &ControllerSettings::sled_weight_n, 1e-3, 10000, "N"},
+    {"chainelongationfactor", &ControllerSettings::chain_elongation_per_n, 0, 1e-3, "1/N"},
+};
+
+void check_controller(const ControllerSettings& settings, Checker& check) {
+  for (const ControllerRange& own : kControllerRanges) {
+    if (const auto& value = settings.*own.value)
+      check.range(
+          fmt::format("/controller/settings/{}", own.key), *value, own.least, own.most, own.unit);
+  }
 }
 
 void check_machine(const Machine& machine, Checker& check) {
@@ -195,25 +203,8 @@ std::vector<MachineProblem> problems_of(const Machine& machine) {
 std::vector<MachineRange> machine_ranges() {
   Machine machine;
   machine.sprocket.radius_mm = machine.sprocket.effective_radius_mm();
-  ControllerSettings& settings = machine.controller.settings;
-  for (std::optional<double>* setting : {&settings.bed_width_mm,
-                                         &settings.bed_height_mm,
-                                         &settings.motor_spacing_mm,
-                                         &settings.motor_offset_y_mm,
-                                         &settings.rotation_radius_mm,
-                                         &settings.sled_width_mm,
-                                         &settings.sled_height_mm,
-                                         &settings.sled_cg_mm,
-                                         &settings.chain_sag_correction,
-                                         &settings.left_chain_tolerance_percent,
-                                         &settings.right_chain_tolerance_percent,
-                                         &settings.top_beam_tilt_deg,
-                                         &settings.chain_pitch_mm,
-                                         &settings.gear_teeth,
-                                         &settings.sled_weight_n,
-                                         &settings.chain_elongation_per_n}) {
-    *setting = 0.0;
-  }
+  for (const ControllerRange& own : kControllerRanges)
+    machine.controller.settings.*own.value = 0.0;
   std::vector<MachineRange> ranges;
   Checker with_ring(&ranges);
   check_machine(machine, with_ring);

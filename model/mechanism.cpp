@@ -5,36 +5,23 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <stdexcept>
-
-#include "model/effects/effect_table.hpp"
 
 namespace chaintrue::model {
 
 std::string_view name(Change what) {
-  switch (what) {
-    case Change::nothing:
-      return "nothing";
-    case Change::zero:
-      return "zero";
-    case Change::tooth:
-      return "tooth";
-    case Change::pitch:
-      return "pitch";
-    case Change::zeros_and_pitch:
-      return "zeros_and_pitch";
-    case Change::motors:
-      return "motors";
-    case Change::anchor:
-      return "anchor";
-    case Change::parameter:
-      return "parameter";
-    case Change::unknown:
-      return "unknown";
-    case Change::bad_point:
-      break;
-  }
-  return "bad_point";
+  constexpr std::array<std::string_view, 10> kNames = {"nothing",
+                                                       "zero",
+                                                       "tooth",
+                                                       "pitch",
+                                                       "zeros_and_pitch",
+                                                       "motors",
+                                                       "anchor",
+                                                       "parameter",
+                                                       "unknown",
+                                                       "bad_point"};
+  return kNames.at(static_cast<std::size_t>(what));
 }
 
 std::vector<MechanismChange> Mechanism::possible_changes() const {

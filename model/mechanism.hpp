@@ -32,7 +32,7 @@
 #include <vector>
 
 #include "model/failure.hpp"
-#include "model/effects/effect.hpp"
+#include "model/effects/effect_table.hpp"
 #include "model/machine.hpp"
 #include "model/mechanism_change.hpp"
 
@@ -75,16 +75,13 @@ struct LengthsPrediction {
 };
 
 /// Why there are no lengths at a position, or no position for lengths; each mechanism has reasons of
-/// its own. Both strings have static lifetime.
-struct MechanismReason {
-  std::string_view name;   ///< stable, for programs: "outside_verticals"
-  std::string_view words;  ///< for a person
-  friend bool operator==(const MechanismReason&, const MechanismReason&) = default;
-};
-[[nodiscard]] inline std::string_view sentence_of(const MechanismReason& reason) {
-  return reason.words;
-}
+/// its own.
 using MechanismFailure = Failure<MechanismReason>;
+[[nodiscard]] MechanismFailure mechanism_failure(NamedReason auto reason) { return named(reason); }
+template <NamedReason Reason>
+[[nodiscard]] MechanismFailure mechanism_failure(const Failure<Reason>& failure) {
+  return named(failure.reason);
+}
 
 /// Positions that may be sampled: the bed, or the inside of a frame.
 struct MechanismExtent {
@@ -188,11 +185,11 @@ class MechanismBase : public Mechanism {
       const std::vector<AppliedEffect>& applied) const override;
 
  protected:
-  MechanismBase(std::vector<const effects::Effect*> effects,
+  MechanismBase(effects::EffectTable effects,
                 std::vector<MechanismParameter> parameters,
                 Eigen::VectorXd values,
                 std::vector<AppliedEffect> applied)
-      : effects_(std::move(effects)),
+      : effects_(effects.begin(), effects.end()),
         parameters_(std::move(parameters)),
         values_(std::move(values)),
         applied_(std::move(applied)) {}

@@ -48,30 +48,20 @@ bool depends_on_state(const effects::Number& added) {
 
 bool is_motor_setting(Setting setting) { return setting <= Setting::motor_right_y_mm; }
 
-double& motor_coordinate(EquilibriumParameters& parameters, Setting setting) {
-  switch (setting) {
-    case Setting::motor_left_x_mm:
-      return parameters.motors.left.x_mm;
-    case Setting::motor_left_y_mm:
-      return parameters.motors.left.y_mm;
-    case Setting::motor_right_x_mm:
-      return parameters.motors.right.x_mm;
-    default:
-      return parameters.motors.right.y_mm;
-  }
-}
+/// In the order of the settings.
+struct MotorSetting {
+  Side side;
+  double MotorPosition::*axis;
+  Parameter parameter;
+};
+constexpr std::array kMotorSettings = {
+    MotorSetting{Side::left, &MotorPosition::x_mm, Parameter::motor_left_x_mm},
+    MotorSetting{Side::left, &MotorPosition::y_mm, Parameter::motor_left_y_mm},
+    MotorSetting{Side::right, &MotorPosition::x_mm, Parameter::motor_right_x_mm},
+    MotorSetting{Side::right, &MotorPosition::y_mm, Parameter::motor_right_y_mm}};
 
-Parameter parameter_of(Setting setting) {
-  switch (setting) {
-    case Setting::motor_left_x_mm:
-      return Parameter::motor_left_x_mm;
-    case Setting::motor_left_y_mm:
-      return Parameter::motor_left_y_mm;
-    case Setting::motor_right_x_mm:
-      return Parameter::motor_right_x_mm;
-    default:
-      return Parameter::motor_right_y_mm;
-  }
+const MotorSetting& motor_of(Setting setting) {
+  return kMotorSettings.at(static_cast<std::size_t>(setting));
 }
 
 double sign_of_change(double change, double last) {
@@ -174,7 +164,8 @@ PoseResult ReadingModel::State::pose_near(BedPoint point,
                                             Setting setting,
                                             double change_mm) const {
   EquilibriumParameters changed = parameters;
-  motor_coordinate(changed, setting) += change_mm;
+  const MotorSetting& motor = motor_of(setting);
+  changed.motors[motor.side].*motor.axis += change_mm;
   return make_kinematics(changed, model)->inverse(point);
 }
 
@@ -244,7 +235,7 @@ Eigen::Vector2d ReadingModel::sensitivity(const PointReading& reading, Setting s
     if (found) slope = *found;
   }
   return state.through_effects(added,
-                               state.kinematics->sensitivity(reading.pose, parameter_of(setting)),
+                               state.kinematics->sensitivity(reading.pose, motor_of(setting).parameter),
                                slope,
                                Eigen::Vector2d::Zero());
 }

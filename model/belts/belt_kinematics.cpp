@@ -32,16 +32,13 @@ tl::expected<Printed, BeltFailure> printed(const BeltMachine& machine, Belt belt
 
 }  // namespace
 
-std::string_view sentence_of(BeltReason reason) {
-  switch (reason) {
-    case BeltReason::inside_the_arm:
-      return "the tool would be nearer to the anchor than arm and extension are long";
-    case BeltReason::shorter_than_height:
-      return "the length is shorter than the anchor is high";
-    case BeltReason::circles_do_not_meet:
-      break;
-  }
-  return "two belts of these lengths end nowhere together";
+MechanismReason named(BeltReason reason) {
+  constexpr std::array<MechanismReason, 3> kReasons = {{
+      {"inside_the_arm", "the tool would be nearer to the anchor than arm and extension are long"},
+      {"shorter_than_height", "the length is shorter than the anchor is high"},
+      {"circles_do_not_meet", "two belts of these lengths end nowhere together"},
+  }};
+  return kReasons.at(static_cast<std::size_t>(reason));
 }
 
 tl::expected<BeltReading, BeltFailure> reading_at(const BeltMachine& machine,
@@ -83,12 +80,6 @@ tl::expected<double, BeltFailure> span_of(const BeltMachine& machine, Belt belt,
   }
   if (!(span_mm > reach_mm(machine))) return tl::unexpected(BeltReason::inside_the_arm);
   return span_mm;
-}
-
-double span_slope(const BeltMachine& machine, Belt belt, double length_mm) {
-  if (machine.lengths == BeltLengths::span) return 1.0;
-  const double c = height_mm(machine, belt);
-  return length_mm / std::sqrt((length_mm - c) * (length_mm + c));
 }
 
 tl::expected<FramePoint, BeltFailure> crossing(FramePoint first,

@@ -41,7 +41,7 @@ enum class BeltReason {
   shorter_than_height,  ///< no belt of that length comes down from its anchor
   circles_do_not_meet,  ///< circles of the two lengths do not intersect
 };
-[[nodiscard]] std::string_view sentence_of(BeltReason reason);
+[[nodiscard]] MechanismReason named(BeltReason reason);
 using BeltFailure = Failure<BeltReason>;
 
 /// A length as the machine prints it, mm, with d(length)/d(place).
@@ -63,8 +63,6 @@ struct BeltReading {
 [[nodiscard]] tl::expected<double, BeltFailure> span_of(const BeltMachine& machine,
                                                         Belt belt,
                                                         double length_mm);
-/// d(span)/d(length) at this length.
-[[nodiscard]] double span_slope(const BeltMachine& machine, Belt belt, double length_mm);
 
 /// The intersection of two circles about these anchors, to the right of the line from `first` to
 /// `second`.

@@ -59,22 +59,6 @@ Eigen::VectorXd stated_values(const BeltMachine& machine, std::size_t parameters
 
 }  // namespace
 
-std::string_view name(BeltReason reason) {
-  switch (reason) {
-    case BeltReason::inside_the_arm:
-      return "inside_the_arm";
-    case BeltReason::shorter_than_height:
-      return "shorter_than_height";
-    case BeltReason::circles_do_not_meet:
-      break;
-  }
-  return "circles_do_not_meet";
-}
-
-MechanismFailure mechanism_failure(const BeltFailure& failure) {
-  return MechanismReason{name(failure.reason), sentence_of(failure.reason)};
-}
-
 std::shared_ptr<const BeltMechanism> make_belt_mechanism(const BeltMachine& machine,
                                                          std::optional<double> anchor_sigma_mm,
                                                          std::optional<BeltScaleKnowledge> scale) {
@@ -95,7 +79,7 @@ BeltMechanism::BeltMechanism(BeltMachine machine,
                              std::vector<MechanismParameter> parameters,
                              Eigen::VectorXd values,
                              std::vector<AppliedEffect> applied)
-    : MechanismBase({belts::belt_effects().begin(), belts::belt_effects().end()},
+    : MechanismBase(belts::belt_effects(),
                     std::move(parameters),
                     std::move(values),
                     std::move(applied)),

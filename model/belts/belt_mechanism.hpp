@@ -85,7 +85,5 @@ inline constexpr double kAnchorShiftMm = 5.0;
     std::optional<double> anchor_sigma_mm = std::nullopt,
     std::optional<BeltScaleKnowledge> scale = std::nullopt);
 
-[[nodiscard]] std::string_view name(BeltReason reason);
-[[nodiscard]] MechanismFailure mechanism_failure(const BeltFailure& failure);
 
 }  // namespace chaintrue::model

@@ -63,10 +63,6 @@ PerSide<double> directions_of(const MechanismVisit& visit) {
 
 }  // namespace
 
-MechanismFailure mechanism_failure(const PoseFailure& failure) {
-  return MechanismReason{name(failure.reason), sentence_of(failure.reason)};
-}
-
 std::shared_ptr<const ChainMechanism> make_chain_mechanism(const Machine& machine) {
   return std::make_shared<const ChainMechanism>(machine);
 }

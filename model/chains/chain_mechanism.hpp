@@ -59,7 +59,4 @@ inline constexpr double kMotorShiftSigmaMm = 5.0;
 /// Of two chains of which only the links are known: zeros, teeth skipped, links that grew.
 [[nodiscard]] std::vector<MechanismChange> changes_of_chains(double pitch_mm);
 
-/// Named as a pose's failure is.
-[[nodiscard]] MechanismFailure mechanism_failure(const PoseFailure& failure);
-
 }  // namespace chaintrue::model

@@ -76,19 +76,6 @@ class Declared {
   std::vector<std::unique_ptr<Known>> laws_;
 };
 
-/// The one of these variables that the formula uses; none where there are none or several.
-template <std::size_t Count>
-PlaceVariable only_one(const DeclaredLaw& law,
-                       const std::array<std::pair<std::string_view, PlaceVariable>, Count>& all) {
-  PlaceVariable found = PlaceVariable::none;
-  for (const auto& [name, variable] : all) {
-    if (!law.uses(name)) continue;
-    if (found != PlaceVariable::none) return PlaceVariable::none;
-    found = variable;
-  }
-  return found;
-}
-
 }  // namespace
 
 std::optional<FormulaUnit> unit_of_name(std::string_view name) {
@@ -118,31 +105,19 @@ const Declaration* declaration_of(const Effect& effect) {
 PlaceVariable place_variable(const Effect& effect) {
   if (effect.law == nullptr || effect.parameters.size() < 2)
     throw std::invalid_argument("place_variable: a declared effect with a place");
-  using Named = std::pair<std::string_view, PlaceVariable>;
-  const DeclaredLaw& law = *effect.law;
   const EffectParameter& place = effect.parameters.back();
   // A turn written in two digits.
   constexpr double kTurn = 6.2;
   if (place.name.ends_with("_rad") && place.upper - place.lower >= kTurn)
     return PlaceVariable::phase;
   const FormulaUnit unit = *unit_of_name(place.name);
-  if (unit == FormulaUnit{.mm = 1.0}) {
-    return only_one(law,
-                    std::array{Named{"S", PlaceVariable::free_length},
-                               Named{"L0", PlaceVariable::length},
-                               Named{"x", PlaceVariable::x},
-                               Named{"y", PlaceVariable::y},
-                               Named{"r", PlaceVariable::distance}});
+  PlaceVariable found = PlaceVariable::none;
+  for (const FormulaVariable& own : variables_of(effect.law->declaration().acts_on)) {
+    if (own.place == PlaceVariable::none || own.unit != unit || !effect.law->uses(own.name)) continue;
+    if (found != PlaceVariable::none) return PlaceVariable::none;
+    found = own.place;
   }
-  if (unit == FormulaUnit{.n = 1.0}) {
-    return only_one(
-        law, std::array{Named{"T", PlaceVariable::tension}, Named{"H", PlaceVariable::horizontal}});
-  }
-  if (unit == FormulaUnit{}) {
-    return only_one(
-        law, std::array{Named{"phi", PlaceVariable::angle}, Named{"n", PlaceVariable::visit}});
-  }
-  return PlaceVariable::none;
+  return found;
 }
 
 std::string_view name(ActsOn acts_on) {

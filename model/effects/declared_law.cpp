@@ -58,21 +58,21 @@ constexpr FormulaVariable kOfPaper[] = {
     {"y", kMm, [](const LengthState& s) { return s.y_mm; }},
 };
 constexpr FormulaVariable kOfChain[] = {
-    {"phi", {}, [](const LengthState& s) { return s.angle_rad; }},
-    {"S", kMm, [](const LengthState& s) { return s.free_mm; }},
-    {"L0", kMm, [](const LengthState& s) { return s.length_mm; }},
-    {"T", kNewton, [](const LengthState& s) { return s.tension; }},
-    {"H", kNewton, [](const LengthState& s) { return s.horizontal_n; }},
-    kOfPaper[0],
-    kOfPaper[1],
+    {"phi", {}, [](const LengthState& s) { return s.angle_rad; }, PlaceVariable::angle},
+    {"S", kMm, [](const LengthState& s) { return s.free_mm; }, PlaceVariable::free_length},
+    {"L0", kMm, [](const LengthState& s) { return s.length_mm; }, PlaceVariable::length},
+    {"T", kNewton, [](const LengthState& s) { return s.tension; }, PlaceVariable::tension},
+    {"H", kNewton, [](const LengthState& s) { return s.horizontal_n; }, PlaceVariable::horizontal},
+    {"x", kMm, kOfPaper[0].of, PlaceVariable::x},
+    {"y", kMm, kOfPaper[1].of, PlaceVariable::y},
     {"turn", kMm, [](const LengthState& s) { return Number(s.turn_mm); }},
     {"pitch", kMm, [](const LengthState& s) { return Number(s.tooth_mm); }},
-    {"r", kMm, distance_of},
+    {"r", kMm, distance_of, PlaceVariable::distance},
     {"d", {}, [](const LengthState& s) { return Number(s.direction); }},
     {"side", {}, [](const LengthState& s) { return Number(s.side); }},
 };
 constexpr FormulaVariable kOfReading[] = {
-    {"n", {}, [](const LengthState& s) { return Number(s.order); }},
+    {"n", {}, [](const LengthState& s) { return Number(s.order); }, PlaceVariable::visit},
     kOfChain[8],
 };
 

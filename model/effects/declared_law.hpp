@@ -16,6 +16,7 @@ struct FormulaVariable {
   std::string_view name;
   FormulaUnit unit;
   Number (*of)(const LengthState&) = nullptr;
+  PlaceVariable place = PlaceVariable::none;
 };
 /// Of what acts on the paper x_mm and y_mm of the state are the mark's.
 [[nodiscard]] std::span<const FormulaVariable> variables_of(ActsOn acts_on);

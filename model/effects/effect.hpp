@@ -94,6 +94,7 @@ class EffectParameters {
   [[nodiscard]] constexpr const EffectParameter* begin() const { return all_.data(); }
   [[nodiscard]] constexpr const EffectParameter* end() const { return begin() + count_; }
   [[nodiscard]] constexpr std::size_t size() const { return count_; }
+  [[nodiscard]] constexpr bool empty() const { return count_ == 0; }
   [[nodiscard]] constexpr const EffectParameter& operator[](std::size_t i) const { return all_[i]; }
   [[nodiscard]] constexpr const EffectParameter& front() const { return all_[0]; }
   [[nodiscard]] constexpr const EffectParameter& back() const { return all_[count_ - 1]; }
@@ -114,17 +115,17 @@ constexpr Number variable(double value, LengthVariable which) {
 /// A chain, a belt or a cord at a visit, with every machine effect on. What a mechanism does not have
 /// is 0.
 struct LengthState {
-  Number angle_rad = {};       ///< phi
-  Number free_mm = {};         ///< S
-  Number length_mm = {};       ///< L0
-  Number tension = {};         ///< T
-  Number horizontal_n = {};    ///< H
+  Number angle_rad = {};        ///< phi
+  Number free_mm = {};          ///< S
+  Number length_mm = {};        ///< L0
+  Number tension = {};          ///< T
+  Number horizontal_n = {};     ///< H
   Number x_mm = {}, y_mm = {};  ///< of the tool, the rest of the state held
-  double turn_mm = 0.0;     ///< what one turn of the sprocket, pulley or spool pays out
-  double tooth_mm = 0.0;    ///< of a chain its nominal pitch
-  double side = 1.0;        ///< 1 of the left one, -1 of the right
-  double direction = 1.0;   ///< 1 where it has been paid out to its length, -1 where taken in
-  int order = 0;            ///< n
+  double turn_mm = 0.0;         ///< what one turn of the sprocket, pulley or spool pays out
+  double tooth_mm = 0.0;        ///< of a chain its nominal pitch
+  double side = 1.0;            ///< 1 of the left one, -1 of the right
+  double direction = 1.0;       ///< 1 where it was paid out to its length, -1 where it was taken in
+  int order = 0;                ///< n
 };
 /// Of a chain in equilibrium, without a visit.
 [[nodiscard]] LengthState chain_at_rest(const Pose& pose, Side side, const Sprocket& sprocket);

@@ -95,13 +95,6 @@ std::string_view name(PlotterFirmware firmware) {
   return "mural";
 }
 
-std::optional<PlotterFirmware> plotter_firmware_of(std::string_view word) {
-  for (const PlotterFirmware own : kPlotterFirmwares) {
-    if (word == name(own)) return own;
-  }
-  return std::nullopt;
-}
-
 tl::expected<ChainLengths, PlotterFailure> paid_out(PlotterFirmware firmware,
                                                     const PlotterMachine& as_set,
                                                     BedPoint command) {

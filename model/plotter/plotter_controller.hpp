@@ -30,7 +30,6 @@ inline constexpr PlotterFirmware kPlotterFirmwares[] = {PlotterFirmware::fluidnc
                                                         PlotterFirmware::polargraph,
                                                         PlotterFirmware::mural};
 [[nodiscard]] std::string_view name(PlotterFirmware firmware);
-[[nodiscard]] std::optional<PlotterFirmware> plotter_firmware_of(std::string_view word);
 
 /// `as_set` holds what is set in the controller. The command is in the machine's frame. \throws
 /// std::invalid_argument for a mural that is a point.

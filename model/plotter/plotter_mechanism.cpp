@@ -41,16 +41,7 @@ std::vector<MechanismParameter> stated_parameters(const PlotterMachine& machine)
           {"scale_right_mm_per_m", "mm_per_m", v[kScaleRight], sigma.scale_mm_per_m}};
 }
 
-std::vector<const effects::Effect*> all_effects() {
-  const effects::EffectTable table = plotter::plotter_effects();
-  return {table.begin(), table.end()};
-}
-
 }  // namespace
-
-MechanismFailure mechanism_failure(const PlotterFailure& failure) {
-  return MechanismReason{name(failure.reason), sentence_of(failure.reason)};
-}
 
 std::shared_ptr<const PlotterMechanism> make_plotter_mechanism(const PlotterMachine& machine) {
   return std::make_shared<const PlotterMechanism>(machine);
@@ -62,8 +53,10 @@ PlotterMechanism::PlotterMechanism(const PlotterMachine& machine)
 PlotterMechanism::PlotterMechanism(PlotterMachine machine,
                                    std::vector<MechanismParameter> parameters,
                                    std::vector<AppliedEffect> applied)
-    : MechanismBase(
-          all_effects(), std::move(parameters), values_of(machine), std::move(applied)),
+    : MechanismBase(plotter::plotter_effects(),
+                    std::move(parameters),
+                    values_of(machine),
+                    std::move(applied)),
       machine_(std::move(machine)),
       statics_(plotter::statics_of(machine_)),
       acting_(effects::resolve(plotter::plotter_effects(), this->applied())) {
@@ -154,7 +147,7 @@ tl::expected<ToolPosition, MechanismFailure> PlotterMechanism::straight_place(
   // Circles about the pins, moved together by the gondola's width.
   const double x = (level.left * level.left - level.right * level.right) / (4.0 * half);
   const double square = level.left * level.left - (x + half) * (x + half);
-  if (!(square > 0.0)) return tl::unexpected(mechanism_failure(PlotterReason::cords_do_not_meet));
+  if (!(square > 0.0)) return tl::unexpected(named(PlotterReason::cords_do_not_meet));
   const double low = -0.5 * std::abs(machine_.pin_rise_mm) - 1e-3 * half;
   return ToolPosition{std::clamp(x, -0.99 * half, 0.99 * half),
                       std::min(low, -std::sqrt(square) - machine_.gondola.pen_below_mm)};

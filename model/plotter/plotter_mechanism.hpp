@@ -76,6 +76,4 @@ enum PlotterParameter : Eigen::Index {
   kPlotterParameters
 };
 
-[[nodiscard]] MechanismFailure mechanism_failure(const PlotterFailure& failure);
-
 }  // namespace chaintrue::model

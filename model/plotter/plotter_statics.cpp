@@ -7,36 +7,15 @@
 
 namespace chaintrue::model {
 
-std::string_view name(PlotterReason reason) {
-  switch (reason) {
-    case PlotterReason::above_the_pins:
-      return "above_the_pins";
-    case PlotterReason::outside_the_pins:
-      return "outside_the_pins";
-    case PlotterReason::slack:
-      return "slack";
-    case PlotterReason::cords_do_not_meet:
-      return "cords_do_not_meet";
-    case PlotterReason::not_converged:
-      break;
-  }
-  return "not_converged";
-}
-
-std::string_view sentence_of(PlotterReason reason) {
-  switch (reason) {
-    case PlotterReason::above_the_pins:
-      return "the gondola would be above a point that its cords hang from";
-    case PlotterReason::outside_the_pins:
-      return "the gondola would not be between the points that its cords hang from";
-    case PlotterReason::slack:
-      return "a cord would be slack: the gondola is too light for what pulls at it";
-    case PlotterReason::cords_do_not_meet:
-      return "cords of these lengths do not meet";
-    case PlotterReason::not_converged:
-      break;
-  }
-  return "no equilibrium was found";
+MechanismReason named(PlotterReason reason) {
+  constexpr std::array<MechanismReason, 5> kReasons = {{
+      {"above_the_pins", "the gondola would be above a point that its cords hang from"},
+      {"outside_the_pins", "the gondola would not be between the points that its cords hang from"},
+      {"slack", "a cord would be slack: the gondola is too light for what pulls at it"},
+      {"cords_do_not_meet", "cords of these lengths do not meet"},
+      {"not_converged", "no equilibrium was found"},
+  }};
+  return kReasons.at(static_cast<std::size_t>(reason));
 }
 
 namespace plotter {

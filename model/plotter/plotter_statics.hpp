@@ -27,8 +27,7 @@ enum class PlotterReason {
   cords_do_not_meet,  ///< no position has these lengths
   not_converged,
 };
-[[nodiscard]] std::string_view name(PlotterReason reason);
-[[nodiscard]] std::string_view sentence_of(PlotterReason reason);
+[[nodiscard]] MechanismReason named(PlotterReason reason);
 using PlotterFailure = Failure<PlotterReason>;
 
 namespace plotter {

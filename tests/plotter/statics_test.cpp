@@ -171,9 +171,6 @@ TEST(PlotterController, CountsWithWhatIsSet) {
   EXPECT_EQ(paid_out(PlotterFirmware::marlin, set, {0.0, 5.0}).error(),
             PlotterReason::above_the_pins);
   EXPECT_THROW((void)paid_out(PlotterFirmware::mural, set, {0.0, -800.0}), std::invalid_argument);
-  for (const PlotterFirmware own : kPlotterFirmwares)
-    EXPECT_EQ(plotter_firmware_of(name(own)), own);
-  EXPECT_FALSE(plotter_firmware_of("grbl"));
 }
 
 TEST(PlotterMachine, PinsCloserThanTheGondolaIsWideAreRefused) {
