@@ -13,39 +13,9 @@
 namespace chaintrue::model {
 namespace {
 
-/// Collects problems. The ranges contain every real hanging router, so that a value outside is a
-/// mistake.
-class Checker {
- public:
-  /// With `ranges`, every range that is checked is appended to it.
-  explicit Checker(std::vector<MachineRange>* ranges = nullptr) : ranges_(ranges) {}
-  void range(std::string_view place,
-             double value,
-             double least,
-             double most,
-             std::string_view unit,
-             std::string_view slip = "") {
-    if (ranges_ != nullptr)
-      ranges_->push_back({std::string(place), least, most, std::string(unit)});
-    if (value >= least && value <= most) return;  // false for NaN
-    std::string expected = fmt::format("a number from {} to {} {}", least, most, unit);
-    while (!expected.empty() && expected.back() == ' ') expected.pop_back();
-    if (std::isfinite(value) && !slip.empty()) expected += fmt::format("; {}", slip);
-    add(place, fmt::format("{}", value), std::move(expected));
-  }
-  void add(std::string_view place, std::string value, std::string expected) {
-    problems_.push_back({std::string(place), std::move(value), std::move(expected)});
-  }
-  [[nodiscard]] std::vector<MachineProblem> take() { return std::move(problems_); }
-
- private:
-  std::vector<MachineProblem> problems_;
-  std::vector<MachineRange>* ranges_;
-};
-
 constexpr std::string_view kInches = "was it given in inches?";
 
-void check_motors(const Machine& machine, Checker& check) {
+void check_motors(const Machine& machine, RangeChecks& check) {
   const MotorPosition &l = machine.motors.left, &r = machine.motors.right;
   check.range("/motors/left/x_mm", l.x_mm, -20000, 20000, "mm");
   check.range("/motors/left/y_mm", l.y_mm, -20000, 20000, "mm");
@@ -85,7 +55,7 @@ void check_motors(const Machine& machine, Checker& check) {
   }
 }
 
-void check_attachment(const Attachment& attachment, Checker& check) {
+void check_attachment(const Attachment& attachment, RangeChecks& check) {
   if (const auto* ring = std::get_if<Ring>(&attachment)) {
     check.range("/attachment/radius_mm", ring->radius_mm, 0, 1000, "mm");
     if (ring->radius_mm > 0 && ring->radius_mm < 20) {
@@ -127,7 +97,7 @@ constexpr ControllerRange kControllerRanges[] = {
     {"chainelongationfactor", &ControllerSettings::chain_elongation_per_n, 0, 1e-3, "1/N"},
 };
 
-void check_controller(const ControllerSettings& settings, Checker& check) {
+void check_controller(const ControllerSettings& settings, RangeChecks& check) {
   for (const ControllerRange& own : kControllerRanges) {
     if (const auto& value = settings.*own.value)
       check.range(
@@ -135,7 +105,7 @@ void check_controller(const ControllerSettings& settings, Checker& check) {
   }
 }
 
-void check_machine(const Machine& machine, Checker& check) {
+void check_machine(const Machine& machine, RangeChecks& check) {
   check.range("/bed/width_mm", machine.bed.width_mm, 200, 20000, "mm", kInches);
   check.range("/bed/height_mm", machine.bed.height_mm, 200, 20000, "mm", kInches);
   check_motors(machine, check);
@@ -183,6 +153,24 @@ void check_machine(const Machine& machine, Checker& check) {
 
 }  // namespace
 
+void RangeChecks::range(std::string_view place,
+                        double value,
+                        double least,
+                        double most,
+                        std::string_view unit,
+                        std::string_view slip) {
+  if (ranges_ != nullptr) ranges_->push_back({std::string(place), least, most, std::string(unit)});
+  if (value >= least && value <= most) return;  // false for NaN
+  std::string expected = fmt::format("a number from {} to {} {}", least, most, unit);
+  while (expected.back() == ' ') expected.pop_back();
+  if (std::isfinite(value) && !slip.empty()) expected += fmt::format("; {}", slip);
+  add(place, fmt::format("{}", value), std::move(expected));
+}
+
+void RangeChecks::add(std::string_view place, std::string value, std::string expected) {
+  problems_.push_back({std::string(place), std::move(value), std::move(expected)});
+}
+
 double Sprocket::effective_radius_mm() const {
   return radius_mm.value_or(pitch_mm * teeth / (2.0 * std::numbers::pi));
 }
@@ -195,7 +183,7 @@ void require_none(const std::vector<MachineProblem>& problems) {
 }
 
 std::vector<MachineProblem> problems_of(const Machine& machine) {
-  Checker check;
+  RangeChecks check;
   check_machine(machine, check);
   return check.take();
 }
@@ -206,10 +194,10 @@ std::vector<MachineRange> machine_ranges() {
   for (const ControllerRange& own : kControllerRanges)
     machine.controller.settings.*own.value = 0.0;
   std::vector<MachineRange> ranges;
-  Checker with_ring(&ranges);
+  RangeChecks with_ring(&ranges);
   check_machine(machine, with_ring);
   machine.attachment = Brackets{};
-  Checker with_brackets(&ranges);
+  RangeChecks with_brackets(&ranges);
   check_attachment(machine.attachment, with_brackets);
   return ranges;
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Ranges of a machine's numbers, for reference pages and editors; the same ranges as in
-/// problems_of (model/machine.hpp).
+/// Ranges of a machine's numbers: how they are checked, and as a list for reference pages and editors.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "model/machine.hpp"
 
 namespace chaintrue::model {
 
@@ -16,6 +18,28 @@ struct MachineRange {
   double most = 0.0;
   std::string unit;
 };
+/// Collects problems of a machine's numbers. The ranges contain every real machine, so that a value
+/// outside is a mistake.
+class RangeChecks {
+ public:
+  /// With `ranges`, every range that is checked is appended to it.
+  explicit RangeChecks(std::vector<MachineRange>* ranges = nullptr) : ranges_(ranges) {}
+  /// `slip` is what may have happened to a value outside.
+  void range(std::string_view place,
+             double value,
+             double least,
+             double most,
+             std::string_view unit = "",
+             std::string_view slip = "");
+  void add(std::string_view place, std::string value, std::string expected);
+  [[nodiscard]] bool sound() const { return problems_.empty(); }
+  [[nodiscard]] std::vector<MachineProblem> take() { return std::move(problems_); }
+
+ private:
+  std::vector<MachineProblem> problems_;
+  std::vector<MachineRange>* ranges_;
+};
+
 /// The ranges of problems_of for a ring and for brackets, with every setting of a controller.
 [[nodiscard]] std::vector<MachineRange> machine_ranges();
 

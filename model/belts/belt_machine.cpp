@@ -3,90 +3,56 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <array>
 #include <stdexcept>
+
+#include "model/machine_ranges.hpp"
 
 namespace chaintrue::model {
 namespace {
 
-void check(std::vector<MachineProblem>& problems,
-           std::string place,
-           double value,
-           double least,
-           double most,
-           std::string_view slip = "") {
-  if (value >= least && value <= most) return;  // false for NaN
-  problems.push_back(
-      {std::move(place),
-       fmt::format("{}", value),
-       fmt::format("a number from {} to {}{}{}", least, most, slip.empty() ? "" : "; ", slip)});
-}
-
-void check_anchors(const BeltMachine& machine, std::vector<MachineProblem>& problems) {
+void check_anchors(const BeltMachine& machine, RangeChecks& checks) {
   for (const Belt belt : kBelts) {
     const Anchor& anchor = machine.anchors[belt];
     const std::string place = fmt::format("/anchors/{}", name(belt));
-    check(problems, place + "/z_mm", anchor.z_mm, -1000.0, 1000.0);
+    checks.range(place + "/z_mm", anchor.z_mm, -1000.0, 1000.0);
     if (!machine.anchors_known) continue;
-    check(problems, place + "/x_mm", anchor.x_mm, -20000.0, 20000.0);
-    check(problems, place + "/y_mm", anchor.y_mm, -20000.0, 20000.0);
+    checks.range(place + "/x_mm", anchor.x_mm, -20000.0, 20000.0);
+    checks.range(place + "/y_mm", anchor.y_mm, -20000.0, 20000.0);
   }
-  if (!machine.anchors_known || !problems.empty()) return;
+  if (!machine.anchors_known || !checks.sound()) return;
   const PerBelt<Anchor>& a = machine.anchors;
-  const auto zero = [&problems](const char* place, double value) {
+  const auto zero = [&checks](const char* place, double value) {
     if (value == 0.0) return;
-    problems.push_back({place,
-                        fmt::format("{}", value),
-                        "0: the bottom left anchor is the origin, and the bottom right one lies "
-                        "on the x axis"});
+    checks.add(place,
+               fmt::format("{}", value),
+               "0: the bottom left anchor is the origin, and the bottom right one lies "
+               "on the x axis");
   };
   zero("/anchors/bl/x_mm", a.bl.x_mm);
   zero("/anchors/bl/y_mm", a.bl.y_mm);
   zero("/anchors/br/y_mm", a.br.y_mm);
   constexpr double kLeastFrameMm = 300.0;
   if (!(a.br.x_mm >= kLeastFrameMm && a.tr.x_mm - a.tl.x_mm >= kLeastFrameMm)) {
-    problems.push_back(
-        {"/anchors",
-         fmt::format("br at x {} and tr {} right of tl", a.br.x_mm, a.tr.x_mm - a.tl.x_mm),
-         "right anchors at least 300 mm right of the left ones; were they swapped, "
-         "or given in inches?"});
+    checks.add("/anchors",
+               fmt::format("br at x {} and tr {} right of tl", a.br.x_mm, a.tr.x_mm - a.tl.x_mm),
+               "right anchors at least 300 mm right of the left ones; were they swapped, "
+               "or given in inches?");
   }
   if (!(a.tl.y_mm >= kLeastFrameMm && a.tr.y_mm >= kLeastFrameMm)) {
-    problems.push_back({"/anchors",
-                        fmt::format("tl at y {} and tr at y {}", a.tl.y_mm, a.tr.y_mm),
-                        "upper anchors at least 300 mm above the lower ones (y points up); were "
-                        "they swapped, or given in inches?"});
+    checks.add("/anchors",
+               fmt::format("tl at y {} and tr at y {}", a.tl.y_mm, a.tr.y_mm),
+               "upper anchors at least 300 mm above the lower ones (y points up); were "
+               "they swapped, or given in inches?");
   }
 }
 
 }  // namespace
 
-std::string_view name(Belt belt) {
-  switch (belt) {
-    case Belt::tl:
-      return "tl";
-    case Belt::tr:
-      return "tr";
-    case Belt::bl:
-      return "bl";
-    case Belt::br:
-      break;
-  }
-  return "br";
-}
+std::string_view name(Belt belt) { return PerBelt<std::string_view>{"tl", "tr", "bl", "br"}[belt]; }
 
 std::string_view words(Belt belt) {
-  switch (belt) {
-    case Belt::tl:
-      return "top left";
-    case Belt::tr:
-      return "top right";
-    case Belt::bl:
-      return "bottom left";
-    case Belt::br:
-      break;
-  }
-  return "bottom right";
+  return PerBelt<std::string_view>{"top left", "top right", "bottom left", "bottom right"}[belt];
 }
 
 std::optional<Belt> belt_of(std::string_view word) {
@@ -101,15 +67,8 @@ std::string_view name(Orientation orientation) {
 }
 
 std::string_view name(BeltLengths lengths) {
-  switch (lengths) {
-    case BeltLengths::belt:
-      return "belt";
-    case BeltLengths::belt_and_arm:
-      return "belt_and_arm";
-    case BeltLengths::span:
-      break;
-  }
-  return "span";
+  constexpr std::array<std::string_view, 3> kNames = {"belt", "belt_and_arm", "span"};
+  return kNames.at(static_cast<std::size_t>(lengths));
 }
 
 double reach_mm(const BeltMachine& machine) { return machine.arm_mm + machine.end_extension_mm; }
@@ -145,15 +104,15 @@ FramePoint to_frame(const BeltMachine& machine, BedPoint command) {
 }
 
 std::vector<MachineProblem> problems_of(const BeltMachine& machine) {
-  std::vector<MachineProblem> problems;
-  check_anchors(machine, problems);
-  check(problems, "/arm_mm", machine.arm_mm, 0.0, 1000.0);
-  check(problems, "/end_extension_mm", machine.end_extension_mm, 0.0, 1000.0);
-  check(problems, "/surface_mm", machine.surface_mm, -500.0, 500.0);
-  check(problems, "/belt/turn_mm", machine.belt_turn_mm, 1.0, 1000.0);
-  check(problems, "/scale_x", machine.scale_x, 0.5, 2.0, "it is a factor, about 1");
-  check(problems, "/scale_y", machine.scale_y, 0.5, 2.0, "it is a factor, about 1");
-  return problems;
+  RangeChecks checks;
+  check_anchors(machine, checks);
+  checks.range("/arm_mm", machine.arm_mm, 0.0, 1000.0);
+  checks.range("/end_extension_mm", machine.end_extension_mm, 0.0, 1000.0);
+  checks.range("/surface_mm", machine.surface_mm, -500.0, 500.0);
+  checks.range("/belt/turn_mm", machine.belt_turn_mm, 1.0, 1000.0);
+  checks.range("/scale_x", machine.scale_x, 0.5, 2.0, "", "it is a factor, about 1");
+  checks.range("/scale_y", machine.scale_y, 0.5, 2.0, "", "it is a factor, about 1");
+  return checks.take();
 }
 
 }  // namespace chaintrue::model

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/plotter/plotter_controller.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -82,17 +83,8 @@ tl::expected<ChainLengths, PlotterFailure> mural_lengths(const PlotterMachine& a
 }  // namespace
 
 std::string_view name(PlotterFirmware firmware) {
-  switch (firmware) {
-    case PlotterFirmware::fluidnc:
-      return "fluidnc";
-    case PlotterFirmware::marlin:
-      return "marlin";
-    case PlotterFirmware::polargraph:
-      return "polargraph";
-    case PlotterFirmware::mural:
-      break;
-  }
-  return "mural";
+  constexpr std::array<std::string_view, 4> kNames = {"fluidnc", "marlin", "polargraph", "mural"};
+  return kNames.at(static_cast<std::size_t>(firmware));
 }
 
 tl::expected<ChainLengths, PlotterFailure> paid_out(PlotterFirmware firmware,

@@ -4,38 +4,21 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <utility>
+
+#include "model/machine_ranges.hpp"
 
 namespace chaintrue::model {
 namespace {
 
-class PlotterChecks {
- public:
-  void within(std::string place, double value, double least, double most) {
-    if (value >= least && value <= most) return;  // false for NaN
-    problems_.push_back({std::move(place),
-                         fmt::format("{}", value),
-                         fmt::format("a number from {} to {}", least, most)});
-  }
-  void add(std::string place, std::string found, std::string expected) {
-    problems_.push_back({std::move(place), std::move(found), std::move(expected)});
-  }
-  [[nodiscard]] bool sound() const { return problems_.empty(); }
-  [[nodiscard]] std::vector<MachineProblem> take() { return std::move(problems_); }
-
- private:
-  std::vector<MachineProblem> problems_;
-};
-
-void check_gondola(const PlotterMachine& machine, PlotterChecks& checks) {
+void check_gondola(const PlotterMachine& machine, RangeChecks& checks) {
   const Gondola& g = machine.gondola;
-  checks.within("/gondola/spacing_mm", g.spacing_mm, 0.0, 1000.0);
-  checks.within("/gondola/pen_below_mm", g.pen_below_mm, -500.0, 500.0);
-  checks.within("/gondola/pen_right_mm", g.pen_right_mm, -500.0, 500.0);
-  checks.within("/gondola/mass_below_mm", g.mass_below_mm, -100.0, 500.0);
-  checks.within("/gondola/mass_right_mm", g.mass_right_mm, -500.0, 500.0);
-  checks.within("/gondola/mass_kg", g.mass_kg, 0.005, 50.0);
-  checks.within("/gondola/standoff_mm", g.standoff_mm, -200.0, 200.0);
+  checks.range("/gondola/spacing_mm", g.spacing_mm, 0.0, 1000.0);
+  checks.range("/gondola/pen_below_mm", g.pen_below_mm, -500.0, 500.0);
+  checks.range("/gondola/pen_right_mm", g.pen_right_mm, -500.0, 500.0);
+  checks.range("/gondola/mass_below_mm", g.mass_below_mm, -100.0, 500.0);
+  checks.range("/gondola/mass_right_mm", g.mass_right_mm, -500.0, 500.0);
+  checks.range("/gondola/mass_kg", g.mass_kg, 0.005, 50.0);
+  checks.range("/gondola/standoff_mm", g.standoff_mm, -200.0, 200.0);
   if (!is_point(g)) return;
   if (g.pen_below_mm != 0.0 || g.pen_right_mm != 0.0 || g.mass_below_mm != 0.0 ||
       g.mass_right_mm != 0.0) {
@@ -52,14 +35,14 @@ void check_gondola(const PlotterMachine& machine, PlotterChecks& checks) {
   }
 }
 
-void check_area(const PlotterMachine& machine, PlotterChecks& checks) {
+void check_area(const PlotterMachine& machine, RangeChecks& checks) {
   const DrawingArea& area = machine.area;
   const double reach_mm = 0.5 * machine.pin_spacing_mm;
   const double low_pin_mm = -0.5 * std::abs(machine.pin_rise_mm);
-  checks.within("/area/left_mm", area.left_mm, -reach_mm, reach_mm);
-  checks.within("/area/right_mm", area.right_mm, -reach_mm, reach_mm);
-  checks.within("/area/bottom_mm", area.bottom_mm, -20000.0, low_pin_mm);
-  checks.within("/area/top_mm", area.top_mm, -20000.0, low_pin_mm);
+  checks.range("/area/left_mm", area.left_mm, -reach_mm, reach_mm);
+  checks.range("/area/right_mm", area.right_mm, -reach_mm, reach_mm);
+  checks.range("/area/bottom_mm", area.bottom_mm, -20000.0, low_pin_mm);
+  checks.range("/area/top_mm", area.top_mm, -20000.0, low_pin_mm);
   if (!checks.sound()) return;
   if (!(area.left_mm < area.right_mm && area.bottom_mm < area.top_mm)) {
     checks.add("/area",
@@ -103,24 +86,24 @@ PlotterMachine mural(double pin_spacing_mm) {
 }
 
 std::vector<MachineProblem> problems_of(const PlotterMachine& machine) {
-  PlotterChecks checks;
-  checks.within("/pin_spacing_mm", machine.pin_spacing_mm, 100.0, 20000.0);
-  checks.within("/pin_rise_mm", machine.pin_rise_mm, -2000.0, 2000.0);
-  checks.within("/pulley_radius_mm", machine.pulley_radius_mm, 0.0, 200.0);
-  checks.within("/cord/mass_kg_per_m", machine.cord.mass_kg_per_m, 0.0, 1.0);
-  checks.within("/cord/compliance_per_n", machine.cord.compliance_per_n, 0.0, 0.01);
-  checks.within("/cord/tooth_mm", machine.cord.tooth_mm, 0.001, 50.0);
+  RangeChecks checks;
+  checks.range("/pin_spacing_mm", machine.pin_spacing_mm, 100.0, 20000.0);
+  checks.range("/pin_rise_mm", machine.pin_rise_mm, -2000.0, 2000.0);
+  checks.range("/pulley_radius_mm", machine.pulley_radius_mm, 0.0, 200.0);
+  checks.range("/cord/mass_kg_per_m", machine.cord.mass_kg_per_m, 0.0, 1.0);
+  checks.range("/cord/compliance_per_n", machine.cord.compliance_per_n, 0.0, 0.01);
+  checks.range("/cord/tooth_mm", machine.cord.tooth_mm, 0.001, 50.0);
   for (const Side side : kSides) {
     const char* word = side == Side::left ? "left" : "right";
-    checks.within(fmt::format("/zero/{}_mm", word), machine.zero_mm[side], -20000.0, 20000.0);
-    checks.within(
+    checks.range(fmt::format("/zero/{}_mm", word), machine.zero_mm[side], -20000.0, 20000.0);
+    checks.range(
         fmt::format("/scale/{}_mm_per_m", word), machine.scale_mm_per_m[side], -500.0, 500.0);
   }
   const PlotterUncertainty& sigma = machine.uncertainty;
-  checks.within("/uncertainty/pin_spacing_mm", sigma.pin_spacing_mm, 1e-3, 1000.0);
-  checks.within("/uncertainty/pin_rise_mm", sigma.pin_rise_mm, 1e-3, 1000.0);
-  checks.within("/uncertainty/zero_mm", sigma.zero_mm, 1e-3, 1000.0);
-  checks.within("/uncertainty/scale_mm_per_m", sigma.scale_mm_per_m, 1e-3, 100.0);
+  checks.range("/uncertainty/pin_spacing_mm", sigma.pin_spacing_mm, 1e-3, 1000.0);
+  checks.range("/uncertainty/pin_rise_mm", sigma.pin_rise_mm, 1e-3, 1000.0);
+  checks.range("/uncertainty/zero_mm", sigma.zero_mm, 1e-3, 1000.0);
+  checks.range("/uncertainty/scale_mm_per_m", sigma.scale_mm_per_m, 1e-3, 100.0);
   check_gondola(machine, checks);
   if (!checks.sound()) return checks.take();
   // Cords of a body as wide as its pins hang straight down and place nothing.
