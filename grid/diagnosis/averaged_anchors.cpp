@@ -226,7 +226,7 @@ class Averaging {
     for (const int index : model.regressors) {
       const Regressor& own = system_.regressor(index);
       if (own.expected) {
-        change += std::log(model::belts::belt_effect_of(*own.cause.effect)->expected);
+        change += std::log(own.cause.effect->expected);
         if (gives) change += std::log(kWeightGivenOthers);
         gives = true;
         continue;

@@ -29,7 +29,7 @@
 namespace chaintrue::grid::diagnosis {
 
 /// In the form of the belts' own table.
-[[nodiscard]] std::vector<model::belts::ResolvedBeltEffect> resolved(
+[[nodiscard]] std::vector<model::effects::ActingEffect> resolved(
     const std::vector<SizedCause>& causes);
 
 /// What the causes add to what the machine prints, 4 N, mm: as row_of() has the rows. Of readings that

@@ -127,7 +127,7 @@ class Columns {
  private:
   /// Of what is expected what makes it alone as likely as nothing (CausePrior).
   [[nodiscard]] double share_of(const CauseId& cause) const {
-    const model::belts::BeltEffect& effect = *model::belts::belt_effect_of(*cause.effect);
+    const model::effects::Effect& effect = *cause.effect;
     if (!(effect.expected > 0.0)) return effect.share;
     return effect.expected * system_.prior.shares * kPriorOfNothing / kPriorOfOne;
   }
@@ -151,7 +151,7 @@ class Columns {
     regressor.values = own.values;
     regressor.log_prior = std::log(share);
     regressor.refined = refined;
-    regressor.expected = model::belts::belt_effect_of(*own.cause.effect)->expected > 0.0;
+    regressor.expected = own.cause.effect->expected > 0.0;
     if (own.cause.effect->parameters.front().integer) {
       regressor.fixed = true;
       regressor.lowest = regressor.highest = 1.0;

@@ -49,7 +49,7 @@ std::string short_of_a_name(const Diagnosis& d) {
     // Something is expected to give with the pull: where it is not named the readings speak against it.
     if (own.probability < kInTheSet || own.causes.empty()) continue;
     const CauseId& cause = own.causes.front();
-    if (model::belts::belt_effect_of(*cause.effect)->expected > 0.0) continue;
+    if (cause.effect->expected > 0.0) continue;
     parts.push_back(fmt::format(
         "{}{}, {}", cause.effect->cause, side_words(cause), percent(own.probability)));
     most = std::max(most, own.probability);
