@@ -11,23 +11,13 @@
 namespace chaintrue::gcode {
 
 struct ProgramEvents final : Sink {
-  Result<void> move(const Move& move) override {
-    moves.push_back(move);
-    return {};
-  }
-  Result<void> word(const PassedWord& word) override {
-    words.push_back(word);
-    return {};
-  }
-  Result<void> comment(const Comment& comment) override {
-    comments.push_back(comment);
-    return {};
-  }
+  void move(const Move& move) override { moves.push_back(move); }
+  void word(const PassedWord& word) override { words.push_back(word); }
+  void comment(const Comment& comment) override { comments.push_back(comment); }
   void note(const Note& note) override { notes.push_back(note); }
-  Result<void> end(std::size_t /*line*/, std::string_view word) override {
+  void end(std::size_t /*line*/, std::string_view word) override {
     end_word = word;
     ended = true;
-    return {};
   }
 
   std::vector<Move> moves;

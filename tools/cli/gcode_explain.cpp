@@ -17,13 +17,11 @@ namespace {
 
 /// Keeps what one line does.
 struct LineEvents final : gcode::Sink {
-  gcode::Result<void> move(const gcode::Move& move) override {
+  void move(const gcode::Move& move) override {
     if (listening) moves.push_back(move);
-    return {};
   }
-  gcode::Result<void> word(const gcode::PassedWord& word) override {
+  void word(const gcode::PassedWord& word) override {
     if (listening) words += fmt::format(" {}", word.text);
-    return {};
   }
   bool listening = false;
   std::vector<gcode::Move> moves;
@@ -84,19 +82,18 @@ int explain_line(const GcodeMachine* machine, const GcodeOptions& options) {
     fmt::print("{}\n", title);
     for (const std::string& words : program.interpreter().describe()) fmt::print("  {}\n", words);
   };
-  while (program.next_line() != line) {
-    const auto more = program.step();
-    if (!more) return report(file, more.error());
-    if (!*more)
-      return report(
-          file,
-          gcode::Problem{
-              gcode::ProblemName::bad_flow, {line, 0}, "the program never comes to this line"});
-  }
+  const auto before = gcode::attempt([&] {
+    while (program.next_line() != line) {
+      if (!program.step())
+        refuse(gcode::ProblemName::bad_flow, {line, 0}, "the program never comes to this line");
+    }
+    return line;
+  });
+  if (!before) return report(file, before.error());
   print_state("before:");
   events.listening = true;
-  const auto more = program.step();
-  if (!more) return report(file, more.error());
+  const auto done = gcode::attempt([&] { return program.step(); });
+  if (!done) return report(file, done.error());
   fmt::print("line {}:{}\n", line, events.words.empty() ? "" : " passes" + events.words);
   for (const gcode::Move& move : events.moves) explain_move(move, machine);
   print_state("after:");

@@ -24,16 +24,12 @@ std::string in_words(const gcode::Deviation& worst) {
   return fmt::format(
       "{:.4f} mm from the intended path, at X{:.3f} Y{:.3f} Z{:.3f} (line {} of the original, line "
       "{} of the file run)",
-      worst.largest_mm,
+      worst.distance_mm,
       worst.intended.x_mm,
       worst.intended.y_mm,
       worst.intended.z_mm,
       worst.original_line,
       worst.run_line);
-}
-
-const gcode::Deviation& worst(const gcode::VerifySummary& summary) {
-  return summary.feeds.largest_mm >= summary.rapids.largest_mm ? summary.feeds : summary.rapids;
 }
 
 std::string in_quotes(const std::string& text) {
@@ -56,11 +52,11 @@ void print_json(const gcode::VerifySummary& summary,
       "{}, \"words_differ\": {}, \"motion_differs\": {}, \"fault\": {}}}\n",
       summary.holds(),
       summary.largest_mm(),
-      summary.feeds.largest_mm,
-      summary.rapids.largest_mm,
+      summary.feeds.distance_mm,
+      summary.rapids.distance_mm,
       summary.feeds.original_line,
       tolerance_mm,
-      control ? fmt::format("{:.6f}", control->largest_mm) : "null",
+      control ? fmt::format("{:.6f}", control->distance_mm) : "null",
       summary.tick_overshoot_mm,
       summary.commands,
       summary.places,
@@ -78,7 +74,7 @@ void print_words(const gcode::VerifySummary& summary,
                  std::string_view controller) {
   fmt::print("{}: the tool strays at most {}\n",
              summary.holds() ? "holds" : "does not hold",
-             in_words(worst(summary)));
+             in_words(summary.worst()));
   if (summary.holds()) fmt::print("{}", in_words(promised));
   if (!summary.fault.empty()) fmt::print("the first fault: {}\n", summary.fault);
   fmt::print("tolerance {} mm, {} commands, {} places compared, controller {}\n",
@@ -118,7 +114,7 @@ class AssumedUnit final : public gcode::Sink {
     if (note.name == "units_assumed") note_ = note;
   }
   /// Ends the program.
-  gcode::Result<void> move(const gcode::Move&) override { return tl::unexpected(gcode::Problem{}); }
+  void move(const gcode::Move&) override { throw gcode::Refusal({}); }
   [[nodiscard]] const std::optional<gcode::Note>& note() const { return note_; }
 
  private:
@@ -202,7 +198,7 @@ int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
         with_map_words(options,
                        {"gcode",
                         "explain",
-                        fmt::format("{}:{}", options.program, worst(*summary).original_line)}));
+                        fmt::format("{}:{}", options.program, summary->worst().original_line)}));
   }
   return summary->holds() ? kDone : kCheckFailed;
 }

@@ -29,13 +29,14 @@ double distance(PlanePoint a, PlanePoint b) {
 
 /// In the program's unit.
 std::string in_units(double mm, const ArcRequest& request) {
-  return fmt::format("{:.4f} {}", mm / request.mm_per_unit, request.mm_per_unit == 1.0 ? "mm" : "inch");
+  return fmt::format(
+      "{:.4f} {}", mm / request.mm_per_unit, request.mm_per_unit == 1.0 ? "mm" : "inch");
 }
 
 /// I belongs to X, J to Y, K to Z.
 char centre_word(char axis) { return static_cast<char>(axis - 'x' + 'i'); }
 
-Result<PlanePoint> by_radius(const ArcRequest& request, const Block& block) {
+PlanePoint by_radius(const ArcRequest& request, const Block& block) {
   const double radius = block.value('r') * request.mm_per_unit;
   const bool inches = request.mm_per_unit != 1.0;
   const double tolerance = inches ? kRadiusTolerance_inch * kInchMm : kRadiusToleranceMm;
@@ -43,19 +44,18 @@ Result<PlanePoint> by_radius(const ArcRequest& request, const Block& block) {
   const double dy = request.end.second_mm - request.start.second_mm;
   const double half_chord = 0.5 * std::hypot(dx, dy);
   if (half_chord == 0.0) {
-    return refuse(ProblemName::bad_arc,
-                  block.place('r'),
-                  "the arc ends where it starts, which a radius cannot describe; a full circle "
-                  "needs its centre");
+    refuse(ProblemName::bad_arc,
+           block.place('r'),
+           "the arc ends where it starts, which a radius cannot describe; a full circle "
+           "needs its centre");
   }
   double magnitude = std::fabs(radius);
   if (half_chord - magnitude > tolerance) {
-    return refuse(
-        ProblemName::bad_arc,
-        block.place('r'),
-        fmt::format("the radius {} is too small: the arc's ends are {} apart",
-                    in_units(magnitude, request),
-                    in_units(2.0 * half_chord, request)));
+    refuse(ProblemName::bad_arc,
+           block.place('r'),
+           fmt::format("the radius {} is too small: the arc's ends are {} apart",
+                       in_units(magnitude, request),
+                       in_units(2.0 * half_chord, request)));
   }
   magnitude = half_chord / magnitude > 1.0 - kTiny ? half_chord : magnitude;
   const double to_centre =
@@ -70,11 +70,11 @@ Result<PlanePoint> by_radius(const ArcRequest& request, const Block& block) {
       0.5 * (request.start.second_mm + request.end.second_mm) + side * to_centre * dx / length};
 }
 
-Result<PlanePoint> by_centre(const ArcRequest& request, const Block& block) {
+PlanePoint by_centre(const ArcRequest& request, const Block& block) {
   const char first = centre_word(request.first_axis);
   const char second = centre_word(request.second_axis);
   if (request.absolute_centre && !(block.has(first) && block.has(second))) {
-    return refuse(
+    refuse(
         ProblemName::bad_arc,
         block,
         fmt::format("absolute centres (G90.1) need both {} and {}", upper(first), upper(second)));
@@ -88,47 +88,46 @@ Result<PlanePoint> by_centre(const ArcRequest& request, const Block& block) {
   const double from_start = distance(centre, request.start);
   const double from_end = distance(centre, request.end);
   if (from_start < radius_tolerance || from_end < radius_tolerance) {
-    return refuse(ProblemName::bad_arc,
-                  block,
-                  "the arc's radius is zero: its centre lies at its start or end");
+    refuse(ProblemName::bad_arc,
+           block,
+           "the arc's radius is zero: its centre lies at its start or end");
   }
   const double difference = std::fabs(from_start - from_end);
   const double relative = difference / std::max(from_start, from_end);
   if (difference > 100.0 * spiral_tolerance ||
       (relative > kSpiralRelativeTolerance && difference > spiral_tolerance)) {
-    return refuse(ProblemName::bad_arc,
-                  block,
-                  fmt::format("the arc's end does not lie on its circle: the radius is {} at the "
-                              "start and {} at the end",
-                              in_units(from_start, request),
-                              in_units(from_end, request)));
+    refuse(ProblemName::bad_arc,
+           block,
+           fmt::format("the arc's end does not lie on its circle: the radius is {} at the "
+                       "start and {} at the end",
+                       in_units(from_start, request),
+                       in_units(from_end, request)));
   }
   return centre;
 }
 
 }  // namespace
 
-Result<PlanePoint> arc_centre(const ArcRequest& request, const Block& block) {
+PlanePoint arc_centre(const ArcRequest& request, const Block& block) {
   // Across the plane zero means nothing; FreeCAD writes it with every arc.
   const char across = centre_word(request.normal_axis);
   if (block.find(across).value_or(0.0) != 0.0) {
-    return refuse(ProblemName::bad_arc,
-                  block.place(across),
-                  fmt::format("{} has no meaning for an arc of this plane", upper(across)));
+    refuse(ProblemName::bad_arc,
+           block.place(across),
+           fmt::format("{} has no meaning for an arc of this plane", upper(across)));
   }
-  const bool has_centre = block.has(centre_word(request.first_axis)) ||
-                          block.has(centre_word(request.second_axis));
+  const bool has_centre =
+      block.has(centre_word(request.first_axis)) || block.has(centre_word(request.second_axis));
   if (block.has('r') && has_centre) {
-    return refuse(ProblemName::bad_arc,
-                  block,
-                  "the arc has a radius and a centre: only one of them can hold");
+    refuse(ProblemName::bad_arc,
+           block,
+           "the arc has a radius and a centre: only one of them can hold");
   }
   if (!block.has('r') && !has_centre) {
-    return refuse(
-        ProblemName::bad_arc, block, "the arc has neither a centre (I, J, K) nor a radius (R)");
+    refuse(ProblemName::bad_arc, block, "the arc has neither a centre (I, J, K) nor a radius (R)");
   }
   if (!block.has(request.first_axis) && !block.has(request.second_axis) && block.has('r')) {
-    return refuse(ProblemName::bad_arc, block, "an arc by radius needs an end point");
+    refuse(ProblemName::bad_arc, block, "an arc by radius needs an end point");
   }
   return block.has('r') ? by_radius(request, block) : by_centre(request, block);
 }

@@ -29,7 +29,7 @@ struct ArcRequest {
 };
 
 /// The centre, in the program's frame.
-[[nodiscard]] Result<PlanePoint> arc_centre(const ArcRequest& request, const Block& block);
+[[nodiscard]] PlanePoint arc_centre(const ArcRequest& request, const Block& block);
 
 /// The angle from start to end about the centre, signed, with `turns` started turns. An end within
 /// 5e-7 rad of the start makes a whole turn (grbl's ARC_ANGULAR_TRAVEL_EPSILON).

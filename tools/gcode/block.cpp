@@ -44,110 +44,99 @@ constexpr std::string_view kAxes = "xyzabc@^";
 /// rejected with a reason.
 constexpr std::string_view kPlainLetters = "abcdefhijklpqrstxyz@^uvw";
 
-Result<void> read_g(ValueReader& reader, Block& block, bool tools_have_no_diameter) {
+void read_g(ValueReader& reader, Block& block, bool tools_have_no_diameter) {
   const Place place = reader.place();
   const auto value = reader.real();
-  CHAINTRUE_GCODE_TRY(value);
   // 10 times 91.1 is 911 only up to rounding; more decimals do not form a code.
-  const double tenths = 10.0 * *value;
+  const double tenths = 10.0 * value;
   const double rounded = std::round(tenths);
-  if (*value < 0.0 || std::fabs(tenths - rounded) > 0.001 || rounded > 9999.0) {
-    return refuse(ProblemName::unknown_code, place, fmt::format("G{} is not a code", *value));
+  if (value < 0.0 || std::fabs(tenths - rounded) > 0.001 || rounded > 9999.0) {
+    refuse(ProblemName::unknown_code, place, fmt::format("G{} is not a code", value));
   }
   const GCode* code = find_g(static_cast<int>(rounded));
   if (code == nullptr) {
-    return refuse(ProblemName::unknown_code,
-                  place,
-                  fmt::format("{} is not known", g_name(static_cast<int>(rounded))));
+    refuse(ProblemName::unknown_code,
+           place,
+           fmt::format("{} is not known", g_name(static_cast<int>(rounded))));
   }
   const bool harmless =
       tools_have_no_diameter && (code->tenths == g::cutter_left || code->tenths == g::cutter_right);
   if (code->refusal != nullptr && !harmless) {
-    return refuse(ProblemName::unsupported_code,
-                  place,
-                  fmt::format("{}: {}", g_name(code->tenths), code->refusal));
+    refuse(ProblemName::unsupported_code,
+           place,
+           fmt::format("{}: {}", g_name(code->tenths), code->refusal));
   }
   const GCode*& slot = block.g[static_cast<std::size_t>(code->group)];
   if (slot != nullptr) {
-    return refuse(ProblemName::modal_conflict,
-                  place,
-                  fmt::format("{} and {} exclude each other within a line",
-                              g_name(slot->tenths),
-                              g_name(code->tenths)));
+    refuse(ProblemName::modal_conflict,
+           place,
+           fmt::format("{} and {} exclude each other within a line",
+                       g_name(slot->tenths),
+                       g_name(code->tenths)));
   }
   slot = code;
-  return {};
 }
 
-Result<void> read_m(ValueReader& reader, Block& block) {
+void read_m(ValueReader& reader, Block& block) {
   const Place place = reader.place();
   const auto number = reader.integer();
-  CHAINTRUE_GCODE_TRY(number);
-  const MCode* code = *number < 0 || *number > 9999 ? nullptr : find_m(static_cast<int>(*number));
+  const MCode* code = number < 0 || number > 9999 ? nullptr : find_m(static_cast<int>(number));
   if (code == nullptr)
-    return refuse(ProblemName::unknown_code, place, fmt::format("M{} is not known", *number));
+    refuse(ProblemName::unknown_code, place, fmt::format("M{} is not known", number));
   if (code->refusal != nullptr) {
-    return refuse(
+    refuse(
         ProblemName::unsupported_code, place, fmt::format("M{}: {}", code->number, code->refusal));
   }
   const MCode*& slot = block.m[static_cast<std::size_t>(code->group)];
   if (slot != nullptr) {
-    return refuse(
-        ProblemName::modal_conflict,
-        place,
-        fmt::format("M{} and M{} exclude each other within a line", slot->number, code->number));
+    refuse(ProblemName::modal_conflict,
+           place,
+           fmt::format("M{} and M{} exclude each other within a line", slot->number, code->number));
   }
   slot = code;
-  return {};
 }
 
-Result<void> read_assignment(ValueReader& reader, Block& block) {
+void read_assignment(ValueReader& reader, Block& block) {
   Assignment assignment;
   assignment.place = reader.place();
   if (reader.peek() == '<') {
     auto name = reader.angle_name();
-    CHAINTRUE_GCODE_TRY(name);
-    assignment.name = std::move(*name);
+    assignment.name = std::move(name);
   } else {
     const auto index = reader.integer();
-    CHAINTRUE_GCODE_TRY(index);
-    if (*index < 1 || *index >= parameter::kCount) {
-      return refuse(
-          ProblemName::bad_parameter, assignment.place, fmt::format("#{} does not exist", *index));
+    if (index < 1 || index >= parameter::kCount) {
+      refuse(
+          ProblemName::bad_parameter, assignment.place, fmt::format("#{} does not exist", index));
     }
-    assignment.index = static_cast<int>(*index);
+    assignment.index = static_cast<int>(index);
   }
   if (!reader.accept("=")) {
-    return refuse(ProblemName::bad_parameter,
-                  reader.place(),
-                  "'=' was expected: a parameter that is no word's value is set");
+    refuse(ProblemName::bad_parameter,
+           reader.place(),
+           "'=' was expected: a parameter that is no word's value is set");
   }
   const auto value = reader.real();
-  CHAINTRUE_GCODE_TRY(value);
-  assignment.value = *value;
+  assignment.value = value;
   block.assignments.push_back(std::move(assignment));
-  return {};
 }
 
-Result<void> read_word(char letter, Place place, ValueReader& reader, Block& block) {
+void read_word(char letter, Place place, ValueReader& reader, Block& block) {
   if (kPlainLetters.find(letter) == std::string_view::npos) {
-    return refuse(
+    refuse(
         ProblemName::bad_character, place, fmt::format("'{}' begins no word here", upper(letter)));
   }
   if (block.has(letter)) {
-    return refuse(ProblemName::repeated_word,
-                  place,
-                  fmt::format("a second {} word on the line", upper(letter)));
+    refuse(ProblemName::repeated_word,
+           place,
+           fmt::format("a second {} word on the line", upper(letter)));
   }
   const auto value = reader.real();
-  CHAINTRUE_GCODE_TRY(value);
-  if (std::fabs(*value) > 1e9) {
-    return refuse(ProblemName::number_out_of_range,
-                  place,
-                  fmt::format("{}{} is out of range", upper(letter), *value));
+  if (std::fabs(value) > 1e9) {
+    refuse(ProblemName::number_out_of_range,
+           place,
+           fmt::format("{}{} is out of range", upper(letter), value));
   }
-  block.put(letter, *value, place);
-  return {};
+  block.put(letter, value, place);
 }
 
 }  // namespace
@@ -221,22 +210,21 @@ void Block::put(char letter, double value, Place place) {
   columns_[slot(letter)] = place.column;
 }
 
-Result<void> read_words(ValueReader reader, Block& block, bool tools_have_no_diameter) {
+void read_words(ValueReader reader, Block& block, bool tools_have_no_diameter) {
   while (!reader.done()) {
     const char letter = reader.peek();
     const Place place = reader.place();
     reader.skip(1);
     if (letter == 'g') {
-      CHAINTRUE_GCODE_TRY(read_g(reader, block, tools_have_no_diameter));
+      read_g(reader, block, tools_have_no_diameter);
     } else if (letter == 'm') {
-      CHAINTRUE_GCODE_TRY(read_m(reader, block));
+      read_m(reader, block);
     } else if (letter == '#') {
-      CHAINTRUE_GCODE_TRY(read_assignment(reader, block));
+      read_assignment(reader, block);
     } else {
-      CHAINTRUE_GCODE_TRY(read_word(letter, place, reader, block));
+      read_word(letter, place, reader, block);
     }
   }
-  return {};
 }
 
 }  // namespace chaintrue::gcode

@@ -157,10 +157,8 @@ struct Block {
 };
 
 /// Of the block as a whole.
-[[nodiscard]] inline tl::unexpected<Problem> refuse(ProblemName problem,
-                                                    const Block& block,
-                                                    std::string sentence) {
-  return refuse(problem, block.start(), std::move(sentence));
+[[noreturn]] inline void refuse(ProblemName problem, const Block& block, std::string sentence) {
+  refuse(problem, block.start(), std::move(sentence));
 }
 
 /// Whether a text holds more moves than one line can, by its words G0 to G3 and X with a number.
@@ -168,8 +166,6 @@ struct Block {
 
 /// Reads the words after `reader` to the end of the line.
 /// \param tools_have_no_diameter G41 and G42 then have no effect and are not rejected.
-[[nodiscard]] Result<void> read_words(ValueReader reader,
-                                      Block& block,
-                                      bool tools_have_no_diameter = false);
+void read_words(ValueReader reader, Block& block, bool tools_have_no_diameter = false);
 
 }  // namespace chaintrue::gcode

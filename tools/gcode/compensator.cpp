@@ -90,11 +90,11 @@ Result<CompensateSummary> Compensator::run(LineSource& source, const Dialect& di
                    dialect.home_mm[0],
                    dialect.home_mm[1],
                    options_.settings});
-  const auto program = run_program(source, dialect, *this);
-  CHAINTRUE_GCODE_TRY(program);
-  summary_.blocks = program->blocks;
-  summary_.commands = emitter_.commands();
-  return summary_;
+  return run_program(source, dialect, *this).map([&](const ProgramSummary& program) {
+    summary_.blocks = program.blocks;
+    summary_.commands = emitter_.commands();
+    return summary_;
+  });
 }
 
 tl::expected<model::BedPoint, CorrectionFailure> Compensator::command(model::BedPoint target) {
@@ -118,19 +118,18 @@ Curve Compensator::curve(const Move& move, ChainDirections directions) {
   };
 }
 
-Result<void> Compensator::emit(const Move& move, double feed, const PathSample& sample) {
+void Compensator::emit(const Move& move, double feed, const PathSample& sample) {
   examine(move, sample);
   if (here_ && options_.on_command) options_.on_command(move, *here_, sample);
   here_ = sample;
   // Output after a problem is discarded.
-  if (findings_.problem_count > 0) return {};
+  if (findings_.problem_count > 0) return;
   const bool named_z = move.names_z;
-  CHAINTRUE_GCODE_TRY(emitter_.command(move.kind == MoveKind::rapid,
-                                       move.line,
-                                       model::BedPoint{sample.command.x_mm, sample.command.y_mm},
-                                       named_z ? std::optional(sample.target.z_mm) : std::nullopt,
-                                       feed));
-  return {};
+  emitter_.command(move.kind == MoveKind::rapid,
+                   move.line,
+                   model::BedPoint{sample.command.x_mm, sample.command.y_mm},
+                   named_z ? std::optional(sample.target.z_mm) : std::nullopt,
+                   feed);
 }
 
 /// The directions of motion of the chains after t; a chain that does not move keeps its direction.
@@ -148,19 +147,16 @@ ChainDirections Compensator::directions_at(const Move& move,
           sign(behind->right_mm - before->right_mm, otherwise.right)};
 }
 
-Result<void> Compensator::piece(
+void Compensator::piece(
     const Move& move, double feed, double from, double to, ChainDirections directions) {
   const Curve commands = curve(move, directions);
-  Result<void> outcome;
-  const auto visit = [&](const PathSample& sample) {
-    if (outcome) outcome = emit(move, feed, sample);
-  };
+  const auto visit = [&](const PathSample& sample) { emit(move, feed, sample); };
   // Without play the last command is the start of this one.
   const bool known = here_ && !has_play() && from == 0.0 && here_->target == move.from;
   const auto start = known ? PathSample{0.0, here_->target, here_->command} : commands(from);
   if (!start) {
     object(move, start.error(), at(move, from));
-    return {};
+    return;
   }
   // While the play is taken up, the chains move and the tool stays.
   if (has_play() && here_ && directions != directions_) visit(*start);
@@ -171,10 +167,9 @@ Result<void> Compensator::piece(
     const auto end = commands(to);
     if (!end) {
       object(move, end.error(), at(move, to));
-      return {};
+      return;
     }
-    visit(*end);
-    return outcome;
+    return visit(*end);
   }
   const double turn = move.arc ? std::fabs(move.arc->sweep_rad) * (to - from) : 0.0;
   const double longest = turn > kMostTurnRad ? length * kMostTurnRad / turn : length;
@@ -182,11 +177,10 @@ Result<void> Compensator::piece(
   if (!done) {
     object(move, done.error(), here_ ? here_->target : at(move, from));
   }
-  return outcome;
 }
 
 /// In pieces between the points where a chain reverses, if there is play.
-Result<void> Compensator::along(const Move& move, double feed) {
+void Compensator::along(const Move& move, double feed) {
   const bool from_home = std::exchange(homed_, false) && !move.arc;
   if (from_home && move.kind != MoveKind::rapid) {
     note({move.line,
@@ -199,7 +193,7 @@ Result<void> Compensator::along(const Move& move, double feed) {
     const auto end = curve(move, directions_)(1.0);
     if (!end) {
       object(move, end.error(), move.to);
-      return {};
+      return;
     }
     return emit(move, feed, *end);
   }
@@ -218,46 +212,46 @@ Result<void> Compensator::along(const Move& move, double feed) {
         const double middle = 0.5 * (low + end);
         (directions_at(move, middle, now) == now ? low : end) = middle;
       }
-      CHAINTRUE_GCODE_TRY(piece(move, feed, from, end, now));
+      piece(move, feed, from, end, now);
       now = directions_at(move, end, now);
       from = end;
       if (end >= high) break;
     }
   }
-  if (from < 1.0) return piece(move, feed, from, 1.0, now);
-  return {};
+  if (from < 1.0) piece(move, feed, from, 1.0, now);
 }
 
 /// A program that cuts before it states X and Y starts at the controller's position, which is zero.
 /// The tool's position differs from the program's start by the correction.
-Result<void> Compensator::go_to_assumed_start(const Move& move) {
-  note({move.line,
-        "start_assumed",
-        fmt::format("the program cuts before it goes to a place in X and Y; it is taken to start at "
-                    "X{:.6g} Y{:.6g}",
-                    move.from.x_mm,
-                    move.from.y_mm)});
+void Compensator::go_to_assumed_start(const Move& move) {
+  note(
+      {move.line,
+       "start_assumed",
+       fmt::format("the program cuts before it goes to a place in X and Y; it is taken to start at "
+                   "X{:.6g} Y{:.6g}",
+                   move.from.x_mm,
+                   move.from.y_mm)});
   Move start = move;
   start.kind = MoveKind::rapid;
   start.arc.reset();
   start.to = start.from;
   start.names_z = false;
-  return along(start, 0.0);
+  along(start, 0.0);
 }
 
-Result<void> Compensator::move(const Move& move) {
+void Compensator::move(const Move& move) {
   ++summary_.moves;
   if (move.kind == MoveKind::probe) {
-    return refuse(ProblemName::not_emittable,
-                  {move.line, 0},
-                  "probing needs a dotted code, which some controllers misread; probe before the "
-                  "job, not within it");
+    refuse(ProblemName::not_emittable,
+           {move.line, 0},
+           "probing needs a dotted code, which some controllers misread; probe before the "
+           "job, not within it");
   }
   for (const double turn : move.turn_deg) {
     if (turn != 0.0) {
-      return refuse(ProblemName::unsupported_axis,
-                    {move.line, 0},
-                    "a two-chain router has no axis A, B or C");
+      refuse(ProblemName::unsupported_axis,
+             {move.line, 0},
+             "a two-chain router has no axis A, B or C");
     }
   }
   const double length = length_mm(move);
@@ -265,55 +259,49 @@ Result<void> Compensator::move(const Move& move) {
   const double feed = feed_mm_per_min(move);
   const bool cuts =
       move.kind != MoveKind::rapid && (move.names_xy || move.to.z_mm < move.from.z_mm);
-  if (!here_ && cuts && !homed_ && findings_.problem_count == 0) CHAINTRUE_GCODE_TRY(go_to_assumed_start(move));
+  if (!here_ && cuts && !homed_ && findings_.problem_count == 0) go_to_assumed_start(move);
   if (!move.names_xy || (stays(move) && here_)) {
-    if (!move.names_z || findings_.problem_count > 0) return {};
+    if (!move.names_z || findings_.problem_count > 0) return;
     if (here_) here_->target.z_mm = here_->command.z_mm = move.to.z_mm;
-    if (length == 0.0 && move.feed.mode == FeedMode::inverse_time) return {};
-    const auto written =
-        emitter_.command(move.kind == MoveKind::rapid, move.line, std::nullopt, move.to.z_mm, feed);
-    CHAINTRUE_GCODE_TRY(written);
+    if (length == 0.0 && move.feed.mode == FeedMode::inverse_time) return;
+    emitter_.command(move.kind == MoveKind::rapid, move.line, std::nullopt, move.to.z_mm, feed);
     if (here_ && options_.on_command) options_.on_command(move, *here_, *here_);
-    return {};
+    return;
   }
-  return along(move, feed);
+  along(move, feed);
 }
 
-Result<void> Compensator::word(const PassedWord& word) {
+void Compensator::word(const PassedWord& word) {
   if (word.text.starts_with("G43") && !corrector_.firmware().tool_lengths) {
-    return refuse(ProblemName::not_emittable,
-                  {word.line, 0},
-                  fmt::format("{}: {} keeps no tool lengths, so every height after it could be "
-                              "wrong; take G43 out and set Z to zero with each tool",
-                              word.text,
-                              corrector_.firmware().name));
+    refuse(ProblemName::not_emittable,
+           {word.line, 0},
+           fmt::format("{}: {} keeps no tool lengths, so every height after it could be "
+                       "wrong; take G43 out and set Z to zero with each tool",
+                       word.text,
+                       corrector_.firmware().name));
   }
   if (word.machine_code != 0 && !knows_code(corrector_.firmware(), 'G', word.machine_code)) {
-    return refuse(ProblemName::not_emittable,
-                  {word.line, 0},
-                  fmt::format("{}: {} does not know {} and would take the height for one above the "
-                              "work; write a safe height of the work (G0 Z...)",
-                              word.text,
-                              corrector_.firmware().name,
-                              g_name(word.machine_code)));
+    refuse(ProblemName::not_emittable,
+           {word.line, 0},
+           fmt::format("{}: {} does not know {} and would take the height for one above the "
+                       "work; write a safe height of the work (G0 Z...)",
+                       word.text,
+                       corrector_.firmware().name,
+                       g_name(word.machine_code)));
   }
   if (word.leaves_xy) {
     here_.reset();
     homed_ = true;
   }
   note_unknown(word);
-  return findings_.problem_count > 0 ? Result<void>{} : emitter_.word(word);
+  if (findings_.problem_count == 0) emitter_.word(word);
 }
 
-Result<void> Compensator::comment(const Comment& comment) {
-  CHAINTRUE_GCODE_TRY(refuse_compensated(comment));
+void Compensator::comment(const Comment& comment) {
+  refuse_compensated(comment);
   if (findings_.problem_count == 0) emitter_.comment(comment);
-  return {};
 }
 
-Result<void> Compensator::end(std::size_t /*line*/, std::string_view word) {
-  emitter_.end(word);
-  return {};
-}
+void Compensator::end(std::size_t /*line*/, std::string_view word) { emitter_.end(word); }
 
 }  // namespace chaintrue::gcode

@@ -99,25 +99,24 @@ class Compensator final : private Sink {
   [[nodiscard]] const Findings& findings() const { return findings_; }
 
  private:
-  Result<void> move(const Move& move) override;
-  Result<void> word(const PassedWord& word) override;
-  Result<void> comment(const Comment& comment) override;
+  void move(const Move& move) override;
+  void word(const PassedWord& word) override;
+  void comment(const Comment& comment) override;
   void note_unknown(const PassedWord& word);
   void note(const Note& note) override { findings_.add(note); }
   [[nodiscard]] bool goes_on_after(const Problem& problem) override {
     findings_.add(problem);
     return true;
   }
-  Result<void> end(std::size_t line, std::string_view word) override;
+  void end(std::size_t line, std::string_view word) override;
 
   /// Corrector::command, from tables in the regions where a program cuts often.
   [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> command(model::BedPoint target);
   [[nodiscard]] Curve curve(const Move& move, ChainDirections directions);
-  Result<void> go_to_assumed_start(const Move& move);
-  Result<void> along(const Move& move, double feed);
-  Result<void> piece(
-      const Move& move, double feed, double from, double to, ChainDirections directions);
-  Result<void> emit(const Move& move, double feed, const PathSample& sample);
+  void go_to_assumed_start(const Move& move);
+  void along(const Move& move, double feed);
+  void piece(const Move& move, double feed, double from, double to, ChainDirections directions);
+  void emit(const Move& move, double feed, const PathSample& sample);
   void examine(const Move& move, const PathSample& sample);
   void object(const Move& move, const CorrectionFailure& failure, Point place);
   [[nodiscard]] ChainDirections directions_at(const Move& move,

@@ -90,12 +90,12 @@ void Compensator::examine(const Move& move, const PathSample& sample) {
       summary_.steepest_correction = std::max(summary_.steepest_correction, slope);
       if (slope > options_.steepest_correction) {
         object_to(ProblemName::correction_too_steep,
-                    fmt::format("before X{:.3f} Y{:.3f} the correction changes by {:.3f} mm per "
-                                "mm, more than the {} that are allowed",
-                                sample.target.x_mm,
-                                sample.target.y_mm,
-                                slope,
-                                options_.steepest_correction));
+                  fmt::format("before X{:.3f} Y{:.3f} the correction changes by {:.3f} mm per "
+                              "mm, more than the {} that are allowed",
+                              sample.target.x_mm,
+                              sample.target.y_mm,
+                              slope,
+                              options_.steepest_correction));
       }
     }
   }

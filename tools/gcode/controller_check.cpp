@@ -39,13 +39,13 @@ void ControllerCheck::arc(const Move& move) {
   if (std::abs(arc.turns) > 1 && firmware_.arcs != ArcRule::exact) arc_turns_.add(move.line);
 }
 
-Result<void> ControllerCheck::move(const Move& move) {
+void ControllerCheck::move(const Move& move) {
   const double length = length_mm(move);
   if (length == 0.0 && firmware_.phantom_moves) no_length_.add(move.line);
-  if (move.kind == MoveKind::rapid || length == 0.0) return {};
+  if (move.kind == MoveKind::rapid || length == 0.0) return;
   if (move.arc) {
     arc(move);
-    return {};
+    return;
   }
   const double feed = feed_mm_per_min(move);
   const double speed_mm_per_s = feed / 60.0;
@@ -58,17 +58,18 @@ Result<void> ControllerCheck::move(const Move& move) {
           ? speed_mm_per_s * speed_mm_per_s / (2.0 * firmware_.acceleration_mm_per_s2)
           : 0.0;
   if (length * firmware_.planned_moves < stop_mm) short_plans_.add(move.line, feed);
-  return {};
 }
 
-Result<void> ControllerCheck::end(std::size_t /*line*/, std::string_view /*word*/) {
+void ControllerCheck::end(std::size_t /*line*/, std::string_view /*word*/) {
   const auto add = [&](const Occurrences& observed, std::string_view name, std::string sentence) {
     if (observed.count == 0) return;
     if (observed.count > 1) sentence += fmt::format(" ({} lines)", observed.count);
     findings_.add(Note{observed.line, name, std::move(sentence)});
   };
   for (const auto& [code, observed] : unknown_) {
-    add(observed, "code_not_known", fmt::format("{} {} {}", firmware_.name, firmware_.unknown, code));
+    add(observed,
+        "code_not_known",
+        fmt::format("{} {} {}", firmware_.name, firmware_.unknown, code));
   }
   for (const auto& [codes, observed] : misread_) {
     add(observed,
@@ -110,7 +111,6 @@ Result<void> ControllerCheck::end(std::size_t /*line*/, std::string_view /*word*
                   firmware_.planned_moves,
                   short_plans_.worst,
                   firmware_.acceleration_mm_per_s2));
-  return {};
 }
 
 }  // namespace chaintrue::gcode

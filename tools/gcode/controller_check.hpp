@@ -20,8 +20,8 @@ class ControllerCheck final : public Sink {
 
   [[nodiscard]] bool wants_codes() const override { return true; }
   void code(std::size_t line, char letter, int tenths) override;
-  Result<void> move(const Move& move) override;
-  Result<void> end(std::size_t line, std::string_view word) override;
+  void move(const Move& move) override;
+  void end(std::size_t line, std::string_view word) override;
   [[nodiscard]] bool goes_on_after(const Problem&) override { return true; }
 
  private:

@@ -84,7 +84,8 @@ std::vector<std::string> comments_of(const grid::Provenance& made_by, std::size_
 std::vector<std::string> hashes_in_head(LineSource program) {
   std::vector<std::string> hashes;
   SourceLine line;
-  for (auto read = program.next(line); read && *read; read = program.next(line)) {
+  const auto more = [&] { return program.next(line); };
+  while (attempt(more).value_or(false)) {
     std::string_view text = line.text;
     if (!text.starts_with('(') && !text.starts_with(';')) break;
     text.remove_prefix(1);
@@ -105,11 +106,11 @@ bool is_marked(std::string_view comment) {
   return true;
 }
 
-Result<void> refuse_compensated(const Comment& comment) {
-  if (!is_marked(comment.text)) return {};
-  return refuse(ProblemName::already_compensated,
-                {comment.line, 0},
-                "this file has been compensated before, as this mark in it says; take the original");
+void refuse_compensated(const Comment& comment) {
+  if (!is_marked(comment.text)) return;
+  refuse(ProblemName::already_compensated,
+         {comment.line, 0},
+         "this file has been compensated before, as this mark in it says; take the original");
 }
 
 Emitter::Emitter(ByteSink out, int decimals, bool semicolons)
@@ -166,19 +167,19 @@ void Emitter::header(const Header& header) {
   put_line(semicolons_ ? "G90" : "G21 G90");
 }
 
-Result<bool> Emitter::command(bool rapid,
-                              std::size_t line,
-                              std::optional<model::BedPoint> xy,
-                              std::optional<double> z_mm,
-                              double feed_mm_per_min) {
+void Emitter::command(bool rapid,
+                      std::size_t line,
+                      std::optional<model::BedPoint> xy,
+                      std::optional<double> z_mm,
+                      double feed_mm_per_min) {
   constexpr double kLargestMm = 1e8;
   constexpr double kSlowest = 1e-12;
   const auto too_large = [](double value) { return !(std::fabs(value) < kLargestMm); };
   if ((xy && (too_large(xy->x_mm) || too_large(xy->y_mm))) || (z_mm && too_large(*z_mm)) ||
       (!rapid && !(feed_mm_per_min > kSlowest && feed_mm_per_min < 1e12))) {
-    return refuse(ProblemName::not_emittable,
-                  {line, 0},
-                  "a coordinate or feed rate of this move is no sensible number");
+    refuse(ProblemName::not_emittable,
+           {line, 0},
+           "a coordinate or feed rate of this move is no sensible number");
   }
   text_.assign(rapid ? "G0" : "G1");
   bool moves = false;
@@ -201,7 +202,7 @@ Result<bool> Emitter::command(bool rapid,
       moves = true;
     }
   }
-  if (!moves) return false;
+  if (!moves) return;
   if (!rapid) {
     std::string feed = feed_text(feed_mm_per_min);
     if (feed != feed_) {
@@ -212,26 +213,25 @@ Result<bool> Emitter::command(bool rapid,
   flush_word();
   put_line(text_);
   ++commands_;
-  return true;
 }
 
 /// S is on the line of the M3 that follows and T on that of its M6, as some controllers require;
 /// every other word has its own line.
-Result<void> Emitter::word(const PassedWord& word) {
+void Emitter::word(const PassedWord& word) {
   std::string_view text = word.text;
   if (text == "G61.1") text = "G61";
   const std::string_view code = text.substr(0, text.find(' '));
   if (code.starts_with('G') && code.find('.') != std::string_view::npos) {
-    return refuse(
+    refuse(
         ProblemName::not_emittable,
         {word.line, 0},
         fmt::format("{} cannot be written: some controllers read only what stands before the dot",
                     code));
   }
   if (text.size() > (semicolons_ ? kMaxPlotterLine : kMaxOutputLine)) {
-    return refuse(ProblemName::not_emittable,
-                  {word.line, 0},
-                  "this line has more characters than a controller's line holds");
+    refuse(ProblemName::not_emittable,
+           {word.line, 0},
+           "this line has more characters than a controller's line holds");
   }
   const bool joins = waiting_line_ == word.line && !waiting_word_.empty() &&
                      ((waiting_word_.front() == 'T' && text == "M6") ||
@@ -241,13 +241,13 @@ Result<void> Emitter::word(const PassedWord& word) {
     waiting_word_ += text;
     flush_word();
     if (text == "M6") put_mark();
-    return {};
+    return;
   }
   flush_word();
   if (text.front() == 'S' || text.front() == 'T') {
     waiting_word_ = text;
     waiting_line_ = word.line;
-    return {};
+    return;
   }
   constexpr std::string_view kRelative = "G91 ";
   const bool relative = text.starts_with(kRelative);
@@ -267,7 +267,6 @@ Result<void> Emitter::word(const PassedWord& word) {
     x_.reset();
     y_.reset();
   }
-  return {};
 }
 
 void Emitter::comment(const Comment& comment) {

@@ -48,8 +48,8 @@ inline constexpr std::size_t kMaxOutputLine = 60;
 inline constexpr std::string_view kMarker = "compensated by chaintrue";
 /// A comment that begins so, whatever a sender has made of its capitals and blanks.
 [[nodiscard]] bool is_marked(std::string_view comment);
-/// A problem (already_compensated) if the comment is marked.
-[[nodiscard]] Result<void> refuse_compensated(const Comment& comment);
+/// Refuses a marked comment (already_compensated).
+void refuse_compensated(const Comment& comment);
 
 /// Content of the header; prevents compensating twice or with the wrong map.
 struct Header {
@@ -70,13 +70,13 @@ class Emitter {
 
   void header(const Header& header);
   /// One straight command. XY is empty for a move in Z alone, z if the height does not change. A
-  /// command that changes nothing after rounding is left out; then returns false.
-  Result<bool> command(bool rapid,
-                       std::size_t line,
-                       std::optional<model::BedPoint> xy,
-                       std::optional<double> z_mm,
-                       double feed_mm_per_min);
-  Result<void> word(const PassedWord& word);
+  /// command that changes nothing after rounding is left out.
+  void command(bool rapid,
+               std::size_t line,
+               std::optional<model::BedPoint> xy,
+               std::optional<double> z_mm,
+               double feed_mm_per_min);
+  void word(const PassedWord& word);
   void comment(const Comment& comment);
   void end(std::string_view word);
   [[nodiscard]] std::uint64_t commands() const { return commands_; }

@@ -72,8 +72,9 @@ struct Move {
 /// ...), or a motion in the machine's own frame (G53, G28, G30).
 struct PassedWord {
   std::size_t line = 0;
-  std::string text;  ///< `M3`, `S1000`, `G4 P0.5`, `G53 G0 Z-1`; `G91 G28 Z0` holds for that line alone
-  int machine_code = 0;   ///< tenths of the code that moves in the machine's frame; 0: none does
+  std::string
+      text;  ///< `M3`, `S1000`, `G4 P0.5`, `G53 G0 Z-1`; `G91 G28 Z0` holds for that line alone
+  int machine_code = 0;    ///< tenths of the code that moves in the machine's frame; 0: none does
   bool leaves_xy = false;  ///< it moves X and Y; the next move starts from there
 };
 
@@ -97,9 +98,9 @@ struct Note {
 class Sink {
  public:
   virtual ~Sink() = default;
-  virtual Result<void> move(const Move& move) = 0;
-  virtual Result<void> word(const PassedWord&) { return {}; }
-  virtual Result<void> comment(const Comment&) { return {}; }
+  virtual void move(const Move& move) = 0;
+  virtual void word(const PassedWord&) {}
+  virtual void comment(const Comment&) {}
   virtual void note(const Note&) {}
   /// An arc that does not exist; true: the program goes on from its end.
   [[nodiscard]] virtual bool goes_on_after(const Problem&) { return false; }
@@ -108,7 +109,7 @@ class Sink {
   [[nodiscard]] virtual bool wants_codes() const { return false; }
   /// The program has ended at this line, by this word (`M2`, `M30`, `%`), or by the end of the file
   /// (empty).
-  virtual Result<void> end(std::size_t /*line*/, std::string_view /*word*/) { return {}; }
+  virtual void end(std::size_t /*line*/, std::string_view /*word*/) {}
 };
 
 }  // namespace chaintrue::gcode

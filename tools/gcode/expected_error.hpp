@@ -28,12 +28,13 @@ namespace chaintrue::gcode {
 struct ErrorAlong {
   double length_mm = 0.0;
   double rms_mm = 0.0;
-  double largest_mm = 0.0;     ///< anywhere along them, in 95 of 100 sessions (map/largest_error.hpp)
+  double largest_mm = 0.0;  ///< anywhere along them, in 95 of 100 sessions (map/largest_error.hpp)
   std::size_t weakest_line = 0;  ///< of the program, where the map knows least
 };
 
 struct ExpectedError {
-  ErrorAlong measured;  ///< between measured points, or not beyond them by more than half their spacing
+  ErrorAlong
+      measured;  ///< between measured points, or not beyond them by more than half their spacing
   ErrorAlong outside;
 };
 

@@ -60,10 +60,8 @@ constexpr Firmware kMarlin{.name = "marlin",
                            .unknown = kIgnores,
                            .semicolon_comments = true};
 
-constexpr Firmware kMural{.name = "mural",
-                          .chain_linear_piece_mm = 1.0,
-                          .pieces_at_most = true,
-                          .reads_gcode = false};
+constexpr Firmware kMural{
+    .name = "mural", .chain_linear_piece_mm = 1.0, .pieces_at_most = true, .reads_gcode = false};
 
 constexpr Firmware kPolargraph{.name = "polargraph",
                                .single_precision = true,
@@ -80,10 +78,10 @@ constexpr int kFluidNcM[] = {
     0, 10, 20, 30, 40, 50, 60, 70, 71, 80, 81, 90, 300, 620, 630, 640, 650, 670, 680};
 
 constexpr int kMarlinG[] = {0, 10, 20, 30, 40, 280, 900, 910, 920};
-constexpr int kMarlinM[] = {0,    10,   170,  180,  200,  210,  220,  230,  240,  250,  280,  290,
-                            820,  830,  840,  850,  920,  1060, 1070, 1100, 1140, 1150, 1170, 1180,
-                            1190, 2000, 2010, 2030, 2040, 2050, 2060, 2100, 2110, 2200, 2800, 3000, 4000,
-                            4100, 5000, 5010, 5020, 5030, 6650};
+constexpr int kMarlinM[] = {0,    10,   170,  180,  200,  210,  220,  230,  240,  250,  280,
+                            290,  820,  830,  840,  850,  920,  1060, 1070, 1100, 1140, 1150,
+                            1170, 1180, 1190, 2000, 2010, 2030, 2040, 2050, 2060, 2100, 2110,
+                            2200, 2800, 3000, 4000, 4100, 5000, 5010, 5020, 5030, 6650};
 
 template <std::size_t size>
 bool one_of(const int (&list)[size], int value) {

@@ -23,34 +23,35 @@ class Flow {
 
   /// The next line to execute; false at the end of the file. Counts lines that are read again
   /// against the budget.
-  [[nodiscard]] Result<bool> next(SourceLine& line);
+  [[nodiscard]] bool next(SourceLine& line);
 
   /// Executes an O-line (line.text begins with o, or has it at `at`).
-  [[nodiscard]] Result<void> control(const CleanLine& line, std::size_t at);
+  void control(const CleanLine& line, std::size_t at);
   /// M98.
-  [[nodiscard]] Result<void> call_program(long number, long repeats, Place place);
-  /// M99. True if it ends the main program.
-  [[nodiscard]] Result<bool> leave_program(Place place);
+  void call_program(long number, long repeats, Place place);
+  /// M99.
+  void leave_program(Place place);
   /// At the end of the program: reports open blocks.
-  [[nodiscard]] Result<void> finish(Place place) const;
+  void finish(Place place) const;
 
  private:
+  /// In the order of kWords.
   enum class Keyword {
-    sub,
     endsub,
+    sub,
     call,
     return_,
-    while_,
     endwhile,
+    while_,
     do_,
-    if_,
     elseif,
     else_,
     endif,
+    if_,
     break_,
     continue_,
-    repeat,
     endrepeat,
+    repeat,
     program,
   };
   struct ControlLine {
@@ -74,30 +75,35 @@ class Flow {
     std::size_t blocks = 0;  // open when it was called
   };
 
-  Result<ControlLine> parse(const CleanLine& line, std::size_t at) const;
-  Result<void> execute(const CleanLine& line, const ControlLine& control);
-  Result<void> begin_sub(const CleanLine& line, const ControlLine& control);
-  Result<void> call(const CleanLine& line, const ControlLine& control);
-  Result<void> return_from(const CleanLine& line, const ControlLine& control);
-  Result<void> begin_loop(const CleanLine& line, const ControlLine& control);
-  Result<void> end_loop(const CleanLine& line, const ControlLine& control);
-  Result<void> condition(const CleanLine& line, const ControlLine& control);
-  Result<void> jump_out(const CleanLine& line, const ControlLine& control);
+  struct Word {
+    std::string_view text;
+    void (Flow::*execute)(const CleanLine&, const ControlLine&);
+  };
+  static const Word kWords[];
 
-  Result<double> value(const CleanLine& line, std::size_t at) const;
-  Result<std::optional<double>> optional_value(const CleanLine& line, std::size_t at) const;
-  Result<LineSource::Position> find_body(const std::string& label, Place place);
+  ControlLine parse(const CleanLine& line, std::size_t at) const;
+  void name_program(const CleanLine& line, const ControlLine& control);
+  void begin_sub(const CleanLine& line, const ControlLine& control);
+  void call(const CleanLine& line, const ControlLine& control);
+  void return_from(const CleanLine& line, const ControlLine& control);
+  void begin_loop(const CleanLine& line, const ControlLine& control);
+  void end_loop(const CleanLine& line, const ControlLine& control);
+  void condition(const CleanLine& line, const ControlLine& control);
+  void jump_out(const CleanLine& line, const ControlLine& control);
+
+  double value(const CleanLine& line, std::size_t at) const;
+  LineSource::Position find_body(const std::string& label, Place place);
   /// Reads on to the next O-line of that label with one of the keywords, skipping nested blocks of
   /// the same label.
   struct Found {
     ControlLine control;
     LineSource::Position before;
   };
-  Result<Found> skip_to(const std::string& label,
-                        std::initializer_list<Keyword> keywords,
-                        Place from);
-  Result<bool> read(SourceLine& line);
-  Result<void> push_call(OpenCall call, Place place);
+  std::optional<Found> find(const std::string& label, std::initializer_list<Keyword> keywords);
+  /// The same, where it has to stand.
+  Found skip_to(const std::string& label, std::initializer_list<Keyword> keywords, Place from);
+  void open_block(OpenBlock block, Place place);
+  void push_call(OpenCall call, Place place);
   void pop_call();
   OpenBlock* innermost(const std::string& label);
   std::size_t floor() const { return calls_.empty() ? 0 : calls_.back().blocks; }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tools/gcode/flow.hpp"
 
@@ -15,111 +16,103 @@ constexpr std::size_t kDeepestBlock = 1000;
 
 }  // namespace
 
-Result<void> Flow::begin_loop(const CleanLine& line, const ControlLine& control) {
+void Flow::open_block(OpenBlock block, Place place) {
   if (blocks_.size() >= kDeepestBlock)
-    return refuse(
-        ProblemName::bad_flow, line.place(0), "loops and conditions are nested too deeply");
+    refuse(ProblemName::bad_flow, place, "loops and conditions are nested too deeply");
+  blocks_.push_back(std::move(block));
+}
+
+void Flow::begin_loop(const CleanLine& line, const ControlLine& control) {
   OpenBlock block{control.label, control.keyword, line_start_, 0, line.number};
   if (control.keyword == Keyword::do_) {
     if (control.rest < line.text.size())
-      return refuse(ProblemName::bad_flow, line.place(control.rest), "nothing may follow do");
+      refuse(ProblemName::bad_flow, line.place(control.rest), "nothing may follow do");
     block.start = source_.position();
-    blocks_.push_back(std::move(block));
-    return {};
+    return open_block(std::move(block), line.place(0));
   }
-  const auto count = value(line, control.rest);
-  CHAINTRUE_GCODE_TRY(count);
+  const double count = value(line, control.rest);
   if (control.keyword == Keyword::repeat) {
     block.start = source_.position();
     // An expression may differ from a whole number by rounding.
-    if (std::fabs(*count - std::round(*count)) > 0.0001) {
-      return refuse(ProblemName::bad_flow,
-                    line.place(control.rest),
-                    fmt::format("a loop is repeated a whole number of times, not {}", *count));
+    if (std::fabs(count - std::round(count)) > 0.0001) {
+      refuse(ProblemName::bad_flow,
+             line.place(control.rest),
+             fmt::format("a loop is repeated a whole number of times, not {}", count));
     }
-    block.remaining = static_cast<long>(std::clamp(std::round(*count), -1.0, 1e15));
+    block.remaining = static_cast<long>(std::clamp(std::round(count), -1.0, 1e15));
     if (block.remaining <= 0) {
-      CHAINTRUE_GCODE_TRY(skip_to(control.label, {Keyword::endrepeat}, line.place(0)));
-      return {};
+      skip_to(control.label, {Keyword::endrepeat}, line.place(0));
+      return;
     }
-    blocks_.push_back(std::move(block));
-    return {};
+    return open_block(std::move(block), line.place(0));
   }
   OpenBlock* open = innermost(control.label);
   if (open != nullptr && open->kind == Keyword::do_) {  // do ... while
     const LineSource::Position start = open->start;
-    blocks_.resize(static_cast<std::size_t>(open - blocks_.data()) + (*count != 0.0 ? 1U : 0U));
-    if (*count == 0.0) return {};
-    CHAINTRUE_GCODE_TRY(interpreter_.step(line.place(0)));
+    blocks_.resize(static_cast<std::size_t>(open - blocks_.data()) + (count != 0.0 ? 1U : 0U));
+    if (count == 0.0) return;
+    interpreter_.step(line.place(0));
     source_.seek(start);
-    return {};
+    return;
   }
-  if (*count == 0.0) {
-    CHAINTRUE_GCODE_TRY(skip_to(control.label, {Keyword::endwhile}, line.place(0)));
-    return {};
+  if (count == 0.0) {
+    skip_to(control.label, {Keyword::endwhile}, line.place(0));
+    return;
   }
-  blocks_.push_back(std::move(block));
-  return {};
+  open_block(std::move(block), line.place(0));
 }
 
-Result<void> Flow::end_loop(const CleanLine& line, const ControlLine& control) {
+void Flow::end_loop(const CleanLine& line, const ControlLine& control) {
   const Keyword kind = control.keyword == Keyword::endwhile ? Keyword::while_ : Keyword::repeat;
   OpenBlock* open = innermost(control.label);
   if (open == nullptr || open->kind != kind) {
-    return refuse(ProblemName::bad_flow,
-                  line.place(0),
-                  fmt::format("o{} ends a loop that does not begin here", control.label));
+    refuse(ProblemName::bad_flow,
+           line.place(0),
+           fmt::format("o{} ends a loop that does not begin here", control.label));
   }
-  CHAINTRUE_GCODE_TRY(interpreter_.step(line.place(0)));
+  interpreter_.step(line.place(0));
   const LineSource::Position start = open->start;
   const auto index = static_cast<std::size_t>(open - blocks_.data());
   if (kind == Keyword::repeat && --open->remaining <= 0) {
     blocks_.resize(index);
-    return {};
+    return;
   }
   // `while` is read again, and reopens its block if its condition holds.
   blocks_.resize(kind == Keyword::repeat ? index + 1 : index);
   source_.seek(start);
-  return {};
 }
 
-Result<void> Flow::condition(const CleanLine& line, const ControlLine& control) {
+void Flow::condition(const CleanLine& line, const ControlLine& control) {
   OpenBlock* open = innermost(control.label);
   const bool begins = control.keyword == Keyword::if_;
   if (!begins && (open == nullptr || open->kind != Keyword::if_)) {
-    return refuse(ProblemName::bad_flow,
-                  line.place(0),
-                  fmt::format("o{} continues a condition that does not begin here", control.label));
+    refuse(ProblemName::bad_flow,
+           line.place(0),
+           fmt::format("o{} continues a condition that does not begin here", control.label));
   }
   if (!begins) {  // the executed branch is over
     blocks_.resize(static_cast<std::size_t>(open - blocks_.data()));
-    if (control.keyword == Keyword::endif) return {};
-    CHAINTRUE_GCODE_TRY(skip_to(control.label, {Keyword::endif}, line.place(0)));
-    return {};
+    if (control.keyword == Keyword::endif) return;
+    skip_to(control.label, {Keyword::endif}, line.place(0));
+    return;
   }
-  if (blocks_.size() >= kDeepestBlock)
-    return refuse(
-        ProblemName::bad_flow, line.place(0), "loops and conditions are nested too deeply");
-  auto holds = value(line, control.rest);
-  while (holds && *holds == 0.0) {
+  double holds = value(line, control.rest);
+  while (holds == 0.0) {
     const auto branch =
         skip_to(control.label, {Keyword::elseif, Keyword::else_, Keyword::endif}, line.place(0));
-    CHAINTRUE_GCODE_TRY(branch);
-    if (branch->control.keyword == Keyword::endif) return {};
-    if (branch->control.keyword == Keyword::else_) break;
-    holds = value(found_line_, branch->control.rest);
+    if (branch.control.keyword == Keyword::endif) return;
+    if (branch.control.keyword == Keyword::else_) break;
+    holds = value(found_line_, branch.control.rest);
   }
-  CHAINTRUE_GCODE_TRY(holds);
-  blocks_.push_back({control.label, Keyword::if_, {}, 0, line.number});
-  return {};
+  open_block({control.label, Keyword::if_, {}, 0, line.number}, line.place(0));
 }
 
-Result<void> Flow::jump_out(const CleanLine& line, const ControlLine& control) {
+void Flow::jump_out(const CleanLine& line, const ControlLine& control) {
   OpenBlock* open = innermost(control.label);
   if (open == nullptr || open->kind == Keyword::if_) {
-    return refuse(ProblemName::bad_flow,
-                  line.place(0),
-                  fmt::format("o{} is no loop that could be left here", control.label));
+    refuse(ProblemName::bad_flow,
+           line.place(0),
+           fmt::format("o{} is no loop that could be left here", control.label));
   }
   const OpenBlock loop = *open;
   const auto index = static_cast<std::size_t>(open - blocks_.data());
@@ -127,15 +120,13 @@ Result<void> Flow::jump_out(const CleanLine& line, const ControlLine& control) {
                       : loop.kind == Keyword::do_  ? Keyword::while_
                                                    : Keyword::endwhile;
   const auto found = skip_to(control.label, {end}, line.place(0));
-  CHAINTRUE_GCODE_TRY(found);
   if (control.keyword == Keyword::break_) {
     blocks_.resize(index);
-    return {};
+    return;
   }
   // continue: the condition at the loop's end is evaluated next.
   blocks_.resize(index + 1);
-  source_.seek(found->before);
-  return {};
+  source_.seek(found.before);
 }
 
 }  // namespace chaintrue::gcode

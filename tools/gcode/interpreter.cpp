@@ -16,13 +16,13 @@ Interpreter::Interpreter(const Dialect& dialect, Sink& sink) : dialect_(dialect)
                      [this](std::string_view name) { return state_by_name(name); });
 }
 
-Result<void> Interpreter::step(Place place) {
-  if (++steps_ <= dialect_.step_budget) return {};
-  return refuse(ProblemName::step_budget,
-                place,
-                fmt::format("the program has taken {} steps in loops, subroutines and cycles "
-                            "without coming to its end",
-                            dialect_.step_budget));
+void Interpreter::step(Place place) {
+  if (++steps_ <= dialect_.step_budget) return;
+  refuse(ProblemName::step_budget,
+         place,
+         fmt::format("the program has taken {} steps in loops, subroutines and cycles "
+                     "without coming to its end",
+                     dialect_.step_budget));
 }
 
 void Interpreter::note_once(NoteOnce which, std::size_t line) {
@@ -43,8 +43,10 @@ void Interpreter::note_once(NoteOnce which, std::size_t line) {
       {"units_assumed",
        "the program moves before it says G20 or G21; it is taken to be in millimetres"},
       {"start_relative",
-       "the program is relative (G91) before it has gone to a place: where it cuts depends on where "
-       "the tool happens to be; add a first line that goes to its start on the sheet, such as G90 G0 "
+       "the program is relative (G91) before it has gone to a place: where it cuts depends on "
+       "where "
+       "the tool happens to be; add a first line that goes to its start on the sheet, such as G90 "
+       "G0 "
        "X0 Y0",
        ProblemName::unknown_start},
   };
@@ -61,11 +63,12 @@ void Interpreter::note_whole(std::size_t last_line) {
         {last_line, "moves_nothing", "the program moves nothing", ProblemName::moves_nothing});
   }
   if (long_arcs_ > 1 && long_arcs_ == arcs_) {
-    sink_.note({first_long_arc_,
-                "arcs_long",
-                fmt::format("each of the {} arcs, this one first, is longer than half a circle: are G2 "
-                            "and G3 exchanged?",
-                            arcs_)});
+    sink_.note(
+        {first_long_arc_,
+         "arcs_long",
+         fmt::format("each of the {} arcs, this one first, is longer than half a circle: are G2 "
+                     "and G3 exchanged?",
+                     arcs_)});
   }
   std::vector<std::string> left;
   if (modes_.incremental) left.emplace_back("relative coordinates (G91)");
@@ -79,11 +82,11 @@ void Interpreter::note_whole(std::size_t last_line) {
                           fmt::join(left, ", "))});
 }
 
-Result<void> Interpreter::pass_line(const Block& block,
-                                    const std::vector<CommentText>& texts,
-                                    std::string word) {
+void Interpreter::pass_line(const Block& block,
+                            const std::vector<CommentText>& texts,
+                            std::string word) {
   if (block.deletable) note_once(NoteOnce::deletable_line, block.line);
-  CHAINTRUE_GCODE_TRY(comments(block, texts));
+  comments(block, texts);
   PassedWord passed{block.line, std::move(word)};
   if (passed.text.starts_with("G28")) {
     moves_ = true;
@@ -99,7 +102,7 @@ Result<void> Interpreter::pass_line(const Block& block,
   return sink_.word(passed);
 }
 
-Result<AfterBlock> Interpreter::execute(const Block& block, const std::vector<CommentText>& texts) {
+AfterBlock Interpreter::execute(const Block& block, const std::vector<CommentText>& texts) {
   if (block.deletable) note_once(NoteOnce::deletable_line, block.line);
   if (sink_.wants_codes()) {
     for (const GCode* code : block.g) {
@@ -110,61 +113,57 @@ Result<AfterBlock> Interpreter::execute(const Block& block, const std::vector<Co
     }
   }
   const auto motion = motion_to_be(block);
-  CHAINTRUE_GCODE_TRY(motion);
-  CHAINTRUE_GCODE_TRY(check_assignments(block));
-  CHAINTRUE_GCODE_TRY(check_words(block, *motion));
+  check_assignments(block);
+  check_words(block, motion);
   assign(block);
-  CHAINTRUE_GCODE_TRY(comments(block, texts));
-  CHAINTRUE_GCODE_TRY(set_feed(block, *motion));
-  CHAINTRUE_GCODE_TRY(pass_words(block));
-  CHAINTRUE_GCODE_TRY(dwell(block));
+  comments(block, texts);
+  set_feed(block, motion);
+  pass_words(block);
+  dwell(block);
   set_modes(block);
-  CHAINTRUE_GCODE_TRY(tool_length(block));
-  CHAINTRUE_GCODE_TRY(once(block));
-  if (*motion >= 0) {
+  tool_length(block);
+  once(block);
+  if (motion >= 0) {
     if (!units_stated_) note_once(NoteOnce::units_assumed, block.line);
-    CHAINTRUE_GCODE_TRY(move(block, *motion));
+    move(block, motion);
   }
   return after(block);
 }
 
 /// The motion of this block, or -1.
-Result<int> Interpreter::motion_to_be(const Block& block) const {
+int Interpreter::motion_to_be(const Block& block) const {
   const GCode* motion = block.code(GGroup::motion);
   const GCode* once_code = block.code(GGroup::once);
   const bool once_takes_axes = once_code != nullptr && once_code->takes_axes;
   const bool length_takes_axes = block.is(g::tool_length_stated);
   const bool centre = block.has('i') || block.has('j') || block.has('k');
   if (once_takes_axes && length_takes_axes) {
-    return refuse(ProblemName::modal_conflict, block, "two codes of the line claim its axis words");
+    refuse(ProblemName::modal_conflict, block, "two codes of the line claim its axis words");
   }
   if (motion != nullptr && motion->takes_axes) {
     if (once_takes_axes || length_takes_axes) {
-      return refuse(
-          ProblemName::modal_conflict, block, "two codes of the line claim its axis words");
+      refuse(ProblemName::modal_conflict, block, "two codes of the line claim its axis words");
     }
     return motion->tenths;
   }
   if (once_takes_axes || length_takes_axes) return -1;
   if (!block.has_axes() && !(centre && is_arc(modes_.motion))) return -1;
   if (motion != nullptr || modes_.motion == g::no_motion) {
-    return refuse(ProblemName::no_motion_mode,
-                  block,
-                  "axis words stand here, but no motion (G0, G1, G2, G3 ...) is in force that "
-                  "could use them");
+    refuse(ProblemName::no_motion_mode,
+           block,
+           "axis words stand here, but no motion (G0, G1, G2, G3 ...) is in force that "
+           "could use them");
   }
   return modes_.motion;
 }
 
-Result<void> Interpreter::check_assignments(const Block& block) const {
+void Interpreter::check_assignments(const Block& block) const {
   for (const Assignment& assignment : block.assignments) {
     const bool fixed = assignment.index != 0 ? !parameters_.writable(assignment.index)
                                              : state_by_name(assignment.name).has_value();
     if (fixed)
-      return refuse(
-          ProblemName::bad_parameter, assignment.place, "this parameter can only be read");
+      refuse(ProblemName::bad_parameter, assignment.place, "this parameter can only be read");
   }
-  return {};
 }
 
 void Interpreter::assign(const Block& block) {
@@ -172,7 +171,7 @@ void Interpreter::assign(const Block& block) {
     if (assignment.index != 0) {
       parameters_.set(assignment.index, assignment.value);
     } else {
-      static_cast<void>(parameters_.set(assignment.name, assignment.value));
+      parameters_.set(assignment.name, assignment.value);
     }
   }
 }
@@ -193,21 +192,20 @@ std::string Interpreter::written_out(std::string_view text) const {
       return from;
     };
     const std::size_t end = end_of(at + 1);
-    CleanLine line;
-    if (!clean(text.substr(at, end - at), 1, line)) {
-      result.append(text.substr(at, end - at));
-    } else {
-      const auto value = ValueReader(line, parameters_).real();
-      // Half a unit of the last digit keeps a rounding error from printing as minus zero.
-      const bool zero = value && std::fabs(*value) < 5e-7;
-      result += value ? fmt::format("{:.6f}", zero ? 0.0 : *value) : std::string("######");
-    }
+    const auto value = attempt([&] {
+      CleanLine line;
+      clean(text.substr(at, end - at), 1, line);
+      return ValueReader(line, parameters_).real();
+    });
+    // Half a unit of the last digit keeps a rounding error from printing as minus zero.
+    const bool zero = value && std::fabs(*value) < 5e-7;
+    result += value ? fmt::format("{:.6f}", zero ? 0.0 : *value) : std::string("######");
     at = end;
   }
   return result;
 }
 
-Result<void> Interpreter::comments(const Block& block, const std::vector<CommentText>& texts) {
+void Interpreter::comments(const Block& block, const std::vector<CommentText>& texts) {
   for (const CommentText& text : texts) {
     if (text.semicolon && holds_moves(text.text)) {
       sink_.note({block.line, "line_ends_lost", kLineEndsLost, ProblemName::line_ends_lost});
@@ -227,12 +225,11 @@ Result<void> Interpreter::comments(const Block& block, const std::vector<Comment
             expands ? written_out(body.substr(comma + 1)) : std::string(body.substr(comma + 1));
       }
     }
-    CHAINTRUE_GCODE_TRY(sink_.comment(comment));
+    sink_.comment(comment);
   }
-  return {};
 }
 
-Result<void> Interpreter::set_feed(const Block& block, int motion) {
+void Interpreter::set_feed(const Block& block, int motion) {
   if (const GCode* mode = block.code(GGroup::feed_mode)) {
     const FeedMode next =
         mode->tenths == g::inverse_time ? FeedMode::inverse_time : FeedMode::per_minute;
@@ -252,21 +249,19 @@ Result<void> Interpreter::set_feed(const Block& block, int motion) {
     modes_.feed = inverse ? block.value('f') : length(block, 'f');
   }
   const bool feeds = motion == g::line || is_arc(motion) || is_cycle(motion) || is_probe(motion);
-  if (!feeds) return {};
+  if (!feeds) return;
   if (inverse && is_cycle(motion)) {
-    return refuse(
-        ProblemName::bad_cycle, block, "a canned cycle cannot run with inverse time feed (G93)");
+    refuse(ProblemName::bad_cycle, block, "a canned cycle cannot run with inverse time feed (G93)");
   }
   if (inverse && !block.has('f')) {
-    return refuse(ProblemName::no_feed_rate,
-                  block,
-                  "with inverse time feed (G93) every feed move needs its own F");
+    refuse(ProblemName::no_feed_rate,
+           block,
+           "with inverse time feed (G93) every feed move needs its own F");
   }
   if (!(modes_.feed > 0.0)) {
-    return refuse(
+    refuse(
         ProblemName::no_feed_rate, block, "no feed rate (F) is set for this move, or it is zero");
   }
-  return {};
 }
 
 void Interpreter::set_modes(const Block& block) {
@@ -290,7 +285,7 @@ void Interpreter::set_modes(const Block& block) {
     modes_.retract_to_r = retract->tenths == g::retract_to_r;
 }
 
-Result<AfterBlock> Interpreter::after(const Block& block) const {
+AfterBlock Interpreter::after(const Block& block) const {
   AfterBlock result;
   if (const MCode* flow = block.code(MGroup::flow)) {
     if (flow->number == 99) {
@@ -298,7 +293,7 @@ Result<AfterBlock> Interpreter::after(const Block& block) const {
       return result;
     }
     if (!block.has('p')) {
-      return refuse(ProblemName::missing_word, block, "M98 needs the number of a program as P");
+      refuse(ProblemName::missing_word, block, "M98 needs the number of a program as P");
     }
     result.flow = AfterBlock::Flow::call_program;
     result.program = std::lround(block.value('p'));
@@ -312,7 +307,7 @@ Result<AfterBlock> Interpreter::after(const Block& block) const {
     result.end_word = stop->number == 2 ? "M2" : "M30";
     return result;
   }
-  CHAINTRUE_GCODE_TRY(sink_.word({block.line, fmt::format("M{}", stop->number)}));
+  sink_.word({block.line, fmt::format("M{}", stop->number)});
   return result;
 }
 

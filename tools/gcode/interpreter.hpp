@@ -59,19 +59,16 @@ class Interpreter {
   Interpreter(const Interpreter&) = delete;
   Interpreter& operator=(const Interpreter&) = delete;
 
-  [[nodiscard]] Result<AfterBlock> execute(const Block& block,
-                                           const std::vector<CommentText>& comments);
+  [[nodiscard]] AfterBlock execute(const Block& block, const std::vector<CommentText>& comments);
 
   [[nodiscard]] Parameters& parameters() { return parameters_; }
   [[nodiscard]] const Dialect& dialect() const { return dialect_; }
   /// A plotter's own code, or M0 with a text, which is passed on as it is.
-  [[nodiscard]] Result<void> pass_line(const Block& block,
-                                       const std::vector<CommentText>& comments,
-                                       std::string word);
+  void pass_line(const Block& block, const std::vector<CommentText>& comments, std::string word);
   /// Notes on the program as a whole, at its end.
   void note_whole(std::size_t last_line);
   /// Counts one step against the budget.
-  [[nodiscard]] Result<void> step(Place place);
+  void step(Place place);
   /// The nesting of subroutines, for #<_call_level>.
   void set_call_level(std::size_t level) { call_level_ = level; }
 
@@ -116,52 +113,52 @@ class Interpreter {
   enum class NoteOnce { dotted_code, dwell_unit, deletable_line, units_assumed, start_relative };
 
   // interpreter.cpp: the order of execution.
-  Result<void> comments(const Block& block, const std::vector<CommentText>& texts);
-  Result<int> motion_to_be(const Block& block) const;
-  Result<void> set_feed(const Block& block, int motion);
+  void comments(const Block& block, const std::vector<CommentText>& texts);
+  int motion_to_be(const Block& block) const;
+  void set_feed(const Block& block, int motion);
   void set_modes(const Block& block);
-  Result<AfterBlock> after(const Block& block) const;
+  AfterBlock after(const Block& block) const;
   void assign(const Block& block);
   void note_once(NoteOnce which, std::size_t line);
-  [[nodiscard]] Result<void> check_assignments(const Block& block) const;
+  void check_assignments(const Block& block) const;
   [[nodiscard]] std::string written_out(std::string_view text) const;
 
   // interpreter_words.cpp: which code a block's words belong to, and words that are passed through.
-  Result<void> check_words(const Block& block, int motion) const;
-  Result<void> pass_words(const Block& block);
-  Result<void> output_word(const Block& block);
-  Result<void> dwell(const Block& block);
-  Result<void> tool_length(const Block& block);
-  Result<void> pass(const Block& block, std::string text);
+  void check_words(const Block& block, int motion) const;
+  void pass_words(const Block& block);
+  void output_word(const Block& block);
+  void dwell(const Block& block);
+  void tool_length(const Block& block);
+  void pass(const Block& block, std::string text);
 
   // interpreter_offsets.cpp: coordinate systems, G10, G28, G30, G52, G92.
   void select_system(int system);
   void read_system(int system, Axes& origin, double& rotation_deg) const;
-  Result<void> once(const Block& block);
-  Result<void> set_system(const Block& block);
-  Result<void> set_offset(const Block& block);
+  void once(const Block& block);
+  void set_system(const Block& block);
+  void set_offset(const Block& block);
   void cancel_offset(bool forget);
   void restore_offset();
-  Result<void> go_home(const Block& block, int first_parameter);
+  void go_home(const Block& block, int first_parameter);
   void note_home(const Block& block, const char* sentence);
   void store_home(int first_parameter);
-  Result<void> needs_known_z(const Block& block) const;
+  void needs_known_z(const Block& block) const;
   void refresh_frame();
   [[nodiscard]] Axes to_machine(const Axes& program) const;
   [[nodiscard]] Axes to_program(const Axes& machine) const;
 
   // interpreter_motion.cpp
-  Result<void> move(const Block& block, int motion);
-  Result<Axes> target(const Block& block) const;
-  Result<Axes> machine_target(const Block& block) const;
-  Result<void> machine_height(const Block& block, int motion);
-  Result<void> pass_height(const Block& block, std::string text, int code);
+  void move(const Block& block, int motion);
+  Axes target(const Block& block) const;
+  Axes machine_target(const Block& block) const;
+  void machine_height(const Block& block, int motion);
+  void pass_height(const Block& block, std::string text, int code);
   void check_start(const Block& block, int motion);
-  Result<void> check_height(const Block& block, const Axes& machine) const;
-  Result<void> polar(const Block& block, Axes& program) const;
-  Result<void> straight(const Block& block, MoveKind kind, const Axes& machine);
-  Result<void> arc(const Block& block, bool clockwise);
-  Result<void> probe(const Block& block);
+  void check_height(const Block& block, const Axes& machine) const;
+  void polar(const Block& block, Axes& program) const;
+  void straight(const Block& block, MoveKind kind, const Axes& machine);
+  void arc(const Block& block, bool clockwise);
+  void probe(const Block& block);
   [[nodiscard]] double length(const Block& block, char letter) const {
     return block.value(letter) * mm_per_unit();
   }
@@ -170,12 +167,12 @@ class Interpreter {
   [[nodiscard]] Move basic_move(std::size_t line, MoveKind kind, const Axes& to) const;
 
   // interpreter_cycles.cpp
-  Result<void> cycle(const Block& block, int motion);
-  Result<void> drill(const Block& block, const Cycle& cycle);
-  Result<void> peck(const Block& block, const Cycle& cycle);
-  Result<void> tap_or_bore(const Block& block, const Cycle& cycle);
-  Result<void> back_bore(const Block& block, const Cycle& cycle);
-  Result<void> cycle_move(const Block& block, const Cycle& cycle, MoveKind kind, double height);
+  void cycle(const Block& block, int motion);
+  void drill(const Block& block, const Cycle& cycle);
+  void peck(const Block& block, const Cycle& cycle);
+  void tap_or_bore(const Block& block, const Cycle& cycle);
+  void back_bore(const Block& block, const Cycle& cycle);
+  void cycle_move(const Block& block, const Cycle& cycle, MoveKind kind, double height);
 
   // interpreter_state.cpp
   [[nodiscard]] std::string system_name() const;
@@ -196,9 +193,9 @@ class Interpreter {
   bool units_stated_ = false;
   bool placed_[2] = {false, false};  ///< the program has stated X, Y
   bool moves_ = false;
-  bool z_unknown_ = false;      ///< after probing, and after a height in the machine's own frame
+  bool z_unknown_ = false;     ///< after probing, and after a height in the machine's own frame
   bool z_is_machine_ = false;  ///< the latter
-  std::size_t arcs_ = 0;  ///< but whole circles
+  std::size_t arcs_ = 0;       ///< but whole circles
   std::size_t long_arcs_ = 0;
   std::size_t first_long_arc_ = 0;
 };

@@ -26,7 +26,7 @@ struct Interpreter::Cycle {
   int motion = 0;
   PlaneAxes axes;
   std::array<double, 2> hole{};  // along the plane's first and second axis
-  double retract = 0.0;  // the R plane
+  double retract = 0.0;          // the R plane
   double bottom = 0.0;
   double clear = 0.0;  // height of the retract at the end
   double dwell_s = 0.0;
@@ -42,36 +42,31 @@ struct Interpreter::Cycle {
   }
 };
 
-Result<void> Interpreter::cycle_move(const Block& block,
-                                     const Cycle& cycle,
-                                     MoveKind kind,
-                                     double height) {
-  CHAINTRUE_GCODE_TRY(step(block.start()));
+void Interpreter::cycle_move(const Block& block, const Cycle& cycle, MoveKind kind, double height) {
+  step(block.start());
   const Axes machine = to_machine(cycle.at(height));
   Move move = basic_move(block.line, kind, machine);
   move.names_xy = true;
   move.names_z = true;
-  CHAINTRUE_GCODE_TRY(sink_.move(move));
+  sink_.move(move);
   machine_ = machine;
   z_unknown_ = false;
-  return {};
 }
 
-Result<void> Interpreter::cycle(const Block& block, int motion) {
+void Interpreter::cycle(const Block& block, int motion) {
   Cycle cycle;
   cycle.motion = motion;
   cycle.axes = plane_axes(modes_.plane);
   cycle.program = to_program(machine_);
   const char depth_letter = kAxisLetters[cycle.axes.normal];
-  if (!block.has_axes())
-    return refuse(ProblemName::bad_cycle, block, "a canned cycle needs axis words");
+  if (!block.has_axes()) refuse(ProblemName::bad_cycle, block, "a canned cycle needs axis words");
   if (block.has('a') || block.has('b') || block.has('c') || block.has('@') || block.has('^')) {
-    return refuse(ProblemName::bad_cycle, block, "a canned cycle takes X, Y and Z only");
+    refuse(ProblemName::bad_cycle, block, "a canned cycle takes X, Y and Z only");
   }
   if (z_unknown_) {
-    return refuse(ProblemName::unsupported_code,
-                  block,
-                  "after probing, G53, G28 or G30 only the machine knows where a cycle starts");
+    refuse(ProblemName::unsupported_code,
+           block,
+           "after probing, G53, G28 or G30 only the machine knows where a cycle starts");
   }
   const bool again = modes_.motion == motion;
   const bool within = is_cycle(modes_.motion) && sticky_.plane == modes_.plane;
@@ -84,32 +79,32 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
     return block.has(letter) || again;
   };
   if (!sticky('r', sticky_.r, true)) {
-    return refuse(ProblemName::bad_cycle,
-                  block,
-                  "the cycle's R (the height of its retract plane) is missing");
+    refuse(ProblemName::bad_cycle,
+           block,
+           "the cycle's R (the height of its retract plane) is missing");
   }
   if (!sticky(depth_letter, sticky_.depth, true)) {
-    return refuse(ProblemName::bad_cycle, block, "the cycle's depth is missing");
+    refuse(ProblemName::bad_cycle, block, "the cycle's depth is missing");
   }
   const bool dwells = motion == g::drill_dwell || motion == g::bore_stop ||
                       motion == g::bore_manual || motion == g::bore_dwell;
   if (!sticky('p', sticky_.p, false)) {
-    if (dwells) return refuse(ProblemName::bad_cycle, block, "the cycle's dwell time P is missing");
+    if (dwells) refuse(ProblemName::bad_cycle, block, "the cycle's dwell time P is missing");
     sticky_.p = 0.0;
   }
   const bool pecks = motion == g::peck_break || motion == g::peck;
   if (!sticky('q', sticky_.q, true) && pecks) {
-    return refuse(ProblemName::bad_cycle, block, "the cycle's depth of a peck, Q, is missing");
+    refuse(ProblemName::bad_cycle, block, "the cycle's depth of a peck, Q, is missing");
   }
   if (pecks && !(sticky_.q > 0.0)) {
-    return refuse(ProblemName::bad_cycle, block, "the depth Q must be above zero");
+    refuse(ProblemName::bad_cycle, block, "the depth Q must be above zero");
   }
-  if (sticky_.p < 0.0) return refuse(ProblemName::bad_cycle, block, "the dwell time is below zero");
+  if (sticky_.p < 0.0) refuse(ProblemName::bad_cycle, block, "the dwell time is below zero");
   const double repeats = block.find('l').value_or(1.0);
   if (!(repeats >= 1.0) || std::round(repeats) != repeats) {
-    return refuse(ProblemName::bad_cycle,
-                  block,
-                  "a cycle is repeated a whole number of times, at least once");
+    refuse(ProblemName::bad_cycle,
+           block,
+           "a cycle is repeated a whole number of times, at least once");
   }
 
   double height = cycle.program[cycle.axes.normal];
@@ -130,8 +125,7 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   cycle.retract = sticky_.r + (modes_.incremental ? sticky_.start : 0.0);
   cycle.bottom = sticky_.depth + (modes_.incremental ? cycle.retract : 0.0);
   if (cycle.retract < cycle.bottom) {
-    return refuse(
-        ProblemName::bad_cycle, block, "the retract plane R lies below the cycle's bottom");
+    refuse(ProblemName::bad_cycle, block, "the retract plane R lies below the cycle's bottom");
   }
   cycle.dwell_s = sticky_.p;
   cycle.peck = sticky_.q;
@@ -139,7 +133,7 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   // From below the R plane first straight up to it; a row that began below it goes to it even from
   // a higher retract.
   if (sticky_.start < cycle.retract && height != cycle.retract) {
-    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, cycle.retract));
+    cycle_move(block, cycle, MoveKind::rapid, cycle.retract);
     height = cycle.retract;
   }
   // G98 does not traverse below the height at the start of the row.
@@ -147,90 +141,84 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   cycle.clear = modes_.retract_to_r ? cycle.retract : std::max(sticky_.start, cycle.retract);
   for (double count = repeats; count > 0.0; count -= 1.0) {
     for (const std::size_t i : {0, 1}) cycle.hole[i] = place[i] += stride[i];
-    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, height));
+    cycle_move(block, cycle, MoveKind::rapid, height);
     if (height != cycle.retract) {
-      CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, cycle.retract));
+      cycle_move(block, cycle, MoveKind::rapid, cycle.retract);
     }
-    CHAINTRUE_GCODE_TRY(motion == g::back_bore ? back_bore(block, cycle)
-                        : pecks                ? peck(block, cycle)
-                        : motion == g::drill || motion == g::drill_dwell
-                            ? drill(block, cycle)
-                            : tap_or_bore(block, cycle));
+    motion == g::back_bore                           ? back_bore(block, cycle)
+    : pecks                                          ? peck(block, cycle)
+    : motion == g::drill || motion == g::drill_dwell ? drill(block, cycle)
+                                                     : tap_or_bore(block, cycle);
     height = cycle.clear;
   }
-  return {};
 }
 
 /// G81, G82
-Result<void> Interpreter::drill(const Block& block, const Cycle& cycle) {
-  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, cycle.bottom));
-  if (cycle.motion == g::drill_dwell)
-    CHAINTRUE_GCODE_TRY(pass(block, with_value("G4 P", cycle.dwell_s)));
+void Interpreter::drill(const Block& block, const Cycle& cycle) {
+  cycle_move(block, cycle, MoveKind::feed, cycle.bottom);
+  if (cycle.motion == g::drill_dwell) pass(block, with_value("G4 P", cycle.dwell_s));
   return cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
 }
 
 /// G73, G83
-Result<void> Interpreter::peck(const Block& block, const Cycle& cycle) {
+void Interpreter::peck(const Block& block, const Cycle& cycle) {
   for (double depth = cycle.retract - cycle.peck; depth > cycle.bottom; depth -= cycle.peck) {
-    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, depth));
+    cycle_move(block, cycle, MoveKind::feed, depth);
     if (cycle.motion == g::peck) {
-      CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, cycle.retract));
+      cycle_move(block, cycle, MoveKind::rapid, cycle.retract);
     }
-    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, depth + kPeckClearanceMm));
+    cycle_move(block, cycle, MoveKind::rapid, depth + kPeckClearanceMm);
   }
-  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, cycle.bottom));
+  cycle_move(block, cycle, MoveKind::feed, cycle.bottom);
   return cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
 }
 
 /// G84, G85, G86, G88, G89
-Result<void> Interpreter::tap_or_bore(const Block& block, const Cycle& cycle) {
+void Interpreter::tap_or_bore(const Block& block, const Cycle& cycle) {
   const int motion = cycle.motion;
   const bool stops_spindle = motion == g::tap || motion == g::bore_stop || motion == g::bore_manual;
   if (motion == g::tap && modes_.spindle != 3) {
-    return refuse(
-        ProblemName::bad_cycle, block, "tapping (G84) needs the spindle turning clockwise");
+    refuse(ProblemName::bad_cycle, block, "tapping (G84) needs the spindle turning clockwise");
   }
   if (stops_spindle && modes_.spindle == 0) {
-    return refuse(
-        ProblemName::bad_cycle, block, "the cycle stops the spindle, but it is not turning");
+    refuse(ProblemName::bad_cycle, block, "the cycle stops the spindle, but it is not turning");
   }
   const std::string start = fmt::format("M{}", modes_.spindle);
   const std::string dwell = with_value("G4 P", cycle.dwell_s);
-  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, cycle.bottom));
+  cycle_move(block, cycle, MoveKind::feed, cycle.bottom);
   if (motion == g::tap) {
-    for (const char* word : {"M5", "M4"}) CHAINTRUE_GCODE_TRY(pass(block, word));
-    CHAINTRUE_GCODE_TRY(pass(block, dwell));
-    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, cycle.clear));
-    for (const char* word : {"M5", "M3"}) CHAINTRUE_GCODE_TRY(pass(block, word));
-    return {};
+    for (const char* word : {"M5", "M4"}) pass(block, word);
+    pass(block, dwell);
+    cycle_move(block, cycle, MoveKind::feed, cycle.clear);
+    for (const char* word : {"M5", "M3"}) pass(block, word);
+    return;
   }
   if (motion == g::bore) {
-    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, cycle.retract));
+    cycle_move(block, cycle, MoveKind::feed, cycle.retract);
     return cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
   }
-  CHAINTRUE_GCODE_TRY(pass(block, dwell));
+  pass(block, dwell);
   if (motion == g::bore_dwell) return cycle_move(block, cycle, MoveKind::feed, cycle.clear);
-  CHAINTRUE_GCODE_TRY(pass(block, "M5"));
+  pass(block, "M5");
   if (motion == g::bore_stop) {
-    CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, cycle.clear));
+    cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
   } else {
     // The user retracts by hand while the program is stopped.
-    CHAINTRUE_GCODE_TRY(pass(block, "M0"));
+    pass(block, "M0");
     machine_ = to_machine(cycle.at(cycle.clear));
   }
   return pass(block, start);
 }
 
 /// G87: through the hole with an oriented spindle, bored from below.
-Result<void> Interpreter::back_bore(const Block& block, const Cycle& cycle) {
+void Interpreter::back_bore(const Block& block, const Cycle& cycle) {
   if (modes_.spindle == 0) {
-    return refuse(
-        ProblemName::bad_cycle, block, "the cycle stops the spindle, but it is not turning");
+    refuse(ProblemName::bad_cycle, block, "the cycle stops the spindle, but it is not turning");
   }
   const char words[] = {'i', 'j', 'k'};
   for (const char letter : words) {
     if (!block.has(letter)) {
-      return refuse(ProblemName::bad_cycle, block, "back boring (G87) needs I, J and K");
+      refuse(ProblemName::bad_cycle, block, "back boring (G87) needs I, J and K");
     }
   }
   Cycle aside = cycle;
@@ -239,17 +227,17 @@ Result<void> Interpreter::back_bore(const Block& block, const Cycle& cycle) {
   const double middle = modes_.incremental ? cycle.bottom + length(block, words[cycle.axes.normal])
                                            : length(block, words[cycle.axes.normal]);
   const std::string start = fmt::format("M{}", modes_.spindle);
-  CHAINTRUE_GCODE_TRY(cycle_move(block, aside, MoveKind::rapid, cycle.retract));
-  for (const char* word : {"M5", "M19"}) CHAINTRUE_GCODE_TRY(pass(block, word));
-  CHAINTRUE_GCODE_TRY(cycle_move(block, aside, MoveKind::rapid, cycle.bottom));
-  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, cycle.bottom));
-  CHAINTRUE_GCODE_TRY(pass(block, start));
-  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, middle));
-  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, cycle.bottom));
-  for (const char* word : {"M5", "M19"}) CHAINTRUE_GCODE_TRY(pass(block, word));
-  CHAINTRUE_GCODE_TRY(cycle_move(block, aside, MoveKind::rapid, cycle.bottom));
-  CHAINTRUE_GCODE_TRY(cycle_move(block, aside, MoveKind::rapid, cycle.clear));
-  CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, cycle.clear));
+  cycle_move(block, aside, MoveKind::rapid, cycle.retract);
+  for (const char* word : {"M5", "M19"}) pass(block, word);
+  cycle_move(block, aside, MoveKind::rapid, cycle.bottom);
+  cycle_move(block, cycle, MoveKind::rapid, cycle.bottom);
+  pass(block, start);
+  cycle_move(block, cycle, MoveKind::feed, middle);
+  cycle_move(block, cycle, MoveKind::feed, cycle.bottom);
+  for (const char* word : {"M5", "M19"}) pass(block, word);
+  cycle_move(block, aside, MoveKind::rapid, cycle.bottom);
+  cycle_move(block, aside, MoveKind::rapid, cycle.clear);
+  cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
   return pass(block, start);
 }
 

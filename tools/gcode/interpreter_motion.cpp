@@ -44,7 +44,7 @@ Move Interpreter::basic_move(std::size_t line, MoveKind kind, const Axes& to) co
   return move;
 }
 
-Result<void> Interpreter::move(const Block& block, int motion) {
+void Interpreter::move(const Block& block, int motion) {
   moves_ = true;
   check_start(block, motion);
   switch (motion) {
@@ -53,14 +53,14 @@ Result<void> Interpreter::move(const Block& block, int motion) {
       modes_.motion = motion;
       if (block.is(g::machine_frame)) {
         if (block.has_z_alone()) return machine_height(block, motion);
-        note_home(block,
-                  "G53 with X or Y goes to a place of the machine's own frame, and only the machine "
-                  "knows where on the sheet that is; write the place on the sheet without G53, and "
-                  "G53 with Z on a line of its own");
+        note_home(
+            block,
+            "G53 with X or Y goes to a place of the machine's own frame, and only the machine "
+            "knows where on the sheet that is; write the place on the sheet without G53, and "
+            "G53 with Z on a line of its own");
       }
       const auto machine = target(block);
-      CHAINTRUE_GCODE_TRY(machine);
-      return straight(block, motion == g::rapid ? MoveKind::rapid : MoveKind::feed, *machine);
+      return straight(block, motion == g::rapid ? MoveKind::rapid : MoveKind::feed, machine);
     }
     case g::arc_clockwise:
     case g::arc_counterclockwise:
@@ -74,11 +74,11 @@ Result<void> Interpreter::move(const Block& block, int motion) {
 }
 
 /// The target of the block's axis words, in the machine frame.
-Result<Axes> Interpreter::target(const Block& block) const {
+Axes Interpreter::target(const Block& block) const {
   if (block.is(g::machine_frame)) return machine_target(block);
   Axes program = to_program(machine_);
   if (block.has('@') || block.has('^')) {
-    CHAINTRUE_GCODE_TRY(polar(block, program));
+    polar(block, program);
   }
   for (std::size_t i = 0; i < program.size(); ++i) {
     if (!block.has(kAxisLetters[i])) continue;
@@ -88,9 +88,9 @@ Result<Axes> Interpreter::target(const Block& block) const {
   return to_machine(program);
 }
 
-Result<Axes> Interpreter::machine_target(const Block& block) const {
+Axes Interpreter::machine_target(const Block& block) const {
   if (block.has('@') || block.has('^')) {
-    return refuse(ProblemName::bad_word_value, block, "G53 takes no polar coordinates");
+    refuse(ProblemName::bad_word_value, block, "G53 takes no polar coordinates");
   }
   Axes machine = machine_;
   for (std::size_t i = 0; i < machine.size(); ++i) {
@@ -111,21 +111,20 @@ void Interpreter::check_start(const Block& block, int motion) {
 }
 
 /// Passed as it is: only the machine knows where that is in the work's frame.
-Result<void> Interpreter::pass_height(const Block& block, std::string text, int code) {
+void Interpreter::pass_height(const Block& block, std::string text, int code) {
   moves_ = true;
   z_unknown_ = z_is_machine_ = true;
   return sink_.word({block.line, std::move(text), code});
 }
 
 /// A height above the machine's switch or stop, which no work offset reaches.
-Result<void> Interpreter::machine_height(const Block& block, int motion) {
+void Interpreter::machine_height(const Block& block, int motion) {
   std::string text = with_value(motion == g::rapid ? "G53 G0 Z" : "G53 G1 Z", length(block, 'z'));
   if (motion != g::rapid) {
     if (modes_.feed_mode == FeedMode::inverse_time) {
-      return refuse(
-          ProblemName::unsupported_code,
-          block,
-          "a height in the machine's frame (G53) takes a feed rate in mm/min or inch/min");
+      refuse(ProblemName::unsupported_code,
+             block,
+             "a height in the machine's frame (G53) takes a feed rate in mm/min or inch/min");
     }
     text += with_value(" F", modes_.feed);
   }
@@ -133,105 +132,98 @@ Result<void> Interpreter::machine_height(const Block& block, int motion) {
 }
 
 /// A slope begins at a height that is known.
-Result<void> Interpreter::check_height(const Block& block, const Axes& machine) const {
-  if (!block.has('z') || !z_unknown_) return {};
+void Interpreter::check_height(const Block& block, const Axes& machine) const {
+  if (!block.has('z') || !z_unknown_) return;
   if (modes_.incremental) {
-    return refuse(ProblemName::unsupported_code,
-                  block.place('z'),
-                  "after probing, G53, G28 or G30 only the machine knows its height, so Z cannot "
-                  "step from it (G91) here");
+    refuse(ProblemName::unsupported_code,
+           block.place('z'),
+           "after probing, G53, G28 or G30 only the machine knows its height, so Z cannot "
+           "step from it (G91) here");
   }
   if (z_is_machine_ && (machine[0] != machine_[0] || machine[1] != machine_[1])) {
-    return refuse(ProblemName::unsupported_code,
-                  block.place('z'),
-                  "after a height in the machine's frame (G53, G28, G30) Z moves by itself first, "
-                  "without X and Y: only the machine knows the height that it starts from");
+    refuse(ProblemName::unsupported_code,
+           block.place('z'),
+           "after a height in the machine's frame (G53, G28, G30) Z moves by itself first, "
+           "without X and Y: only the machine knows the height that it starts from");
   }
-  return {};
 }
 
 /// @ is the distance from the program's zero in XY, ^ the angle in degrees.
-Result<void> Interpreter::polar(const Block& block, Axes& program) const {
+void Interpreter::polar(const Block& block, Axes& program) const {
   if (modes_.plane != g::plane_xy) {
-    return refuse(
+    refuse(
         ProblemName::bad_word_value, block, "polar coordinates (@, ^) are for the XY plane (G17)");
   }
   if (block.has('x') || block.has('y')) {
-    return refuse(ProblemName::modal_conflict,
-                  block,
-                  "a point has X and Y or polar coordinates (@, ^), not both");
+    refuse(ProblemName::modal_conflict,
+           block,
+           "a point has X and Y or polar coordinates (@, ^), not both");
   }
   double radius = std::hypot(program[0], program[1]);
   double angle_deg = std::atan2(program[1], program[0]) / kRadiansPerDegree;
   if ((modes_.incremental || !block.has('^')) && radius == 0.0) {
-    return refuse(
+    refuse(
         ProblemName::bad_word_value, block, "at the program's zero a polar step has no direction");
   }
   if (block.has('@')) radius = (modes_.incremental ? radius : 0.0) + length(block, '@');
   if (block.has('^')) angle_deg = (modes_.incremental ? angle_deg : 0.0) + block.value('^');
   program[0] = radius * std::cos(angle_deg * kRadiansPerDegree);
   program[1] = radius * std::sin(angle_deg * kRadiansPerDegree);
-  return {};
 }
 
-Result<void> Interpreter::straight(const Block& block, MoveKind kind, const Axes& machine) {
-  CHAINTRUE_GCODE_TRY(check_height(block, machine));
+void Interpreter::straight(const Block& block, MoveKind kind, const Axes& machine) {
+  check_height(block, machine);
   if (block.has('z')) z_unknown_ = z_is_machine_ = false;
   Move move = basic_move(block.line, kind, machine);
   name_axes(block, move);
-  CHAINTRUE_GCODE_TRY(sink_.move(move));
+  sink_.move(move);
   machine_ = machine;
-  return {};
 }
 
-Result<void> Interpreter::probe(const Block& block) {
+void Interpreter::probe(const Block& block) {
   if (!block.has('x') && !block.has('y') && !block.has('z')) {
-    return refuse(ProblemName::missing_word, block, "probing needs an axis word");
+    refuse(ProblemName::missing_word, block, "probing needs an axis word");
   }
   const auto machine = target(block);
-  CHAINTRUE_GCODE_TRY(machine);
-  if ((*machine)[0] != machine_[0] || (*machine)[1] != machine_[1]) {
-    return refuse(ProblemName::unsupported_code,
-                  block,
-                  "probing sideways (X, Y) ends at a place that only the machine knows");
+  if (machine[0] != machine_[0] || machine[1] != machine_[1]) {
+    refuse(ProblemName::unsupported_code,
+           block,
+           "probing sideways (X, Y) ends at a place that only the machine knows");
   }
-  if (std::fabs((*machine)[2] - machine_[2]) < 0.254) {
-    return refuse(ProblemName::bad_word_value,
-                  block,
-                  "the probe starts closer than 0.254 mm (0.01 inch) to its end");
+  if (std::fabs(machine[2] - machine_[2]) < 0.254) {
+    refuse(ProblemName::bad_word_value,
+           block,
+           "the probe starts closer than 0.254 mm (0.01 inch) to its end");
   }
-  CHAINTRUE_GCODE_TRY(straight(block, MoveKind::probe, *machine));
+  straight(block, MoveKind::probe, machine);
   z_unknown_ = true;
   z_is_machine_ = false;
   for (int i = 0; i < 3; ++i)
     parameters_.set(parameter::kProbe + i, machine_[static_cast<std::size_t>(i)]);
-  return {};
 }
 
-Result<void> Interpreter::arc(const Block& block, bool clockwise) {
+void Interpreter::arc(const Block& block, bool clockwise) {
   double count = 1.0;
   if (block.has('p')) {
     count = block.value('p');
     if (count < 1.0 || count > kMostTurns || std::round(count) != count) {
-      return refuse(
-          ProblemName::bad_arc,
-          block.place('p'),
-          fmt::format("P, the number of turns, is a whole number from 1 to {}", kMostTurns));
+      refuse(ProblemName::bad_arc,
+             block.place('p'),
+             fmt::format("P, the number of turns, is a whole number from 1 to {}", kMostTurns));
     }
   }
   if (block.is(g::machine_frame)) {
-    return refuse(ProblemName::bad_word_value, block, "G53 needs G0 or G1");
+    refuse(ProblemName::bad_word_value, block, "G53 needs G0 or G1");
   }
   if (z_unknown_ && modes_.plane != g::plane_xy) {
-    return refuse(ProblemName::unsupported_code,
-                  block,
-                  "after probing, G53, G28 or G30 only the machine knows where an upright arc "
-                  "(G18, G19) starts");
+    refuse(ProblemName::unsupported_code,
+           block,
+           "after probing, G53, G28 or G30 only the machine knows where an upright arc "
+           "(G18, G19) starts");
   }
   const auto machine = target(block);
-  CHAINTRUE_GCODE_TRY(machine);
   const Axes start = to_program(machine_);
-  const Axes end = to_program(*machine);
+  const Axes end = to_program(machine);
   const PlaneAxes plane = plane_axes(modes_.plane);
   ArcRequest request;
   request.start = {start[plane.first], start[plane.second]};
@@ -243,11 +235,11 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
   request.absolute_centre = modes_.absolute_centres;
   request.mm_per_unit = mm_per_unit();
   // LinuxCNC takes absolute centres in the program's frame, offsets included.
-  const auto found = arc_centre(request, block);
+  const auto found = attempt([&] { return arc_centre(request, block); });
   if (!found) {
-    if (!sink_.goes_on_after(found.error())) return tl::unexpected(found.error());
-    machine_ = *machine;
-    return {};
+    if (!sink_.goes_on_after(found.error())) throw Refusal(found.error());
+    machine_ = machine;
+    return;
   }
 
   const auto direction = [&](std::size_t axis) {
@@ -278,14 +270,13 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
     ++arcs_;
     if (sweep > kHalfTurnRad && long_arcs_++ == 0) first_long_arc_ = block.line;
   }
-  Move move = basic_move(block.line, MoveKind::arc, *machine);
+  Move move = basic_move(block.line, MoveKind::arc, machine);
   move.arc = arc;
-  CHAINTRUE_GCODE_TRY(check_height(block, *machine));
+  check_height(block, machine);
   if (block.has('z')) z_unknown_ = z_is_machine_ = false;
   name_axes(block, move);
-  CHAINTRUE_GCODE_TRY(sink_.move(move));
-  machine_ = *machine;
-  return {};
+  sink_.move(move);
+  machine_ = machine;
 }
 
 }  // namespace chaintrue::gcode

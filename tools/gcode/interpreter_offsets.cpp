@@ -77,9 +77,9 @@ void Interpreter::select_system(int system) {
 }
 
 /// Codes that act once: offsets and homes. G4 and G53 are handled elsewhere.
-Result<void> Interpreter::once(const Block& block) {
+void Interpreter::once(const Block& block) {
   const GCode* code = block.code(GGroup::once);
-  if (code == nullptr) return {};
+  if (code == nullptr) return;
   switch (code->tenths) {
     case g::set_data:
       return set_system(block);
@@ -87,60 +87,60 @@ Result<void> Interpreter::once(const Block& block) {
       return go_home(block, parameter::kHome);
     case g::set_home:
       store_home(parameter::kHome);
-      return {};
+      return;
     case g::second_home:
       return go_home(block, parameter::kSecondHome);
     case g::set_second_home:
       store_home(parameter::kSecondHome);
-      return {};
+      return;
     case g::local_offset:
     case g::offset_here:
       return set_offset(block);
     case g::offset_off_forget:
       cancel_offset(true);
-      return {};
+      return;
     case g::offset_off:
       cancel_offset(false);
-      return {};
+      return;
     case g::offset_restore:
       restore_offset();
-      return {};
+      return;
     default:
-      return {};
+      return;
   }
 }
 
-Result<void> Interpreter::needs_known_z(const Block& block) const {
-  if (!z_unknown_ || !block.has('z')) return {};
-  return refuse(ProblemName::unsupported_code,
-                block.place('z'),
-                "after probing, G53, G28 or G30 only the machine knows its height, so Z cannot be set "
-                "from it here");
+void Interpreter::needs_known_z(const Block& block) const {
+  if (!z_unknown_ || !block.has('z')) return;
+  refuse(ProblemName::unsupported_code,
+         block.place('z'),
+         "after probing, G53, G28 or G30 only the machine knows its height, so Z cannot be set "
+         "from it here");
 }
 
-Result<void> Interpreter::set_system(const Block& block) {
+void Interpreter::set_system(const Block& block) {
   const double mode = block.find('l').value_or(-1.0);
   if (mode != 2.0 && mode != 20.0) {
-    return refuse(ProblemName::unsupported_code,
-                  block,
-                  "of G10 only L2 and L20 (work offsets) are supported; tool tables are not");
+    refuse(ProblemName::unsupported_code,
+           block,
+           "of G10 only L2 and L20 (work offsets) are supported; tool tables are not");
   }
   const double number = block.find('p').value_or(-1.0);
   if (number < 0.0 || number > 9.0 || std::round(number) != number) {
-    return refuse(ProblemName::bad_word_value, block, "G10 needs P0 (the system in force) to P9");
+    refuse(ProblemName::bad_word_value, block, "G10 needs P0 (the system in force) to P9");
   }
   const int system = number == 0.0 ? modes_.system : static_cast<int>(number);
   const bool from_here = mode == 20.0;
   if (from_here) {
-    CHAINTRUE_GCODE_TRY(needs_known_z(block));
+    needs_known_z(block);
     if (block.has('r')) {
-      return refuse(ProblemName::bad_word_value,
-                    block.place('r'),
-                    "R (a rotation) belongs to G10 L2, not to L20");
+      refuse(ProblemName::bad_word_value,
+             block.place('r'),
+             "R (a rotation) belongs to G10 L2, not to L20");
     }
   }
   if (block.has('@') || block.has('^')) {
-    return refuse(ProblemName::bad_word_value, block, "G10 takes no polar coordinates");
+    refuse(ProblemName::bad_word_value, block, "G10 takes no polar coordinates");
   }
   if (block.has('r')) parameters_.set(rotation_parameter(system), block.value('r'));
 
@@ -158,7 +158,8 @@ Result<void> Interpreter::set_system(const Block& block) {
   const bool offset_on = parameters_.stored(parameter::kOffsetOn) != 0.0;
   for (std::size_t i = 0; i < origin.size(); ++i) {
     if (!block.has(kAxisLetters[i])) continue;
-    const double value = i < kLinear ? length(block, kAxisLetters[i]) : block.value(kAxisLetters[i]);
+    const double value =
+        i < kLinear ? length(block, kAxisLetters[i]) : block.value(kAxisLetters[i]);
     if (from_here) {
       shift[i] = here[i] - (offset_on ? frame_.offset[i] : 0.0) - value;
     } else {
@@ -170,24 +171,24 @@ Result<void> Interpreter::set_system(const Block& block) {
     parameters_.set(first_parameter(system) + static_cast<int>(i), origin[i] + shift[i]);
   }
   if (system == modes_.system) refresh_frame();
-  return {};
 }
 
 /// G92 gives the machine's position the stated coordinates; G52 states the offset itself. They
 /// share it.
-Result<void> Interpreter::set_offset(const Block& block) {
+void Interpreter::set_offset(const Block& block) {
   if (!block.has_axes()) {
-    return refuse(ProblemName::missing_word, block, "G52 and G92 need an axis word");
+    refuse(ProblemName::missing_word, block, "G52 and G92 need an axis word");
   }
   if (block.has('@') || block.has('^')) {
-    return refuse(ProblemName::bad_word_value, block, "G52 and G92 take no polar coordinates");
+    refuse(ProblemName::bad_word_value, block, "G52 and G92 take no polar coordinates");
   }
   const bool from_here = block.is(g::offset_here);
-  if (from_here) CHAINTRUE_GCODE_TRY(needs_known_z(block));
+  if (from_here) needs_known_z(block);
   const Axes program = to_program(machine_);
   for (std::size_t i = 0; i < frame_.offset.size(); ++i) {
     if (!block.has(kAxisLetters[i])) continue;
-    const double value = i < kLinear ? length(block, kAxisLetters[i]) : block.value(kAxisLetters[i]);
+    const double value =
+        i < kLinear ? length(block, kAxisLetters[i]) : block.value(kAxisLetters[i]);
     frame_.offset[i] = from_here ? program[i] + frame_.offset[i] - value : value;
     if (from_here && i < 2) placed_[i] = true;
   }
@@ -195,7 +196,6 @@ Result<void> Interpreter::set_offset(const Block& block) {
   for (std::size_t i = 0; i < frame_.offset.size(); ++i) {
     parameters_.set(parameter::kOffset + static_cast<int>(i), frame_.offset[i]);
   }
-  return {};
 }
 
 void Interpreter::cancel_offset(bool forget) {
@@ -223,26 +223,26 @@ void Interpreter::note_home(const Block& block, const char* sentence) {
 }
 
 /// Through the point of the axis words, then home with those axes; with all if none is given.
-Result<void> Interpreter::go_home(const Block& block, int first) {
+void Interpreter::go_home(const Block& block, int first) {
   const auto through = target(block);
-  CHAINTRUE_GCODE_TRY(through);
   moves_ = true;
   if (!dialect_.home_is_zero && !home_known_[first == parameter::kHome ? 0 : 1]) {
     const int code = first == parameter::kHome ? g::home : g::second_home;
     if (block.has_z_alone()) {
       // In whole nanometres, which the rounding of offsets and inches leaves alone.
       const double z_mm =
-          std::round(1e6 * (modes_.incremental ? length(block, 'z') : (*through)[2])) / 1e6;
+          std::round(1e6 * (modes_.incremental ? length(block, 'z') : through[2])) / 1e6;
       const std::string word = (modes_.incremental ? "G91 " : "") + g_name(code) + " Z";
       return pass_height(block, with_value(word, z_mm), code);
     }
-    note_home(block,
-              "the place that G28 and G30 go to is stored in the machine, and only the machine knows "
-              "where on the sheet that is; write the place on the sheet, and leave X and Y out of the "
-              "retract (G28 G91 Z0)");
+    note_home(
+        block,
+        "the place that G28 and G30 go to is stored in the machine, and only the machine knows "
+        "where on the sheet that is; write the place on the sheet, and leave X and Y out of the "
+        "retract (G28 G91 Z0)");
   }
   placed_[0] = placed_[1] = true;
-  CHAINTRUE_GCODE_TRY(straight(block, MoveKind::rapid, *through));
+  straight(block, MoveKind::rapid, through);
   Axes home{};
   for (std::size_t i = 0; i < home.size(); ++i)
     home[i] = parameters_.stored(first + static_cast<int>(i));

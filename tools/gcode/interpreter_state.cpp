@@ -83,13 +83,13 @@ std::vector<std::string> Interpreter::describe() const {
   } else {
     lines.push_back(fmt::format("feed: {:.6g} mm/min (G94)", modes_.feed));
   }
-  lines.push_back(fmt::format(
-      "work offset {}: origin X{:.6g} Y{:.6g} Z{:.6g} mm, rotated by {:.6g} degrees",
-      system_name(),
-      frame_.origin[0],
-      frame_.origin[1],
-      frame_.origin[2],
-      frame_.rotation_deg));
+  lines.push_back(
+      fmt::format("work offset {}: origin X{:.6g} Y{:.6g} Z{:.6g} mm, rotated by {:.6g} degrees",
+                  system_name(),
+                  frame_.origin[0],
+                  frame_.origin[1],
+                  frame_.origin[2],
+                  frame_.rotation_deg));
   lines.push_back(fmt::format("G92/G52 offset: X{:.6g} Y{:.6g} Z{:.6g} mm",
                               frame_.offset[0],
                               frame_.offset[1],

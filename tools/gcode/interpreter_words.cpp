@@ -79,26 +79,25 @@ constexpr WordUse kWordUses[] = {
      "G2, G3, G10 or a canned cycle"},
 };
 
-Result<void> check_use(const WordUse& use, char letter, const Block& block, int motion) {
+void check_use(const WordUse& use, char letter, const Block& block, int motion) {
   const int users = use.users(block, motion);
-  if (users == 1) return {};
+  if (users == 1) return;
   if (users > 1) {
-    return refuse(ProblemName::bad_word_value,
-                  block.place(letter),
-                  fmt::format("the {} word could belong to two codes of this line; write each "
-                              "of them on a line of its own",
-                              upper(letter)));
+    refuse(ProblemName::bad_word_value,
+           block.place(letter),
+           fmt::format("the {} word could belong to two codes of this line; write each "
+                       "of them on a line of its own",
+                       upper(letter)));
   }
   if (letter == 'e') {
-    return refuse(ProblemName::unsupported_axis,
-                  block.place('e'),
-                  "an E word (the extruder of a 3D printer) has no meaning on a router");
+    refuse(ProblemName::unsupported_axis,
+           block.place('e'),
+           "an E word (the extruder of a 3D printer) has no meaning on a router");
   }
-  return refuse(
-      ProblemName::unused_word,
-      block.place(letter),
-      fmt::format(
-          "nothing on the line uses the {} word; it belongs to {}", upper(letter), use.codes));
+  refuse(ProblemName::unused_word,
+         block.place(letter),
+         fmt::format(
+             "nothing on the line uses the {} word; it belongs to {}", upper(letter), use.codes));
 }
 
 /// Words that are counts or numbers.
@@ -129,68 +128,66 @@ constexpr WholeWord kWholeWords[] = {
      "Q of M61, a tool's number, is"},
 };
 
-Result<void> check_whole(const Block& block) {
+void check_whole(const Block& block) {
   for (const WholeWord& word : kWholeWords) {
     if (!block.has(word.letter) || !word.counts(block)) continue;
     const double value = block.value(word.letter);
     if (value >= 0.0 && std::fabs(value - std::round(value)) <= kWhole) continue;
-    return refuse(
+    refuse(
         ProblemName::bad_word_value,
         block.place(word.letter),
         fmt::format(
             "{} a whole number, not below zero; here it is {}", word.what, with_value("", value)));
   }
-  return {};
 }
 
 long whole(double value) { return std::lround(value); }
 
 }  // namespace
 
-Result<void> Interpreter::check_words(const Block& block, int motion) const {
+void Interpreter::check_words(const Block& block, int motion) const {
   for (const char letter : {'u', 'v', 'w'}) {
     if (block.has(letter)) {
-      return refuse(ProblemName::unsupported_axis,
-                    block.place(letter),
-                    fmt::format("the axis {} is not supported", upper(letter)));
+      refuse(ProblemName::unsupported_axis,
+             block.place(letter),
+             fmt::format("the axis {} is not supported", upper(letter)));
     }
   }
   for (const WordUse& use : kWordUses) {
     for (const char letter : use.letters) {
-      if (block.has(letter)) CHAINTRUE_GCODE_TRY(check_use(use, letter, block, motion));
+      if (block.has(letter)) check_use(use, letter, block, motion);
     }
   }
   if (block.is(g::machine_frame)) {
     if (motion != g::rapid && motion != g::line) {
-      return refuse(ProblemName::bad_word_value, block, "G53 needs G0 or G1 and axis words");
+      refuse(ProblemName::bad_word_value, block, "G53 needs G0 or G1 and axis words");
     }
     const bool incremental =
         block.code(GGroup::distance) ? block.is(g::incremental) : modes_.incremental;
-    if (incremental) return refuse(ProblemName::modal_conflict, block, "G53 cannot be used in G91");
+    if (incremental) refuse(ProblemName::modal_conflict, block, "G53 cannot be used in G91");
   }
   for (const char letter : {'s', 't', 'f'}) {
     if (block.has(letter) && block.value(letter) < 0.0) {
-      return refuse(ProblemName::bad_word_value,
-                    block.place(letter),
-                    fmt::format("{} is negative", upper(letter)));
+      refuse(ProblemName::bad_word_value,
+             block.place(letter),
+             fmt::format("{} is negative", upper(letter)));
     }
   }
   return check_whole(block);
 }
 
-Result<void> Interpreter::pass(const Block& block, std::string text) {
+void Interpreter::pass(const Block& block, std::string text) {
   return sink_.word({block.line, std::move(text)});
 }
 
-Result<void> Interpreter::output_word(const Block& block) {
+void Interpreter::output_word(const Block& block) {
   const MCode* output = block.code(MGroup::output);
-  if (output == nullptr) return {};
+  if (output == nullptr) return;
   std::string text = fmt::format("M{}", output->number);
   const bool analog = output->number >= 67;
   for (const char letter : analog ? std::string_view("eq") : std::string_view("p")) {
     if (!block.has(letter)) {
-      return refuse(
-          ProblemName::missing_word, block, fmt::format("{} needs {}", text, upper(letter)));
+      refuse(ProblemName::missing_word, block, fmt::format("{} needs {}", text, upper(letter)));
     }
     const bool numbers = letter != 'q';
     text += numbers ? fmt::format(" {}{}", upper(letter), whole(block.value(letter)))
@@ -199,70 +196,69 @@ Result<void> Interpreter::output_word(const Block& block) {
   return pass(block, std::move(text));
 }
 
-Result<void> Interpreter::pass_words(const Block& block) {
+void Interpreter::pass_words(const Block& block) {
   if (block.has('s')) {
     modes_.spindle_rpm = block.value('s');
-    CHAINTRUE_GCODE_TRY(pass(block, with_value("S", block.value('s'))));
+    pass(block, with_value("S", block.value('s')));
   }
   if (block.has('t')) {
     modes_.selected_tool = whole(block.value('t'));
-    CHAINTRUE_GCODE_TRY(pass(block, fmt::format("T{}", modes_.selected_tool)));
+    pass(block, fmt::format("T{}", modes_.selected_tool));
   }
-  CHAINTRUE_GCODE_TRY(output_word(block));
+  output_word(block);
   if (const MCode* tool = block.code(MGroup::tool)) {
     std::string text = fmt::format("M{}", tool->number);
     if (tool->number == 61) {
       if (!block.has('q')) {
-        return refuse(ProblemName::missing_word, block, "M61 needs the tool's number as Q");
+        refuse(ProblemName::missing_word, block, "M61 needs the tool's number as Q");
       }
       modes_.tool = whole(block.value('q'));
       text += fmt::format(" Q{}", modes_.tool);
     } else {
       modes_.tool = modes_.selected_tool;
     }
-    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
+    pass(block, std::move(text));
   }
   if (const MCode* spindle = block.code(MGroup::spindle)) {
     modes_.spindle = spindle->number == 5 ? 0 : spindle->number;
-    CHAINTRUE_GCODE_TRY(pass(block, fmt::format("M{}", spindle->number)));
+    pass(block, fmt::format("M{}", spindle->number));
   }
   if (const MCode* coolant = block.code(MGroup::coolant)) {
-    CHAINTRUE_GCODE_TRY(pass(block, fmt::format("M{}", coolant->number)));
+    pass(block, fmt::format("M{}", coolant->number));
   }
   if (const MCode* override_code = block.code(MGroup::override)) {
     std::string text = fmt::format("M{}", override_code->number);
     if (block.has('p') && override_code->number >= 50) text += with_value(" P", block.value('p'));
-    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
+    pass(block, std::move(text));
   }
-  return {};
 }
 
-Result<void> Interpreter::dwell(const Block& block) {
-  if (!block.is(g::dwell)) return {};
+void Interpreter::dwell(const Block& block) {
+  if (!block.is(g::dwell)) return;
   if (!block.has('p') || block.value('p') < 0.0) {
-    return refuse(ProblemName::missing_word, block, "G4 needs its time as P, not below zero");
+    refuse(ProblemName::missing_word, block, "G4 needs its time as P, not below zero");
   }
   note_once(NoteOnce::dwell_unit, block.line);
   return pass(block, with_value("G4 P", block.value('p')));
 }
 
-Result<void> Interpreter::tool_length(const Block& block) {
+void Interpreter::tool_length(const Block& block) {
   if (const GCode* cutter = block.code(GGroup::cutter)) {
     // G41 and G42 reach this point only if tools have no diameter.
-    if (cutter->tenths == g::cutter_off) CHAINTRUE_GCODE_TRY(pass(block, "G40"));
+    if (cutter->tenths == g::cutter_off) pass(block, "G40");
   }
   if (const GCode* code = block.code(GGroup::tool_length)) {
     std::string text = g_name(code->tenths);
     if (block.has('h')) text += fmt::format(" H{}", whole(block.value('h')));
     if (code->tenths == g::tool_length_stated) {
       if (block.has('x') || block.has('y') || block.has('a') || block.has('b') || block.has('c')) {
-        return refuse(ProblemName::unsupported_code,
-                      block,
-                      "a tool offset (G43.1) in any axis but Z moves the path");
+        refuse(ProblemName::unsupported_code,
+               block,
+               "a tool offset (G43.1) in any axis but Z moves the path");
       }
       if (block.has('z')) text += with_value(" Z", length(block, 'z'));
     }
-    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
+    pass(block, std::move(text));
   }
   if (const GCode* control = block.code(GGroup::path_control)) {
     modes_.path_control = control->tenths;
@@ -270,9 +266,8 @@ Result<void> Interpreter::tool_length(const Block& block) {
     // check_words has ensured that P and Q belong to no other code of the line.
     if (control->tenths == g::blend && block.has('p')) text += with_value(" P", length(block, 'p'));
     if (control->tenths == g::blend && block.has('q')) text += with_value(" Q", length(block, 'q'));
-    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
+    pass(block, std::move(text));
   }
-  return {};
 }
 
 }  // namespace chaintrue::gcode

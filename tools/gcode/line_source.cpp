@@ -30,53 +30,51 @@ class Cleaner {
  public:
   Cleaner(std::string_view raw, CleanLine& line) : raw_(raw), line_(line) {}
 
-  Result<void> run() {
+  void run() {
     while (at_ < raw_.size()) {
       const char c = raw_[at_];
       if (c == '(') {
-        CHAINTRUE_GCODE_TRY(parenthesis());
+        parenthesis();
       } else if (c == ';') {
         line_.comments.push_back({std::string(raw_.substr(at_ + 1)), at_ + 1, true});
         break;
       } else if (c == '*' && depth_ == 0) {
-        CHAINTRUE_GCODE_TRY(checksum());
+        checksum();
       } else {
-        CHAINTRUE_GCODE_TRY(character(c));
+        character(c);
       }
     }
     line_.columns.push_back(static_cast<std::uint32_t>(at_ + 1));
-    return {};
   }
 
  private:
   Place here() const { return {line_.number, at_ + 1}; }
 
-  Result<void> parenthesis() {
+  void parenthesis() {
     const std::size_t open = at_;
     const std::size_t close = raw_.find_first_of("()", open + 1);
     if (close == std::string_view::npos) {
-      return refuse(ProblemName::bad_comment,
-                    here(),
-                    "the comment that opens here is not closed on this line");
+      refuse(ProblemName::bad_comment,
+             here(),
+             "the comment that opens here is not closed on this line");
     }
     if (raw_[close] == '(') {
-      return refuse(
+      refuse(
           ProblemName::bad_comment, {line_.number, close + 1}, "a comment opens inside a comment");
     }
     line_.comments.push_back(
         {std::string(raw_.substr(open + 1, close - open - 1)), open + 1, false});
     at_ = close + 1;
-    return {};
   }
 
-  Result<void> character(char c) {
+  void character(char c) {
     const auto byte = static_cast<unsigned char>(c);
     if (!is_blank(c) && (byte < 0x20 || byte >= 0x7F)) {
-      return refuse(ProblemName::bad_character,
-                    here(),
-                    fmt::format("{} does not belong into G-code outside a comment", printable(c)));
+      refuse(ProblemName::bad_character,
+             here(),
+             fmt::format("{} does not belong into G-code outside a comment", printable(c)));
     }
-    if (c == ')') return refuse(ProblemName::bad_character, here(), "')' closes no comment");
+    if (c == ')') refuse(ProblemName::bad_character, here(), "')' closes no comment");
     if (c == '[') ++depth_;
     if (c == ']' && depth_ > 0) --depth_;
     if (!is_blank(c)) {
@@ -84,11 +82,10 @@ class Cleaner {
       line_.columns.push_back(static_cast<std::uint32_t>(at_ + 1));
     }
     ++at_;
-    return {};
   }
 
   /// RepRap: the exclusive or of all bytes before the asterisk.
-  Result<void> checksum() {
+  void checksum() {
     const Place place = here();
     unsigned char sum = 0;
     for (const char c : raw_.substr(0, at_))
@@ -99,22 +96,21 @@ class Cleaner {
     unsigned stated = 0;
     const auto [stop, error] = std::from_chars(raw_.data() + digits, raw_.data() + end, stated);
     if (error != std::errc{} || stop != raw_.data() + end) {
-      return refuse(ProblemName::bad_checksum,
-                    place,
-                    "'*' outside brackets begins a checksum, but no number follows");
+      refuse(ProblemName::bad_checksum,
+             place,
+             "'*' outside brackets begins a checksum, but no number follows");
     }
     std::size_t rest = end;
     while (rest < raw_.size() && is_blank(raw_[rest])) ++rest;
     if (rest < raw_.size() && raw_[rest] != ';' && raw_[rest] != '(') {
-      return refuse(ProblemName::bad_checksum, place, "something follows the checksum");
+      refuse(ProblemName::bad_checksum, place, "something follows the checksum");
     }
     if (stated != sum) {
-      return refuse(ProblemName::bad_checksum,
-                    place,
-                    fmt::format("the checksum is {}, but the line's is {}", stated, sum));
+      refuse(ProblemName::bad_checksum,
+             place,
+             fmt::format("the checksum is {}, but the line's is {}", stated, sum));
     }
     at_ = rest;
-    return {};
   }
 
   std::string_view raw_;
@@ -133,8 +129,8 @@ Result<LineSource> LineSource::from_file(const std::string& path) {
   auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
   // A folder can be opened but not read.
   if (!*file || (file->peek(), file->bad())) {
-    return refuse(
-        ProblemName::unreadable_file, Place{}, fmt::format("the file '{}' cannot be read", path));
+    return tl::unexpected(Problem{
+        ProblemName::unreadable_file, {}, fmt::format("the file '{}' cannot be read", path)});
   }
   file->clear();
   return LineSource(std::move(file));
@@ -158,15 +154,14 @@ bool LineSource::refill() {
   return got > 0;
 }
 
-Result<bool> LineSource::next(SourceLine& line) {
+bool LineSource::next(SourceLine& line) {
   std::size_t end = begin_;
   for (;;) {
     while (end < buffer_.size() && buffer_[end] != '\n' && buffer_[end] != '\r') {
       if (buffer_[end] == '\0') {
-        return refuse(
-            ProblemName::not_text,
-            {lines_before_ + 1, end - begin_ + 1},
-            "a zero byte stands here: the file is not plain text (UTF-16, or no G-code at all)");
+        refuse(ProblemName::not_text,
+               {lines_before_ + 1, end - begin_ + 1},
+               "a zero byte stands here: the file is not plain text (UTF-16, or no G-code at all)");
       }
       ++end;
     }
@@ -179,11 +174,11 @@ Result<bool> LineSource::next(SourceLine& line) {
     end = begin_ + length;
   }
   if (end - begin_ > kMaxLineLength) {
-    return refuse(ProblemName::line_too_long,
-                  {lines_before_ + 1, 0},
-                  fmt::format("the line is longer than {} characters: its line ends are lost, or "
-                              "this is no program",
-                              kMaxLineLength));
+    refuse(ProblemName::line_too_long,
+           {lines_before_ + 1, 0},
+           fmt::format("the line is longer than {} characters: its line ends are lost, or "
+                       "this is no program",
+                       kMaxLineLength));
   }
   if (end == buffer_.size() && end == begin_) return false;
   line.text = std::string_view(buffer_).substr(begin_, end - begin_);
@@ -219,7 +214,7 @@ void LineSource::seek(Position position) {
   if (position.offset == 0 && std::string_view(buffer_).substr(0, 3) == kByteOrderMark) begin_ = 3;
 }
 
-Result<void> clean(std::string_view raw, std::size_t number, CleanLine& line) {
+void clean(std::string_view raw, std::size_t number, CleanLine& line) {
   line.text.clear();
   line.columns.clear();
   line.comments.clear();

@@ -46,8 +46,8 @@ class LineSource {
   [[nodiscard]] static Result<LineSource> from_file(const std::string& path);
   [[nodiscard]] static LineSource from_text(std::string text);
 
-  /// False at the end of the file.
-  [[nodiscard]] Result<bool> next(SourceLine& line);
+  /// False at the end of the file. \throws Refusal
+  [[nodiscard]] bool next(SourceLine& line);
   /// Position of the line that next() would return.
   [[nodiscard]] Position position() const;
   void seek(Position position);
@@ -85,6 +85,7 @@ struct CleanLine {
 };
 
 /// Splits a line into text and comments; a RepRap checksum (`*71`) is checked and removed.
-[[nodiscard]] Result<void> clean(std::string_view raw, std::size_t number, CleanLine& line);
+/// \throws Refusal
+void clean(std::string_view raw, std::size_t number, CleanLine& line);
 
 }  // namespace chaintrue::gcode

@@ -138,8 +138,8 @@ void PathMatcher::close_up() {
   }
 }
 
-void PathMatcher::note(bool rapid, const Pair& pair) {
-  Pair& worst = largest_[rapid ? 1 : 0];
+void PathMatcher::note(bool rapid, const Deviation& pair) {
+  Deviation& worst = largest_[rapid ? 1 : 0];
   if (pair.distance_mm > worst.distance_mm) worst = pair;
 }
 
@@ -219,7 +219,7 @@ bool PathMatcher::column(const PathPiece& piece, bool pinned, double distance_mm
 
 /// The tool is at the end of the piece.
 void PathMatcher::commit(const PathPiece& piece) {
-  Pair nearest{kMostDistanceMm, {}, piece.to, 0, piece.line};
+  Deviation nearest{kMostDistanceMm, {}, piece.to, 0, piece.line};
   bool rapid = false;
   std::size_t lowest = open_.size();
   for (std::size_t i = first_; i < open_.size(); ++i) {
@@ -270,8 +270,8 @@ void PathMatcher::advance_anyhow(const PathPiece& piece) {
   while (!column(piece, false, distance_mm_, false) && distance_mm_ < kMostDistanceMm) {
     distance_mm_ *= kWiden;
   }
-  const Pair before = front();
-  note(piece.rapid, {distance_mm_, before.intended, piece.to, before.intended_line, piece.line});
+  const Deviation before = front();
+  note(piece.rapid, {distance_mm_, before.intended, piece.to, before.original_line, piece.line});
   commit(piece);
 }
 
@@ -305,7 +305,7 @@ void PathMatcher::finish_anyhow() {
   note(false, {distance_mm(path_end_, tool_), path_end_, tool_, line, tool_line_});
 }
 
-PathMatcher::Pair PathMatcher::front() const {
+Deviation PathMatcher::front() const {
   if (open_.empty()) return {0.0, path_end_, tool_, 0, tool_line_};
   const Open& open = open_[std::min(reached_, open_.size() - 1)];
   const double t = open.left.empty() ? 1.0 : open.left.high;

@@ -39,6 +39,15 @@ struct PathPiece {
   std::size_t line = 0;
 };
 
+/// A point of the tool, and the one of the path that it corresponds to.
+struct Deviation {
+  double distance_mm = 0.0;
+  Point intended;
+  Point tool;
+  std::size_t original_line = 0;
+  std::size_t run_line = 0;
+};
+
 class PathMatcher {
  public:
   struct Limits {
@@ -57,14 +66,6 @@ class PathMatcher {
     wrong_speed,  ///< there is one, but kinds or speeds differ
     past_end,     ///< the tool continues after the end of the section of the path
   };
-  struct Pair {
-    double distance_mm = 0.0;
-    Point intended;
-    Point tool;
-    std::size_t intended_line = 0;
-    std::size_t tool_line = 0;
-  };
-
   PathMatcher(const Limits& limits, Path path);
 
   /// Starts a section with both curves at these points. \return strays if they are too far apart.
@@ -82,10 +83,10 @@ class PathMatcher {
   /// The end of the path as far as it was read.
   [[nodiscard]] Point path_end() const { return path_end_; }
   /// The tool's position and the last point of the path that can correspond to it, for messages.
-  [[nodiscard]] Pair front() const;
+  [[nodiscard]] Deviation front() const;
   /// The largest distance of a point of the tool, or of a corner of the path, from the nearest
   /// point that the order allows. Never above the Frechet distance.
-  [[nodiscard]] const Pair& largest(bool rapid) const { return largest_[rapid ? 1 : 0]; }
+  [[nodiscard]] const Deviation& largest(bool rapid) const { return largest_[rapid ? 1 : 0]; }
 
  private:
   /// Parameters 0 .. 1 of a piece; empty where low > high.
@@ -105,9 +106,9 @@ class PathMatcher {
     Point from;
     PathPiece piece;
     bool pinned = false;
-    Span left;    // reachable with the tool at the start of its piece
-    Span right;   // and at its end
-    Pair corner;  // the tool's nearest approach to the piece's end
+    Span left;         // reachable with the tool at the start of its piece
+    Span right;        // and at its end
+    Deviation corner;  // the tool's nearest approach to the piece's end
   };
 
   bool read();
@@ -123,7 +124,7 @@ class PathMatcher {
             Span& top) const;
   void commit(const PathPiece& piece);
   void close_up();
-  void note(bool rapid, const Pair& pair);
+  void note(bool rapid, const Deviation& pair);
   void note_corner(Open& open, Point tool, std::size_t line);
   [[nodiscard]] bool at_end() const;
 
@@ -140,7 +141,7 @@ class PathMatcher {
   std::size_t tool_line_ = 0;
   Run path_run_;
   Run tool_run_;
-  Pair largest_[2];
+  Deviation largest_[2];
 };
 
 }  // namespace chaintrue::gcode

@@ -23,7 +23,9 @@ bool is_plain_number(std::string_view text) {
          std::count(text.begin(), text.end(), '.') <= 1;
 }
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c & 0x80) != 0; }
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c & 0x80) != 0;
+}
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
@@ -54,14 +56,16 @@ std::optional<std::string> plotter_word(const CleanLine& line, std::size_t at, b
   bool homes = false;
   while (!rest.empty()) {
     if (!opens_word(rest.front())) return std::nullopt;
-    const std::size_t end = std::min(
-        static_cast<std::size_t>(std::find_if(rest.begin() + 1, rest.end(), opens_word) - rest.begin()),
-        rest.size());
+    const std::size_t end =
+        std::min(static_cast<std::size_t>(std::find_if(rest.begin() + 1, rest.end(), opens_word) -
+                                          rest.begin()),
+                 rest.size());
     std::string_view number = rest.substr(1, end - 1);
     if (words.empty()) {
       number = without_zeros(number);
       homes = rest.front() == 'g' && number == "28";
-      const bool is_known = std::find(std::begin(kCodes), std::end(kCodes), number) != std::end(kCodes);
+      const bool is_known =
+          std::find(std::begin(kCodes), std::end(kCodes), number) != std::end(kCodes);
       if (!homes && (rest.front() != 'm' || !is_known)) return std::nullopt;
     } else {
       const bool is_axis = std::string_view("xyz").find(rest.front()) != std::string_view::npos;

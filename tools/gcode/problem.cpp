@@ -39,4 +39,8 @@ std::string Problem::message() const {
   return text;
 }
 
+void refuse(ProblemName problem, Place place, std::string sentence) {
+  throw Refusal({problem, place, std::move(sentence)});
+}
+
 }  // namespace chaintrue::gcode

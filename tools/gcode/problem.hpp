@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Why a G-code program is rejected: a stable name, the place, and a sentence for the user.
+///
+/// What reads a program throws a Refusal; what runs a whole one returns the problem as a Result.
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
+#include <type_traits>
 #include <utility>
 
 namespace chaintrue::gcode {
@@ -37,22 +41,30 @@ struct Problem {
 [[nodiscard]] std::string_view name(ProblemName problem);
 [[nodiscard]] ProblemKind kind(ProblemName problem);
 
+class Refusal final : public std::exception {
+ public:
+  explicit Refusal(Problem problem) : problem_(std::move(problem)) {}
+  [[nodiscard]] const Problem& problem() const { return problem_; }
+  [[nodiscard]] const char* what() const noexcept override { return problem_.sentence.c_str(); }
+
+ private:
+  Problem problem_;
+};
+
+/// \throws Refusal
+[[noreturn]] void refuse(ProblemName problem, Place place, std::string sentence);
+
 template <class T>
 using Result = tl::expected<T, Problem>;
 
-[[nodiscard]] inline tl::unexpected<Problem> refuse(ProblemName problem,
-                                                    Place place,
-                                                    std::string sentence) {
-  return tl::unexpected<Problem>(Problem{problem, place, std::move(sentence)});
+/// What the task gives, or the problem that it is refused for.
+template <class Task>
+[[nodiscard]] Result<std::invoke_result_t<Task>> attempt(Task&& task) {
+  try {
+    return task();
+  } catch (const Refusal& refusal) {
+    return tl::unexpected(refusal.problem());
+  }
 }
 
 }  // namespace chaintrue::gcode
-
-/// Returns the problem of a Result from the calling function, if it has one.
-#define CHAINTRUE_GCODE_TRY(result)                                                            \
-  do {                                                                                         \
-    auto&& chaintrue_result = (result);                                                        \
-    if (!chaintrue_result) {                                                                   \
-      return tl::unexpected<::chaintrue::gcode::Problem>(std::move(chaintrue_result).error()); \
-    }                                                                                          \
-  } while (false)

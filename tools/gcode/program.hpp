@@ -35,13 +35,9 @@ struct ProgramSummary {
   std::uint64_t blocks = 0;  ///< executed
 };
 
-/// Called before each executed line; false ends the run there (for `explain`).
-using BeforeLine = std::function<bool(std::size_t line, const Interpreter&)>;
-
 [[nodiscard]] Result<ProgramSummary> run_program(LineSource& source,
                                                  const Dialect& dialect,
-                                                 Sink& sink,
-                                                 const BeforeLine& before_line = {});
+                                                 Sink& sink);
 
 /// The same, line by line.
 class Program {
@@ -52,8 +48,8 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Executes the next line; false when the program has ended.
-  [[nodiscard]] Result<bool> step();
+  /// Executes the next line; false when the program has ended. \throws Refusal
+  bool step();
   [[nodiscard]] const ProgramSummary& summary() const;
   [[nodiscard]] const Interpreter& interpreter() const;
   /// Number of the line that step() will read, in the order of execution.
@@ -67,11 +63,9 @@ class Program {
 struct ProgramEvent {
   enum class Kind { move, word, end };
   Kind kind = Kind::end;
-  Move move;
-  std::string text;           ///< of a word, or of the word that ends the program
-  bool moves_itself = false;  ///< a word that moves the tool in the machine's frame
-  bool leaves_xy = false;     ///< ... in X and Y
   std::size_t line = 0;
+  Move move;
+  PassedWord word;  ///< of Kind::end the one that ends the program; empty where none does
 };
 
 class ProgramStream final : private Sink {
@@ -79,14 +73,14 @@ class ProgramStream final : private Sink {
   /// Keeps a reference.
   ProgramStream(LineSource& source, const Dialect& dialect) : program_(source, dialect, *this) {}
 
-  /// The next event, unchanged until pop(); Kind::end from the end on.
-  [[nodiscard]] Result<const ProgramEvent*> peek();
+  /// The next event, unchanged until pop(); Kind::end from the end on. \throws Refusal
+  [[nodiscard]] const ProgramEvent& peek();
   void pop();
 
  private:
-  Result<void> move(const Move& move) override;
-  Result<void> word(const PassedWord& word) override;
-  Result<void> end(std::size_t line, std::string_view word) override;
+  void move(const Move& move) override;
+  void word(const PassedWord& word) override;
+  void end(std::size_t line, std::string_view word) override;
 
   Program program_;
   std::deque<ProgramEvent> events_;

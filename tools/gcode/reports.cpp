@@ -26,7 +26,7 @@ class Sampler final : public Sink {
           Findings& findings)
       : map_(map), every_mm_(every_mm), write_(write), findings_(findings) {}
 
-  Result<void> move(const Move& move) override {
+  void move(const Move& move) override {
     const double length = length_mm(move);
     const double turns = move.arc ? std::fabs(move.arc->sweep_rad) / (2.0 * std::numbers::pi) : 0.0;
     const double pieces =
@@ -45,11 +45,10 @@ class Sampler final : public Sink {
                                         place.x_mm,
                                         place.y_mm,
                                         correction_failure(answer.error()).sentence())});
-      return {};
+      return;
     }
-    return {};
   }
-  Result<void> comment(const Comment& comment) override { return refuse_compensated(comment); }
+  void comment(const Comment& comment) override { refuse_compensated(comment); }
   void note(const Note& note) override { findings_.add(note); }
   bool goes_on_after(const Problem& problem) override {
     findings_.add(problem);
@@ -67,17 +66,16 @@ class Surveyor final : public Sink {
  public:
   Surveyor(const Sheet& sheet, Findings& findings) : sheet_(sheet), findings_(findings) {}
 
-  Result<void> move(const Move& move) override {
+  void move(const Move& move) override {
     count(move);
     if (!move.names_xy) {
       if (move.names_z) height(move.to.z_mm);
-      return {};
+      return;
     }
     for (const double t : bounding_places(move)) {
       if (t == 0.0 && move.kind == MoveKind::rapid) continue;
       take(at(move, t), move.line);
     }
-    return {};
   }
   /// Where home is does not matter as long as nothing is made of it.
   void note(const Note& note) override {
@@ -156,10 +154,10 @@ Result<Survey> survey(LineSource& source,
                       const Sheet& sheet,
                       Findings& findings) {
   Surveyor surveyor(sheet, findings);
-  const auto program = run_program(source, dialect, surveyor);
-  CHAINTRUE_GCODE_TRY(program);
-  surveyor.result.program = *program;
-  return surveyor.result;
+  return run_program(source, dialect, surveyor).map([&](const ProgramSummary& program) {
+    surveyor.result.program = program;
+    return surveyor.result;
+  });
 }
 
 }  // namespace chaintrue::gcode

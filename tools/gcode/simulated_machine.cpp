@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tools/gcode/firmware_arc.hpp"
 #include "tools/gcode/path.hpp"
@@ -22,11 +23,9 @@ constexpr double kShortestChainMm = 400.0;
 
 double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm); }
 
-tl::unexpected<Problem> no_place(const CorrectionFailure& failure,
-                                 Point command,
-                                 std::size_t line) {
+[[noreturn]] void no_place(const CorrectionFailure& failure, Point command, std::size_t line) {
   const bool controller = failure.reason == CorrectionReason::controller;
-  return refuse(
+  refuse(
       controller ? ProblemName::outside_controller : ProblemName::outside_map,
       {line, 0},
       fmt::format(
@@ -41,7 +40,7 @@ Point SimulatedMachine::as_read(Point point) const {
   return {single(point.x_mm), single(point.y_mm), single(point.z_mm)};
 }
 
-Result<Point> SimulatedMachine::place(Point command, std::size_t line) {
+Point SimulatedMachine::place(Point command, std::size_t line) {
   return tool(as_read(command), line);
 }
 
@@ -55,20 +54,20 @@ model::ChainLengths SimulatedMachine::follow(model::ChainLengths motors) {
           one(right_mm_, motors.right_mm, options_.half_play_mm.right_mm)};
 }
 
-Result<Point> SimulatedMachine::tool(Point command, std::size_t line) {
+Point SimulatedMachine::tool(Point command, std::size_t line) {
   const model::BedPoint place{command.x_mm, command.y_mm};
   if (!play_) {
     if (const auto offset = field_.value(place.x_mm, place.y_mm)) {
       return Point{place.x_mm + (*offset)[0], place.y_mm + (*offset)[1], command.z_mm};
     }
     const auto found = corrector_.tool(place);
-    if (!found) return no_place(found.error(), command, line);
+    if (!found) no_place(found.error(), command, line);
     return Point{found->x_mm, found->y_mm, command.z_mm};
   }
   const auto paid = corrector_.paid_out(place);
-  if (!paid) return no_place(paid.error(), command, line);
+  if (!paid) no_place(paid.error(), command, line);
   const auto found = corrector_.map().tool(follow(*paid));
-  if (!found) return no_place(CorrectionReason::outside_map, command, line);
+  if (!found) no_place(CorrectionReason::outside_map, command, line);
   return Point{found->x_mm, found->y_mm, command.z_mm};
 }
 
@@ -93,26 +92,20 @@ void SimulatedMachine::count_ticks(const Move& move) {
   tick_overshoot_mm_ = std::max(tick_overshoot_mm_, (std::ceil(ticks) - ticks) * way_mm);
 }
 
-Result<void> SimulatedMachine::run(const Move& move, const Visit& visit) {
+void SimulatedMachine::run(const Move& move, const Visit& visit) {
   count_ticks(move);
   const Point from = as_read(move.from);
   const Point to = as_read(move.to);
-  Result<bool> done = true;
   if (options_.rapids_whole && move.kind == MoveKind::rapid) {
-    const auto end = tool(to, move.line);
-    CHAINTRUE_GCODE_TRY(end);
-    visit(*end, to);
+    visit(tool(to, move.line), to);
+  } else if (move.arc) {
+    arc(move, visit);
   } else {
-    done = move.arc ? arc(move, visit) : straight(from, to, move, visit);
+    straight(from, to, move, visit);
   }
-  CHAINTRUE_GCODE_TRY(done);
-  return {};
 }
 
-Result<bool> SimulatedMachine::straight(Point from,
-                                        Point to,
-                                        const Move& move,
-                                        const Visit& visit) {
+bool SimulatedMachine::straight(Point from, Point to, const Move& move, const Visit& visit) {
   const double length = xy_distance(from, to);
   if (is_chain_linear(corrector_.firmware()) && length > 0.0) {
     return chain_linear(from, to, move, visit);
@@ -130,20 +123,13 @@ Result<bool> SimulatedMachine::straight(Point from,
     gone += step;
     if (gone >= length) break;
     const Point here = as_read(between(from, to, gone / length));
-    const auto where = tool(here, move.line);
-    CHAINTRUE_GCODE_TRY(where);
-    if (!visit(*where, here)) return false;
+    if (!visit(tool(here, move.line), here)) return false;
   }
-  const auto where = tool(to, move.line);
-  CHAINTRUE_GCODE_TRY(where);
-  return visit(*where, to);
+  return visit(tool(to, move.line), to);
 }
 
 /// A whole number of pieces, summed in single precision.
-Result<bool> SimulatedMachine::chain_linear(Point from,
-                                            Point to,
-                                            const Move& move,
-                                            const Visit& visit) {
+bool SimulatedMachine::chain_linear(Point from, Point to, const Move& move, const Visit& visit) {
   const double length = xy_distance(from, to);
   const double pieces = pieces_of(corrector_.firmware(), length, feed_mm_per_min(move));
   const Point step{(to.x_mm - from.x_mm) / pieces,
@@ -157,7 +143,7 @@ Result<bool> SimulatedMachine::chain_linear(Point from,
     const Point next =
         as_read({here.x_mm + step.x_mm, here.y_mm + step.y_mm, here.z_mm + step.z_mm});
     const auto arrived = corrector_.paid_out({next.x_mm, next.y_mm});
-    if (!arrived) return no_place(arrived.error(), next, move.line);
+    if (!arrived) no_place(arrived.error(), next, move.line);
     for (double look = 1.0; look <= looks; look += 1.0) {
       const double share = look / looks;
       model::ChainLengths lengths{paid->left_mm + share * (arrived->left_mm - paid->left_mm),
@@ -165,26 +151,22 @@ Result<bool> SimulatedMachine::chain_linear(Point from,
       if (play_) lengths = follow(lengths);
       const auto where = corrector_.map().tool(lengths);
       const Point command = between(here, next, share);
-      if (!where) return no_place(CorrectionReason::outside_map, command, move.line);
+      if (!where) no_place(CorrectionReason::outside_map, command, move.line);
       if (!visit({where->x_mm, where->y_mm, command.z_mm}, command)) return false;
     }
     here = next;
     paid = arrived;
   }
-  if (!paid) return no_place(paid.error(), here, move.line);
+  if (!paid) no_place(paid.error(), here, move.line);
   return true;
 }
 
-Result<bool> SimulatedMachine::arc(const Move& move, const Visit& visit) {
+void SimulatedMachine::arc(const Move& move, const Visit& visit) {
   Point here = as_read(move.from);
-  Result<bool> done = true;
   for_each_chord(corrector_.firmware(), move, options_.flatness_mm, [&](Point end) {
     const Point next = as_read(end);
-    done = straight(here, next, move, visit);
-    here = next;
-    return done && *done;
+    return straight(std::exchange(here, next), next, move, visit);
   });
-  return done;
 }
 
 }  // namespace chaintrue::gcode

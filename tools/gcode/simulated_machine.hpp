@@ -11,8 +11,8 @@
 #include <optional>
 
 #include "interp/checked_field.hpp"
-#include "tools/gcode/events.hpp"
 #include "tools/gcode/corrector.hpp"
+#include "tools/gcode/events.hpp"
 
 namespace chaintrue::gcode {
 
@@ -38,22 +38,22 @@ class SimulatedMachine {
         play_(options.half_play_mm.left_mm != 0.0 || options.half_play_mm.right_mm != 0.0) {}
 
   /// The tool's position when the controller's position is `command`.
-  [[nodiscard]] Result<Point> place(Point command, std::size_t line);
-  /// Visits the points after the move's start, up to its end.
-  [[nodiscard]] Result<void> run(const Move& move, const Visit& visit);
+  [[nodiscard]] Point place(Point command, std::size_t line);
+  /// Visits the points after the move's start, up to its end. \throws Refusal
+  void run(const Move& move, const Visit& visit);
   /// Largest overshoot of the controller's last tick of a command.
   [[nodiscard]] double tick_overshoot_mm() const { return tick_overshoot_mm_; }
 
  private:
   [[nodiscard]] Point as_read(Point point) const;
-  [[nodiscard]] Result<Point> tool(Point command, std::size_t line);
+  [[nodiscard]] Point tool(Point command, std::size_t line);
   /// Lengths of the chains when their motors have gone to these: a chain follows once its motor has
   /// crossed the gap.
   [[nodiscard]] model::ChainLengths follow(model::ChainLengths motors);
   [[nodiscard]] double straight_mm(Point command);
-  Result<bool> straight(Point from, Point to, const Move& move, const Visit& visit);
-  Result<bool> chain_linear(Point from, Point to, const Move& move, const Visit& visit);
-  Result<bool> arc(const Move& move, const Visit& visit);
+  bool straight(Point from, Point to, const Move& move, const Visit& visit);
+  bool chain_linear(Point from, Point to, const Move& move, const Visit& visit);
+  void arc(const Move& move, const Visit& visit);
   void count_ticks(const Move& move);
 
   const Corrector& corrector_;

@@ -62,8 +62,8 @@ class Parameters {
   [[nodiscard]] double stored(int index) const { return values_[static_cast<std::size_t>(index)]; }
 
   [[nodiscard]] std::optional<double> get(std::string_view name) const;
-  /// False if the name is predefined and read-only.
-  [[nodiscard]] bool set(std::string_view name, double value);
+  /// A name of the interpreter's state keeps its value.
+  void set(std::string_view name, double value);
 
   /// Enters a subroutine: its #1 .. #30 are the arguments, and its local names start empty.
   void enter(const std::vector<double>& arguments);
@@ -101,22 +101,22 @@ class ValueReader {
   /// Reads `text` if it is next.
   bool accept(std::string_view text);
 
-  [[nodiscard]] Result<double> real();
+  [[nodiscard]] double real();
   /// A real value within 0.0001 of an integer.
-  [[nodiscard]] Result<long> integer();
+  [[nodiscard]] long integer();
   /// `[` ... `]`
-  [[nodiscard]] Result<double> bracketed();
+  [[nodiscard]] double bracketed();
   /// `<name>`, without its brackets.
-  [[nodiscard]] Result<std::string> angle_name();
+  [[nodiscard]] std::string angle_name();
 
  private:
   struct Nesting;
 
-  [[nodiscard]] Result<double> number();
-  [[nodiscard]] Result<double> parameter();
-  [[nodiscard]] Result<double> function();
-  [[nodiscard]] Result<double> exists();
-  [[nodiscard]] Result<double> operand_chain(int lowest_precedence);
+  [[nodiscard]] double number();
+  [[nodiscard]] double parameter();
+  [[nodiscard]] double function();
+  [[nodiscard]] double exists();
+  [[nodiscard]] double operand_chain(int lowest_precedence);
 
   const CleanLine& line_;
   const Parameters& parameters_;

@@ -41,6 +41,10 @@ std::string words(Point point) {
   return fmt::format("X{:.3f} Y{:.3f} Z{:.3f}", point.x_mm, point.y_mm, point.z_mm);
 }
 
+std::string words(const ProgramEvent& event) {
+  return event.word.text.empty() ? "the end" : event.word.text;
+}
+
 std::string words(const PathPiece& piece) {
   return piece.rapid ? std::string("a rapid") : fmt::format("F{:.6g}", piece.speed_mm_per_min);
 }
@@ -54,6 +58,13 @@ Dialect with_home_at_zero(Dialect dialect) {
   return dialect;
 }
 
+SimulatedMachine::Options machine_options(const VerifyOptions& options) {
+  return {options.half_play_mm,
+          kFlatnessShare * options.tolerance_mm,
+          kFieldShare * options.tolerance_mm,
+          options.rapids_whole};
+}
+
 class Verification {
  public:
   Verification(LineSource& original,
@@ -64,51 +75,40 @@ class Verification {
       : intended_(original, dialect),
         run_(run, with_home_at_zero(dialect)),
         options_(options),
-        machine_(corrector,
-                 {options.half_play_mm,
-                  kFlatnessShare * options.tolerance_mm,
-                  kFieldShare * options.tolerance_mm,
-                  options.rapids_whole}),
+        machine_(corrector, machine_options(options)),
         matcher_({kLeft * options.tolerance_mm,
                   options.speed_share,
                   least_run_mm(options),
                   PathMatcher::Limits{}.most_open},
                  [this](PathPiece& piece) { return next_piece(piece); }) {}
 
-  tl::expected<VerifySummary, VerifyProblem> result() {
+  VerifySummary result() {
     static_cast<void>(matcher_.begin({}, {}, 0));
-    while (!problem_ && !stopped_) {
-      const auto event = run_.peek();
-      if (!event) return tl::unexpected(VerifyProblem{false, event.error()});
-      if ((*event)->kind == ProgramEvent::Kind::move) {
+    while (!stopped_) {
+      const ProgramEvent& event = run_.peek();
+      if (event.kind == ProgramEvent::Kind::move) {
         ++summary_.commands;
-        execute((*event)->move);
+        execute(event.move);
       } else {
-        compare(**event);
-        if ((*event)->kind == ProgramEvent::Kind::end) break;
+        compare(event);
+        if (event.kind == ProgramEvent::Kind::end) break;
       }
       run_.pop();
     }
-    if (problem_) return tl::unexpected(*problem_);
-    take(summary_.feeds, matcher_.largest(false));
-    take(summary_.rapids, matcher_.largest(true));
+    summary_.feeds = matcher_.largest(false);
+    summary_.rapids = matcher_.largest(true);
     summary_.tick_overshoot_mm = machine_.tick_overshoot_mm();
     return summary_;
   }
 
  private:
-  static void take(Deviation& deviation, const PathMatcher::Pair& pair) {
-    deviation = {pair.distance_mm, pair.intended, pair.tool, pair.intended_line, pair.tool_line};
-  }
-
-  void fail(bool in_original, const Problem& problem) {
-    if (!problem_) problem_ = VerifyProblem{in_original, problem};
-  }
-  /// The original's next event; null if it has a problem.
-  const ProgramEvent* expected() {
-    const auto event = intended_.peek();
-    if (!event) fail(true, event.error());
-    return event ? *event : nullptr;
+  /// The original's next event. \throws VerifyProblem
+  const ProgramEvent& expected() {
+    try {
+      return intended_.peek();
+    } catch (const Refusal& refusal) {
+      throw VerifyProblem{true, refusal.problem()};
+    }
   }
 
   /// The next piece of the intended path within the section; arcs are replaced by chords.
@@ -116,16 +116,20 @@ class Verification {
     for (;;) {
       if (chord_ < chords_) {
         ++chord_;
-        piece = {at(arc_, static_cast<double>(chord_) / chords_), false, feed_mm_per_min(arc_), arc_.line};
+        piece = {at(arc_, static_cast<double>(chord_) / chords_),
+                 false,
+                 feed_mm_per_min(arc_),
+                 arc_.line};
         return true;
       }
-      const ProgramEvent* event = expected();
-      if (event == nullptr || event->kind != ProgramEvent::Kind::move) return false;
-      const Move& move = event->move;
+      const ProgramEvent& event = expected();
+      if (event.kind != ProgramEvent::Kind::move) return false;
+      const Move& move = event.move;
       if (!started_) {
         if (begins_here(move) && (move.kind != MoveKind::rapid || heights_done_)) return false;
         heights_done_ = begins_here(move);
-        piece = {height_of(move.to), move.kind == MoveKind::rapid, feed_mm_per_min(move), move.line};
+        piece = {
+            height_of(move.to), move.kind == MoveKind::rapid, feed_mm_per_min(move), move.line};
         const bool changes_height = move.from.z_mm != move.to.z_mm;
         if (!heights_done_) intended_.pop();  // which invalidates move
         if (changes_height) return true;
@@ -168,33 +172,30 @@ class Verification {
     if (command.kind == MoveKind::rapid && command.from.z_mm != command.to.z_mm) {
       advance({height_of(command.to), true, 0.0, command.line});
     }
-    if (stopped_ || problem_) return;
+    if (stopped_) return;
     const PathMatcher::Outcome before = matcher_.finish();
-    const ProgramEvent* event = expected();
-    if (event == nullptr) return;
-    if (before != PathMatcher::Outcome::follows || event->kind != ProgramEvent::Kind::move) {
+    const ProgramEvent& event = expected();
+    if (before != PathMatcher::Outcome::follows || event.kind != ProgramEvent::Kind::move) {
       stray(before == PathMatcher::Outcome::follows
                 ? fmt::format("the run goes to a place on line {} where the original has {}",
                               command.line,
-                              event->text.empty() ? "its end" : event->text)
+                              event.word.text.empty() ? "its end" : event.word.text)
                 : fmt::format("the heights before the first place differ (line {})", command.line));
       stopped_ = true;
       return;
     }
     started_ = true;
     const bool at_end = starts_at_end(command);
-    const bool intended_at_end = starts_at_end(event->move);
-    const Point intended = intended_at_end ? event->move.to : event->move.from;
+    const bool intended_at_end = starts_at_end(event.move);
+    const Point intended = intended_at_end ? event.move.to : event.move.from;
     if (intended_at_end) intended_.pop();
     homed_ = false;
-    const auto where = machine_.place(at_end ? command.to : command.from, command.line);
-    if (!where) return fail(false, where.error());
+    last_command_ = at_end ? command.to : command.from;
+    last_tool_ = machine_.place(last_command_, command.line);
     ++summary_.places;
-    if (matcher_.begin(intended, *where, command.line) != PathMatcher::Outcome::follows) {
+    if (matcher_.begin(intended, last_tool_, command.line) != PathMatcher::Outcome::follows) {
       stray(place_fault());
     }
-    last_tool_ = *where;
-    last_command_ = at_end ? command.to : command.from;
     if (!at_end) execute(command);
   }
 
@@ -202,8 +203,10 @@ class Verification {
     if (!started_) {
       if (begins_here(command)) return start(command);
       if (command.from.z_mm != command.to.z_mm) {
-        advance(
-            {height_of(command.to), command.kind == MoveKind::rapid, feed_mm_per_min(command), command.line});
+        advance({height_of(command.to),
+                 command.kind == MoveKind::rapid,
+                 feed_mm_per_min(command),
+                 command.line});
       }
       return;
     }
@@ -211,56 +214,53 @@ class Verification {
     const bool rapid = command.kind == MoveKind::rapid;
     const double feed = rapid ? 0.0 : feed_mm_per_min(command);
     last_command_ = command.from;
-    const auto done = machine_.run(command, [&](Point tool, Point commanded) {
+    machine_.run(command, [&](Point tool, Point commanded) {
       const double way = distance_mm(last_command_, commanded);
-      const double stretch =
-          way >= kLeastStretchedMm ? distance_mm(last_tool_, tool) / way : 1.0;
+      const double stretch = way >= kLeastStretchedMm ? distance_mm(last_tool_, tool) / way : 1.0;
       last_command_ = commanded;
       last_tool_ = tool;
       ++summary_.places;
       advance({tool, rapid, feed * stretch, command.line});
-      return !stopped_ && !problem_;
+      return !stopped_;
     });
-    if (!done) fail(false, done.error());
   }
 
   void advance(const PathPiece& piece) {
     PathMatcher::Outcome outcome = matcher_.advance(piece);
-    if (problem_ || outcome == PathMatcher::Outcome::follows) return;
+    if (outcome == PathMatcher::Outcome::follows) return;
     if (outcome == PathMatcher::Outcome::wrong_speed) {
-      const PathMatcher::Pair front = matcher_.front();
+      const Deviation front = matcher_.front();
       summary_.motion_differs = fmt::format(
           "line {} of the file run moves at {} where line {} of the original has "
           "another motion or feed, near {}",
           piece.line,
           words(piece),
-          front.intended_line,
+          front.original_line,
           words(front.intended));
       first_fault(summary_.motion_differs);
       matcher_.ignore_speed();
       outcome = matcher_.advance(piece);
     }
     if (outcome == PathMatcher::Outcome::past_end) {
-      const ProgramEvent* event = expected();
-      if (event == nullptr) return;
-      if (event->kind == ProgramEvent::Kind::word) {
-        return differ(fmt::format("missing: {}", event->text),
+      const ProgramEvent& event = expected();
+      if (event.kind == ProgramEvent::Kind::word) {
+        return differ(fmt::format("missing: {}", event.word.text),
                       fmt::format("{} of line {} of the original does not come at its place, {}; "
                                   "line {} of the file run moves on",
-                                  event->text,
-                                  event->line,
+                                  event.word.text,
+                                  event.line,
                                   words(matcher_.path_end()),
                                   piece.line));
       }
     }
     if (outcome == PathMatcher::Outcome::follows) return;
-    const PathMatcher::Pair front = matcher_.front();
+    const Deviation front = matcher_.front();
     stray(
         fmt::format("line {} of the file run moves the tool to {}, away from line {} of the "
                     "original at {}",
                     piece.line,
                     words(piece.to),
-                    front.intended_line,
+                    front.original_line,
                     words(front.intended)));
     matcher_.advance_anyhow(piece);
   }
@@ -269,9 +269,8 @@ class Verification {
   /// word.
   void compare(const ProgramEvent& found) {
     const PathMatcher::Outcome outcome = matcher_.finish();
-    if (problem_) return;
     const bool is_end = found.kind == ProgramEvent::Kind::end;
-    const std::string name = is_end && found.text.empty() ? "the end" : found.text;
+    const std::string name = words(found);
     if (outcome != PathMatcher::Outcome::follows) {
       if (outcome == PathMatcher::Outcome::past_end && !is_end) {
         return differ(fmt::format("{} comes too early", name),
@@ -284,16 +283,14 @@ class Verification {
       stray(is_end ? fmt::format("the file run ends on line {}, but the path of line {} of the "
                                  "original has not been run to its end",
                                  found.line,
-                                 matcher_.front().intended_line)
+                                 matcher_.front().original_line)
                    : place_fault());
       matcher_.finish_anyhow();
-      if (problem_) return;
     }
-    const ProgramEvent* event = expected();
-    if (event == nullptr) return;
-    if (event->kind != found.kind || event->text != found.text) {
-      const bool ended = event->kind == ProgramEvent::Kind::end;
-      const std::string wanted = ended && event->text.empty() ? "the end" : event->text;
+    const ProgramEvent& event = expected();
+    if (event.kind != found.kind || event.word.text != found.word.text) {
+      const bool ended = event.kind == ProgramEvent::Kind::end;
+      const std::string wanted = words(event);
       const std::string difference = is_end  ? fmt::format("missing: {}", wanted)
                                      : ended ? fmt::format("too many: {}", name)
                                              : fmt::format("{} instead of {}", name, wanted);
@@ -302,16 +299,16 @@ class Verification {
                                 "{}",
                                 found.line,
                                 name,
-                                event->line,
+                                event.line,
                                 wanted));
     }
     if (is_end) {
       if (summary_.commands == 0 && !moves_itself_) stray("the file run moves nothing");
       return;
     }
-    moves_itself_ = moves_itself_ || found.moves_itself;
+    moves_itself_ = moves_itself_ || found.word.machine_code != 0;
     intended_.pop();
-    if (found.leaves_xy) {
+    if (found.word.leaves_xy) {
       // Both start anew, from where the machine's own frame has brought them.
       homed_ = true;
       started_ = heights_done_ = false;
@@ -323,15 +320,15 @@ class Verification {
   }
 
   [[nodiscard]] std::string place_fault() const {
-    const PathMatcher::Pair front = matcher_.front();
+    const Deviation front = matcher_.front();
     return fmt::format(
         "on line {} of the file run the tool stands at {}, {:.4f} mm from its place "
         "{} on line {} of the original",
-        front.tool_line,
+        front.run_line,
         words(front.tool),
         front.distance_mm,
         words(front.intended),
-        front.intended_line);
+        front.original_line);
   }
 
   void first_fault(const std::string& sentence) {
@@ -354,13 +351,12 @@ class Verification {
   SimulatedMachine machine_;
   PathMatcher matcher_;
   VerifySummary summary_;
-  std::optional<VerifyProblem> problem_;
   bool stopped_ = false;
   bool started_ = false;
   bool heights_done_ = false;
-  bool homed_ = false;  ///< and not yet at a place
+  bool homed_ = false;         ///< and not yet at a place
   bool moves_itself_ = false;  ///< a word has moved the tool in the machine's frame
-  Move arc_;  // being divided into chords
+  Move arc_;                   // being divided into chords
   int chord_ = 0;
   int chords_ = 0;
   Point last_tool_;
@@ -378,7 +374,13 @@ tl::expected<VerifySummary, VerifyProblem> verify(LineSource& original,
                                                   const Corrector& corrector,
                                                   const Dialect& dialect,
                                                   const VerifyOptions& options) {
-  return Verification(original, run, corrector, dialect, options).result();
+  try {
+    return Verification(original, run, corrector, dialect, options).result();
+  } catch (const VerifyProblem& problem) {
+    return tl::unexpected(problem);
+  } catch (const Refusal& refusal) {
+    return tl::unexpected(VerifyProblem{false, refusal.problem()});
+  }
 }
 
 Result<Deviation> uncompensated(LineSource& original,
@@ -386,38 +388,30 @@ Result<Deviation> uncompensated(LineSource& original,
                                 const Dialect& dialect,
                                 const VerifyOptions& options) {
   ProgramStream stream(original, dialect);
-  SimulatedMachine machine(corrector,
-                           {options.half_play_mm,
-                            kFlatnessShare * options.tolerance_mm,
-                            kFieldShare * options.tolerance_mm,
-                            options.rapids_whole});
+  SimulatedMachine machine(corrector, machine_options(options));
   Deviation worst;
   bool started = false;
-  for (;;) {
-    const auto event = stream.peek();
-    CHAINTRUE_GCODE_TRY(event);
-    if ((*event)->kind == ProgramEvent::Kind::end) return worst;
-    if ((*event)->kind == ProgramEvent::Kind::move) {
-      const Move& move = (*event)->move;
-      if (options.on_move) options.on_move(move);
-      const bool from_nowhere = !started && move.kind == MoveKind::rapid;
-      started = started || begins(move);
-      const auto look = [&](Point tool, Point command) {
-        const double apart = distance_mm(tool, command);
-        if (apart > worst.largest_mm) worst = {apart, command, tool, move.line, move.line};
-        return true;
-      };
-      if (from_nowhere && started) {
-        const auto where = machine.place(move.to, move.line);
-        CHAINTRUE_GCODE_TRY(where);
-        look(*where, move.to);
-      } else if (started && !(same_xy(move.from, move.to) && !move.arc)) {
-        const auto done = machine.run(move, look);
-        CHAINTRUE_GCODE_TRY(done);
-      }
+  const auto take = [&](const Move& move) {
+    if (options.on_move) options.on_move(move);
+    const bool from_nowhere = !started && move.kind == MoveKind::rapid;
+    started = started || begins(move);
+    const auto look = [&](Point tool, Point command) {
+      const double apart = distance_mm(tool, command);
+      if (apart > worst.distance_mm) worst = {apart, command, tool, move.line, move.line};
+      return true;
+    };
+    if (from_nowhere && started) {
+      look(machine.place(move.to, move.line), move.to);
+    } else if (started && !(same_xy(move.from, move.to) && !move.arc)) {
+      machine.run(move, look);
     }
-    stream.pop();
-  }
+  };
+  return attempt([&] {
+    for (; stream.peek().kind != ProgramEvent::Kind::end; stream.pop()) {
+      if (stream.peek().kind == ProgramEvent::Kind::move) take(stream.peek().move);
+    }
+    return worst;
+  });
 }
 
 }  // namespace chaintrue::gcode

@@ -20,6 +20,7 @@
 #include <string>
 
 #include "tools/gcode/corrector.hpp"
+#include "tools/gcode/path_matcher.hpp"
 #include "tools/gcode/program.hpp"
 
 namespace chaintrue::gcode {
@@ -36,14 +37,6 @@ struct VerifyOptions {
   double speed_share = 0.06;
   /// Of uncompensated(): called for every move of the original.
   std::function<void(const Move&)> on_move;
-};
-
-struct Deviation {
-  double largest_mm = 0.0;
-  Point intended;  ///< at that point
-  Point tool;
-  std::size_t original_line = 0;
-  std::size_t run_line = 0;
 };
 
 struct VerifySummary {
@@ -63,9 +56,10 @@ struct VerifySummary {
   [[nodiscard]] bool holds() const {
     return !strays && words_differ.empty() && motion_differs.empty();
   }
-  [[nodiscard]] double largest_mm() const {
-    return feeds.largest_mm > rapids.largest_mm ? feeds.largest_mm : rapids.largest_mm;
+  [[nodiscard]] const Deviation& worst() const {
+    return feeds.distance_mm >= rapids.distance_mm ? feeds : rapids;
   }
+  [[nodiscard]] double largest_mm() const { return worst().distance_mm; }
 };
 
 /// Why there is no result: one of the files is rejected, or the simulated machine cannot reach a

@@ -58,7 +58,7 @@ Call read_call(const std::string& text) {
 /// Converts our events to calls.
 class Listener final : public gcode::Sink {
  public:
-  gcode::Result<void> move(const gcode::Move& move) override {
+  void move(const gcode::Move& move) override {
     static constexpr const char* kKinds[] = {"RAPID", "FEED", "ARC", "PROBE"};
     Call call;
     call.kind = kKinds[static_cast<std::size_t>(move.kind)];
@@ -83,10 +83,9 @@ class Listener final : public gcode::Sink {
       call.turns = arc.turns;
     }
     say(std::move(call));
-    return {};
   }
 
-  gcode::Result<void> word(const gcode::PassedWord& word) override {
+  void word(const gcode::PassedWord& word) override {
     arrive(word.line);
     const std::string& text = word.text;
     const auto number = [&](std::size_t from) {
@@ -105,7 +104,6 @@ class Listener final : public gcode::Sink {
       say(with_value("TOOL", word.line, selected_));
       spindle_ = "M5";  // the spindle stops for a tool change
     }
-    return {};
   }
 
   std::vector<Call> calls;

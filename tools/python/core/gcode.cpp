@@ -191,16 +191,14 @@ py::dict verify(const std::string& original,
     auto again = gcode::LineSource::from_text(original);
     const auto control =
         gcode::uncompensated(again, machine.corrector(), options.dialect(), settings);
-    if (control) uncompensated_mm = control->largest_mm;
+    if (control) uncompensated_mm = control->distance_mm;
     promised = {control ? cuts.expected(machine.target()) : std::nullopt, summary.largest_mm()};
   }
-  const gcode::Deviation& worst =
-      summary.feeds.largest_mm >= summary.rapids.largest_mm ? summary.feeds : summary.rapids;
   return py::dict("holds"_a = summary.holds(),
                   "largest_mm"_a = summary.largest_mm(),
-                  "line"_a = worst.original_line,
-                  "feeds_mm"_a = summary.feeds.largest_mm,
-                  "rapids_mm"_a = summary.rapids.largest_mm,
+                  "line"_a = summary.worst().original_line,
+                  "feeds_mm"_a = summary.feeds.distance_mm,
+                  "rapids_mm"_a = summary.rapids.distance_mm,
                   "uncompensated_mm"_a = uncompensated_mm,
                   "expected_mm"_a = promised.measured_mm(),
                   "tick_overshoot_mm"_a = summary.tick_overshoot_mm,
