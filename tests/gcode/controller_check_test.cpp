@@ -117,8 +117,8 @@ TEST(ControllerCheck, DividesAMoveAsThePlottersFirmwareDoes) {
     EXPECT_EQ(std::string(firmware(plotter).name).starts_with(name(plotter)), true);
   EXPECT_FALSE(firmware(PlotterFirmware::mural).reads_gcode);
   EXPECT_TRUE(firmware(PlotterFirmware::marlin).reads_gcode);
-  EXPECT_FALSE(knows_code(firmware(PlotterFirmware::marlin), 'G', 170));
-  EXPECT_TRUE(knows_code(firmware(PlotterFirmware::marlin), 'M', 2800));
+  EXPECT_FALSE(knows_code(firmware(PlotterFirmware::marlin), {'G', 170}));
+  EXPECT_TRUE(knows_code(firmware(PlotterFirmware::marlin), {'M', 2800}));
 }
 
 }  // namespace

@@ -13,97 +13,79 @@
 namespace chaintrue::gcode {
 namespace {
 
-constexpr GCode kGCodes[] = {
-#define CHAINTRUE_GCODE_G(name, tenths, group, axes, refusal) \
-  {tenths, GGroup::group, axes, refusal},
+constexpr KnownCode kCodes[] = {
+#define CHAINTRUE_GCODE_G(name, tenths, group, words, refusal) \
+  {{'G', tenths}, Group::group, words, refusal},
 #include "tools/gcode/g_codes.def"
 #undef CHAINTRUE_GCODE_G
-};
-
-constexpr MCode kMCodes[] = {
-#define CHAINTRUE_GCODE_M(number, group, refusal) {number, MGroup::group, refusal},
+#define CHAINTRUE_GCODE_M(number, group, words, refusal) {m(number), Group::group, words, refusal},
 #include "tools/gcode/m_codes.def"
 #undef CHAINTRUE_GCODE_M
 };
 
-template <class Code, std::size_t size, std::size_t rows>
-constexpr std::array<std::int16_t, size> index_of(const Code (&codes)[rows], int Code::*number) {
-  std::array<std::int16_t, size> index{};
-  for (auto& entry : index) entry = -1;
-  for (std::size_t i = 0; i < rows; ++i) {
-    index[static_cast<std::size_t>(codes[i].*number)] = static_cast<std::int16_t>(i);
+/// The row of a code in kCodes by its tenths, or -1.
+constexpr auto rows_of(char letter) {
+  std::array<std::int16_t, 1000> rows{};
+  rows.fill(-1);
+  for (std::size_t i = 0; i < std::size(kCodes); ++i) {
+    if (kCodes[i].letter == letter)
+      rows[static_cast<std::size_t>(kCodes[i].tenths)] = static_cast<std::int16_t>(i);
   }
-  return index;
+  return rows;
 }
 
-constexpr auto kGIndex = index_of<GCode, 1000>(kGCodes, &GCode::tenths);
-constexpr auto kMIndex = index_of<MCode, 200>(kMCodes, &MCode::number);
+constexpr auto kRowsOfG = rows_of('G');
+constexpr auto kRowsOfM = rows_of('M');
 
 constexpr std::string_view kAxes = "xyzabc@^";
 /// N is allowed only at the beginning of a line, O is not a word of a block; E, U, V and W are
 /// rejected with a reason.
 constexpr std::string_view kPlainLetters = "abcdefhijklpqrstxyz@^uvw";
 
-void read_g(ValueReader& reader, Block& block, bool tools_have_no_diameter) {
+void read_code(Code code, Place place, Block& block, bool tools_have_no_diameter) {
+  const KnownCode* known = find(code);
+  if (known == nullptr)
+    refuse(ProblemName::unknown_code, place, fmt::format("{} is not known", name(code)));
+  const bool harmless =
+      tools_have_no_diameter && (code == g::cutter_left || code == g::cutter_right);
+  if (known->refusal != nullptr && !harmless) {
+    refuse(ProblemName::unsupported_code, place, fmt::format("{}: {}", name(code), known->refusal));
+  }
+  const KnownCode*& slot = block.codes[static_cast<std::size_t>(known->group)];
+  if (slot != nullptr) {
+    refuse(ProblemName::modal_conflict,
+           place,
+           fmt::format("{} and {} exclude each other within a line", name(*slot), name(code)));
+  }
+  slot = known;
+}
+
+Code read_g(ValueReader& reader) {
   const Place place = reader.place();
-  const auto value = reader.real();
+  const double value = reader.real();
   // 10 times 91.1 is 911 only up to rounding; more decimals do not form a code.
   const double tenths = 10.0 * value;
   const double rounded = std::round(tenths);
-  if (value < 0.0 || std::fabs(tenths - rounded) > 0.001 || rounded > 9999.0) {
+  if (value < 0.0 || std::fabs(tenths - rounded) > 0.001 || rounded > 9999.0)
     refuse(ProblemName::unknown_code, place, fmt::format("G{} is not a code", value));
-  }
-  const GCode* code = find_g(static_cast<int>(rounded));
-  if (code == nullptr) {
-    refuse(ProblemName::unknown_code,
-           place,
-           fmt::format("{} is not known", g_name(static_cast<int>(rounded))));
-  }
-  const bool harmless =
-      tools_have_no_diameter && (code->tenths == g::cutter_left || code->tenths == g::cutter_right);
-  if (code->refusal != nullptr && !harmless) {
-    refuse(ProblemName::unsupported_code,
-           place,
-           fmt::format("{}: {}", g_name(code->tenths), code->refusal));
-  }
-  const GCode*& slot = block.g[static_cast<std::size_t>(code->group)];
-  if (slot != nullptr) {
-    refuse(ProblemName::modal_conflict,
-           place,
-           fmt::format("{} and {} exclude each other within a line",
-                       g_name(slot->tenths),
-                       g_name(code->tenths)));
-  }
-  slot = code;
+  return {'G', static_cast<int>(rounded)};
 }
 
-void read_m(ValueReader& reader, Block& block) {
+Code read_m(ValueReader& reader) {
   const Place place = reader.place();
-  const auto number = reader.integer();
-  const MCode* code = number < 0 || number > 9999 ? nullptr : find_m(static_cast<int>(number));
-  if (code == nullptr)
+  const long number = reader.integer();
+  if (number < 0 || number > 9999)
     refuse(ProblemName::unknown_code, place, fmt::format("M{} is not known", number));
-  if (code->refusal != nullptr) {
-    refuse(
-        ProblemName::unsupported_code, place, fmt::format("M{}: {}", code->number, code->refusal));
-  }
-  const MCode*& slot = block.m[static_cast<std::size_t>(code->group)];
-  if (slot != nullptr) {
-    refuse(ProblemName::modal_conflict,
-           place,
-           fmt::format("M{} and M{} exclude each other within a line", slot->number, code->number));
-  }
-  slot = code;
+  return m(static_cast<int>(number));
 }
 
 void read_assignment(ValueReader& reader, Block& block) {
   Assignment assignment;
   assignment.place = reader.place();
   if (reader.peek() == '<') {
-    auto name = reader.angle_name();
-    assignment.name = std::move(name);
+    assignment.name = reader.angle_name();
   } else {
-    const auto index = reader.integer();
+    const long index = reader.integer();
     if (index < 1 || index >= parameter::kCount) {
       refuse(
           ProblemName::bad_parameter, assignment.place, fmt::format("#{} does not exist", index));
@@ -115,8 +97,7 @@ void read_assignment(ValueReader& reader, Block& block) {
            reader.place(),
            "'=' was expected: a parameter that is no word's value is set");
   }
-  const auto value = reader.real();
-  assignment.value = value;
+  assignment.value = reader.real();
   block.assignments.push_back(std::move(assignment));
 }
 
@@ -130,7 +111,7 @@ void read_word(char letter, Place place, ValueReader& reader, Block& block) {
            place,
            fmt::format("a second {} word on the line", upper(letter)));
   }
-  const auto value = reader.real();
+  const double value = reader.real();
   if (std::fabs(value) > 1e9) {
     refuse(ProblemName::number_out_of_range,
            place,
@@ -141,25 +122,12 @@ void read_word(char letter, Place place, ValueReader& reader, Block& block) {
 
 }  // namespace
 
-const GCode* find_g(int tenths) {
-  if (tenths < 0 || tenths >= static_cast<int>(kGIndex.size())) return nullptr;
-  const auto row = kGIndex[static_cast<std::size_t>(tenths)];
-  return row < 0 ? nullptr : &kGCodes[row];
-}
+std::span<const KnownCode> known_codes() { return kCodes; }
 
-const MCode* find_m(int number) {
-  if (number < 0 || number >= static_cast<int>(kMIndex.size())) return nullptr;
-  const auto row = kMIndex[static_cast<std::size_t>(number)];
-  return row < 0 ? nullptr : &kMCodes[row];
-}
-
-std::string g_name(int tenths) {
-  return tenths % 10 == 0 ? fmt::format("G{}", tenths / 10)
-                          : fmt::format("G{}.{}", tenths / 10, tenths % 10);
-}
-
-char upper(char letter) {
-  return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+const KnownCode* find(Code code) {
+  const auto& rows = code.letter == 'G' ? kRowsOfG : kRowsOfM;
+  const auto at = static_cast<std::size_t>(code.tenths);
+  return at < rows.size() && rows[at] >= 0 ? &kCodes[rows[at]] : nullptr;
 }
 
 bool holds_moves(std::string_view text) {
@@ -196,8 +164,7 @@ bool Block::has_z_alone() const {
 }
 
 void Block::clear(std::size_t line_number) {
-  g.fill(nullptr);
-  m.fill(nullptr);
+  codes.fill(nullptr);
   assignments.clear();
   deletable = false;
   line = line_number;
@@ -215,10 +182,11 @@ void read_words(ValueReader reader, Block& block, bool tools_have_no_diameter) {
     const char letter = reader.peek();
     const Place place = reader.place();
     reader.skip(1);
+    const Place number = reader.place();
     if (letter == 'g') {
-      read_g(reader, block, tools_have_no_diameter);
+      read_code(read_g(reader), number, block, tools_have_no_diameter);
     } else if (letter == 'm') {
-      read_m(reader, block);
+      read_code(read_m(reader), number, block, tools_have_no_diameter);
     } else if (letter == '#') {
       read_assignment(reader, block);
     } else {

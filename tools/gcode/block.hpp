@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// One line of a program as words, evaluated and checked as far as possible without the modal
-/// state; and the tables of G and M codes: name, modal group, axis words, reason for a refusal.
+/// state; and the tables of G and M codes: name, modal group, words, reason for a refusal.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tools/gcode/events.hpp"
 #include "tools/gcode/value_reader.hpp"
 
 namespace chaintrue::gcode {
 
 /// Codes of one group exclude each other within a block.
-enum class GGroup : std::uint8_t {
+enum class Group : std::uint8_t {
+  // of G
   once,
   motion,
   plane,
@@ -32,36 +35,43 @@ enum class GGroup : std::uint8_t {
   spindle_mode,
   diameter,
   scaling,
+  // of M
+  stop,
+  spindle,
+  tool,
+  coolant,
+  override,
+  output,
+  state,
+  flow,
 };
-inline constexpr std::size_t kGGroups = 15;
+inline constexpr std::size_t kGroups = 23;
 
-enum class MGroup : std::uint8_t { stop, spindle, tool, coolant, override, output, state, flow };
-inline constexpr std::size_t kMGroups = 8;
-
-/// The codes by name: g::rapid is G0, g::machine_frame is G53.
+/// The G codes by name: g::rapid is G0, g::machine_frame is G53.
 namespace g {
 struct Name {
   int tenths;
-  GGroup group;
+  Group group;
   constexpr operator int() const { return tenths; }
+  constexpr operator Code() const { return {'G', tenths}; }
 };
-#define CHAINTRUE_GCODE_G(name, tenths, group, axes, refusal) \
-  inline constexpr Name name{tenths, GGroup::group};
+#define CHAINTRUE_GCODE_G(name, tenths, group, words, refusal) \
+  inline constexpr Name name{tenths, Group::group};
 #include "tools/gcode/g_codes.def"
 #undef CHAINTRUE_GCODE_G
 }  // namespace g
 
-struct GCode {
-  int tenths;  ///< 1 is 10, 91.1 is 911
-  GGroup group;
-  bool takes_axes;
-  const char* refusal;  ///< why it is not supported; null if it is
-};
+/// M3 is m(3).
+[[nodiscard]] constexpr Code m(int number) { return {'M', 10 * number}; }
 
-struct MCode {
-  int number;
-  MGroup group;
-  const char* refusal;
+struct KnownCode : Code {
+  Group group;
+  std::string_view words;  ///< as in g_codes.def
+  const char* refusal;     ///< why it is not supported; null if it is
+
+  [[nodiscard]] constexpr bool uses(char word) const {
+    return words.find(word) != std::string_view::npos;
+  }
 };
 
 /// G73 and G81 to G89; a motion is given in tenths.
@@ -88,22 +98,17 @@ struct PlaneAxes {
   return {0, 1, 2};
 }
 
+[[nodiscard]] std::span<const KnownCode> known_codes();
 /// Null if the code is unknown.
-[[nodiscard]] const GCode* find_g(int tenths);
-[[nodiscard]] const MCode* find_m(int number);
+[[nodiscard]] const KnownCode* find(Code code);
 
 /// Of coordinate system 1 (G54) to 9 (G59.3).
 [[nodiscard]] constexpr int system_code(int system) {
   return system <= 6 ? g::system_1 + 10 * (system - 1) : g::system_7 + system - 7;
 }
-/// `G1`, `G91.1`
-[[nodiscard]] std::string g_name(int tenths);
 
 /// The letters of the six axes.
 inline constexpr std::string_view kAxisLetters = "xyzabc";
-
-/// A word's letter as messages show it; any other character as it is.
-[[nodiscard]] char upper(char letter);
 
 /// `#5 = 1` or `#<name> = 1`; takes effect after the line is read.
 struct Assignment {
@@ -119,8 +124,7 @@ inline constexpr const char* kLineEndsLost =
 
 /// Reused from line to line.
 struct Block {
-  std::array<const GCode*, kGGroups> g{};
-  std::array<const MCode*, kMGroups> m{};
+  std::array<const KnownCode*, kGroups> codes{};
   std::vector<Assignment> assignments;
   bool deletable = false;  ///< began with a slash
   std::size_t line = 0;
@@ -133,8 +137,9 @@ struct Block {
   }
   [[nodiscard]] Place place(char letter) const { return {line, columns_[slot(letter)]}; }
   [[nodiscard]] Place start() const { return {line, 0}; }
-  [[nodiscard]] const GCode* code(GGroup group) const { return g[static_cast<std::size_t>(group)]; }
-  [[nodiscard]] const MCode* code(MGroup group) const { return m[static_cast<std::size_t>(group)]; }
+  [[nodiscard]] const KnownCode* code(Group group) const {
+    return codes[static_cast<std::size_t>(group)];
+  }
   [[nodiscard]] bool is(g::Name name) const {
     return code(name.group) != nullptr && code(name.group)->tenths == name.tenths;
   }

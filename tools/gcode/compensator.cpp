@@ -70,7 +70,7 @@ double least_tolerance_mm(int decimals) {
 Compensator::Compensator(const Corrector& corrector, CompensateOptions options, ByteSink out)
     : corrector_(corrector),
       options_(std::move(options)),
-      emitter_(std::move(out), options_.decimals, corrector.firmware().semicolon_comments),
+      limits_(corrector, options_, std::move(out)),
       segmenter_(corrector, chord_tolerance(options_, corrector.firmware().single_precision)),
       table_(offsets_of_command(corrector),
              {kCellMm, kTableShare * options_.tolerance_mm, kHalvings, kExactFirst}) {
@@ -84,16 +84,13 @@ Compensator::Compensator(const Corrector& corrector, CompensateOptions options, 
 }
 
 Result<CompensateSummary> Compensator::run(LineSource& source, const Dialect& dialect) {
-  emitter_.header({options_.made_by,
-                   corrector_.firmware().name,
-                   options_.tolerance_mm,
-                   dialect.home_mm[0],
-                   dialect.home_mm[1],
-                   options_.settings});
+  limits_.header(dialect.home_mm[0], dialect.home_mm[1]);
   return run_program(source, dialect, *this).map([&](const ProgramSummary& program) {
-    summary_.blocks = program.blocks;
-    summary_.commands = emitter_.commands();
-    return summary_;
+    CompensateSummary summary = limits_.summary();
+    summary.blocks = program.blocks;
+    summary.moves = moves_;
+    summary.path_mm = path_mm_;
+    return summary;
   });
 }
 
@@ -111,25 +108,12 @@ Curve Compensator::curve(const Move& move, ChainDirections directions) {
   return [this, &move, directions](double t) -> tl::expected<PathSample, CorrectionFailure> {
     const Point target = at(move, t);
     const model::BedPoint place{target.x_mm, target.y_mm};
-    const auto command = has_play() ? corrector_.command(place, options_.half_play_mm, directions)
-                                    : this->command(place);
+    const auto command = options_.has_play()
+                             ? corrector_.command(place, options_.half_play_mm, directions)
+                             : this->command(place);
     if (!command) return tl::unexpected(command.error());
     return PathSample{t, target, {command->x_mm, command->y_mm, target.z_mm}};
   };
-}
-
-void Compensator::emit(const Move& move, double feed, const PathSample& sample) {
-  examine(move, sample);
-  if (here_ && options_.on_command) options_.on_command(move, *here_, sample);
-  here_ = sample;
-  // Output after a problem is discarded.
-  if (findings_.problem_count > 0) return;
-  const bool named_z = move.names_z;
-  emitter_.command(move.kind == MoveKind::rapid,
-                   move.line,
-                   model::BedPoint{sample.command.x_mm, sample.command.y_mm},
-                   named_z ? std::optional(sample.target.z_mm) : std::nullopt,
-                   feed);
 }
 
 /// The directions of motion of the chains after t; a chain that does not move keeps its direction.
@@ -150,23 +134,24 @@ ChainDirections Compensator::directions_at(const Move& move,
 void Compensator::piece(
     const Move& move, double feed, double from, double to, ChainDirections directions) {
   const Curve commands = curve(move, directions);
-  const auto visit = [&](const PathSample& sample) { emit(move, feed, sample); };
+  const auto visit = [&](const PathSample& sample) { limits_.command(move, feed, sample); };
   // Without play the last command is the start of this one.
-  const bool known = here_ && !has_play() && from == 0.0 && here_->target == move.from;
-  const auto start = known ? PathSample{0.0, here_->target, here_->command} : commands(from);
+  const std::optional<PathSample>& here = limits_.here();
+  const bool known = here && !options_.has_play() && from == 0.0 && here->target == move.from;
+  const auto start = known ? PathSample{0.0, here->target, here->command} : commands(from);
   if (!start) {
-    object(move, start.error(), at(move, from));
+    limits_.object(move, start.error(), at(move, from));
     return;
   }
   // While the play is taken up, the chains move and the tool stays.
-  if (has_play() && here_ && directions != directions_) visit(*start);
+  if (options_.has_play() && here && directions != directions_) visit(*start);
   directions_ = directions;
   const double length = (to - from) * length_mm(move);
   const bool whole = move.kind == MoveKind::rapid && options_.keep_rapids_whole;
   if (whole || (!move.arc && length <= unchecked_length_mm_)) {
     const auto end = commands(to);
     if (!end) {
-      object(move, end.error(), at(move, to));
+      limits_.object(move, end.error(), at(move, to));
       return;
     }
     return visit(*end);
@@ -175,7 +160,7 @@ void Compensator::piece(
   const double longest = turn > kMostTurnRad ? length * kMostTurnRad / turn : length;
   const auto done = segmenter_.run(commands, *start, to, {length, longest, feed}, visit);
   if (!done) {
-    object(move, done.error(), here_ ? here_->target : at(move, from));
+    limits_.object(move, done.error(), here ? here->target : at(move, from));
   }
 }
 
@@ -187,17 +172,17 @@ void Compensator::along(const Move& move, double feed) {
           "way_from_home",
           "the way from home to the first place goes as it is; only its end is compensated"});
   }
-  if (!here_ && (move.kind == MoveKind::rapid || from_home)) {
+  if (!limits_.here() && (move.kind == MoveKind::rapid || from_home)) {
     // The tool's position before the first move is unknown, and so are the directions of its
     // chains: only the end of that move is compensated, as if both chains had been paid out.
     const auto end = curve(move, directions_)(1.0);
     if (!end) {
-      object(move, end.error(), move.to);
+      limits_.object(move, end.error(), move.to);
       return;
     }
-    return emit(move, feed, *end);
+    return limits_.command(move, feed, *end);
   }
-  if (!has_play()) return piece(move, feed, 0.0, 1.0, {});
+  if (!options_.has_play()) return piece(move, feed, 0.0, 1.0, {});
   constexpr double kLookMm = 20.0;
   const int looks =
       static_cast<int>(std::clamp(length_mm(move) / kLookMm, move.arc ? 16.0 : 4.0, 1e4));
@@ -240,12 +225,12 @@ void Compensator::go_to_assumed_start(const Move& move) {
 }
 
 void Compensator::move(const Move& move) {
-  ++summary_.moves;
+  ++moves_;
   if (move.kind == MoveKind::probe) {
     refuse(ProblemName::not_emittable,
            {move.line, 0},
-           "probing needs a dotted code, which some controllers misread; probe before the "
-           "job, not within it");
+           "probing needs a dotted code, which some controllers misread; probe before the job, not "
+           "within it");
   }
   for (const double turn : move.turn_deg) {
     if (turn != 0.0) {
@@ -254,54 +239,21 @@ void Compensator::move(const Move& move) {
              "a two-chain router has no axis A, B or C");
     }
   }
-  const double length = length_mm(move);
-  summary_.path_mm += length;
+  path_mm_ += length_mm(move);
   const double feed = feed_mm_per_min(move);
   const bool cuts =
       move.kind != MoveKind::rapid && (move.names_xy || move.to.z_mm < move.from.z_mm);
-  if (!here_ && cuts && !homed_ && findings_.problem_count == 0) go_to_assumed_start(move);
-  if (!move.names_xy || (stays(move) && here_)) {
-    if (!move.names_z || findings_.problem_count > 0) return;
-    if (here_) here_->target.z_mm = here_->command.z_mm = move.to.z_mm;
-    if (length == 0.0 && move.feed.mode == FeedMode::inverse_time) return;
-    emitter_.command(move.kind == MoveKind::rapid, move.line, std::nullopt, move.to.z_mm, feed);
-    if (here_ && options_.on_command) options_.on_command(move, *here_, *here_);
-    return;
+  if (!limits_.here() && cuts && !homed_ && limits_.hold()) go_to_assumed_start(move);
+  if (move.names_xy && !(stays(move) && limits_.here())) {
+    along(move, feed);
+  } else if (move.names_z) {
+    limits_.height(move, feed);
   }
-  along(move, feed);
 }
 
 void Compensator::word(const PassedWord& word) {
-  if (word.text.starts_with("G43") && !corrector_.firmware().tool_lengths) {
-    refuse(ProblemName::not_emittable,
-           {word.line, 0},
-           fmt::format("{}: {} keeps no tool lengths, so every height after it could be "
-                       "wrong; take G43 out and set Z to zero with each tool",
-                       word.text,
-                       corrector_.firmware().name));
-  }
-  if (word.machine_code != 0 && !knows_code(corrector_.firmware(), 'G', word.machine_code)) {
-    refuse(ProblemName::not_emittable,
-           {word.line, 0},
-           fmt::format("{}: {} does not know {} and would take the height for one above the "
-                       "work; write a safe height of the work (G0 Z...)",
-                       word.text,
-                       corrector_.firmware().name,
-                       g_name(word.machine_code)));
-  }
-  if (word.leaves_xy) {
-    here_.reset();
-    homed_ = true;
-  }
-  note_unknown(word);
-  if (findings_.problem_count == 0) emitter_.word(word);
+  homed_ = homed_ || word.leaves_xy;
+  limits_.word(word);
 }
-
-void Compensator::comment(const Comment& comment) {
-  refuse_compensated(comment);
-  if (findings_.problem_count == 0) emitter_.comment(comment);
-}
-
-void Compensator::end(std::size_t /*line*/, std::string_view word) { emitter_.end(word); }
 
 }  // namespace chaintrue::gcode

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "tools/gcode/block.hpp"
 #include "tools/gcode/firmware_arc.hpp"
 #include "tools/gcode/path.hpp"
 
@@ -19,12 +20,11 @@ void ControllerCheck::Occurrences::add(std::size_t where, double size) {
   worst = std::max(worst, size);
 }
 
-void ControllerCheck::code(std::size_t line, char letter, int tenths) {
-  const std::string code = letter == 'G' ? g_name(tenths) : fmt::format("M{}", tenths / 10);
-  if (!knows_code(firmware_, letter, tenths)) {
-    unknown_[code].add(line);
-  } else if (const int other = taken_for(firmware_, letter, tenths); other != tenths) {
-    misread_[fmt::format("{} as {}", code, g_name(other))].add(line);
+void ControllerCheck::code(std::size_t line, Code code) {
+  if (!knows_code(firmware_, code)) {
+    unknown_[name(code)].add(line);
+  } else if (const Code other = taken_for(firmware_, code); other != code) {
+    misread_[fmt::format("{} as {}", name(code), name(other))].add(line);
   }
 }
 
@@ -35,7 +35,7 @@ void ControllerCheck::arc(const Move& move) {
     straight_arcs_.add(move.line, arc.start_radius_mm * (1.0 - std::cos(0.5 * sweep)));
   }
   const bool upright = arc.first.z_mm != 0.0 || arc.second.z_mm != 0.0;
-  if (upright && !knows_code(firmware_, 'G', g::plane_zx)) upright_arcs_.add(move.line);
+  if (upright && !knows_code(firmware_, g::plane_zx)) upright_arcs_.add(move.line);
   if (std::abs(arc.turns) > 1 && firmware_.arcs != ArcRule::exact) arc_turns_.add(move.line);
 }
 

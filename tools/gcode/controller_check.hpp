@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "tools/gcode/compensator.hpp"
+#include "tools/gcode/firmware.hpp"
 
 namespace chaintrue::gcode {
 
@@ -18,8 +18,7 @@ class ControllerCheck final : public Sink {
   ControllerCheck(const Firmware& firmware, Findings& findings)
       : firmware_(firmware), findings_(findings) {}
 
-  [[nodiscard]] bool wants_codes() const override { return true; }
-  void code(std::size_t line, char letter, int tenths) override;
+  void code(std::size_t line, Code code) override;
   void move(const Move& move) override;
   void end(std::size_t line, std::string_view word) override;
   [[nodiscard]] bool goes_on_after(const Problem&) override { return true; }

@@ -65,8 +65,6 @@ std::vector<std::string> settings_lines(const std::vector<std::string>& settings
   return lines;
 }
 
-char small_letter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
 }  // namespace
 
 std::vector<std::string> comments_of(const grid::Provenance& made_by, std::size_t longest) {
@@ -100,7 +98,7 @@ bool is_marked(std::string_view comment) {
   for (const char wanted : kMarker) {
     if (wanted == ' ') continue;
     while (found < comment.size() && (comment[found] == ' ' || comment[found] == '\t')) ++found;
-    if (found == comment.size() || small_letter(comment[found]) != wanted) return false;
+    if (found == comment.size() || lower(comment[found]) != wanted) return false;
     ++found;
   }
   return true;
@@ -219,14 +217,12 @@ void Emitter::command(bool rapid,
 /// every other word has its own line.
 void Emitter::word(const PassedWord& word) {
   std::string_view text = word.text;
-  if (text == "G61.1") text = "G61";
-  const std::string_view code = text.substr(0, text.find(' '));
-  if (code.starts_with('G') && code.find('.') != std::string_view::npos) {
+  if (word.code && word.code->letter == 'G' && word.code->tenths % 10 != 0) {
     refuse(
         ProblemName::not_emittable,
         {word.line, 0},
         fmt::format("{} cannot be written: some controllers read only what stands before the dot",
-                    code));
+                    name(*word.code)));
   }
   if (text.size() > (semicolons_ ? kMaxPlotterLine : kMaxOutputLine)) {
     refuse(ProblemName::not_emittable,
@@ -259,7 +255,7 @@ void Emitter::word(const PassedWord& word) {
   if (relative) put_line("G90");
   if (text == "M6") put_mark();
   // In the machine's own frame: what follows is written whatever it is.
-  if (word.machine_code != 0) {
+  if (word.moves_itself) {
     z_.reset();
     feed_.clear();
   }

@@ -7,9 +7,12 @@
 #pragma once
 
 #include <array>
+#include <compare>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tools/gcode/problem.hpp"
 
@@ -68,14 +71,24 @@ struct Move {
   std::array<double, 3> turn_deg{};
 };
 
+/// A G or M code. G38.2 is {'G', 382}, M3 is {'M', 30}.
+struct Code {
+  char letter = 'G';
+  int tenths = 0;
+  friend auto operator<=>(const Code&, const Code&) = default;
+};
+/// `G38.2`
+[[nodiscard]] std::string name(Code code);
+
 /// A word that does not affect the path and is passed through unchanged (S, T, M, G4, G43, G61
 /// ...), or a motion in the machine's own frame (G53, G28, G30).
 struct PassedWord {
   std::size_t line = 0;
-  std::string
-      text;  ///< `M3`, `S1000`, `G4 P0.5`, `G53 G0 Z-1`; `G91 G28 Z0` holds for that line alone
-  int machine_code = 0;    ///< tenths of the code that moves in the machine's frame; 0: none does
-  bool leaves_xy = false;  ///< it moves X and Y; the next move starts from there
+  /// `M3`, `S1000`, `G4 P0.5`, `G53 G0 Z-1`; `G91 G28 Z0` holds for that line alone.
+  std::string text;
+  std::optional<Code> code{};  ///< empty for S and T
+  bool moves_itself = false;   ///< in the machine's frame
+  bool leaves_xy = false;      ///< it moves X and Y; the next move starts from there
 };
 
 struct Comment {
@@ -93,6 +106,23 @@ struct Note {
   std::optional<ProblemName> problem{};
 };
 
+/// What a run has found. Keeps the first hundred problems and notes, and counts all; of problems that
+/// one line has in a row the first.
+struct Findings {
+  static constexpr std::size_t kMostKept = 100;
+  std::vector<Problem> problems;
+  std::uint64_t problem_count = 0;
+  std::vector<Note> notes;
+  std::uint64_t note_count = 0;
+
+  void add(Problem problem);
+  /// A note that is a problem to whoever needs places on the sheet is added as one.
+  void add(Note note);
+
+ private:
+  std::size_t last_line_ = 0;
+};
+
 /// Receives the program's events. It may reject a move; the interpreter then stops with that
 /// problem.
 class Sink {
@@ -104,9 +134,8 @@ class Sink {
   virtual void note(const Note&) {}
   /// An arc that does not exist; true: the program goes on from its end.
   [[nodiscard]] virtual bool goes_on_after(const Problem&) { return false; }
-  /// Every code of every executed line ('G' or 'M', in tenths), if wants_codes() is true.
-  virtual void code(std::size_t /*line*/, char /*letter*/, int /*tenths*/) {}
-  [[nodiscard]] virtual bool wants_codes() const { return false; }
+  /// Every code of every executed line.
+  virtual void code(std::size_t /*line*/, Code) {}
   /// The program has ended at this line, by this word (`M2`, `M30`, `%`), or by the end of the file
   /// (empty).
   virtual void end(std::size_t /*line*/, std::string_view /*word*/) {}

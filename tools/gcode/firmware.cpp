@@ -12,63 +12,6 @@ namespace {
 constexpr const char* kIgnores = "ignores";
 constexpr const char* kStops = "stops with an error at";
 
-constexpr Firmware maslow(model::ControllerKind kind, const char* name) {
-  return {.kind = kind,
-          .name = name,
-          .single_precision = true,
-          .tick_s = 0.01,
-          .codes = CodeSet::maslow,
-          .clamps_to_bed = true,
-          .planned_moves = 1,
-          .unknown = kIgnores,
-          .arcs = ArcRule::maslow};
-}
-
-constexpr Firmware kFirmwares[] = {
-    {.kind = model::ControllerKind::ideal, .name = "ideal", .tool_lengths = true},
-    maslow(model::ControllerKind::maslow_classic, "maslow_classic"),
-    maslow(model::ControllerKind::holey, "holey"),
-    {.kind = model::ControllerKind::fluidnc_wallplotter,
-     .name = "fluidnc_wallplotter",
-     .single_precision = true,
-     .chain_linear_piece_mm = 10.0,
-     .codes = CodeSet::fluidnc,
-     .planned_moves = 16,
-     .acceleration_mm_per_s2 = 25.0,
-     .unknown = kStops,
-     .arcs = ArcRule::grbl,
-     .phantom_moves = true},
-};
-
-constexpr Firmware kFourBelts{.kind = model::ControllerKind::fluidnc_wallplotter,
-                              .name = "maslow4",
-                              .single_precision = true,
-                              .chain_linear_piece_mm = 5.0,
-                              .pieces_at_most = true,
-                              .codes = CodeSet::fluidnc,
-                              .planned_moves = 16,
-                              .acceleration_mm_per_s2 = 25.0,
-                              .unknown = kStops,
-                              .arcs = ArcRule::grbl};
-
-constexpr Firmware kMarlin{.name = "marlin",
-                           .single_precision = true,
-                           .pieces_per_second = 5.0,
-                           .first_feed_mm_per_min = 1500.0,
-                           .codes = CodeSet::marlin,
-                           .planned_moves = 16,
-                           .unknown = kIgnores,
-                           .semicolon_comments = true};
-
-constexpr Firmware kMural{
-    .name = "mural", .chain_linear_piece_mm = 1.0, .pieces_at_most = true, .reads_gcode = false};
-
-constexpr Firmware kPolargraph{.name = "polargraph",
-                               .single_precision = true,
-                               .chain_linear_piece_mm = 2.0,
-                               .pieces_at_most = true,
-                               .reads_gcode = false};
-
 constexpr int kMaslowG[] = {0, 10, 20, 30, 40, 100, 200, 210, 380, 400, 900, 910};
 constexpr int kMaslowM[] = {0, 10, 20, 30, 40, 50, 60, 300, 1060, 1070};
 constexpr int kFluidNcG[] = {0,   10,  20,  30,  40,  100, 170, 180, 190, 200, 210, 280, 281, 300,
@@ -83,10 +26,66 @@ constexpr int kMarlinM[] = {0,    10,   170,  180,  200,  210,  220,  230,  240,
                             1170, 1180, 1190, 2000, 2010, 2030, 2040, 2050, 2060, 2100, 2110,
                             2200, 2800, 3000, 4000, 4100, 5000, 5010, 5020, 5030, 6650};
 
-template <std::size_t size>
-bool one_of(const int (&list)[size], int value) {
-  return std::find(std::begin(list), std::end(list), value) != std::end(list);
+constexpr CodeSet kMaslowCodes{kMaslowG, kMaslowM};
+constexpr CodeSet kFluidNcCodes{kFluidNcG, kFluidNcM};
+constexpr CodeSet kMarlinCodes{kMarlinG, kMarlinM};
+
+constexpr Firmware maslow(model::ControllerKind kind, const char* name) {
+  return {.kind = kind,
+          .name = name,
+          .single_precision = true,
+          .tick_s = 0.01,
+          .codes = &kMaslowCodes,
+          .clamps_to_bed = true,
+          .planned_moves = 1,
+          .unknown = kIgnores,
+          .arcs = ArcRule::maslow};
 }
+
+constexpr Firmware kFirmwares[] = {
+    {.kind = model::ControllerKind::ideal, .name = "ideal", .tool_lengths = true},
+    maslow(model::ControllerKind::maslow_classic, "maslow_classic"),
+    maslow(model::ControllerKind::holey, "holey"),
+    {.kind = model::ControllerKind::fluidnc_wallplotter,
+     .name = "fluidnc_wallplotter",
+     .single_precision = true,
+     .chain_linear_piece_mm = 10.0,
+     .codes = &kFluidNcCodes,
+     .planned_moves = 16,
+     .acceleration_mm_per_s2 = 25.0,
+     .unknown = kStops,
+     .arcs = ArcRule::grbl,
+     .phantom_moves = true},
+};
+
+constexpr Firmware kFourBelts{.kind = model::ControllerKind::fluidnc_wallplotter,
+                              .name = "maslow4",
+                              .single_precision = true,
+                              .chain_linear_piece_mm = 5.0,
+                              .pieces_at_most = true,
+                              .codes = &kFluidNcCodes,
+                              .planned_moves = 16,
+                              .acceleration_mm_per_s2 = 25.0,
+                              .unknown = kStops,
+                              .arcs = ArcRule::grbl};
+
+constexpr Firmware kMarlin{.name = "marlin",
+                           .single_precision = true,
+                           .pieces_per_second = 5.0,
+                           .first_feed_mm_per_min = 1500.0,
+                           .codes = &kMarlinCodes,
+                           .planned_moves = 16,
+                           .unknown = kIgnores,
+                           .semicolon_comments = true};
+
+constexpr Firmware kMural{
+    .name = "mural", .chain_linear_piece_mm = 1.0, .pieces_at_most = true, .reads_gcode = false};
+
+constexpr Firmware kPolargraph{.name = "polargraph",
+                               .single_precision = true,
+                               .chain_linear_piece_mm = 2.0,
+                               .pieces_at_most = true,
+                               .reads_gcode = false};
 
 }  // namespace
 
@@ -125,23 +124,15 @@ double pieces_of(const Firmware& firmware, double length_mm, double feed_mm_per_
   return std::max(1.0, firmware.pieces_at_most ? std::ceil(pieces) : std::floor(pieces));
 }
 
-int taken_for(const Firmware& firmware, char letter, int tenths) {
-  return firmware.arcs == ArcRule::maslow && letter == 'G' ? tenths / 10 * 10 : tenths;
+Code taken_for(const Firmware& firmware, Code code) {
+  if (firmware.arcs == ArcRule::maslow && code.letter == 'G') code.tenths -= code.tenths % 10;
+  return code;
 }
 
-bool knows_code(const Firmware& firmware, char letter, int tenths) {
-  const int code = taken_for(firmware, letter, tenths);
-  switch (firmware.codes) {
-    case CodeSet::maslow:
-      return letter == 'G' ? one_of(kMaslowG, code) : one_of(kMaslowM, code);
-    case CodeSet::fluidnc:
-      return letter == 'G' ? one_of(kFluidNcG, code) : one_of(kFluidNcM, code);
-    case CodeSet::marlin:
-      return letter == 'G' ? one_of(kMarlinG, code) : one_of(kMarlinM, code);
-    case CodeSet::every:
-      break;
-  }
-  return true;
+bool knows_code(const Firmware& firmware, Code code) {
+  if (firmware.codes == nullptr) return true;
+  const auto tenths = code.letter == 'G' ? firmware.codes->g : firmware.codes->m;
+  return std::find(tenths.begin(), tenths.end(), taken_for(firmware, code).tenths) != tenths.end();
 }
 
 std::optional<ClampBox> clamp_box(const model::Machine& machine) {

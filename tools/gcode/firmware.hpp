@@ -41,15 +41,20 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "model/controllers/payout.hpp"
 #include "model/machine.hpp"
 #include "model/plotter/plotter_controller.hpp"
+#include "tools/gcode/events.hpp"
 
 namespace chaintrue::gcode {
 
-/// The codes that a firmware implements.
-enum class CodeSet { every, maslow, fluidnc, marlin };
+/// The codes that a firmware implements, in tenths.
+struct CodeSet {
+  std::span<const int> g;
+  std::span<const int> m;
+};
 
 /// How arcs are cut (firmware_arc.hpp).
 enum class ArcRule { exact, maslow, grbl };
@@ -68,7 +73,7 @@ struct Firmware {
   double pieces_per_second = 0.0;
   /// The feed until a program states one.
   double first_feed_mm_per_min = 0.0;
-  CodeSet codes = CodeSet::every;
+  const CodeSet* codes = nullptr;  ///< null: every code
   /// Targets outside half the set bed are clamped without a message.
   bool clamps_to_bed = false;
   /// Implements G43 H. The others ignore it or stop.
@@ -100,10 +105,10 @@ struct Firmware {
 /// Number of pieces, linear in chain length, for a command of that length at that feed.
 [[nodiscard]] double pieces_of(const Firmware& firmware, double length_mm, double feed_mm_per_min);
 
-/// The code that it executes for a code ('G' or 'M', in tenths: G38.2 is 382).
-[[nodiscard]] int taken_for(const Firmware& firmware, char letter, int tenths);
+/// The code that it executes for a code.
+[[nodiscard]] Code taken_for(const Firmware& firmware, Code code);
 /// Whether it implements the code that it executes for this one.
-[[nodiscard]] bool knows_code(const Firmware& firmware, char letter, int tenths);
+[[nodiscard]] bool knows_code(const Firmware& firmware, Code code);
 
 /// Half the width and height that the controller clamps to; empty if it does not clamp.
 struct ClampBox {

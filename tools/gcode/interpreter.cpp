@@ -84,35 +84,29 @@ void Interpreter::note_whole(std::size_t last_line) {
 
 void Interpreter::pass_line(const Block& block,
                             const std::vector<CommentText>& texts,
-                            std::string word) {
+                            Code code,
+                            std::string_view words) {
   if (block.deletable) note_once(NoteOnce::deletable_line, block.line);
   comments(block, texts);
-  PassedWord passed{block.line, std::move(word)};
-  if (passed.text.starts_with("G28")) {
-    moves_ = true;
-    passed.machine_code = g::home;
+  PassedWord passed{block.line, name(code).append(words), code};
+  if (code == g::home) {
+    moves_ = passed.moves_itself = true;
     for (const std::size_t axis : {0, 1}) {
-      const bool homes = passed.text.size() == 3 ||
-                         passed.text.find(upper(kAxisLetters[axis])) != std::string::npos;
-      if (!homes) continue;
+      if (!words.empty() && words.find(upper(kAxisLetters[axis])) == std::string_view::npos)
+        continue;
       passed.leaves_xy = placed_[axis] = true;
       machine_[axis] = dialect_.plotter_home_mm.value_or(std::array{0.0, 0.0})[axis];
     }
   }
-  return sink_.word(passed);
+  sink_.word(passed);
 }
 
 AfterBlock Interpreter::execute(const Block& block, const std::vector<CommentText>& texts) {
   if (block.deletable) note_once(NoteOnce::deletable_line, block.line);
-  if (sink_.wants_codes()) {
-    for (const GCode* code : block.g) {
-      if (code != nullptr) sink_.code(block.line, 'G', code->tenths);
-    }
-    for (const MCode* code : block.m) {
-      if (code != nullptr) sink_.code(block.line, 'M', 10 * code->number);
-    }
+  for (const KnownCode* code : block.codes) {
+    if (code != nullptr) sink_.code(block.line, *code);
   }
-  const auto motion = motion_to_be(block);
+  const int motion = motion_to_be(block);
   check_assignments(block);
   check_words(block, motion);
   assign(block);
@@ -132,15 +126,15 @@ AfterBlock Interpreter::execute(const Block& block, const std::vector<CommentTex
 
 /// The motion of this block, or -1.
 int Interpreter::motion_to_be(const Block& block) const {
-  const GCode* motion = block.code(GGroup::motion);
-  const GCode* once_code = block.code(GGroup::once);
-  const bool once_takes_axes = once_code != nullptr && once_code->takes_axes;
+  const KnownCode* motion = block.code(Group::motion);
+  const KnownCode* once_code = block.code(Group::once);
+  const bool once_takes_axes = once_code != nullptr && once_code->uses('x');
   const bool length_takes_axes = block.is(g::tool_length_stated);
   const bool centre = block.has('i') || block.has('j') || block.has('k');
   if (once_takes_axes && length_takes_axes) {
     refuse(ProblemName::modal_conflict, block, "two codes of the line claim its axis words");
   }
-  if (motion != nullptr && motion->takes_axes) {
+  if (motion != nullptr && motion->uses('x')) {
     if (once_takes_axes || length_takes_axes) {
       refuse(ProblemName::modal_conflict, block, "two codes of the line claim its axis words");
     }
@@ -217,7 +211,7 @@ void Interpreter::comments(const Block& block, const std::vector<CommentText>& t
     const std::size_t comma = body.find(',');
     if (!text.semicolon && comma != std::string_view::npos) {
       std::string head(body.substr(0, comma));
-      for (char& c : head) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      for (char& c : head) c = lower(c);
       const bool expands = head == "debug" || head == "print";
       if (expands || head == "msg") {
         comment.message = true;
@@ -230,7 +224,7 @@ void Interpreter::comments(const Block& block, const std::vector<CommentText>& t
 }
 
 void Interpreter::set_feed(const Block& block, int motion) {
-  if (const GCode* mode = block.code(GGroup::feed_mode)) {
+  if (const KnownCode* mode = block.code(Group::feed_mode)) {
     const FeedMode next =
         mode->tenths == g::inverse_time ? FeedMode::inverse_time : FeedMode::per_minute;
     // A feed rate of the other mode has no meaning; LinuxCNC clears it with every G94 that follows
@@ -240,7 +234,7 @@ void Interpreter::set_feed(const Block& block, int motion) {
   }
   const bool inverse = modes_.feed_mode == FeedMode::inverse_time;
   if (block.has('f')) {
-    if (block.code(GGroup::units) != nullptr && block.is(g::inches) != modes_.inches && !inverse) {
+    if (block.code(Group::units) != nullptr && block.is(g::inches) != modes_.inches && !inverse) {
       sink_.note({block.line,
                   "feed_before_units",
                   "F and a change of units share a line: F counts in the old unit here, other "
@@ -265,49 +259,48 @@ void Interpreter::set_feed(const Block& block, int motion) {
 }
 
 void Interpreter::set_modes(const Block& block) {
-  if (const GCode* plane = block.code(GGroup::plane)) modes_.plane = plane->tenths;
-  if (const GCode* units = block.code(GGroup::units)) {
+  if (const KnownCode* plane = block.code(Group::plane)) modes_.plane = plane->tenths;
+  if (const KnownCode* units = block.code(Group::units)) {
     modes_.inches = units->tenths == g::inches;
     units_stated_ = true;
   }
-  if (const GCode* system = block.code(GGroup::system)) {
+  if (const KnownCode* system = block.code(Group::system)) {
     select_system(system->tenths <= g::system_6 ? (system->tenths - g::system_1) / 10 + 1
                                                 : system->tenths - g::system_7 + 7);
   }
-  if (const GCode* distance = block.code(GGroup::distance))
+  if (const KnownCode* distance = block.code(Group::distance))
     modes_.incremental = distance->tenths == g::incremental;
-  if (const GCode* centres = block.code(GGroup::arc_distance)) {
+  if (const KnownCode* centres = block.code(Group::arc_distance)) {
     modes_.absolute_centres = centres->tenths == g::absolute_centres;
     note_once(NoteOnce::dotted_code, block.line);
   }
   if (block.is(g::no_motion)) modes_.motion = g::no_motion;
-  if (const GCode* retract = block.code(GGroup::retract))
+  if (const KnownCode* retract = block.code(Group::retract))
     modes_.retract_to_r = retract->tenths == g::retract_to_r;
 }
 
 AfterBlock Interpreter::after(const Block& block) const {
   AfterBlock result;
-  if (const MCode* flow = block.code(MGroup::flow)) {
-    if (flow->number == 99) {
+  if (const KnownCode* flow = block.code(Group::flow)) {
+    if (*flow == m(99)) {
       result.flow = AfterBlock::Flow::leave_program;
       return result;
     }
-    if (!block.has('p')) {
+    if (!block.has('p'))
       refuse(ProblemName::missing_word, block, "M98 needs the number of a program as P");
-    }
     result.flow = AfterBlock::Flow::call_program;
     result.program = std::lround(block.value('p'));
     result.repeats = std::lround(block.find('l').value_or(1.0));
     return result;
   }
-  const MCode* stop = block.code(MGroup::stop);
+  const KnownCode* stop = block.code(Group::stop);
   if (stop == nullptr) return result;
-  if (stop->number == 2 || stop->number == 30) {
+  if (*stop == m(2) || *stop == m(30)) {
     result.flow = AfterBlock::Flow::end;
-    result.end_word = stop->number == 2 ? "M2" : "M30";
+    result.end_word = *stop == m(2) ? "M2" : "M30";
     return result;
   }
-  sink_.word({block.line, fmt::format("M{}", stop->number)});
+  pass(block, *stop);
   return result;
 }
 

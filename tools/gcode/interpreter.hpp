@@ -64,7 +64,10 @@ class Interpreter {
   [[nodiscard]] Parameters& parameters() { return parameters_; }
   [[nodiscard]] const Dialect& dialect() const { return dialect_; }
   /// A plotter's own code, or M0 with a text, which is passed on as it is.
-  void pass_line(const Block& block, const std::vector<CommentText>& comments, std::string word);
+  void pass_line(const Block& block,
+                 const std::vector<CommentText>& comments,
+                 Code code,
+                 std::string_view words);
   /// Notes on the program as a whole, at its end.
   void note_whole(std::size_t last_line);
   /// Counts one step against the budget.
@@ -79,7 +82,6 @@ class Interpreter {
   struct Modes {
     int motion = g::no_motion;  ///< tenths, as in the tables of codes
     int plane = g::plane_xy;
-    int path_control = g::blend;
     int system = 1;  ///< 1 is G54, 9 is G59.3
     bool inches = false;
     bool incremental = false;
@@ -126,10 +128,11 @@ class Interpreter {
   // interpreter_words.cpp: which code a block's words belong to, and words that are passed through.
   void check_words(const Block& block, int motion) const;
   void pass_words(const Block& block);
-  void output_word(const Block& block);
   void dwell(const Block& block);
   void tool_length(const Block& block);
-  void pass(const Block& block, std::string text);
+  void pass(const Block& block, Code code, std::string_view words = {}) const;
+  /// With the words of the block that belong to it, lengths in mm of a unit.
+  void pass_with_words(const Block& block, const KnownCode& code, double unit = 1.0) const;
 
   // interpreter_offsets.cpp: coordinate systems, G10, G28, G30, G52, G92.
   void select_system(int system);
@@ -152,7 +155,7 @@ class Interpreter {
   Axes target(const Block& block) const;
   Axes machine_target(const Block& block) const;
   void machine_height(const Block& block, int motion);
-  void pass_height(const Block& block, std::string text, int code);
+  void pass_height(const Block& block, std::string text, Code code);
   void check_start(const Block& block, int motion);
   void check_height(const Block& block, const Axes& machine) const;
   void polar(const Block& block, Axes& program) const;

@@ -4,8 +4,6 @@
 ///
 /// A cycle works in the active plane; "depth" is along the plane's normal. Words that a following
 /// block of the same cycle omits keep their values.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -156,8 +154,8 @@ void Interpreter::cycle(const Block& block, int motion) {
 /// G81, G82
 void Interpreter::drill(const Block& block, const Cycle& cycle) {
   cycle_move(block, cycle, MoveKind::feed, cycle.bottom);
-  if (cycle.motion == g::drill_dwell) pass(block, with_value("G4 P", cycle.dwell_s));
-  return cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
+  if (cycle.motion == g::drill_dwell) pass(block, g::dwell, with_value(" P", cycle.dwell_s));
+  cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
 }
 
 /// G73, G83
@@ -170,7 +168,7 @@ void Interpreter::peck(const Block& block, const Cycle& cycle) {
     cycle_move(block, cycle, MoveKind::rapid, depth + kPeckClearanceMm);
   }
   cycle_move(block, cycle, MoveKind::feed, cycle.bottom);
-  return cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
+  cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
 }
 
 /// G84, G85, G86, G88, G89
@@ -183,31 +181,31 @@ void Interpreter::tap_or_bore(const Block& block, const Cycle& cycle) {
   if (stops_spindle && modes_.spindle == 0) {
     refuse(ProblemName::bad_cycle, block, "the cycle stops the spindle, but it is not turning");
   }
-  const std::string start = fmt::format("M{}", modes_.spindle);
-  const std::string dwell = with_value("G4 P", cycle.dwell_s);
+  const Code start = m(modes_.spindle);
+  const std::string dwell = with_value(" P", cycle.dwell_s);
   cycle_move(block, cycle, MoveKind::feed, cycle.bottom);
   if (motion == g::tap) {
-    for (const char* word : {"M5", "M4"}) pass(block, word);
-    pass(block, dwell);
+    for (const int number : {5, 4}) pass(block, m(number));
+    pass(block, g::dwell, dwell);
     cycle_move(block, cycle, MoveKind::feed, cycle.clear);
-    for (const char* word : {"M5", "M3"}) pass(block, word);
+    for (const int number : {5, 3}) pass(block, m(number));
     return;
   }
   if (motion == g::bore) {
     cycle_move(block, cycle, MoveKind::feed, cycle.retract);
     return cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
   }
-  pass(block, dwell);
+  pass(block, g::dwell, dwell);
   if (motion == g::bore_dwell) return cycle_move(block, cycle, MoveKind::feed, cycle.clear);
-  pass(block, "M5");
+  pass(block, m(5));
   if (motion == g::bore_stop) {
     cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
   } else {
     // The user retracts by hand while the program is stopped.
-    pass(block, "M0");
+    pass(block, m(0));
     machine_ = to_machine(cycle.at(cycle.clear));
   }
-  return pass(block, start);
+  pass(block, start);
 }
 
 /// G87: through the hole with an oriented spindle, bored from below.
@@ -226,19 +224,19 @@ void Interpreter::back_bore(const Block& block, const Cycle& cycle) {
   aside.hole[1] += length(block, words[cycle.axes.second]);
   const double middle = modes_.incremental ? cycle.bottom + length(block, words[cycle.axes.normal])
                                            : length(block, words[cycle.axes.normal]);
-  const std::string start = fmt::format("M{}", modes_.spindle);
+  const Code start = m(modes_.spindle);
   cycle_move(block, aside, MoveKind::rapid, cycle.retract);
-  for (const char* word : {"M5", "M19"}) pass(block, word);
+  for (const int number : {5, 19}) pass(block, m(number));
   cycle_move(block, aside, MoveKind::rapid, cycle.bottom);
   cycle_move(block, cycle, MoveKind::rapid, cycle.bottom);
   pass(block, start);
   cycle_move(block, cycle, MoveKind::feed, middle);
   cycle_move(block, cycle, MoveKind::feed, cycle.bottom);
-  for (const char* word : {"M5", "M19"}) pass(block, word);
+  for (const int number : {5, 19}) pass(block, m(number));
   cycle_move(block, aside, MoveKind::rapid, cycle.bottom);
   cycle_move(block, aside, MoveKind::rapid, cycle.clear);
   cycle_move(block, cycle, MoveKind::rapid, cycle.clear);
-  return pass(block, start);
+  pass(block, start);
 }
 
 }  // namespace chaintrue::gcode

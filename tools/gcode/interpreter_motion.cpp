@@ -111,10 +111,9 @@ void Interpreter::check_start(const Block& block, int motion) {
 }
 
 /// Passed as it is: only the machine knows where that is in the work's frame.
-void Interpreter::pass_height(const Block& block, std::string text, int code) {
-  moves_ = true;
-  z_unknown_ = z_is_machine_ = true;
-  return sink_.word({block.line, std::move(text), code});
+void Interpreter::pass_height(const Block& block, std::string text, Code code) {
+  moves_ = z_unknown_ = z_is_machine_ = true;
+  sink_.word({block.line, std::move(text), code, true});
 }
 
 /// A height above the machine's switch or stop, which no work offset reaches.
@@ -128,7 +127,7 @@ void Interpreter::machine_height(const Block& block, int motion) {
     }
     text += with_value(" F", modes_.feed);
   }
-  return pass_height(block, std::move(text), g::machine_frame);
+  pass_height(block, std::move(text), g::machine_frame);
 }
 
 /// A slope begins at a height that is known.

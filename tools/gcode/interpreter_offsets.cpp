@@ -78,7 +78,7 @@ void Interpreter::select_system(int system) {
 
 /// Codes that act once: offsets and homes. G4 and G53 are handled elsewhere.
 void Interpreter::once(const Block& block) {
-  const GCode* code = block.code(GGroup::once);
+  const KnownCode* code = block.code(Group::once);
   if (code == nullptr) return;
   switch (code->tenths) {
     case g::set_data:
@@ -227,12 +227,12 @@ void Interpreter::go_home(const Block& block, int first) {
   const auto through = target(block);
   moves_ = true;
   if (!dialect_.home_is_zero && !home_known_[first == parameter::kHome ? 0 : 1]) {
-    const int code = first == parameter::kHome ? g::home : g::second_home;
+    const Code code = first == parameter::kHome ? g::home : g::second_home;
     if (block.has_z_alone()) {
       // In whole nanometres, which the rounding of offsets and inches leaves alone.
       const double z_mm =
           std::round(1e6 * (modes_.incremental ? length(block, 'z') : through[2])) / 1e6;
-      const std::string word = (modes_.incremental ? "G91 " : "") + g_name(code) + " Z";
+      const std::string word = (modes_.incremental ? "G91 " : "") + name(code) + " Z";
       return pass_height(block, with_value(word, z_mm), code);
     }
     note_home(

@@ -66,15 +66,15 @@ std::optional<double> Interpreter::state_by_name(std::string_view name) const {
   return std::nullopt;
 }
 
-std::string Interpreter::system_name() const { return g_name(system_code(modes_.system)); }
+std::string Interpreter::system_name() const { return name({'G', system_code(modes_.system)}); }
 
 std::vector<std::string> Interpreter::describe() const {
   const Axes program = to_program(machine_);
   std::vector<std::string> lines;
   lines.push_back(
       fmt::format("motion mode {}, plane {}, {}, {}, arc centres {}",
-                  g_name(modes_.motion),
-                  g_name(modes_.plane),
+                  name({'G', modes_.motion}),
+                  name({'G', modes_.plane}),
                   modes_.inches ? "inches (G20)" : "millimetres (G21)",
                   modes_.incremental ? "incremental (G91)" : "absolute (G90)",
                   modes_.absolute_centres ? "absolute (G90.1)" : "incremental (G91.1)"));

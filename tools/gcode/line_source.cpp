@@ -18,8 +18,6 @@ constexpr std::size_t kWindow = 256 * 1024;
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
 std::string printable(char c) {
   const auto byte = static_cast<unsigned char>(c);
   if (byte >= 0x20 && byte < 0x7F) return fmt::format("'{}'", c);
@@ -120,6 +118,14 @@ class Cleaner {
 };
 
 }  // namespace
+
+char upper(char letter) {
+  return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+}
+
+char lower(char letter) {
+  return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+}
 
 LineSource::LineSource(std::unique_ptr<std::istream> stream) : stream_(std::move(stream)) {
   seek({});

@@ -84,6 +84,10 @@ struct CleanLine {
   }
 };
 
+/// A word's letter as messages show it, and as the reader knows it; any other character as it is.
+[[nodiscard]] char upper(char letter);
+[[nodiscard]] char lower(char letter);
+
 /// Splits a line into text and comments; a RepRap checksum (`*71`) is checked and removed.
 /// \throws Refusal
 void clean(std::string_view raw, std::size_t number, CleanLine& line);

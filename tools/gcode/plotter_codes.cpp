@@ -2,15 +2,17 @@
 #include "tools/gcode/plotter_codes.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <string_view>
+
+#include "tools/gcode/block.hpp"
 
 namespace chaintrue::gcode {
 namespace {
 
 /// M17, M18, M84: motors on and off. M42, M106, M107: a pin, or a fan's output, that a pen hangs on.
 /// M201 to M205: speeds and accelerations. M280: a servo. M300: a sound. M400: wait until moves are done.
-constexpr std::string_view kCodes[] = {
-    "17", "18", "42", "84", "106", "107", "201", "203", "204", "205", "280", "300", "400"};
+constexpr int kPassedCodes[] = {17, 18, 42, 84, 106, 107, 201, 203, 204, 205, 280, 300, 400};
 
 bool is_decimal(char c) { return c >= '0' && c <= '9'; }
 bool opens_word(char c) { return c >= 'a' && c <= 'z'; }
@@ -33,9 +35,13 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
 }
 
-std::string_view without_zeros(std::string_view number) {
-  while (number.size() > 1 && number.front() == '0') number.remove_prefix(1);
-  return number;
+/// -1 where the text holds more than digits, or too many.
+int number_of(std::string_view text) {
+  constexpr int kLargest = 9999;
+  int number = -1;
+  const char* end = text.data() + text.size();
+  const bool is_whole = std::from_chars(text.data(), end, number).ptr == end;
+  return is_whole && number <= kLargest ? number : -1;
 }
 
 /// Not words with numbers, a comment or an expression.
@@ -49,49 +55,47 @@ bool is_prose(std::string_view text) {
 
 }  // namespace
 
-std::optional<std::string> plotter_word(const CleanLine& line, std::size_t at, bool homes_itself) {
+std::optional<PlotterWord> plotter_word(const CleanLine& line, std::size_t at, bool homes_itself) {
   std::string_view rest(line.text);
   rest.remove_prefix(std::min(at, rest.size()));
-  std::string words;
+  std::optional<PlotterWord> word;
   bool homes = false;
   while (!rest.empty()) {
     if (!opens_word(rest.front())) return std::nullopt;
-    const std::size_t end =
-        std::min(static_cast<std::size_t>(std::find_if(rest.begin() + 1, rest.end(), opens_word) -
-                                          rest.begin()),
-                 rest.size());
-    std::string_view number = rest.substr(1, end - 1);
-    if (words.empty()) {
-      number = without_zeros(number);
-      homes = rest.front() == 'g' && number == "28";
-      const bool is_known =
-          std::find(std::begin(kCodes), std::end(kCodes), number) != std::end(kCodes);
-      if (!homes && (rest.front() != 'm' || !is_known)) return std::nullopt;
+    const auto next = std::find_if(rest.begin() + 1, rest.end(), opens_word);
+    const auto end = static_cast<std::size_t>(next - rest.begin());
+    const std::string_view number = rest.substr(1, end - 1);
+    const char letter = upper(rest.front());
+    if (!word) {
+      word = {{letter, 10 * number_of(number)}, {}};
+      homes = word->code == g::home;
+      const bool is_known = letter == 'M' && std::find(std::begin(kPassedCodes),
+                                                       std::end(kPassedCodes),
+                                                       number_of(number)) != std::end(kPassedCodes);
+      if (!homes && !is_known) return std::nullopt;
     } else {
-      const bool is_axis = std::string_view("xyz").find(rest.front()) != std::string_view::npos;
+      const bool is_axis = std::string_view("XYZ").find(letter) != std::string_view::npos;
       homes_itself = homes_itself || number.empty();
       if (homes ? !is_axis : !is_plain_number(number)) return std::nullopt;
       if (homes && !number.empty() && !is_plain_number(number)) return std::nullopt;
-      words += ' ';
+      word->words.append({' ', letter}).append(number);
     }
-    words += static_cast<char>(rest.front() - 'a' + 'A');
-    words += number;
     rest.remove_prefix(end);
   }
-  return words.empty() || (homes && !homes_itself) ? std::nullopt : std::optional(words);
+  return homes && !homes_itself ? std::nullopt : word;
 }
 
 std::optional<TextLine> text_line(std::string_view raw, bool of_plotter) {
   raw = trimmed(raw);
   if (raw.empty() || (raw.front() != 'M' && raw.front() != 'm')) return std::nullopt;
   const std::size_t end = std::min(raw.find_first_not_of("0123456789", 1), raw.size());
-  const std::string_view number = without_zeros(raw.substr(1, end - 1));
-  const bool shows = of_plotter && (number == "117" || number == "118");
-  if (!shows && number != "0" && number != "1") return std::nullopt;
+  const int number = number_of(raw.substr(1, end - 1));
+  const bool shows = of_plotter && (number == 117 || number == 118);
+  if (!shows && number != 0 && number != 1) return std::nullopt;
   const std::size_t semicolon = std::min(raw.find(';'), raw.size());
   const std::string_view text = trimmed(raw.substr(end, semicolon - end));
   if (!shows && !is_prose(text)) return std::nullopt;
-  TextLine line{"M" + std::string(number), std::string(text), {}};
+  TextLine line{m(number), std::string(text), {}};
   if (semicolon < raw.size())
     line.comments.push_back({std::string(raw.substr(semicolon + 1)), semicolon + 1, true});
   return line;

@@ -12,20 +12,26 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/gcode/events.hpp"
 #include "tools/gcode/line_source.hpp"
 
 namespace chaintrue::gcode {
 
-/// "M280 P0 S30" where the line holds such a code and words with plain numbers from `at` on, and
-/// nothing besides; "G28 X Y" too.
+struct PlotterWord {
+  Code code;
+  std::string words;  ///< " P0 S30"
+};
+
+/// Where the line holds such a code and words with plain numbers from `at` on, and nothing besides;
+/// "G28 X Y" too.
 /// \param homes_itself every G28 is the controller's own; otherwise one with bare letters is.
-[[nodiscard]] std::optional<std::string> plotter_word(const CleanLine& line,
+[[nodiscard]] std::optional<PlotterWord> plotter_word(const CleanLine& line,
                                                       std::size_t at,
                                                       bool homes_itself);
 
 /// M0 or M1 with a text for the operator; on a plotter also M117 and M118, which show one.
 struct TextLine {
-  std::string code;  ///< "M0"
+  Code code;
   std::string text;
   std::vector<CommentText> comments;
 };

@@ -88,7 +88,7 @@ class Program::Runner {
     ++summary_.blocks;
     if (dialect.passes_plotter_codes) {
       if (const auto word = plotter_word(line_, at, dialect.plotter_home_mm.has_value()))
-        return interpreter_.pass_line(block_, line_.comments, *word);
+        return interpreter_.pass_line(block_, line_.comments, word->code, word->words);
     }
     try {
       read_words(ValueReader(line_, interpreter_.parameters(), at),
@@ -117,13 +117,9 @@ class Program::Runner {
   void line_with_text(std::size_t number, const TextLine& text) {
     ++summary_.blocks;
     block_.clear(number);
-    std::string word = text.code;
-    if (interpreter_.dialect().passes_plotter_codes) {
-      word += " " + text.text;
-    } else {
-      sink_.comment({number, text.text, true});
-    }
-    interpreter_.pass_line(block_, text.comments, std::move(word));
+    const bool shows = interpreter_.dialect().passes_plotter_codes;
+    if (!shows) sink_.comment({number, text.text, true});
+    interpreter_.pass_line(block_, text.comments, text.code, shows ? " " + text.text : "");
   }
 
   char peek(std::size_t at) const { return at < line_.text.size() ? line_.text[at] : '\0'; }
@@ -219,9 +215,6 @@ void ProgramStream::move(const Move& move) {
 
 void ProgramStream::word(const PassedWord& word) {
   events_.push_back({ProgramEvent::Kind::word, word.line, {}, word});
-  // G61.1 is written as G61: some controllers misread the dot.
-  std::string& text = events_.back().word.text;
-  if (text == "G61.1") text = "G61";
 }
 
 /// A closing % and the end of the file are equivalent.

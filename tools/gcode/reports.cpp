@@ -11,6 +11,9 @@
 #include <stdexcept>
 
 #include "grid/precondition.hpp"
+#include "tools/gcode/corrector.hpp"
+#include "tools/gcode/emitter.hpp"
+#include "tools/gcode/path.hpp"
 
 namespace chaintrue::gcode {
 namespace {

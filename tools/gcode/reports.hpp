@@ -9,7 +9,8 @@
 #include <functional>
 #include <optional>
 
-#include "tools/gcode/compensator.hpp"
+#include "grid/map/length_map.hpp"
+#include "tools/gcode/program.hpp"
 
 namespace chaintrue::gcode {
 

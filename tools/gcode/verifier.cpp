@@ -306,7 +306,7 @@ class Verification {
       if (summary_.commands == 0 && !moves_itself_) stray("the file run moves nothing");
       return;
     }
-    moves_itself_ = moves_itself_ || found.word.machine_code != 0;
+    moves_itself_ = moves_itself_ || found.word.moves_itself;
     intended_.pop();
     if (found.word.leaves_xy) {
       // Both start anew, from where the machine's own frame has brought them.

@@ -169,7 +169,7 @@ FAULTS = [
           "rest < 0.0 ? rest + std::fabs(b) : rest",
           "rest",
           "gcode.*(value|expression|corpus)"),
-    Fault("clamp_box_side", "tools/gcode/compensator_limits.cpp",
+    Fault("clamp_box_side", "tools/gcode/limits.cpp",
           "std::fabs(sample.command.y_mm) - box->half_height_mm",
           "std::fabs(sample.command.y_mm) - box->half_width_mm",
           "clamp|limits"),

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Cases that are not compensated: points off the map, corrections that are too large or too steep,
-/// commands that the controller would clamp.
+/// What is not compensated, and what is not written.
+#include "tools/gcode/limits.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "tools/gcode/compensator.hpp"
-
-#include "grid/files/parse_double.hpp"
+#include "tools/gcode/block.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -20,20 +19,79 @@ constexpr double kSlopeBaseMm = 1.0;
 
 }  // namespace
 
-void Findings::add(Problem problem) {
-  const std::size_t line = problem.place.line;
-  if (line != 0 && std::exchange(last_line_, line) == line) return;
-  ++problem_count;
-  if (problems.size() < kMostKept) problems.push_back(std::move(problem));
+Limits::Limits(const Corrector& corrector, const CompensateOptions& options, ByteSink out)
+    : corrector_(corrector),
+      options_(options),
+      emitter_(std::move(out), options.decimals, corrector.firmware().semicolon_comments) {}
+
+void Limits::header(double home_x_mm, double home_y_mm) {
+  emitter_.header({options_.made_by,
+                   corrector_.firmware().name,
+                   options_.tolerance_mm,
+                   home_x_mm,
+                   home_y_mm,
+                   options_.settings});
 }
 
-void Findings::add(Note note) {
-  if (note.problem) return add(Problem{*note.problem, {note.line, 0}, std::move(note.sentence)});
-  ++note_count;
-  if (notes.size() < kMostKept) notes.push_back(std::move(note));
+CompensateSummary Limits::summary() const {
+  CompensateSummary summary = summary_;
+  summary.commands = emitter_.commands();
+  return summary;
 }
 
-void Compensator::object(const Move& move, const CorrectionFailure& failure, Point place) {
+void Limits::command(const Move& move, double feed_mm_per_min, const PathSample& sample) {
+  examine(move, sample);
+  if (here_ && options_.on_command) options_.on_command(move, *here_, sample);
+  here_ = sample;
+  if (!hold()) return;
+  emitter_.command(move.kind == MoveKind::rapid,
+                   move.line,
+                   model::BedPoint{sample.command.x_mm, sample.command.y_mm},
+                   move.names_z ? std::optional(sample.target.z_mm) : std::nullopt,
+                   feed_mm_per_min);
+}
+
+void Limits::height(const Move& move, double feed_mm_per_min) {
+  if (!hold()) return;
+  if (here_) here_->target.z_mm = here_->command.z_mm = move.to.z_mm;
+  if (length_mm(move) == 0.0 && move.feed.mode == FeedMode::inverse_time) return;
+  emitter_.command(
+      move.kind == MoveKind::rapid, move.line, std::nullopt, move.to.z_mm, feed_mm_per_min);
+  if (here_ && options_.on_command) options_.on_command(move, *here_, *here_);
+}
+
+void Limits::word(const PassedWord& word) {
+  const Firmware& firmware = corrector_.firmware();
+  const bool is_length = word.code == g::tool_length || word.code == g::tool_length_stated;
+  if (is_length && !firmware.tool_lengths) {
+    refuse(
+        ProblemName::not_emittable,
+        {word.line, 0},
+        fmt::format("{}: {} keeps no tool lengths, so every height after it could be wrong; take "
+                    "G43 out and set Z to zero with each tool",
+                    word.text,
+                    firmware.name));
+  }
+  if (word.moves_itself && !knows_code(firmware, *word.code)) {
+    refuse(ProblemName::not_emittable,
+           {word.line, 0},
+           fmt::format("{}: {} does not know {} and would take the height for one above the work; "
+                       "write a safe height of the work (G0 Z...)",
+                       word.text,
+                       firmware.name,
+                       name(*word.code)));
+  }
+  if (word.leaves_xy) here_.reset();
+  note_unknown(word);
+  if (hold()) emitter_.word(word);
+}
+
+void Limits::comment(const Comment& comment) {
+  refuse_compensated(comment);
+  if (hold()) emitter_.comment(comment);
+}
+
+void Limits::object(const Move& move, const CorrectionFailure& failure, Point place) {
   findings_.add(
       Problem{failure.reason == CorrectionReason::controller ? ProblemName::outside_controller
                                                              : ProblemName::outside_map,
@@ -42,7 +100,7 @@ void Compensator::object(const Move& move, const CorrectionFailure& failure, Poi
 }
 
 /// Checks a sample against the limits.
-void Compensator::examine(const Move& move, const PathSample& sample) {
+void Limits::examine(const Move& move, const PathSample& sample) {
   const double dx = sample.command.x_mm - sample.target.x_mm;
   const double dy = sample.command.y_mm - sample.target.y_mm;
   const double size = std::hypot(dx, dy);
@@ -83,7 +141,7 @@ void Compensator::examine(const Move& move, const PathSample& sample) {
   if (here_) {
     const double way = std::hypot(sample.target.x_mm - here_->target.x_mm,
                                   sample.target.y_mm - here_->target.y_mm);
-    if (way >= kSlopeBaseMm && !has_play()) {
+    if (way >= kSlopeBaseMm && !options_.has_play()) {
       const double slope = std::hypot(dx - (here_->command.x_mm - here_->target.x_mm),
                                       dy - (here_->command.y_mm - here_->target.y_mm)) /
                            way;
@@ -111,17 +169,12 @@ void Compensator::examine(const Move& move, const PathSample& sample) {
 }
 
 /// The word is written all the same: it does not affect the path.
-void Compensator::note_unknown(const PassedWord& word) {
-  const char letter = word.text.front();
-  if (letter != 'G' && letter != 'M') return;
-  const std::string code = word.text.substr(0, word.text.find(' '));
+void Limits::note_unknown(const PassedWord& word) {
   const Firmware& firmware = corrector_.firmware();
-  double number = 0.0;
-  grid::files::parse_double(code.data() + 1, code.data() + code.size(), number);
-  const int tenths = static_cast<int>(std::lround(10.0 * number));
-  if (knows_code(firmware, letter, tenths) || !unknown_words_.insert(code).second) return;
-  findings_.add(Note{
-      word.line, "code_not_known", fmt::format("{} {} {}", firmware.name, firmware.unknown, code)});
+  if (!word.code || knows_code(firmware, *word.code) || !unknown_.insert(*word.code).second) return;
+  findings_.add(Note{word.line,
+                     "code_not_known",
+                     fmt::format("{} {} {}", firmware.name, firmware.unknown, name(*word.code))});
 }
 
 }  // namespace chaintrue::gcode
