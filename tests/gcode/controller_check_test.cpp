@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tests/gcode/program_events.hpp"
-#include "tools/gcode/firmware_arc.hpp"
+#include "tools/gcode/firmware.hpp"
 #include "tools/gcode/path.hpp"
 
 namespace chaintrue::gcode {

@@ -44,14 +44,14 @@ PlanePoint by_radius(const ArcRequest& request, const Block& block) {
   const double dy = request.end.second_mm - request.start.second_mm;
   const double half_chord = 0.5 * std::hypot(dx, dy);
   if (half_chord == 0.0) {
-    refuse(ProblemName::bad_arc,
+    refuse(bad_arc,
            block.place('r'),
            "the arc ends where it starts, which a radius cannot describe; a full circle "
            "needs its centre");
   }
   double magnitude = std::fabs(radius);
   if (half_chord - magnitude > tolerance) {
-    refuse(ProblemName::bad_arc,
+    refuse(bad_arc,
            block.place('r'),
            fmt::format("the radius {} is too small: the arc's ends are {} apart",
                        in_units(magnitude, request),
@@ -75,7 +75,7 @@ PlanePoint by_centre(const ArcRequest& request, const Block& block) {
   const char second = centre_word(request.second_axis);
   if (request.absolute_centre && !(block.has(first) && block.has(second))) {
     refuse(
-        ProblemName::bad_arc,
+        bad_arc,
         block,
         fmt::format("absolute centres (G90.1) need both {} and {}", upper(first), upper(second)));
   }
@@ -88,15 +88,13 @@ PlanePoint by_centre(const ArcRequest& request, const Block& block) {
   const double from_start = distance(centre, request.start);
   const double from_end = distance(centre, request.end);
   if (from_start < radius_tolerance || from_end < radius_tolerance) {
-    refuse(ProblemName::bad_arc,
-           block,
-           "the arc's radius is zero: its centre lies at its start or end");
+    refuse(bad_arc, block, "the arc's radius is zero: its centre lies at its start or end");
   }
   const double difference = std::fabs(from_start - from_end);
   const double relative = difference / std::max(from_start, from_end);
   if (difference > 100.0 * spiral_tolerance ||
       (relative > kSpiralRelativeTolerance && difference > spiral_tolerance)) {
-    refuse(ProblemName::bad_arc,
+    refuse(bad_arc,
            block,
            fmt::format("the arc's end does not lie on its circle: the radius is {} at the "
                        "start and {} at the end",
@@ -112,22 +110,20 @@ PlanePoint arc_centre(const ArcRequest& request, const Block& block) {
   // Across the plane zero means nothing; FreeCAD writes it with every arc.
   const char across = centre_word(request.normal_axis);
   if (block.find(across).value_or(0.0) != 0.0) {
-    refuse(ProblemName::bad_arc,
+    refuse(bad_arc,
            block.place(across),
            fmt::format("{} has no meaning for an arc of this plane", upper(across)));
   }
   const bool has_centre =
       block.has(centre_word(request.first_axis)) || block.has(centre_word(request.second_axis));
   if (block.has('r') && has_centre) {
-    refuse(ProblemName::bad_arc,
-           block,
-           "the arc has a radius and a centre: only one of them can hold");
+    refuse(bad_arc, block, "the arc has a radius and a centre: only one of them can hold");
   }
   if (!block.has('r') && !has_centre) {
-    refuse(ProblemName::bad_arc, block, "the arc has neither a centre (I, J, K) nor a radius (R)");
+    refuse(bad_arc, block, "the arc has neither a centre (I, J, K) nor a radius (R)");
   }
   if (!block.has(request.first_axis) && !block.has(request.second_axis) && block.has('r')) {
-    refuse(ProblemName::bad_arc, block, "an arc by radius needs an end point");
+    refuse(bad_arc, block, "an arc by radius needs an end point");
   }
   return block.has('r') ? by_radius(request, block) : by_centre(request, block);
 }

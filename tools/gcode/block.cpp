@@ -44,16 +44,15 @@ constexpr std::string_view kPlainLetters = "abcdefhijklpqrstxyz@^uvw";
 
 void read_code(Code code, Place place, Block& block, bool tools_have_no_diameter) {
   const KnownCode* known = find(code);
-  if (known == nullptr)
-    refuse(ProblemName::unknown_code, place, fmt::format("{} is not known", name(code)));
+  if (known == nullptr) refuse(unknown_code, place, fmt::format("{} is not known", name(code)));
   const bool harmless =
       tools_have_no_diameter && (code == g::cutter_left || code == g::cutter_right);
   if (known->refusal != nullptr && !harmless) {
-    refuse(ProblemName::unsupported_code, place, fmt::format("{}: {}", name(code), known->refusal));
+    refuse(unsupported_code, place, fmt::format("{}: {}", name(code), known->refusal));
   }
   const KnownCode*& slot = block.codes[static_cast<std::size_t>(known->group)];
   if (slot != nullptr) {
-    refuse(ProblemName::modal_conflict,
+    refuse(modal_conflict,
            place,
            fmt::format("{} and {} exclude each other within a line", name(*slot), name(code)));
   }
@@ -67,7 +66,7 @@ Code read_g(ValueReader& reader) {
   const double tenths = 10.0 * value;
   const double rounded = std::round(tenths);
   if (value < 0.0 || std::fabs(tenths - rounded) > 0.001 || rounded > 9999.0)
-    refuse(ProblemName::unknown_code, place, fmt::format("G{} is not a code", value));
+    refuse(unknown_code, place, fmt::format("G{} is not a code", value));
   return {'G', static_cast<int>(rounded)};
 }
 
@@ -75,7 +74,7 @@ Code read_m(ValueReader& reader) {
   const Place place = reader.place();
   const long number = reader.integer();
   if (number < 0 || number > 9999)
-    refuse(ProblemName::unknown_code, place, fmt::format("M{} is not known", number));
+    refuse(unknown_code, place, fmt::format("M{} is not known", number));
   return m(static_cast<int>(number));
 }
 
@@ -87,13 +86,12 @@ void read_assignment(ValueReader& reader, Block& block) {
   } else {
     const long index = reader.integer();
     if (index < 1 || index >= parameter::kCount) {
-      refuse(
-          ProblemName::bad_parameter, assignment.place, fmt::format("#{} does not exist", index));
+      refuse(bad_parameter, assignment.place, fmt::format("#{} does not exist", index));
     }
     assignment.index = static_cast<int>(index);
   }
   if (!reader.accept("=")) {
-    refuse(ProblemName::bad_parameter,
+    refuse(bad_parameter,
            reader.place(),
            "'=' was expected: a parameter that is no word's value is set");
   }
@@ -103,19 +101,14 @@ void read_assignment(ValueReader& reader, Block& block) {
 
 void read_word(char letter, Place place, ValueReader& reader, Block& block) {
   if (kPlainLetters.find(letter) == std::string_view::npos) {
-    refuse(
-        ProblemName::bad_character, place, fmt::format("'{}' begins no word here", upper(letter)));
+    refuse(bad_character, place, fmt::format("'{}' begins no word here", upper(letter)));
   }
   if (block.has(letter)) {
-    refuse(ProblemName::repeated_word,
-           place,
-           fmt::format("a second {} word on the line", upper(letter)));
+    refuse(repeated_word, place, fmt::format("a second {} word on the line", upper(letter)));
   }
   const double value = reader.real();
   if (std::fabs(value) > 1e9) {
-    refuse(ProblemName::number_out_of_range,
-           place,
-           fmt::format("{}{} is out of range", upper(letter), value));
+    refuse(number_out_of_range, place, fmt::format("{}{} is out of range", upper(letter), value));
   }
   block.put(letter, value, place);
 }

@@ -227,16 +227,14 @@ void Compensator::go_to_assumed_start(const Move& move) {
 void Compensator::move(const Move& move) {
   ++moves_;
   if (move.kind == MoveKind::probe) {
-    refuse(ProblemName::not_emittable,
+    refuse(not_emittable,
            {move.line, 0},
            "probing needs a dotted code, which some controllers misread; probe before the job, not "
            "within it");
   }
   for (const double turn : move.turn_deg) {
     if (turn != 0.0) {
-      refuse(ProblemName::unsupported_axis,
-             {move.line, 0},
-             "a two-chain router has no axis A, B or C");
+      refuse(unsupported_axis, {move.line, 0}, "a two-chain router has no axis A, B or C");
     }
   }
   path_mm_ += length_mm(move);

@@ -10,7 +10,6 @@
 #include <cstdlib>
 
 #include "tools/gcode/block.hpp"
-#include "tools/gcode/firmware_arc.hpp"
 #include "tools/gcode/path.hpp"
 
 namespace chaintrue::gcode {

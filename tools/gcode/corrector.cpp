@@ -135,20 +135,25 @@ double Corrector::sampled_curvature_per_mm() const {
   return worst;
 }
 
-interp::CheckedField::Function offsets_of_command(const Corrector& corrector) {
-  return [&corrector](double x, double y) -> std::optional<interp::CheckedField::Value> {
-    const auto command = corrector.command({x, y});
-    if (!command) return std::nullopt;
-    return interp::CheckedField::Value{command->x_mm - x, command->y_mm - y};
+namespace {
+
+template <class Place>
+interp::CheckedField::Function offsets_of(Place place) {
+  return [place](double x, double y) -> std::optional<interp::CheckedField::Value> {
+    const tl::expected<model::BedPoint, CorrectionFailure> found = place(model::BedPoint{x, y});
+    if (!found) return std::nullopt;
+    return interp::CheckedField::Value{found->x_mm - x, found->y_mm - y};
   };
 }
 
+}  // namespace
+
+interp::CheckedField::Function offsets_of_command(const Corrector& corrector) {
+  return offsets_of([&corrector](model::BedPoint target) { return corrector.command(target); });
+}
+
 interp::CheckedField::Function offsets_of_tool(const Corrector& corrector) {
-  return [&corrector](double x, double y) -> std::optional<interp::CheckedField::Value> {
-    const auto tool = corrector.tool({x, y});
-    if (!tool) return std::nullopt;
-    return interp::CheckedField::Value{tool->x_mm - x, tool->y_mm - y};
-  };
+  return offsets_of([&corrector](model::BedPoint command) { return corrector.tool(command); });
 }
 
 }  // namespace chaintrue::gcode

@@ -52,19 +52,6 @@ std::size_t cut(std::string_view text, std::size_t most) {
   return end;
 }
 
-/// As many to a line as it holds, each line by itself.
-std::vector<std::string> settings_lines(const std::vector<std::string>& settings) {
-  constexpr std::string_view kHead = "(settings";
-  std::vector<std::string> lines;
-  for (const std::string& setting : settings) {
-    if (lines.empty() || lines.back().size() + setting.size() + 2 > kMaxOutputLine)
-      lines.emplace_back(kHead);
-    lines.back() += " " + setting;
-  }
-  for (std::string& line : lines) line += ")";
-  return lines;
-}
-
 }  // namespace
 
 std::vector<std::string> comments_of(const grid::Provenance& made_by, std::size_t longest) {
@@ -106,7 +93,7 @@ bool is_marked(std::string_view comment) {
 
 void refuse_compensated(const Comment& comment) {
   if (!is_marked(comment.text)) return;
-  refuse(ProblemName::already_compensated,
+  refuse(already_compensated,
          {comment.line, 0},
          "this file has been compensated before, as this mark in it says; take the original");
 }
@@ -153,14 +140,9 @@ void Emitter::flush_word() {
   waiting_word_.clear();
 }
 
-void Emitter::header(const Header& header) {
+void Emitter::header(const std::vector<std::string>& comments) {
   put_line(fmt::format("({}; run with home at 0, 0)", kMarker));
-  if (header.made_by) {
-    for (const std::string& line : comments_of(*header.made_by, kMaxOutputLine)) put_line(line);
-  }
-  put_line(fmt::format("(controller {}, tolerance {} mm)", header.controller, header.tolerance_mm));
-  put_line(fmt::format("(home was X{} Y{})", header.home_x_mm, header.home_y_mm));
-  for (const std::string& line : settings_lines(header.settings)) put_line(line);
+  for (const std::string& line : comments) put_line(line);
   if (semicolons_) put_line("G21");
   put_line(semicolons_ ? "G90" : "G21 G90");
 }
@@ -175,9 +157,8 @@ void Emitter::command(bool rapid,
   const auto too_large = [](double value) { return !(std::fabs(value) < kLargestMm); };
   if ((xy && (too_large(xy->x_mm) || too_large(xy->y_mm))) || (z_mm && too_large(*z_mm)) ||
       (!rapid && !(feed_mm_per_min > kSlowest && feed_mm_per_min < 1e12))) {
-    refuse(ProblemName::not_emittable,
-           {line, 0},
-           "a coordinate or feed rate of this move is no sensible number");
+    refuse(
+        not_emittable, {line, 0}, "a coordinate or feed rate of this move is no sensible number");
   }
   text_.assign(rapid ? "G0" : "G1");
   bool moves = false;
@@ -219,13 +200,13 @@ void Emitter::word(const PassedWord& word) {
   std::string_view text = word.text;
   if (word.code && word.code->letter == 'G' && word.code->tenths % 10 != 0) {
     refuse(
-        ProblemName::not_emittable,
+        not_emittable,
         {word.line, 0},
         fmt::format("{} cannot be written: some controllers read only what stands before the dot",
                     name(*word.code)));
   }
   if (text.size() > (semicolons_ ? kMaxPlotterLine : kMaxOutputLine)) {
-    refuse(ProblemName::not_emittable,
+    refuse(not_emittable,
            {word.line, 0},
            "this line has more characters than a controller's line holds");
   }

@@ -51,24 +51,14 @@ inline constexpr std::string_view kMarker = "compensated by chaintrue";
 /// Refuses a marked comment (already_compensated).
 void refuse_compensated(const Comment& comment);
 
-/// Content of the header; prevents compensating twice or with the wrong map.
-struct Header {
-  std::optional<grid::Provenance> made_by;
-  std::string controller;
-  double tolerance_mm = 0.0;
-  double home_x_mm = 0.0;
-  double home_y_mm = 0.0;
-  /// "motorspacingx 2978.4", ...: what the controller is presumed to hold.
-  std::vector<std::string> settings;
-};
-
 class Emitter {
  public:
   /// \param decimals 1 to 6.
   /// \param semicolons comments stand behind semicolons, and one code on a line.
   Emitter(ByteSink out, int decimals, bool semicolons = false);
 
-  void header(const Header& header);
+  /// Comments of the head, each line by itself; then the modes.
+  void header(const std::vector<std::string>& comments);
   /// One straight command. XY is empty for a move in Z alone, z if the height does not change. A
   /// command that changes nothing after rounding is left out.
   void command(bool rapid,

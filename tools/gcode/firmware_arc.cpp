@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Arcs by the formulas of the firmwares, in their number format.
-#include "tools/gcode/firmware_arc.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "tools/gcode/firmware.hpp"
 #include "tools/gcode/path.hpp"
 
 namespace chaintrue::gcode {
@@ -21,32 +20,16 @@ constexpr float kGrblAngleEpsilon = 5e-7F;
 /// Of an arc that a controller follows itself.
 constexpr double kFewestChords = 8.0;
 
-/// In the arc's plane, relative to its centre, with the height along its axis as a share of the
-/// whole.
-class PlaneOfArc {
- public:
-  explicit PlaneOfArc(const Move& move) : arc_(*move.arc) {}
+/// The point of the arc's plane at u, v from its centre, as a share of the way to its other end.
+Point point_of(const Arc& arc, double u, double v, double share) {
+  return in_plane(
+      arc, u, v, arc.start_height_mm + share * (arc.end_height_mm - arc.start_height_mm));
+}
 
-  [[nodiscard]] Point at(double u, double v, double share) const {
-    return in_plane(
-        arc_, u, v, arc_.start_height_mm + share * (arc_.end_height_mm - arc_.start_height_mm));
-  }
-  [[nodiscard]] double start_angle() const { return arc_.start_angle_rad; }
-  [[nodiscard]] double radius() const { return arc_.start_radius_mm; }
-  /// Of the last turn, with the arc's sign; 0 for whole turns.
-  [[nodiscard]] double last_turn() const {
-    return std::fmod(arc_.sweep_rad, 2.0 * std::numbers::pi);
-  }
-  [[nodiscard]] bool clockwise() const { return arc_.sweep_rad < 0.0; }
-
- private:
-  const Arc& arc_;
-};
-
-/// The angle from start to end in the arc's direction, with this firmware's rule for a whole turn.
-float turned(const PlaneOfArc& plane, float whole_turn, float epsilon) {
-  const auto angle = static_cast<float>(plane.last_turn());
-  if (plane.clockwise()) return angle >= -epsilon ? angle - whole_turn : angle;
+/// The angle of the last turn in the arc's direction, with this firmware's rule for a whole turn.
+float turned(const Arc& arc, float whole_turn, float epsilon) {
+  const auto angle = static_cast<float>(std::fmod(arc.sweep_rad, 2.0 * std::numbers::pi));
+  if (arc.sweep_rad < 0.0) return angle >= -epsilon ? angle - whole_turn : angle;
   return angle <= epsilon ? angle + whole_turn : angle;
 }
 
@@ -59,23 +42,23 @@ void exact(const Move& move, double bow_mm, const Visit& visit) {
 }
 
 void as_maslow(const Move& move, double bow_mm, const Visit& visit) {
-  const PlaneOfArc plane(move);
-  const float theta = turned(plane, 2.0F * kMaslowPi, 0.0F);
-  const double chords = chords_within(plane.radius(), theta, bow_mm, kFewestChords);
+  const Arc& arc = *move.arc;
+  const double radius = arc.start_radius_mm;
+  const float theta = turned(arc, 2.0F * kMaslowPi, 0.0F);
+  const double chords = chords_within(radius, theta, bow_mm, kFewestChords);
   for (double i = 1.0; i <= chords; i += 1.0) {
     const double share = i / chords;
-    const double angle = plane.start_angle() + share * theta;
-    if (!visit(plane.at(plane.radius() * std::cos(angle), plane.radius() * std::sin(angle), share)))
-      return;
+    const double angle = arc.start_angle_rad + share * theta;
+    if (!visit(point_of(arc, radius * std::cos(angle), radius * std::sin(angle), share))) return;
   }
   visit(move.to);
 }
 
 void as_grbl(const Move& move, const Visit& visit) {
-  const PlaneOfArc plane(move);
-  const auto start = static_cast<float>(plane.start_angle());
-  const auto radius = static_cast<float>(plane.radius());
-  const float sweep = turned(plane, 2.0F * std::numbers::pi_v<float>, kGrblAngleEpsilon);
+  const Arc& arc = *move.arc;
+  const auto start = static_cast<float>(arc.start_angle_rad);
+  const auto radius = static_cast<float>(arc.start_radius_mm);
+  const float sweep = turned(arc, 2.0F * std::numbers::pi_v<float>, kGrblAngleEpsilon);
   // Below half the tolerance the firmware's square root is not a number: the arc becomes its end.
   const float root = kGrblArcToleranceMm * (2.0F * radius - kGrblArcToleranceMm);
   const float chords =
@@ -98,7 +81,7 @@ void as_grbl(const Move& move, const Visit& visit) {
     u = from_u * c - from_v * s;
     v = from_u * s + from_v * c;
     since_exact = by_small_angle ? since_exact + 1 : 0;
-    if (!visit(plane.at(u, v, i / chords))) return;
+    if (!visit(point_of(arc, u, v, i / chords))) return;
   }
   visit(move.to);
 }
@@ -117,7 +100,7 @@ void for_each_chord(const Firmware& firmware,
                     const Move& arc,
                     double bow_mm,
                     const std::function<bool(Point)>& visit) {
-  const double sweep = std::fabs(turned(PlaneOfArc(arc), 2.0F * kMaslowPi, 0.0F));
+  const double sweep = std::fabs(turned(*arc.arc, 2.0F * kMaslowPi, 0.0F));
   if (cuts_straight(firmware, arc.arc->start_radius_mm, sweep)) {
     visit(arc.to);
     return;

@@ -70,7 +70,7 @@ Flow::ControlLine Flow::parse(const CleanLine& line, std::size_t at) const {
     control.label = fmt::format("<{}>", name);
   } else {
     const auto number = reader.integer();
-    if (number < 0) refuse(ProblemName::bad_flow, line.place(at), "an O number is not negative");
+    if (number < 0) refuse(bad_flow, line.place(at), "an O number is not negative");
     control.label = fmt::format("{}", number);
   }
   for (std::size_t i = 0; i < std::size(kWords); ++i) {
@@ -80,7 +80,7 @@ Flow::ControlLine Flow::parse(const CleanLine& line, std::size_t at) const {
     control.rest = reader.at();
     return control;
   }
-  refuse(ProblemName::bad_flow,
+  refuse(bad_flow,
          reader.place(),
          "after an O-word comes nothing, or one of sub, call, return, if, while, do, repeat "
          "and their ends");
@@ -99,8 +99,7 @@ void Flow::name_program(const CleanLine& /*line*/, const ControlLine& control) {
 double Flow::value(const CleanLine& line, std::size_t at) const {
   ValueReader reader(line, interpreter_.parameters(), at);
   const double result = reader.bracketed();
-  if (!reader.done())
-    refuse(ProblemName::bad_flow, reader.place(), "nothing may follow the expression");
+  if (!reader.done()) refuse(bad_flow, reader.place(), "nothing may follow the expression");
   return result;
 }
 
@@ -133,14 +132,13 @@ Flow::Found Flow::skip_to(const std::string& label,
                           Place from) {
   auto found = find(label, keywords);
   if (found) return std::move(*found);
-  refuse(
-      ProblemName::bad_flow, from, fmt::format("the end of o{} does not stand in the file", label));
+  refuse(bad_flow, from, fmt::format("the end of o{} does not stand in the file", label));
 }
 
 void Flow::begin_sub(const CleanLine& line, const ControlLine& control) {
   const auto [known, fresh] = defined_at_.emplace(control.label, line.number);
   if (!fresh && known->second != line.number) {
-    refuse(ProblemName::bad_flow,
+    refuse(bad_flow,
            line.place(0),
            fmt::format(
                "the subroutine o{} is defined already, on line {}", control.label, known->second));
@@ -163,7 +161,7 @@ LineSource::Position Flow::find_body(const std::string& label, Place place) {
     source_.seek(here);
     return body;
   }
-  refuse(ProblemName::bad_flow,
+  refuse(bad_flow,
          place,
          fmt::format("the subroutine o{} does not stand in this file; other files are not read",
                      label));
@@ -171,7 +169,7 @@ LineSource::Position Flow::find_body(const std::string& label, Place place) {
 
 void Flow::push_call(OpenCall call, Place place) {
   if (calls_.size() >= kDeepestCall) {
-    refuse(ProblemName::bad_flow,
+    refuse(bad_flow,
            place,
            fmt::format("subroutines call each other more than {} levels deep", kDeepestCall));
   }
@@ -196,7 +194,7 @@ void Flow::call(const CleanLine& line, const ControlLine& control) {
     arguments.push_back(reader.bracketed());
   }
   if (arguments.size() > 30)
-    refuse(ProblemName::bad_flow, line.place(0), "a subroutine takes at most 30 arguments");
+    refuse(bad_flow, line.place(0), "a subroutine takes at most 30 arguments");
   OpenCall open;
   open.label = control.label;
   open.return_to = source_.position();
@@ -207,7 +205,7 @@ void Flow::call(const CleanLine& line, const ControlLine& control) {
 
 void Flow::return_from(const CleanLine& line, const ControlLine& control) {
   if (calls_.empty() || calls_.back().program || calls_.back().label != control.label) {
-    refuse(ProblemName::bad_flow,
+    refuse(bad_flow,
            line.place(0),
            fmt::format("the subroutine o{} has not been called", control.label));
   }
@@ -233,11 +231,10 @@ void Flow::call_program(long number, long repeats, Place place) {
 
 void Flow::leave_program(Place place) {
   if (calls_.empty()) {
-    refuse(ProblemName::bad_flow, place, "M99 in the main program repeats it for ever");
+    refuse(bad_flow, place, "M99 in the main program repeats it for ever");
   }
   if (!calls_.back().program) {
-    refuse(
-        ProblemName::bad_flow, place, "M99 ends a program called by M98, not an o-word subroutine");
+    refuse(bad_flow, place, "M99 ends a program called by M98, not an o-word subroutine");
   }
   if (--calls_.back().remaining > 0) {
     interpreter_.step(place);
@@ -257,12 +254,12 @@ Flow::OpenBlock* Flow::innermost(const std::string& label) {
 
 void Flow::finish(Place place) const {
   if (!calls_.empty()) {
-    refuse(ProblemName::bad_flow,
+    refuse(bad_flow,
            place,
            fmt::format("the file ends inside the subroutine o{}", calls_.back().label));
   }
   if (!blocks_.empty()) {
-    refuse(ProblemName::bad_flow,
+    refuse(bad_flow,
            {blocks_.back().line, 0},
            fmt::format("the loop or condition o{} has no end", blocks_.back().label));
   }

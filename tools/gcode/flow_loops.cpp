@@ -18,7 +18,7 @@ constexpr std::size_t kDeepestBlock = 1000;
 
 void Flow::open_block(OpenBlock block, Place place) {
   if (blocks_.size() >= kDeepestBlock)
-    refuse(ProblemName::bad_flow, place, "loops and conditions are nested too deeply");
+    refuse(bad_flow, place, "loops and conditions are nested too deeply");
   blocks_.push_back(std::move(block));
 }
 
@@ -26,7 +26,7 @@ void Flow::begin_loop(const CleanLine& line, const ControlLine& control) {
   OpenBlock block{control.label, control.keyword, line_start_, 0, line.number};
   if (control.keyword == Keyword::do_) {
     if (control.rest < line.text.size())
-      refuse(ProblemName::bad_flow, line.place(control.rest), "nothing may follow do");
+      refuse(bad_flow, line.place(control.rest), "nothing may follow do");
     block.start = source_.position();
     return open_block(std::move(block), line.place(0));
   }
@@ -35,7 +35,7 @@ void Flow::begin_loop(const CleanLine& line, const ControlLine& control) {
     block.start = source_.position();
     // An expression may differ from a whole number by rounding.
     if (std::fabs(count - std::round(count)) > 0.0001) {
-      refuse(ProblemName::bad_flow,
+      refuse(bad_flow,
              line.place(control.rest),
              fmt::format("a loop is repeated a whole number of times, not {}", count));
     }
@@ -66,7 +66,7 @@ void Flow::end_loop(const CleanLine& line, const ControlLine& control) {
   const Keyword kind = control.keyword == Keyword::endwhile ? Keyword::while_ : Keyword::repeat;
   OpenBlock* open = innermost(control.label);
   if (open == nullptr || open->kind != kind) {
-    refuse(ProblemName::bad_flow,
+    refuse(bad_flow,
            line.place(0),
            fmt::format("o{} ends a loop that does not begin here", control.label));
   }
@@ -86,7 +86,7 @@ void Flow::condition(const CleanLine& line, const ControlLine& control) {
   OpenBlock* open = innermost(control.label);
   const bool begins = control.keyword == Keyword::if_;
   if (!begins && (open == nullptr || open->kind != Keyword::if_)) {
-    refuse(ProblemName::bad_flow,
+    refuse(bad_flow,
            line.place(0),
            fmt::format("o{} continues a condition that does not begin here", control.label));
   }
@@ -110,7 +110,7 @@ void Flow::condition(const CleanLine& line, const ControlLine& control) {
 void Flow::jump_out(const CleanLine& line, const ControlLine& control) {
   OpenBlock* open = innermost(control.label);
   if (open == nullptr || open->kind == Keyword::if_) {
-    refuse(ProblemName::bad_flow,
+    refuse(bad_flow,
            line.place(0),
            fmt::format("o{} is no loop that could be left here", control.label));
   }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace chaintrue::gcode {
 
@@ -18,49 +19,27 @@ Interpreter::Interpreter(const Dialect& dialect, Sink& sink) : dialect_(dialect)
 
 void Interpreter::step(Place place) {
   if (++steps_ <= dialect_.step_budget) return;
-  refuse(ProblemName::step_budget,
+  refuse(step_budget,
          place,
          fmt::format("the program has taken {} steps in loops, subroutines and cycles "
                      "without coming to its end",
                      dialect_.step_budget));
 }
 
-void Interpreter::note_once(NoteOnce which, std::size_t line) {
-  struct Text {
-    std::string_view name;
-    const char* sentence;
-    std::optional<ProblemName> problem{};
-  };
-  static constexpr Text kTexts[] = {
-      {"dotted_code",
-       "the classic Maslow firmware reads G91.1 as G91 and G90.1 as G90; the compensated file "
-       "holds neither"},
-      {"dwell_unit",
-       "G4 counts P in seconds here, in milliseconds on the classic Maslow firmware; P passes "
-       "unchanged"},
-      {"deletable_line",
-       "a line begins with a slash; it is executed, as with the block delete switch off"},
-      {"units_assumed",
-       "the program moves before it says G20 or G21; it is taken to be in millimetres"},
-      {"start_relative",
-       "the program is relative (G91) before it has gone to a place: where it cuts depends on "
-       "where "
-       "the tool happens to be; add a first line that goes to its start on the sheet, such as G90 "
-       "G0 "
-       "X0 Y0",
-       ProblemName::unknown_start},
-  };
-  bool& noted = noted_[static_cast<std::size_t>(which)];
-  if (noted) return;
-  noted = true;
-  const Text& text = kTexts[static_cast<std::size_t>(which)];
-  sink_.note({line, text.name, text.sentence, text.problem});
+void Interpreter::note_once(Note note) {
+  if (noted_.insert(note.name).second) sink_.note(note);
+}
+
+void Interpreter::note_deletable(const Block& block) {
+  if (!block.deletable) return;
+  note_once({block.line,
+             "deletable_line",
+             "a line begins with a slash; it is executed, as with the block delete switch off"});
 }
 
 void Interpreter::note_whole(std::size_t last_line) {
   if (!moves_) {
-    return sink_.note(
-        {last_line, "moves_nothing", "the program moves nothing", ProblemName::moves_nothing});
+    return sink_.note({last_line, "moves_nothing", "the program moves nothing", moves_nothing});
   }
   if (long_arcs_ > 1 && long_arcs_ == arcs_) {
     sink_.note(
@@ -86,7 +65,7 @@ void Interpreter::pass_line(const Block& block,
                             const std::vector<CommentText>& texts,
                             Code code,
                             std::string_view words) {
-  if (block.deletable) note_once(NoteOnce::deletable_line, block.line);
+  note_deletable(block);
   comments(block, texts);
   PassedWord passed{block.line, name(code).append(words), code};
   if (code == g::home) {
@@ -102,7 +81,7 @@ void Interpreter::pass_line(const Block& block,
 }
 
 AfterBlock Interpreter::execute(const Block& block, const std::vector<CommentText>& texts) {
-  if (block.deletable) note_once(NoteOnce::deletable_line, block.line);
+  note_deletable(block);
   for (const KnownCode* code : block.codes) {
     if (code != nullptr) sink_.code(block.line, *code);
   }
@@ -118,7 +97,11 @@ AfterBlock Interpreter::execute(const Block& block, const std::vector<CommentTex
   tool_length(block);
   once(block);
   if (motion >= 0) {
-    if (!units_stated_) note_once(NoteOnce::units_assumed, block.line);
+    if (!std::exchange(units_stated_, true)) {
+      sink_.note({block.line,
+                  "units_assumed",
+                  "the program moves before it says G20 or G21; it is taken to be in millimetres"});
+    }
     move(block, motion);
   }
   return after(block);
@@ -132,18 +115,18 @@ int Interpreter::motion_to_be(const Block& block) const {
   const bool length_takes_axes = block.is(g::tool_length_stated);
   const bool centre = block.has('i') || block.has('j') || block.has('k');
   if (once_takes_axes && length_takes_axes) {
-    refuse(ProblemName::modal_conflict, block, "two codes of the line claim its axis words");
+    refuse(modal_conflict, block, "two codes of the line claim its axis words");
   }
   if (motion != nullptr && motion->uses('x')) {
     if (once_takes_axes || length_takes_axes) {
-      refuse(ProblemName::modal_conflict, block, "two codes of the line claim its axis words");
+      refuse(modal_conflict, block, "two codes of the line claim its axis words");
     }
     return motion->tenths;
   }
   if (once_takes_axes || length_takes_axes) return -1;
   if (!block.has_axes() && !(centre && is_arc(modes_.motion))) return -1;
   if (motion != nullptr || modes_.motion == g::no_motion) {
-    refuse(ProblemName::no_motion_mode,
+    refuse(no_motion_mode,
            block,
            "axis words stand here, but no motion (G0, G1, G2, G3 ...) is in force that "
            "could use them");
@@ -155,8 +138,7 @@ void Interpreter::check_assignments(const Block& block) const {
   for (const Assignment& assignment : block.assignments) {
     const bool fixed = assignment.index != 0 ? !parameters_.writable(assignment.index)
                                              : state_by_name(assignment.name).has_value();
-    if (fixed)
-      refuse(ProblemName::bad_parameter, assignment.place, "this parameter can only be read");
+    if (fixed) refuse(bad_parameter, assignment.place, "this parameter can only be read");
   }
 }
 
@@ -202,7 +184,7 @@ std::string Interpreter::written_out(std::string_view text) const {
 void Interpreter::comments(const Block& block, const std::vector<CommentText>& texts) {
   for (const CommentText& text : texts) {
     if (text.semicolon && holds_moves(text.text)) {
-      sink_.note({block.line, "line_ends_lost", kLineEndsLost, ProblemName::line_ends_lost});
+      sink_.note({block.line, "line_ends_lost", kLineEndsLost, line_ends_lost});
       moves_ = true;  // which one problem says
     }
     Comment comment{block.line, text.text, false};
@@ -245,16 +227,13 @@ void Interpreter::set_feed(const Block& block, int motion) {
   const bool feeds = motion == g::line || is_arc(motion) || is_cycle(motion) || is_probe(motion);
   if (!feeds) return;
   if (inverse && is_cycle(motion)) {
-    refuse(ProblemName::bad_cycle, block, "a canned cycle cannot run with inverse time feed (G93)");
+    refuse(bad_cycle, block, "a canned cycle cannot run with inverse time feed (G93)");
   }
   if (inverse && !block.has('f')) {
-    refuse(ProblemName::no_feed_rate,
-           block,
-           "with inverse time feed (G93) every feed move needs its own F");
+    refuse(no_feed_rate, block, "with inverse time feed (G93) every feed move needs its own F");
   }
   if (!(modes_.feed > 0.0)) {
-    refuse(
-        ProblemName::no_feed_rate, block, "no feed rate (F) is set for this move, or it is zero");
+    refuse(no_feed_rate, block, "no feed rate (F) is set for this move, or it is zero");
   }
 }
 
@@ -272,7 +251,11 @@ void Interpreter::set_modes(const Block& block) {
     modes_.incremental = distance->tenths == g::incremental;
   if (const KnownCode* centres = block.code(Group::arc_distance)) {
     modes_.absolute_centres = centres->tenths == g::absolute_centres;
-    note_once(NoteOnce::dotted_code, block.line);
+    note_once(
+        {block.line,
+         "dotted_code",
+         "the classic Maslow firmware reads G91.1 as G91 and G90.1 as G90; the compensated file "
+         "holds neither"});
   }
   if (block.is(g::no_motion)) modes_.motion = g::no_motion;
   if (const KnownCode* retract = block.code(Group::retract))
@@ -286,8 +269,7 @@ AfterBlock Interpreter::after(const Block& block) const {
       result.flow = AfterBlock::Flow::leave_program;
       return result;
     }
-    if (!block.has('p'))
-      refuse(ProblemName::missing_word, block, "M98 needs the number of a program as P");
+    if (!block.has('p')) refuse(missing_word, block, "M98 needs the number of a program as P");
     result.flow = AfterBlock::Flow::call_program;
     result.program = std::lround(block.value('p'));
     result.repeats = std::lround(block.find('l').value_or(1.0));

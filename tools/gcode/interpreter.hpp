@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include "tools/gcode/arc_words.hpp"
@@ -111,8 +112,6 @@ class Interpreter {
     double q = 0.0;
   };
   struct Cycle;
-  /// Remarks that are made once a program.
-  enum class NoteOnce { dotted_code, dwell_unit, deletable_line, units_assumed, start_relative };
 
   // interpreter.cpp: the order of execution.
   void comments(const Block& block, const std::vector<CommentText>& texts);
@@ -121,7 +120,9 @@ class Interpreter {
   void set_modes(const Block& block);
   AfterBlock after(const Block& block) const;
   void assign(const Block& block);
-  void note_once(NoteOnce which, std::size_t line);
+  /// Remarks of one name are made once a program.
+  void note_once(Note note);
+  void note_deletable(const Block& block);
   void check_assignments(const Block& block) const;
   [[nodiscard]] std::string written_out(std::string_view text) const;
 
@@ -153,7 +154,8 @@ class Interpreter {
   // interpreter_motion.cpp
   void move(const Block& block, int motion);
   Axes target(const Block& block) const;
-  Axes machine_target(const Block& block) const;
+  /// In mm, or degrees.
+  [[nodiscard]] double axis_value(const Block& block, std::size_t axis) const;
   void machine_height(const Block& block, int motion);
   void pass_height(const Block& block, std::string text, Code code);
   void check_start(const Block& block, int motion);
@@ -171,14 +173,11 @@ class Interpreter {
 
   // interpreter_cycles.cpp
   void cycle(const Block& block, int motion);
-  void drill(const Block& block, const Cycle& cycle);
-  void peck(const Block& block, const Cycle& cycle);
-  void tap_or_bore(const Block& block, const Cycle& cycle);
-  void back_bore(const Block& block, const Cycle& cycle);
-  void cycle_move(const Block& block, const Cycle& cycle, MoveKind kind, double height);
 
   // interpreter_state.cpp
   [[nodiscard]] std::string system_name() const;
+  /// In the program's units.
+  [[nodiscard]] Axes position() const;
   [[nodiscard]] std::optional<double> state_by_number(int index) const;
   [[nodiscard]] std::optional<double> state_by_name(std::string_view name) const;
 
@@ -192,7 +191,7 @@ class Interpreter {
   std::uint64_t steps_ = 0;
   std::size_t call_level_ = 0;
   bool home_known_[2] = {false, false};
-  bool noted_[5] = {};
+  std::set<std::string_view> noted_;
   bool units_stated_ = false;
   bool placed_[2] = {false, false};  ///< the program has stated X, Y
   bool moves_ = false;

@@ -73,31 +73,25 @@ void Interpreter::move(const Block& block, int motion) {
   }
 }
 
-/// The target of the block's axis words, in the machine frame.
-Axes Interpreter::target(const Block& block) const {
-  if (block.is(g::machine_frame)) return machine_target(block);
-  Axes program = to_program(machine_);
-  if (block.has('@') || block.has('^')) {
-    polar(block, program);
-  }
-  for (std::size_t i = 0; i < program.size(); ++i) {
-    if (!block.has(kAxisLetters[i])) continue;
-    const double value = i < 3 ? length(block, kAxisLetters[i]) : block.value(kAxisLetters[i]);
-    program[i] = modes_.incremental ? program[i] + value : value;
-  }
-  return to_machine(program);
+double Interpreter::axis_value(const Block& block, std::size_t axis) const {
+  const char letter = kAxisLetters[axis];
+  return axis < 3 ? length(block, letter) : block.value(letter);
 }
 
-Axes Interpreter::machine_target(const Block& block) const {
+/// The target of the block's axis words, in the machine frame.
+Axes Interpreter::target(const Block& block) const {
+  const bool in_machine = block.is(g::machine_frame);
+  Axes place = in_machine ? machine_ : to_program(machine_);
   if (block.has('@') || block.has('^')) {
-    refuse(ProblemName::bad_word_value, block, "G53 takes no polar coordinates");
+    if (in_machine) refuse(bad_word_value, block, "G53 takes no polar coordinates");
+    polar(block, place);
   }
-  Axes machine = machine_;
-  for (std::size_t i = 0; i < machine.size(); ++i) {
-    if (block.has(kAxisLetters[i]))
-      machine[i] = i < 3 ? length(block, kAxisLetters[i]) : block.value(kAxisLetters[i]);
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    if (!block.has(kAxisLetters[i])) continue;
+    const double value = axis_value(block, i);
+    place[i] = modes_.incremental ? place[i] + value : value;
   }
-  return machine;
+  return in_machine ? place : to_machine(place);
 }
 
 /// Whether the program has stated the place that it steps from.
@@ -105,7 +99,16 @@ void Interpreter::check_start(const Block& block, int motion) {
   const bool is_polar = block.has('@') || block.has('^');
   for (const std::size_t axis : {0, 1}) {
     if (!block.has(kAxisLetters[axis]) && !is_polar && !is_arc(motion)) continue;
-    if (modes_.incremental && !placed_[axis]) note_once(NoteOnce::start_relative, block.line);
+    if (modes_.incremental && !placed_[axis]) {
+      note_once({block.line,
+                 "start_relative",
+                 "the program is relative (G91) before it has gone to a place: where it cuts "
+                 "depends on where "
+                 "the tool happens to be; add a first line that goes to its start on the sheet, "
+                 "such as G90 G0 "
+                 "X0 Y0",
+                 unknown_start});
+    }
     placed_[axis] = true;
   }
 }
@@ -121,7 +124,7 @@ void Interpreter::machine_height(const Block& block, int motion) {
   std::string text = with_value(motion == g::rapid ? "G53 G0 Z" : "G53 G1 Z", length(block, 'z'));
   if (motion != g::rapid) {
     if (modes_.feed_mode == FeedMode::inverse_time) {
-      refuse(ProblemName::unsupported_code,
+      refuse(unsupported_code,
              block,
              "a height in the machine's frame (G53) takes a feed rate in mm/min or inch/min");
     }
@@ -134,13 +137,13 @@ void Interpreter::machine_height(const Block& block, int motion) {
 void Interpreter::check_height(const Block& block, const Axes& machine) const {
   if (!block.has('z') || !z_unknown_) return;
   if (modes_.incremental) {
-    refuse(ProblemName::unsupported_code,
+    refuse(unsupported_code,
            block.place('z'),
            "after probing, G53, G28 or G30 only the machine knows its height, so Z cannot "
            "step from it (G91) here");
   }
   if (z_is_machine_ && (machine[0] != machine_[0] || machine[1] != machine_[1])) {
-    refuse(ProblemName::unsupported_code,
+    refuse(unsupported_code,
            block.place('z'),
            "after a height in the machine's frame (G53, G28, G30) Z moves by itself first, "
            "without X and Y: only the machine knows the height that it starts from");
@@ -150,19 +153,15 @@ void Interpreter::check_height(const Block& block, const Axes& machine) const {
 /// @ is the distance from the program's zero in XY, ^ the angle in degrees.
 void Interpreter::polar(const Block& block, Axes& program) const {
   if (modes_.plane != g::plane_xy) {
-    refuse(
-        ProblemName::bad_word_value, block, "polar coordinates (@, ^) are for the XY plane (G17)");
+    refuse(bad_word_value, block, "polar coordinates (@, ^) are for the XY plane (G17)");
   }
   if (block.has('x') || block.has('y')) {
-    refuse(ProblemName::modal_conflict,
-           block,
-           "a point has X and Y or polar coordinates (@, ^), not both");
+    refuse(modal_conflict, block, "a point has X and Y or polar coordinates (@, ^), not both");
   }
   double radius = std::hypot(program[0], program[1]);
   double angle_deg = std::atan2(program[1], program[0]) / kRadiansPerDegree;
   if ((modes_.incremental || !block.has('^')) && radius == 0.0) {
-    refuse(
-        ProblemName::bad_word_value, block, "at the program's zero a polar step has no direction");
+    refuse(bad_word_value, block, "at the program's zero a polar step has no direction");
   }
   if (block.has('@')) radius = (modes_.incremental ? radius : 0.0) + length(block, '@');
   if (block.has('^')) angle_deg = (modes_.incremental ? angle_deg : 0.0) + block.value('^');
@@ -181,18 +180,16 @@ void Interpreter::straight(const Block& block, MoveKind kind, const Axes& machin
 
 void Interpreter::probe(const Block& block) {
   if (!block.has('x') && !block.has('y') && !block.has('z')) {
-    refuse(ProblemName::missing_word, block, "probing needs an axis word");
+    refuse(missing_word, block, "probing needs an axis word");
   }
   const auto machine = target(block);
   if (machine[0] != machine_[0] || machine[1] != machine_[1]) {
-    refuse(ProblemName::unsupported_code,
+    refuse(unsupported_code,
            block,
            "probing sideways (X, Y) ends at a place that only the machine knows");
   }
   if (std::fabs(machine[2] - machine_[2]) < 0.254) {
-    refuse(ProblemName::bad_word_value,
-           block,
-           "the probe starts closer than 0.254 mm (0.01 inch) to its end");
+    refuse(bad_word_value, block, "the probe starts closer than 0.254 mm (0.01 inch) to its end");
   }
   straight(block, MoveKind::probe, machine);
   z_unknown_ = true;
@@ -206,16 +203,16 @@ void Interpreter::arc(const Block& block, bool clockwise) {
   if (block.has('p')) {
     count = block.value('p');
     if (count < 1.0 || count > kMostTurns || std::round(count) != count) {
-      refuse(ProblemName::bad_arc,
+      refuse(bad_arc,
              block.place('p'),
              fmt::format("P, the number of turns, is a whole number from 1 to {}", kMostTurns));
     }
   }
   if (block.is(g::machine_frame)) {
-    refuse(ProblemName::bad_word_value, block, "G53 needs G0 or G1");
+    refuse(bad_word_value, block, "G53 needs G0 or G1");
   }
   if (z_unknown_ && modes_.plane != g::plane_xy) {
-    refuse(ProblemName::unsupported_code,
+    refuse(unsupported_code,
            block,
            "after probing, G53, G28 or G30 only the machine knows where an upright arc "
            "(G18, G19) starts");

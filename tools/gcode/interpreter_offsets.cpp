@@ -14,8 +14,6 @@
 namespace chaintrue::gcode {
 namespace {
 
-constexpr int kLinear = 3;  // the first three axes are lengths
-
 /// Of coordinate system 1 .. 9.
 int first_parameter(int system) { return parameter::kFirstSystem + 20 * (system - 1); }
 int rotation_parameter(int system) { return first_parameter(system) + 9; }
@@ -112,7 +110,7 @@ void Interpreter::once(const Block& block) {
 
 void Interpreter::needs_known_z(const Block& block) const {
   if (!z_unknown_ || !block.has('z')) return;
-  refuse(ProblemName::unsupported_code,
+  refuse(unsupported_code,
          block.place('z'),
          "after probing, G53, G28 or G30 only the machine knows its height, so Z cannot be set "
          "from it here");
@@ -121,26 +119,24 @@ void Interpreter::needs_known_z(const Block& block) const {
 void Interpreter::set_system(const Block& block) {
   const double mode = block.find('l').value_or(-1.0);
   if (mode != 2.0 && mode != 20.0) {
-    refuse(ProblemName::unsupported_code,
+    refuse(unsupported_code,
            block,
            "of G10 only L2 and L20 (work offsets) are supported; tool tables are not");
   }
   const double number = block.find('p').value_or(-1.0);
   if (number < 0.0 || number > 9.0 || std::round(number) != number) {
-    refuse(ProblemName::bad_word_value, block, "G10 needs P0 (the system in force) to P9");
+    refuse(bad_word_value, block, "G10 needs P0 (the system in force) to P9");
   }
   const int system = number == 0.0 ? modes_.system : static_cast<int>(number);
   const bool from_here = mode == 20.0;
   if (from_here) {
     needs_known_z(block);
     if (block.has('r')) {
-      refuse(ProblemName::bad_word_value,
-             block.place('r'),
-             "R (a rotation) belongs to G10 L2, not to L20");
+      refuse(bad_word_value, block.place('r'), "R (a rotation) belongs to G10 L2, not to L20");
     }
   }
   if (block.has('@') || block.has('^')) {
-    refuse(ProblemName::bad_word_value, block, "G10 takes no polar coordinates");
+    refuse(bad_word_value, block, "G10 takes no polar coordinates");
   }
   if (block.has('r')) parameters_.set(rotation_parameter(system), block.value('r'));
 
@@ -158,8 +154,7 @@ void Interpreter::set_system(const Block& block) {
   const bool offset_on = parameters_.stored(parameter::kOffsetOn) != 0.0;
   for (std::size_t i = 0; i < origin.size(); ++i) {
     if (!block.has(kAxisLetters[i])) continue;
-    const double value =
-        i < kLinear ? length(block, kAxisLetters[i]) : block.value(kAxisLetters[i]);
+    const double value = axis_value(block, i);
     if (from_here) {
       shift[i] = here[i] - (offset_on ? frame_.offset[i] : 0.0) - value;
     } else {
@@ -177,18 +172,17 @@ void Interpreter::set_system(const Block& block) {
 /// share it.
 void Interpreter::set_offset(const Block& block) {
   if (!block.has_axes()) {
-    refuse(ProblemName::missing_word, block, "G52 and G92 need an axis word");
+    refuse(missing_word, block, "G52 and G92 need an axis word");
   }
   if (block.has('@') || block.has('^')) {
-    refuse(ProblemName::bad_word_value, block, "G52 and G92 take no polar coordinates");
+    refuse(bad_word_value, block, "G52 and G92 take no polar coordinates");
   }
   const bool from_here = block.is(g::offset_here);
   if (from_here) needs_known_z(block);
   const Axes program = to_program(machine_);
   for (std::size_t i = 0; i < frame_.offset.size(); ++i) {
     if (!block.has(kAxisLetters[i])) continue;
-    const double value =
-        i < kLinear ? length(block, kAxisLetters[i]) : block.value(kAxisLetters[i]);
+    const double value = axis_value(block, i);
     frame_.offset[i] = from_here ? program[i] + frame_.offset[i] - value : value;
     if (from_here && i < 2) placed_[i] = true;
   }
@@ -219,7 +213,7 @@ void Interpreter::store_home(int first) {
 }
 
 void Interpreter::note_home(const Block& block, const char* sentence) {
-  sink_.note({block.line, "home_assumed", sentence, ProblemName::unknown_home});
+  sink_.note({block.line, "home_assumed", sentence, unknown_home});
 }
 
 /// Through the point of the axis words, then home with those axes; with all if none is given.

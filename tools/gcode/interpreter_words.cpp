@@ -36,7 +36,7 @@ const KnownCode& user_of(char letter, const Block& block, int motion) {
     if (code == nullptr || !uses(*code, letter)) return;
     if (user != nullptr) {
       refuse(
-          ProblemName::bad_word_value,
+          bad_word_value,
           block.place(letter),
           fmt::format("the {} word could belong to two codes of this line; write each of them on "
                       "a line of its own",
@@ -50,11 +50,11 @@ const KnownCode& user_of(char letter, const Block& block, int motion) {
   }
   if (user != nullptr) return *user;
   if (letter == 'e') {
-    refuse(ProblemName::unsupported_axis,
+    refuse(unsupported_axis,
            block.place('e'),
            "an E word (the extruder of a 3D printer) has no meaning on a router");
   }
-  refuse(ProblemName::unused_word,
+  refuse(unused_word,
          block.place(letter),
          fmt::format("nothing on the line uses the {} word; it belongs to {}",
                      upper(letter),
@@ -64,7 +64,7 @@ const KnownCode& user_of(char letter, const Block& block, int motion) {
 void check_whole(const Block& block, char letter, std::string_view whose) {
   const double value = block.value(letter);
   if (value >= 0.0 && std::fabs(value - std::round(value)) <= kWhole) return;
-  refuse(ProblemName::bad_word_value,
+  refuse(bad_word_value,
          block.place(letter),
          fmt::format("{}{} is a whole number, not below zero; here it is {}",
                      upper(letter),
@@ -75,8 +75,7 @@ void check_whole(const Block& block, char letter, std::string_view whose) {
 void check_complete(const Block& block, const KnownCode& code) {
   for (const char letter : code.words) {
     if (!block.has(lower(letter)))
-      refuse(
-          ProblemName::missing_word, block, fmt::format("{} needs {}", name(code), upper(letter)));
+      refuse(missing_word, block, fmt::format("{} needs {}", name(code), upper(letter)));
   }
 }
 
@@ -87,7 +86,7 @@ long whole(double value) { return std::lround(value); }
 void Interpreter::check_words(const Block& block, int motion) const {
   for (const char letter : {'u', 'v', 'w'}) {
     if (block.has(letter)) {
-      refuse(ProblemName::unsupported_axis,
+      refuse(unsupported_axis,
              block.place(letter),
              fmt::format("the axis {} is not supported", upper(letter)));
     }
@@ -99,16 +98,14 @@ void Interpreter::check_words(const Block& block, int motion) const {
   }
   if (block.is(g::machine_frame)) {
     if (motion != g::rapid && motion != g::line)
-      refuse(ProblemName::bad_word_value, block, "G53 needs G0 or G1 and axis words");
+      refuse(bad_word_value, block, "G53 needs G0 or G1 and axis words");
     const bool incremental =
         block.code(Group::distance) ? block.is(g::incremental) : modes_.incremental;
-    if (incremental) refuse(ProblemName::modal_conflict, block, "G53 cannot be used in G91");
+    if (incremental) refuse(modal_conflict, block, "G53 cannot be used in G91");
   }
   for (const char letter : {'s', 't', 'f'}) {
     if (block.has(letter) && block.value(letter) < 0.0) {
-      refuse(ProblemName::bad_word_value,
-             block.place(letter),
-             fmt::format("{} is negative", upper(letter)));
+      refuse(bad_word_value, block.place(letter), fmt::format("{} is negative", upper(letter)));
     }
   }
   if (block.has('t')) check_whole(block, 't', ", a tool's number,");
@@ -159,8 +156,12 @@ void Interpreter::pass_words(const Block& block) {
 void Interpreter::dwell(const Block& block) {
   if (!block.is(g::dwell)) return;
   if (!block.has('p') || block.value('p') < 0.0)
-    refuse(ProblemName::missing_word, block, "G4 needs its time as P, not below zero");
-  note_once(NoteOnce::dwell_unit, block.line);
+    refuse(missing_word, block, "G4 needs its time as P, not below zero");
+  note_once(
+      {block.line,
+       "dwell_unit",
+       "G4 counts P in seconds here, in milliseconds on the classic Maslow firmware; P passes "
+       "unchanged"});
   pass(block, g::dwell, with_value(" P", block.value('p')));
 }
 
@@ -169,9 +170,7 @@ void Interpreter::tool_length(const Block& block) {
   if (block.is(g::cutter_off)) pass(block, g::cutter_off);
   if (block.is(g::tool_length_stated)) {
     if (block.has('x') || block.has('y') || block.has('a') || block.has('b') || block.has('c')) {
-      refuse(ProblemName::unsupported_code,
-             block,
-             "a tool offset (G43.1) in any axis but Z moves the path");
+      refuse(unsupported_code, block, "a tool offset (G43.1) in any axis but Z moves the path");
     }
     pass(block,
          g::tool_length_stated,

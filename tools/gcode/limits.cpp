@@ -17,6 +17,19 @@ namespace {
 /// Between nearer points rounding dominates the slope.
 constexpr double kSlopeBaseMm = 1.0;
 
+/// As many to a line as it holds, each line by itself.
+std::vector<std::string> settings_lines(const std::vector<std::string>& settings) {
+  constexpr std::string_view kHead = "(settings";
+  std::vector<std::string> lines;
+  for (const std::string& setting : settings) {
+    if (lines.empty() || lines.back().size() + setting.size() + 2 > kMaxOutputLine)
+      lines.emplace_back(kHead);
+    lines.back() += " " + setting;
+  }
+  for (std::string& line : lines) line += ")";
+  return lines;
+}
+
 }  // namespace
 
 Limits::Limits(const Corrector& corrector, const CompensateOptions& options, ByteSink out)
@@ -25,12 +38,13 @@ Limits::Limits(const Corrector& corrector, const CompensateOptions& options, Byt
       emitter_(std::move(out), options.decimals, corrector.firmware().semicolon_comments) {}
 
 void Limits::header(double home_x_mm, double home_y_mm) {
-  emitter_.header({options_.made_by,
-                   corrector_.firmware().name,
-                   options_.tolerance_mm,
-                   home_x_mm,
-                   home_y_mm,
-                   options_.settings});
+  std::vector<std::string> lines;
+  if (options_.made_by) lines = comments_of(*options_.made_by, kMaxOutputLine);
+  lines.push_back(fmt::format(
+      "(controller {}, tolerance {} mm)", corrector_.firmware().name, options_.tolerance_mm));
+  lines.push_back(fmt::format("(home was X{} Y{})", home_x_mm, home_y_mm));
+  for (const std::string& line : settings_lines(options_.settings)) lines.push_back(line);
+  emitter_.header(lines);
 }
 
 CompensateSummary Limits::summary() const {
@@ -65,7 +79,7 @@ void Limits::word(const PassedWord& word) {
   const bool is_length = word.code == g::tool_length || word.code == g::tool_length_stated;
   if (is_length && !firmware.tool_lengths) {
     refuse(
-        ProblemName::not_emittable,
+        not_emittable,
         {word.line, 0},
         fmt::format("{}: {} keeps no tool lengths, so every height after it could be wrong; take "
                     "G43 out and set Z to zero with each tool",
@@ -73,7 +87,7 @@ void Limits::word(const PassedWord& word) {
                     firmware.name));
   }
   if (word.moves_itself && !knows_code(firmware, *word.code)) {
-    refuse(ProblemName::not_emittable,
+    refuse(not_emittable,
            {word.line, 0},
            fmt::format("{}: {} does not know {} and would take the height for one above the work; "
                        "write a safe height of the work (G0 Z...)",
@@ -93,8 +107,7 @@ void Limits::comment(const Comment& comment) {
 
 void Limits::object(const Move& move, const CorrectionFailure& failure, Point place) {
   findings_.add(
-      Problem{failure.reason == CorrectionReason::controller ? ProblemName::outside_controller
-                                                             : ProblemName::outside_map,
+      Problem{failure.reason == CorrectionReason::controller ? outside_controller : outside_map,
               {move.line, 0},
               fmt::format("X{:.3f} Y{:.3f} {}", place.x_mm, place.y_mm, failure.sentence())});
 }
@@ -113,7 +126,7 @@ void Limits::examine(const Move& move, const PathSample& sample) {
   };
   if (size > options_.largest_correction_mm) {
     object_to(
-        ProblemName::correction_too_large,
+        correction_too_large,
         fmt::format(
             "X{:.3f} Y{:.3f} would be corrected by {:.2f} mm, more than the {} mm that are allowed",
             sample.target.x_mm,
@@ -126,7 +139,7 @@ void Limits::examine(const Move& move, const PathSample& sample) {
                                    std::fabs(sample.command.y_mm) - box->half_height_mm);
     if (beyond > 0.0) {
       object_to(
-          ProblemName::outside_controller,
+          outside_controller,
           fmt::format(
               "X{:.3f} Y{:.3f} needs the command X{:.3f} Y{:.3f}, {:.2f} mm beyond the bed, where "
               "the controller silently cuts it off; enlarge the bed in its settings by {:.0f} mm",
@@ -147,7 +160,7 @@ void Limits::examine(const Move& move, const PathSample& sample) {
                            way;
       summary_.steepest_correction = std::max(summary_.steepest_correction, slope);
       if (slope > options_.steepest_correction) {
-        object_to(ProblemName::correction_too_steep,
+        object_to(correction_too_steep,
                   fmt::format("before X{:.3f} Y{:.3f} the correction changes by {:.3f} mm per "
                               "mm, more than the {} that are allowed",
                               sample.target.x_mm,

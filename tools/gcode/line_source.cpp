@@ -52,13 +52,10 @@ class Cleaner {
     const std::size_t open = at_;
     const std::size_t close = raw_.find_first_of("()", open + 1);
     if (close == std::string_view::npos) {
-      refuse(ProblemName::bad_comment,
-             here(),
-             "the comment that opens here is not closed on this line");
+      refuse(bad_comment, here(), "the comment that opens here is not closed on this line");
     }
     if (raw_[close] == '(') {
-      refuse(
-          ProblemName::bad_comment, {line_.number, close + 1}, "a comment opens inside a comment");
+      refuse(bad_comment, {line_.number, close + 1}, "a comment opens inside a comment");
     }
     line_.comments.push_back(
         {std::string(raw_.substr(open + 1, close - open - 1)), open + 1, false});
@@ -68,11 +65,11 @@ class Cleaner {
   void character(char c) {
     const auto byte = static_cast<unsigned char>(c);
     if (!is_blank(c) && (byte < 0x20 || byte >= 0x7F)) {
-      refuse(ProblemName::bad_character,
+      refuse(bad_character,
              here(),
              fmt::format("{} does not belong into G-code outside a comment", printable(c)));
     }
-    if (c == ')') refuse(ProblemName::bad_character, here(), "')' closes no comment");
+    if (c == ')') refuse(bad_character, here(), "')' closes no comment");
     if (c == '[') ++depth_;
     if (c == ']' && depth_ > 0) --depth_;
     if (!is_blank(c)) {
@@ -94,17 +91,15 @@ class Cleaner {
     unsigned stated = 0;
     const auto [stop, error] = std::from_chars(raw_.data() + digits, raw_.data() + end, stated);
     if (error != std::errc{} || stop != raw_.data() + end) {
-      refuse(ProblemName::bad_checksum,
-             place,
-             "'*' outside brackets begins a checksum, but no number follows");
+      refuse(bad_checksum, place, "'*' outside brackets begins a checksum, but no number follows");
     }
     std::size_t rest = end;
     while (rest < raw_.size() && is_blank(raw_[rest])) ++rest;
     if (rest < raw_.size() && raw_[rest] != ';' && raw_[rest] != '(') {
-      refuse(ProblemName::bad_checksum, place, "something follows the checksum");
+      refuse(bad_checksum, place, "something follows the checksum");
     }
     if (stated != sum) {
-      refuse(ProblemName::bad_checksum,
+      refuse(bad_checksum,
              place,
              fmt::format("the checksum is {}, but the line's is {}", stated, sum));
     }
@@ -135,8 +130,8 @@ Result<LineSource> LineSource::from_file(const std::string& path) {
   auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
   // A folder can be opened but not read.
   if (!*file || (file->peek(), file->bad())) {
-    return tl::unexpected(Problem{
-        ProblemName::unreadable_file, {}, fmt::format("the file '{}' cannot be read", path)});
+    return tl::unexpected(
+        Problem{unreadable_file, {}, fmt::format("the file '{}' cannot be read", path)});
   }
   file->clear();
   return LineSource(std::move(file));
@@ -165,7 +160,7 @@ bool LineSource::next(SourceLine& line) {
   for (;;) {
     while (end < buffer_.size() && buffer_[end] != '\n' && buffer_[end] != '\r') {
       if (buffer_[end] == '\0') {
-        refuse(ProblemName::not_text,
+        refuse(not_text,
                {lines_before_ + 1, end - begin_ + 1},
                "a zero byte stands here: the file is not plain text (UTF-16, or no G-code at all)");
       }
@@ -180,7 +175,7 @@ bool LineSource::next(SourceLine& line) {
     end = begin_ + length;
   }
   if (end - begin_ > kMaxLineLength) {
-    refuse(ProblemName::line_too_long,
+    refuse(line_too_long,
            {lines_before_ + 1, 0},
            fmt::format("the line is longer than {} characters: its line ends are lost, or "
                        "this is no program",

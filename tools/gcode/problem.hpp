@@ -23,6 +23,8 @@ enum class ProblemName {
 #undef CHAINTRUE_GCODE_PROBLEM
 };
 
+using enum ProblemName;
+
 /// Place in the source file, counted from 1; column 0 is the line as a whole, line 0 the file.
 struct Place {
   std::size_t line = 0;

@@ -95,7 +95,7 @@ class Program::Runner {
                  block_,
                  dialect.tools_have_no_diameter);
     } catch (const Refusal&) {
-      if (holds_moves(line_.text)) line_ends_lost(raw.number);
+      if (holds_moves(line_.text)) lines_lost(raw.number);
       throw;
     }
     follow(interpreter_.execute(block_, line_.comments));
@@ -105,12 +105,12 @@ class Program::Runner {
     const std::string_view text = raw.text.substr(first);
     for (const OtherKind& kind : kOtherKinds) {
       if (!text.starts_with(kind.beginning) || (begun_ && text.front() != '<')) continue;
-      refuse(ProblemName::not_a_program, {raw.number, first + 1}, kind.sentence);
+      refuse(not_a_program, {raw.number, first + 1}, kind.sentence);
     }
   }
 
-  [[noreturn]] static void line_ends_lost(std::size_t line) {
-    refuse(ProblemName::line_ends_lost, {line, 0}, kLineEndsLost);
+  [[noreturn]] static void lines_lost(std::size_t line) {
+    refuse(line_ends_lost, {line, 0}, kLineEndsLost);
   }
 
   /// The text is the operator's: a plotter's controller shows it, in other programs it is a message.
@@ -128,8 +128,7 @@ class Program::Runner {
     const std::size_t start = ++at;
     while (peek(at) >= '0' && peek(at) <= '9') ++at;
     if (at == start)
-      refuse(
-          ProblemName::bad_line_number, line_.place(start), "N needs a whole number, not negative");
+      refuse(bad_line_number, line_.place(start), "N needs a whole number, not negative");
     if (peek(at) == '.') {
       ++at;
       while (peek(at) >= '0' && peek(at) <= '9') ++at;
@@ -137,15 +136,13 @@ class Program::Runner {
   }
 
   void percent(const SourceLine& raw) {
-    if (holds_moves(raw.text)) line_ends_lost(raw.number);
+    if (holds_moves(raw.text)) lines_lost(raw.number);
     if (!begun_ && !opened_by_percent_) {
       opened_by_percent_ = true;
       return;
     }
     if (!opened_by_percent_) {
-      refuse(ProblemName::bad_character,
-             {raw.number, 1},
-             "a % ends a program only where a % began it");
+      refuse(bad_character, {raw.number, 1}, "a % ends a program only where a % began it");
     }
     return end(raw.number, "%");
   }

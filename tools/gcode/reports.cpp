@@ -42,7 +42,7 @@ class Sampler final : public Sink {
         write_({move.line, move.kind, place, *answer, feed});
         continue;
       }
-      findings_.add(Problem{ProblemName::outside_map,
+      findings_.add(Problem{outside_map,
                             {move.line, 0},
                             fmt::format("X{:.3f} Y{:.3f} {}",
                                         place.x_mm,
@@ -82,7 +82,7 @@ class Surveyor final : public Sink {
   }
   /// Where home is does not matter as long as nothing is made of it.
   void note(const Note& note) override {
-    const bool only_home = note.problem == ProblemName::unknown_home;
+    const bool only_home = note.problem == unknown_home;
     findings_.add(only_home ? Note{note.line, note.name, note.sentence} : note);
   }
   bool goes_on_after(const Problem& problem) override {
@@ -132,7 +132,7 @@ class Surveyor final : public Sink {
           area.x_max - area.x_min,
           area.y_max - area.y_min);
     }
-    findings_.add(Problem{ProblemName::outside_sheet, {line, 0}, std::move(sentence)});
+    findings_.add(Problem{outside_sheet, {line, 0}, std::move(sentence)});
   }
 
   Sheet sheet_;

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <utility>
 
-#include "tools/gcode/firmware_arc.hpp"
 #include "tools/gcode/path.hpp"
 
 namespace chaintrue::gcode {
@@ -26,7 +25,7 @@ double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm
 [[noreturn]] void no_place(const CorrectionFailure& failure, Point command, std::size_t line) {
   const bool controller = failure.reason == CorrectionReason::controller;
   refuse(
-      controller ? ProblemName::outside_controller : ProblemName::outside_map,
+      controller ? outside_controller : outside_map,
       {line, 0},
       fmt::format(
           "X{:.3f} Y{:.3f}: the tool's place {}", command.x_mm, command.y_mm, failure.sentence()));

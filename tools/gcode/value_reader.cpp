@@ -90,9 +90,7 @@ const Operator* operator_at(std::string_view text) {
 
 double finite(double value, const char* refusal, Place place) {
   if (std::isfinite(value)) return value;
-  refuse(ProblemName::arithmetic,
-         place,
-         std::isnan(value) ? refusal : "the result is too large for a number");
+  refuse(arithmetic, place, std::isnan(value) ? refusal : "the result is too large for a number");
 }
 
 /// The fewest decimals that read back as the value.
@@ -182,11 +180,10 @@ bool ValueReader::accept(std::string_view text) {
 double ValueReader::real() {
   const Nesting nesting(*this);
   if (nesting.too_deep()) {
-    refuse(ProblemName::bad_expression, place(), "the expression is nested too deeply");
+    refuse(bad_expression, place(), "the expression is nested too deeply");
   }
   const char c = peek();
-  if (c == '\0')
-    refuse(ProblemName::bad_number, place(), "a number is missing at the end of the line");
+  if (c == '\0') refuse(bad_number, place(), "a number is missing at the end of the line");
   if (c == '#') return parameter();
   if (c == '[') return bracketed();
   if (c == '+' || c == '-') {
@@ -217,13 +214,13 @@ double ValueReader::number() {
   const auto [stop, error] = grid::files::parse_double(
       digits.data(), digits.data() + digits.size(), value, grid::files::NumberForm::fixed);
   if (digits.empty() || error == std::errc::invalid_argument) {
-    refuse(ProblemName::bad_number, start, "a number was expected here");
+    refuse(bad_number, start, "a number was expected here");
   }
   if (stop != digits.data() + digits.size()) {
-    refuse(ProblemName::bad_number, start, fmt::format("'{}' is no number", digits));
+    refuse(bad_number, start, fmt::format("'{}' is no number", digits));
   }
   if (error != std::errc{} || !std::isfinite(value)) {
-    refuse(ProblemName::number_out_of_range, start, fmt::format("'{}' is out of range", digits));
+    refuse(number_out_of_range, start, fmt::format("'{}' is out of range", digits));
   }
   at_ = end;
   return value;
@@ -234,19 +231,17 @@ long ValueReader::integer() {
   const auto value = real();
   const double rounded = std::round(value);
   if (std::fabs(value - rounded) > 0.0001 || std::fabs(rounded) > 1e9) {
-    refuse(ProblemName::bad_number,
-           start,
-           fmt::format("a whole number was expected, found {}", value));
+    refuse(bad_number, start, fmt::format("a whole number was expected, found {}", value));
   }
   return static_cast<long>(rounded);
 }
 
 std::string ValueReader::angle_name() {
   const Place start = place();
-  if (!accept("<")) refuse(ProblemName::bad_parameter, start, "a name in <> was expected");
+  if (!accept("<")) refuse(bad_parameter, start, "a name in <> was expected");
   const std::size_t close = line_.text.find('>', at_);
   if (close == std::string::npos || close == at_) {
-    refuse(ProblemName::bad_parameter, start, "the name is empty or its '>' is missing");
+    refuse(bad_parameter, start, "the name is empty or its '>' is missing");
   }
   std::string name = line_.text.substr(at_, close - at_);
   at_ = close + 1;
@@ -259,12 +254,12 @@ double ValueReader::parameter() {
   if (peek() == '<') {
     const auto name = angle_name();
     if (const auto value = parameters_.get(name)) return *value;
-    refuse(ProblemName::bad_parameter, start, fmt::format("#<{}> has no value yet", name));
+    refuse(bad_parameter, start, fmt::format("#<{}> has no value yet", name));
   }
   const auto index = integer();
   if (index < 1 || index >= parameter::kCount) {
     refuse(
-        ProblemName::bad_parameter,
+        bad_parameter,
         start,
         fmt::format(
             "#{} does not exist: parameters are numbered 1 to {}", index, parameter::kCount - 1));
@@ -274,9 +269,9 @@ double ValueReader::parameter() {
 
 double ValueReader::exists() {
   const Place start = place();
-  if (!accept("[#")) refuse(ProblemName::bad_expression, start, "exists takes [#<name>]");
+  if (!accept("[#")) refuse(bad_expression, start, "exists takes [#<name>]");
   const auto name = angle_name();
-  if (!accept("]")) refuse(ProblemName::bad_expression, place(), "']' was expected");
+  if (!accept("]")) refuse(bad_expression, place(), "']' was expected");
   return truth(parameters_.get(name).has_value());
 }
 
@@ -285,25 +280,25 @@ double ValueReader::function() {
   if (accept("exists")) return exists();
   if (accept("atan")) {
     const double y = bracketed();
-    if (!accept("/")) refuse(ProblemName::bad_expression, place(), "atan takes [y]/[x]");
+    if (!accept("/")) refuse(bad_expression, place(), "atan takes [y]/[x]");
     return std::atan2(y, bracketed()) / kRadiansPerDegree;
   }
   for (const Function& candidate : kFunctions) {
     if (!accept(candidate.name)) continue;
     return finite(candidate.apply(bracketed()), candidate.refusal, start);
   }
-  refuse(ProblemName::bad_number, start, "a number was expected here, not a letter");
+  refuse(bad_number, start, "a number was expected here, not a letter");
 }
 
 double ValueReader::bracketed() {
   const Nesting nesting(*this);
   if (nesting.too_deep()) {
-    refuse(ProblemName::bad_expression, place(), "the expression is nested too deeply");
+    refuse(bad_expression, place(), "the expression is nested too deeply");
   }
-  if (!accept("[")) refuse(ProblemName::bad_expression, place(), "'[' was expected");
+  if (!accept("[")) refuse(bad_expression, place(), "'[' was expected");
   const double value = operand_chain(1);
   if (!accept("]")) {
-    refuse(ProblemName::bad_expression, place(), "an operator or ']' was expected");
+    refuse(bad_expression, place(), "an operator or ']' was expected");
   }
   return value;
 }
