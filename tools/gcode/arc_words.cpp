@@ -62,7 +62,7 @@ PlanePoint by_radius(const ArcRequest& request, const Block& block) {
       std::sqrt(std::max(0.0, (magnitude - half_chord) * (magnitude + half_chord)));
   // The short arc has its centre to the right of a clockwise chord; a negative radius selects the
   // long arc.
-  const bool right = request.clockwise == (radius > 0.0);
+  const bool right = (request.turns < 0) == (radius > 0.0);
   const double side = right ? -1.0 : 1.0;
   const double length = 2.0 * half_chord;
   return PlanePoint{
@@ -104,9 +104,22 @@ PlanePoint by_centre(const ArcRequest& request, const Block& block) {
   return centre;
 }
 
+double angle(PlanePoint from, PlanePoint to) {
+  return std::atan2(to.second_mm - from.second_mm, to.first_mm - from.first_mm);
+}
+
+double swept(double from, double to, int turns) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double direction = turns > 0 ? 1.0 : -1.0;
+  double sweep = direction * (to - from);
+  while (sweep <= kWholeTurnRad) sweep += kTurn;
+  while (sweep > kTurn + kWholeTurnRad) sweep -= kTurn;
+  return direction * (sweep + (std::abs(turns) - 1) * kTurn);
+}
+
 }  // namespace
 
-PlanePoint arc_centre(const ArcRequest& request, const Block& block) {
+Circle circle_of(const ArcRequest& request, const Block& block) {
   // Across the plane zero means nothing; FreeCAD writes it with every arc.
   const char across = centre_word(request.normal_axis);
   if (block.find(across).value_or(0.0) != 0.0) {
@@ -125,19 +138,13 @@ PlanePoint arc_centre(const ArcRequest& request, const Block& block) {
   if (!block.has(request.first_axis) && !block.has(request.second_axis) && block.has('r')) {
     refuse(bad_arc, block, "an arc by radius needs an end point");
   }
-  return block.has('r') ? by_radius(request, block) : by_centre(request, block);
-}
-
-double arc_sweep(PlanePoint start, PlanePoint end, PlanePoint centre, int turns) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  const double from =
-      std::atan2(start.second_mm - centre.second_mm, start.first_mm - centre.first_mm);
-  const double to = std::atan2(end.second_mm - centre.second_mm, end.first_mm - centre.first_mm);
-  const double direction = turns > 0 ? 1.0 : -1.0;
-  double sweep = direction * (to - from);
-  while (sweep <= kWholeTurnRad) sweep += kTurn;
-  while (sweep > kTurn + kWholeTurnRad) sweep -= kTurn;
-  return direction * (sweep + (std::abs(turns) - 1) * kTurn);
+  const PlanePoint centre = block.has('r') ? by_radius(request, block) : by_centre(request, block);
+  const double from = angle(centre, request.start);
+  return {centre,
+          distance(centre, request.start),
+          distance(centre, request.end),
+          from,
+          swept(from, angle(centre, request.end), request.turns)};
 }
 
 }  // namespace chaintrue::gcode

@@ -23,16 +23,22 @@ struct ArcRequest {
   char first_axis = 'x';   ///< G18: z
   char second_axis = 'y';  ///< G18: x
   char normal_axis = 'z';
-  bool clockwise = false;
+  int turns = 1;  ///< started ones; below zero clockwise
   bool absolute_centre = false;
   double mm_per_unit = 1.0;
 };
 
-/// The centre, in the program's frame.
-[[nodiscard]] PlanePoint arc_centre(const ArcRequest& request, const Block& block);
+struct Circle {
+  PlanePoint centre;  ///< in the program's frame
+  double start_radius_mm = 0.0;
+  double end_radius_mm = 0.0;
+  double start_angle_rad = 0.0;
+  /// From start to end about the centre, signed. An end within 5e-7 rad of the start makes a whole
+  /// turn (grbl's ARC_ANGULAR_TRAVEL_EPSILON).
+  double sweep_rad = 0.0;
+};
 
-/// The angle from start to end about the centre, signed, with `turns` started turns. An end within
-/// 5e-7 rad of the start makes a whole turn (grbl's ARC_ANGULAR_TRAVEL_EPSILON).
-[[nodiscard]] double arc_sweep(PlanePoint start, PlanePoint end, PlanePoint centre, int turns);
+/// \throws Refusal (bad_arc)
+[[nodiscard]] Circle circle_of(const ArcRequest& request, const Block& block);
 
 }  // namespace chaintrue::gcode

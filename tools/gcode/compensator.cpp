@@ -94,7 +94,7 @@ Result<CompensateSummary> Compensator::run(LineSource& source, const Dialect& di
   });
 }
 
-tl::expected<model::BedPoint, CorrectionFailure> Compensator::command(model::BedPoint target) {
+Corrected<model::BedPoint> Compensator::command(model::BedPoint target) {
   // Beyond the measured points a map may refuse, place by place.
   if (corrector_.map().status(target) < grid::MapStatus::extrapolated) {
     if (const auto offset = table_.value(target.x_mm, target.y_mm)) {
@@ -105,7 +105,7 @@ tl::expected<model::BedPoint, CorrectionFailure> Compensator::command(model::Bed
 }
 
 Curve Compensator::curve(const Move& move, ChainDirections directions) {
-  return [this, &move, directions](double t) -> tl::expected<PathSample, CorrectionFailure> {
+  return [this, &move, directions](double t) -> Corrected<PathSample> {
     const Point target = at(move, t);
     const model::BedPoint place{target.x_mm, target.y_mm};
     const auto command = options_.has_play()

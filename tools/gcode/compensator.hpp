@@ -53,7 +53,7 @@ class Compensator final : private Sink {
   void end(std::size_t /*line*/, std::string_view word) override { limits_.end(word); }
 
   /// Corrector::command, from tables in the regions where a program cuts often.
-  [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> command(model::BedPoint target);
+  [[nodiscard]] Corrected<model::BedPoint> command(model::BedPoint target);
   [[nodiscard]] Curve curve(const Move& move, ChainDirections directions);
   void go_to_assumed_start(const Move& move);
   void along(const Move& move, double feed);

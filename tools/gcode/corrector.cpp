@@ -69,12 +69,13 @@ model::ChainLengths half_play_mm(const model::Machine& machine) {
   return half;
 }
 
-tl::expected<model::BedPoint, CorrectionFailure> Corrector::command(model::BedPoint target) const {
+Corrected<model::BedPoint> Corrector::command(model::BedPoint target) const {
   return command(target, {}, {});
 }
 
-tl::expected<model::BedPoint, CorrectionFailure> Corrector::command(
-    model::BedPoint target, model::ChainLengths half_play_mm, ChainDirections directions) const {
+Corrected<model::BedPoint> Corrector::command(model::BedPoint target,
+                                              model::ChainLengths half_play_mm,
+                                              ChainDirections directions) const {
   auto lengths = map_.lengths(target);
   if (!lengths) return tl::unexpected(correction_failure(lengths.error()));
   lengths->left_mm += directions.left * half_play_mm.left_mm;
@@ -87,8 +88,7 @@ tl::expected<model::BedPoint, CorrectionFailure> Corrector::command(
   return *result;
 }
 
-tl::expected<model::ChainLengths, CorrectionFailure> Corrector::paid_out(
-    model::BedPoint command) const {
+Corrected<model::ChainLengths> Corrector::paid_out(model::BedPoint command) const {
   const auto lengths = kinematics_.lengths(command);
   if (!lengths) {
     return tl::unexpected(out_of_controllers_reach(lengths.error()));
@@ -96,7 +96,7 @@ tl::expected<model::ChainLengths, CorrectionFailure> Corrector::paid_out(
   return *lengths;
 }
 
-tl::expected<model::BedPoint, CorrectionFailure> Corrector::tool(model::BedPoint command) const {
+Corrected<model::BedPoint> Corrector::tool(model::BedPoint command) const {
   const auto lengths = paid_out(command);
   if (!lengths) return tl::unexpected(lengths.error());
   const auto point = map_.tool(*lengths);
@@ -140,7 +140,7 @@ namespace {
 template <class Place>
 interp::CheckedField::Function offsets_of(Place place) {
   return [place](double x, double y) -> std::optional<interp::CheckedField::Value> {
-    const tl::expected<model::BedPoint, CorrectionFailure> found = place(model::BedPoint{x, y});
+    const Corrected<model::BedPoint> found = place(model::BedPoint{x, y});
     if (!found) return std::nullopt;
     return interp::CheckedField::Value{found->x_mm - x, found->y_mm - y};
   };

@@ -31,6 +31,8 @@ enum class CorrectionReason {
 [[nodiscard]] std::string_view sentence_of(CorrectionReason reason);
 /// Of `unreachable` and `controller` with the cause, where it is known.
 using CorrectionFailure = Failure<CorrectionReason>;
+template <class T>
+using Corrected = tl::expected<T, CorrectionFailure>;
 [[nodiscard]] CorrectionFailure correction_failure(const grid::MapFailure& failure);
 [[nodiscard]] CorrectionFailure out_of_controllers_reach(const model::PoseFailure& why);
 
@@ -55,15 +57,13 @@ class Corrector {
             const Firmware& firmware)
       : map_(map), kinematics_(kinematics), firmware_(firmware) {}
 
-  [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> command(
-      model::BedPoint target) const;
+  [[nodiscard]] Corrected<model::BedPoint> command(model::BedPoint target) const;
   /// With half the play added in the chains' directions of motion.
-  [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> command(
-      model::BedPoint target, model::ChainLengths half_play_mm, ChainDirections directions) const;
-  [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> tool(
-      model::BedPoint command) const;
-  [[nodiscard]] tl::expected<model::ChainLengths, CorrectionFailure> paid_out(
-      model::BedPoint command) const;
+  [[nodiscard]] Corrected<model::BedPoint> command(model::BedPoint target,
+                                                   model::ChainLengths half_play_mm,
+                                                   ChainDirections directions) const;
+  [[nodiscard]] Corrected<model::BedPoint> tool(model::BedPoint command) const;
+  [[nodiscard]] Corrected<model::ChainLengths> paid_out(model::BedPoint command) const;
 
   [[nodiscard]] const grid::LengthMap& map() const { return map_; }
   [[nodiscard]] const model::ControllerKinematics& kinematics() const { return kinematics_; }

@@ -227,11 +227,11 @@ void Interpreter::arc(const Block& block, bool clockwise) {
   request.first_axis = kAxisLetters[plane.first];
   request.second_axis = kAxisLetters[plane.second];
   request.normal_axis = kAxisLetters[plane.normal];
-  request.clockwise = clockwise;
+  request.turns = static_cast<int>(clockwise ? -count : count);
   request.absolute_centre = modes_.absolute_centres;
   request.mm_per_unit = mm_per_unit();
   // LinuxCNC takes absolute centres in the program's frame, offsets included.
-  const auto found = attempt([&] { return arc_centre(request, block); });
+  const auto found = attempt([&] { return circle_of(request, block); });
   if (!found) {
     if (!sink_.goes_on_after(found.error())) throw Refusal(found.error());
     machine_ = machine;
@@ -244,21 +244,17 @@ void Interpreter::arc(const Block& block, bool clockwise) {
     return Point{0.0, 0.0, 1.0};
   };
   Axes centre = start;
-  centre[plane.first] = found->first_mm;
-  centre[plane.second] = found->second_mm;
-  const PlanePoint middle = *found;
+  centre[plane.first] = found->centre.first_mm;
+  centre[plane.second] = found->centre.second_mm;
   Arc arc;
   arc.centre = on_sheet(to_machine(centre));
   arc.first = direction(plane.first);
   arc.second = direction(plane.second);
-  arc.start_radius_mm = std::hypot(request.start.first_mm - middle.first_mm,
-                                   request.start.second_mm - middle.second_mm);
-  arc.end_radius_mm =
-      std::hypot(request.end.first_mm - middle.first_mm, request.end.second_mm - middle.second_mm);
-  arc.start_angle_rad = std::atan2(request.start.second_mm - middle.second_mm,
-                                   request.start.first_mm - middle.first_mm);
-  arc.turns = static_cast<int>(clockwise ? -count : count);
-  arc.sweep_rad = arc_sweep(request.start, request.end, middle, arc.turns);
+  arc.start_radius_mm = found->start_radius_mm;
+  arc.end_radius_mm = found->end_radius_mm;
+  arc.start_angle_rad = found->start_angle_rad;
+  arc.sweep_rad = found->sweep_rad;
+  arc.turns = request.turns;
   arc.end_height_mm = end[plane.normal] - start[plane.normal];
   constexpr double kHalfTurnRad = std::numbers::pi * (1.0 + 1e-6);
   const double sweep = std::fabs(arc.sweep_rad);

@@ -84,25 +84,20 @@ void Interpreter::once(const Block& block) {
     case g::home:
       return go_home(block, parameter::kHome);
     case g::set_home:
-      store_home(parameter::kHome);
-      return;
+      return store_home(parameter::kHome);
     case g::second_home:
       return go_home(block, parameter::kSecondHome);
     case g::set_second_home:
-      store_home(parameter::kSecondHome);
-      return;
+      return store_home(parameter::kSecondHome);
     case g::local_offset:
     case g::offset_here:
       return set_offset(block);
     case g::offset_off_forget:
-      cancel_offset(true);
-      return;
+      return cancel_offset(true);
     case g::offset_off:
-      cancel_offset(false);
-      return;
+      return cancel_offset(false);
     case g::offset_restore:
-      restore_offset();
-      return;
+      return restore_offset();
     default:
       return;
   }

@@ -109,7 +109,7 @@ void Limits::object(const Move& move, const CorrectionFailure& failure, Point pl
   findings_.add(
       Problem{failure.reason == CorrectionReason::controller ? outside_controller : outside_map,
               {move.line, 0},
-              fmt::format("X{:.3f} Y{:.3f} {}", place.x_mm, place.y_mm, failure.sentence())});
+              fmt::format("{} {}", in_xy(place), failure.sentence())});
 }
 
 /// Checks a sample against the limits.
@@ -127,12 +127,10 @@ void Limits::examine(const Move& move, const PathSample& sample) {
   if (size > options_.largest_correction_mm) {
     object_to(
         correction_too_large,
-        fmt::format(
-            "X{:.3f} Y{:.3f} would be corrected by {:.2f} mm, more than the {} mm that are allowed",
-            sample.target.x_mm,
-            sample.target.y_mm,
-            size,
-            options_.largest_correction_mm));
+        fmt::format("{} would be corrected by {:.2f} mm, more than the {} mm that are allowed",
+                    in_xy(sample.target),
+                    size,
+                    options_.largest_correction_mm));
   }
   if (const auto& box = options_.clamp_box) {
     const double beyond = std::max(std::fabs(sample.command.x_mm) - box->half_width_mm,
@@ -141,12 +139,10 @@ void Limits::examine(const Move& move, const PathSample& sample) {
       object_to(
           outside_controller,
           fmt::format(
-              "X{:.3f} Y{:.3f} needs the command X{:.3f} Y{:.3f}, {:.2f} mm beyond the bed, where "
+              "{} needs the command {}, {:.2f} mm beyond the bed, where "
               "the controller silently cuts it off; enlarge the bed in its settings by {:.0f} mm",
-              sample.target.x_mm,
-              sample.target.y_mm,
-              sample.command.x_mm,
-              sample.command.y_mm,
+              in_xy(sample.target),
+              in_xy(sample.command),
               beyond,
               std::ceil(2.0 * beyond)));
     }
@@ -161,10 +157,9 @@ void Limits::examine(const Move& move, const PathSample& sample) {
       summary_.steepest_correction = std::max(summary_.steepest_correction, slope);
       if (slope > options_.steepest_correction) {
         object_to(correction_too_steep,
-                  fmt::format("before X{:.3f} Y{:.3f} the correction changes by {:.3f} mm per "
+                  fmt::format("before {} the correction changes by {:.3f} mm per "
                               "mm, more than the {} that are allowed",
-                              sample.target.x_mm,
-                              sample.target.y_mm,
+                              in_xy(sample.target),
                               slope,
                               options_.steepest_correction));
       }
@@ -174,10 +169,9 @@ void Limits::examine(const Move& move, const PathSample& sample) {
       grid::MapStatus::extrapolated) {
     findings_.add(Note{move.line,
                        "extrapolated",
-                       fmt::format("X{:.3f} Y{:.3f} lies outside the measured points: the "
+                       fmt::format("{} lies outside the measured points: the "
                                    "correction there is extrapolated",
-                                   sample.target.x_mm,
-                                   sample.target.y_mm)});
+                                   in_xy(sample.target))});
   }
 }
 

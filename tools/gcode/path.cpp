@@ -3,34 +3,26 @@
 /// Points and lengths of moves.
 #include "tools/gcode/path.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace chaintrue::gcode {
 
-Point between(Point a, Point b, double t) {
-  return {a.x_mm + t * (b.x_mm - a.x_mm),
-          a.y_mm + t * (b.y_mm - a.y_mm),
-          a.z_mm + t * (b.z_mm - a.z_mm)};
-}
+std::string in_xy(Point point) { return fmt::format("X{:.3f} Y{:.3f}", point.x_mm, point.y_mm); }
+
+Point between(Point a, Point b, double t) { return a + t * (b - a); }
 
 double distance_mm(Point a, Point b) {
   // Millimetres neither overflow nor underflow when squared; std::hypot is four times slower.
-  const double dx = a.x_mm - b.x_mm;
-  const double dy = a.y_mm - b.y_mm;
-  const double dz = a.z_mm - b.z_mm;
-  return std::sqrt(dx * dx + dy * dy + dz * dz);
+  return std::sqrt(dot(a - b, a - b));
 }
 
 double nearest_on_line(Point a, Point b, Point p) {
-  const double dx = b.x_mm - a.x_mm;
-  const double dy = b.y_mm - a.y_mm;
-  const double dz = b.z_mm - a.z_mm;
-  const double squared = dx * dx + dy * dy + dz * dz;
-  if (squared == 0.0) return 0.0;
-  const double along = dx * (p.x_mm - a.x_mm) + dy * (p.y_mm - a.y_mm) + dz * (p.z_mm - a.z_mm);
-  return std::clamp(along / squared, 0.0, 1.0);
+  const double squared = dot(b - a, b - a);
+  return squared == 0.0 ? 0.0 : std::clamp(dot(b - a, p - a) / squared, 0.0, 1.0);
 }
 
 Point in_plane(const Arc& arc, double u, double v, double height_mm) {
@@ -39,9 +31,7 @@ Point in_plane(const Arc& arc, double u, double v, double height_mm) {
   const Point normal{a.y_mm * b.z_mm - a.z_mm * b.y_mm,
                      a.z_mm * b.x_mm - a.x_mm * b.z_mm,
                      a.x_mm * b.y_mm - a.y_mm * b.x_mm};
-  return {arc.centre.x_mm + u * a.x_mm + v * b.x_mm + height_mm * normal.x_mm,
-          arc.centre.y_mm + u * a.y_mm + v * b.y_mm + height_mm * normal.y_mm,
-          arc.centre.z_mm + u * a.z_mm + v * b.z_mm + height_mm * normal.z_mm};
+  return arc.centre + u * a + v * b + height_mm * normal;
 }
 
 double chords_within(double radius_mm, double sweep_rad, double bow_mm, double fewest) {

@@ -4,11 +4,27 @@
 /// rounded words.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tools/gcode/events.hpp"
 
 namespace chaintrue::gcode {
+
+constexpr Point operator+(Point a, Point b) {
+  return {a.x_mm + b.x_mm, a.y_mm + b.y_mm, a.z_mm + b.z_mm};
+}
+constexpr Point operator-(Point a, Point b) {
+  return {a.x_mm - b.x_mm, a.y_mm - b.y_mm, a.z_mm - b.z_mm};
+}
+constexpr Point operator*(double factor, Point a) {
+  return {factor * a.x_mm, factor * a.y_mm, factor * a.z_mm};
+}
+constexpr double dot(Point a, Point b) {
+  return a.x_mm * b.x_mm + a.y_mm * b.y_mm + a.z_mm * b.z_mm;
+}
+/// "X1.000 Y2.000", for messages.
+[[nodiscard]] std::string in_xy(Point point);
 
 /// The point at t = 0 .. 1; exactly `from` and `to` at the ends. Lines: constant speed; arcs:
 /// constant angular speed.

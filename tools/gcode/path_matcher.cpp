@@ -21,33 +21,20 @@ constexpr double kWiden = 1.1;
 constexpr double kMostDistanceMm = 1e6;
 constexpr double kHalf = 0.5;
 
-double squared(Point a, Point b) {
-  const double x = a.x_mm - b.x_mm;
-  const double y = a.y_mm - b.y_mm;
-  const double z = a.z_mm - b.z_mm;
-  return x * x + y * y + z * z;
-}
+double squared(Point a, Point b) { return dot(a - b, a - b); }
 
-struct Interval {
-  double low = 1.0;
-  double high = 0.0;
-};
+}  // namespace
 
 /// The part of the piece a b within a distance of c. The ends are decided by their own distances,
 /// so that the four edges that meet in a corner are consistent.
-Interval free_part(Point a, Point b, Point c, double distance2) {
+PathMatcher::Span PathMatcher::free_part(Point a, Point b, Point c, double distance2) {
   const bool a_inside = squared(a, c) <= distance2;
   const bool b_inside = squared(b, c) <= distance2;
   if (a_inside && b_inside) return {0.0, 1.0};
-  const double dx = b.x_mm - a.x_mm;
-  const double dy = b.y_mm - a.y_mm;
-  const double dz = b.z_mm - a.z_mm;
-  const double length2 = dx * dx + dy * dy + dz * dz;
+  const double length2 = squared(a, b);
   if (length2 == 0.0) return {};
-  const double along =
-      (dx * (c.x_mm - a.x_mm) + dy * (c.y_mm - a.y_mm) + dz * (c.z_mm - a.z_mm)) / length2;
-  const Point foot{a.x_mm + along * dx, a.y_mm + along * dy, a.z_mm + along * dz};
-  const double rest = distance2 - squared(foot, c);
+  const double along = dot(b - a, c - a) / length2;
+  const double rest = distance2 - squared(a + along * (b - a), c);
   if (rest < 0.0) {
     // The line is outside, up to the rounding of an end that is just inside.
     if (a_inside) return {0.0, 0.0};
@@ -60,8 +47,6 @@ Interval free_part(Point a, Point b, Point c, double distance2) {
   if (low > 1.0 || high < 0.0) return {};
   return {std::clamp(low, 0.0, 1.0), std::clamp(high, 0.0, 1.0)};
 }
-
-}  // namespace
 
 PathMatcher::PathMatcher(const Limits& limits, Path path)
     : limits_(limits), path_(std::move(path)), distance_mm_(limits.distance_mm) {}
@@ -130,7 +115,7 @@ void PathMatcher::close_up() {
     note_corner(open_[reached_], tool_, tool_line_);
     if (reached_ + 1 == open_.size() && !read()) return;
     Open& next = open_[reached_ + 1];
-    const Interval part = free_part(next.from, next.piece.to, tool_, distance_mm_ * distance_mm_);
+    const Span part = free_part(next.from, next.piece.to, tool_, distance_mm_ * distance_mm_);
     if (part.low > 0.0 || part.low > part.high) return;
     next.left = {0.0, part.high};
     ++reached_;
@@ -199,10 +184,8 @@ bool PathMatcher::column(const PathPiece& piece, bool pinned, double distance_mm
       continue;
     }
     Open& open = open_[i];
-    const Interval right_free = free_part(open.from, open.piece.to, piece.to, distance2);
-    const Interval top_free = free_part(tool_, piece.to, open.piece.to, distance2);
-    Span right{right_free.low, right_free.high};
-    Span top{top_free.low, top_free.high};
+    Span right = free_part(open.from, open.piece.to, piece.to, distance2);
+    Span top = free_part(tool_, piece.to, open.piece.to, distance2);
     cell(open, bottom, piece, pinned, labels, right, top);
     open.right = right;
     any = any || !right.empty();

@@ -111,6 +111,7 @@ class PathMatcher {
     Deviation corner;  // the tool's nearest approach to the piece's end
   };
 
+  static Span free_part(Point a, Point b, Point c, double distance2);
   bool read();
   bool pin(Run& run, Point from, const PathPiece& piece) const;
   [[nodiscard]] bool agree(const PathPiece& a, const PathPiece& b) const;

@@ -42,12 +42,10 @@ class Sampler final : public Sink {
         write_({move.line, move.kind, place, *answer, feed});
         continue;
       }
-      findings_.add(Problem{outside_map,
-                            {move.line, 0},
-                            fmt::format("X{:.3f} Y{:.3f} {}",
-                                        place.x_mm,
-                                        place.y_mm,
-                                        correction_failure(answer.error()).sentence())});
+      findings_.add(Problem{
+          outside_map,
+          {move.line, 0},
+          fmt::format("{} {}", in_xy(place), correction_failure(answer.error()).sentence())});
       return;
     }
   }
@@ -124,8 +122,7 @@ class Surveyor final : public Sink {
                                     area.y_min - place.y_mm,
                                     place.y_mm - area.y_max});
     if (beyond <= 1e-9) return;
-    std::string sentence = fmt::format(
-        "X{:.3f} Y{:.3f} lies {:.2f} mm outside the sheet", place.x_mm, place.y_mm, beyond);
+    std::string sentence = fmt::format("{} lies {:.2f} mm outside the sheet", in_xy(place), beyond);
     if (sheet_.is_assumed) {
       sentence += fmt::format(
           ", taken to be {:g} x {:g} mm with X0 Y0 in its middle; --machine states another",

@@ -29,11 +29,11 @@ constexpr double kShortestMm = 0.002;
 
 }  // namespace
 
-tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& curve,
-                                                                const PathSample& a,
-                                                                const PathSample& b,
-                                                                double length_mm,
-                                                                double feed_mm_per_min) const {
+Corrected<double> Segmenter::deviation_mm(const Curve& curve,
+                                          const PathSample& a,
+                                          const PathSample& b,
+                                          double length_mm,
+                                          double feed_mm_per_min) const {
   const auto way = [&](double doubt_mm) {
     return CommandWay(corrector_.firmware(),
                       corrector_.kinematics(),
@@ -52,11 +52,11 @@ tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& cur
   return second ? std::max(*first, *second) : second;
 }
 
-tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& curve,
-                                                                const PathSample& a,
-                                                                const PathSample& b,
-                                                                double length_mm,
-                                                                CommandWay& way) const {
+Corrected<double> Segmenter::deviation_mm(const Curve& curve,
+                                          const PathSample& a,
+                                          const PathSample& b,
+                                          double length_mm,
+                                          CommandWay& way) const {
   int checks = std::max(kFewestChecks,
                         static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEveryMm))));
   const bool own_way = is_chain_linear(corrector_.firmware());
@@ -85,12 +85,11 @@ tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& cur
   return own_way ? worst + way.pieces() * kPieceRoundingMm : worst;
 }
 
-tl::expected<void, CorrectionFailure> Segmenter::run(
-    const Curve& curve,
-    const PathSample& start,
-    double end,
-    Extent extent,
-    const std::function<void(const PathSample&)>& visit) {
+Corrected<void> Segmenter::run(const Curve& curve,
+                               const PathSample& start,
+                               double end,
+                               Extent extent,
+                               const std::function<void(const PathSample&)>& visit) {
   const double length_mm = extent.length_mm;
   const double per_mm = length_mm > 0.0 ? (end - start.t) / length_mm : 0.0;
   PathSample a = start;

@@ -24,7 +24,7 @@ struct PathSample {
 };
 
 /// The curve: target and command at t.
-using Curve = std::function<tl::expected<PathSample, CorrectionFailure>(double t)>;
+using Curve = std::function<Corrected<PathSample>(double t)>;
 
 class Segmenter {
  public:
@@ -42,27 +42,26 @@ class Segmenter {
   /// Visits the samples after `start` up to t = `end`, in order.
   /// \param extent the curve's length from start to end, which affects only the first trial and
   /// the density of checks, and the largest part of it that one command may cover.
-  [[nodiscard]] tl::expected<void, CorrectionFailure> run(
-      const Curve& curve,
-      const PathSample& start,
-      double end,
-      Extent extent,
-      const std::function<void(const PathSample&)>& visit);
+  [[nodiscard]] Corrected<void> run(const Curve& curve,
+                                    const PathSample& start,
+                                    double end,
+                                    Extent extent,
+                                    const std::function<void(const PathSample&)>& visit);
 
   /// The largest distance from the curve between two samples to the controller's path between their
   /// commands.
-  [[nodiscard]] tl::expected<double, CorrectionFailure> deviation_mm(const Curve& curve,
-                                                                     const PathSample& a,
-                                                                     const PathSample& b,
-                                                                     double length_mm,
-                                                                     double feed_mm_per_min) const;
+  [[nodiscard]] Corrected<double> deviation_mm(const Curve& curve,
+                                               const PathSample& a,
+                                               const PathSample& b,
+                                               double length_mm,
+                                               double feed_mm_per_min) const;
 
  private:
-  [[nodiscard]] tl::expected<double, CorrectionFailure> deviation_mm(const Curve& curve,
-                                                                     const PathSample& a,
-                                                                     const PathSample& b,
-                                                                     double length_mm,
-                                                                     CommandWay& way) const;
+  [[nodiscard]] Corrected<double> deviation_mm(const Curve& curve,
+                                               const PathSample& a,
+                                               const PathSample& b,
+                                               double length_mm,
+                                               CommandWay& way) const;
 
   const Corrector& corrector_;
   double tolerance_mm_;

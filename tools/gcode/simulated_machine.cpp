@@ -24,11 +24,9 @@ double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm
 
 [[noreturn]] void no_place(const CorrectionFailure& failure, Point command, std::size_t line) {
   const bool controller = failure.reason == CorrectionReason::controller;
-  refuse(
-      controller ? outside_controller : outside_map,
-      {line, 0},
-      fmt::format(
-          "X{:.3f} Y{:.3f}: the tool's place {}", command.x_mm, command.y_mm, failure.sentence()));
+  refuse(controller ? outside_controller : outside_map,
+         {line, 0},
+         fmt::format("{}: the tool's place {}", in_xy(command), failure.sentence()));
 }
 
 }  // namespace
@@ -131,16 +129,15 @@ bool SimulatedMachine::straight(Point from, Point to, const Move& move, const Vi
 bool SimulatedMachine::chain_linear(Point from, Point to, const Move& move, const Visit& visit) {
   const double length = xy_distance(from, to);
   const double pieces = pieces_of(corrector_.firmware(), length, feed_mm_per_min(move));
-  const Point step{(to.x_mm - from.x_mm) / pieces,
-                   (to.y_mm - from.y_mm) / pieces,
-                   (to.z_mm - from.z_mm) / pieces};
+  // Quotients, as the firmware computes them.
+  const Point way = to - from;
+  const Point step{way.x_mm / pieces, way.y_mm / pieces, way.z_mm / pieces};
   const double looks =
       std::ceil(length / pieces / std::sqrt(8.0 * options_.flatness_mm * kShortestChainMm));
   Point here = from;
   auto paid = corrector_.paid_out({here.x_mm, here.y_mm});
   for (double piece = 1.0; paid && piece <= pieces; piece += 1.0) {
-    const Point next =
-        as_read({here.x_mm + step.x_mm, here.y_mm + step.y_mm, here.z_mm + step.z_mm});
+    const Point next = as_read(here + step);
     const auto arrived = corrector_.paid_out({next.x_mm, next.y_mm});
     if (!arrived) no_place(arrived.error(), next, move.line);
     for (double look = 1.0; look <= looks; look += 1.0) {

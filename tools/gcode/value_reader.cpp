@@ -14,7 +14,7 @@
 namespace chaintrue::gcode {
 namespace {
 
-constexpr int kDeepest = 64;
+constexpr int kDeepest = 32;
 /// LinuxCNC's TOLERANCE_EQUAL.
 constexpr double kEqual = 0.0001;
 
@@ -160,16 +160,6 @@ void Parameters::leave() {
   frames_.pop_back();
 }
 
-/// Counts the depth of nesting, so that no line can overflow the stack.
-struct ValueReader::Nesting {
-  explicit Nesting(ValueReader& reader) : depth(reader.depth_) { ++depth; }
-  ~Nesting() { --depth; }
-  Nesting(const Nesting&) = delete;
-  Nesting& operator=(const Nesting&) = delete;
-  [[nodiscard]] bool too_deep() const { return depth > kDeepest; }
-  int& depth;
-};
-
 bool ValueReader::accept(std::string_view text) {
   if (!std::string_view(line_.text).substr(std::min(at_, line_.text.size())).starts_with(text))
     return false;
@@ -178,10 +168,14 @@ bool ValueReader::accept(std::string_view text) {
 }
 
 double ValueReader::real() {
-  const Nesting nesting(*this);
-  if (nesting.too_deep()) {
-    refuse(bad_expression, place(), "the expression is nested too deeply");
-  }
+  // No line can overflow the stack.
+  if (++depth_ > kDeepest) refuse(bad_expression, place(), "the expression is nested too deeply");
+  const double value = operand();
+  --depth_;
+  return value;
+}
+
+double ValueReader::operand() {
   const char c = peek();
   if (c == '\0') refuse(bad_number, place(), "a number is missing at the end of the line");
   if (c == '#') return parameter();
@@ -291,10 +285,6 @@ double ValueReader::function() {
 }
 
 double ValueReader::bracketed() {
-  const Nesting nesting(*this);
-  if (nesting.too_deep()) {
-    refuse(bad_expression, place(), "the expression is nested too deeply");
-  }
   if (!accept("[")) refuse(bad_expression, place(), "'[' was expected");
   const double value = operand_chain(1);
   if (!accept("]")) {

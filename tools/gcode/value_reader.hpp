@@ -110,8 +110,7 @@ class ValueReader {
   [[nodiscard]] std::string angle_name();
 
  private:
-  struct Nesting;
-
+  [[nodiscard]] double operand();
   [[nodiscard]] double number();
   [[nodiscard]] double parameter();
   [[nodiscard]] double function();

@@ -158,8 +158,8 @@ FAULTS = [
           "fluid_?nc"),
     # tools/gcode
     Fault("long_arc_ignored", "tools/gcode/arc_words.cpp",
-          "request.clockwise == (radius > 0.0)",
-          "request.clockwise",
+          "(request.turns < 0) == (radius > 0.0)",
+          "request.turns < 0",
           "gcode.*(arc|corpus)"),
     Fault("play_of_other_chain", "tools/gcode/corrector.cpp",
           "directions.right * half_play_mm.right_mm",
