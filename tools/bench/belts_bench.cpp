@@ -38,10 +38,7 @@ void fit_belts(benchmark::State& state) {
 }
 BENCHMARK(fit_belts)
     ->Name("size/fit/belts")
-    ->Arg(100)
-    ->Arg(1000)
-    ->Arg(5000)
-    ->Arg(20000)
+    ->ArgsProduct({{100, 1000, 5000, 20000}})
     ->Unit(benchmark::kMillisecond);
 
 void check_belts(benchmark::State& state) {
@@ -51,10 +48,7 @@ void check_belts(benchmark::State& state) {
 }
 BENCHMARK(check_belts)
     ->Name("size/check/belts")
-    ->Arg(100)
-    ->Arg(1000)
-    ->Arg(5000)
-    ->Arg(20000)
+    ->ArgsProduct({{100, 1000, 5000, 20000}})
     ->Unit(benchmark::kMillisecond);
 
 void diagnose_belts(benchmark::State& state) {
@@ -63,10 +57,7 @@ void diagnose_belts(benchmark::State& state) {
 }
 BENCHMARK(diagnose_belts)
     ->Name("size/diagnose/belts")
-    ->Arg(100)
-    ->Arg(300)
-    ->Arg(1000)
-    ->Arg(2000)
+    ->ArgsProduct({{100, 300, 1000, 2000}})
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

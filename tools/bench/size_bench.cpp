@@ -12,8 +12,8 @@
 #include "grid/map/fit.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "grid/map/map_check.hpp"
-#include "grid/synthetic/generator.hpp"
 #include "grid/random.hpp"
+#include "grid/synthetic/generator.hpp"
 
 namespace {
 
@@ -65,11 +65,7 @@ void fit_points(benchmark::State& state) {
 }
 BENCHMARK(fit_points)
     ->Name("size/fit/points")
-    ->Arg(100)
-    ->Arg(300)
-    ->Arg(1000)
-    ->Arg(3000)
-    ->Arg(5000)
+    ->ArgsProduct({{100, 300, 1000, 3000, 5000}})
     ->Unit(benchmark::kMillisecond);
 
 void fit_points_of_unknown_noise(benchmark::State& state) {
@@ -79,9 +75,7 @@ void fit_points_of_unknown_noise(benchmark::State& state) {
 }
 BENCHMARK(fit_points_of_unknown_noise)
     ->Name("size/fit/points_of_unknown_noise")
-    ->Arg(100)
-    ->Arg(1000)
-    ->Arg(5000)
+    ->ArgsProduct({{100, 1000, 5000}})
     ->Unit(benchmark::kMillisecond);
 
 void fit_distances(benchmark::State& state) {
@@ -105,11 +99,7 @@ void check_points(benchmark::State& state) {
 }
 BENCHMARK(check_points)
     ->Name("size/check/points")
-    ->Arg(5)
-    ->Arg(100)
-    ->Arg(1000)
-    ->Arg(5000)
-    ->Arg(20000)
+    ->ArgsProduct({{5, 100, 1000, 5000, 20000}})
     ->Unit(benchmark::kMillisecond);
 
 void check_distances(benchmark::State& state) {
@@ -132,9 +122,7 @@ void diagnose_points(benchmark::State& state) {
 }
 BENCHMARK(diagnose_points)
     ->Name("size/diagnose/points")
-    ->Arg(100)
-    ->Arg(300)
-    ->Arg(600)
+    ->ArgsProduct({{100, 300, 600}})
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 

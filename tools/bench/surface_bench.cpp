@@ -158,42 +158,26 @@ void alglib_build(benchmark::State& state, int nx, int ny) {
 
 double smooth(double x, double y) { return 0.8 * std::sin(x / 500 + 0.3) * std::cos(y / 400); }
 
-struct NoisyPoint {
-  double x, y, z;
-  double sigma;
-};
-
-std::vector<NoisyPoint> noisy_points(std::size_t count) {
-  std::mt19937_64 random(2);
-  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  std::vector<NoisyPoint> points;
-  for (const PlanePoint& p : random_points(count)) {
-    // A sum of twelve uniform numbers less six is nearly normal: noise of 0.3.
-    double noise = -6.0;
-    for (int k = 0; k < 12; ++k) noise += uniform();
-    points.push_back({p.x, p.y, smooth(p.x, p.y) + 0.3 * noise, 0.3});
-  }
-  return points;
-}
-
 // Two fields under one ridge and eight shared settings, as for a machine's two chains.
 void joint_reml(benchmark::State& state, std::size_t count, bool corrected) {
   constexpr Eigen::Index kShared = 8;
   const BsplineBasis basis(kBed, 8, 4);
   const Eigen::Index m = basis.size();
-  const auto points = noisy_points(count);
+  constexpr double kSigma = 0.3;
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> noise(0.0, kSigma);
   PenalisedProblem problem(2 * m + kShared);
   problem.keeps_rows = true;
-  for (const NoisyPoint& p : points) {
+  for (const PlanePoint& p : random_points(count)) {
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, 2 * m + kShared);
     for (Eigen::Index k = 0; k < 2; ++k) {
-      rows.row(k).segment(k * m, m) = basis.row(p.x, p.y).transpose() / p.sigma;
+      rows.row(k).segment(k * m, m) = basis.row(p.x, p.y).transpose() / kSigma;
       for (Eigen::Index j = 0; j < kShared; ++j) {
         const auto wave = static_cast<double>(j + k);
-        rows(k, 2 * m + j) = std::sin(wave * p.x / 1500 + wave * wave * p.y / 900) / p.sigma;
+        rows(k, 2 * m + j) = std::sin(wave * p.x / 1500 + wave * wave * p.y / 900) / kSigma;
       }
     }
-    problem.add_rows(rows, Eigen::VectorXd::Constant(2, p.z / p.sigma));
+    problem.add_rows(rows, Eigen::VectorXd::Constant(2, (smooth(p.x, p.y) + noise(random)) / kSigma));
   }
   problem.ridge = {0, 2 * m};
   problem.prior_precision.bottomRightCorner(kShared, kShared).setIdentity();
