@@ -8,28 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <utility>
-
-#include "grid/precondition.hpp"
 
 namespace chaintrue::gcode {
 namespace {
 
-/// Upper bound of the tool's path length relative to the commanded one (the steepest corrections
-/// allowed are far smaller): a chord's deviation is measured in commands, but the tolerance holds
-/// at the tool.
-constexpr double kStretch = 1.05;
-/// Short straight moves are not checked if their bow is less than this share of the tolerance, by
-/// the sampled curvature and kCurvatureSafety.
-constexpr double kUncheckedShare = 0.25;
-
-/// Share of the tolerance for verify's own errors, and for the chords' deviation between the points
-/// where they are checked.
-constexpr double kSpare = 0.045;
-/// Half a unit of single precision below 2048 mm, in X and Y.
-constexpr double kSinglePrecisionMm = 0.5 * 1.25e-4 * 1.5;
-/// Share of the tolerance for the error of the tables; included in kSpare.
+/// Share of the tolerance for the error of the tables; included in the segmenter's kSpare.
 constexpr double kTableShare = 0.005;
 /// The correction of a smooth map is interpolated to 1e-6 mm in cells of 16 mm; cells of 4 mm
 /// resolve a wave with the period of a sprocket's turn (63.5 mm).
@@ -40,21 +24,6 @@ constexpr int kExactFirst = 2000;
 /// A circle keeps its shape even if the tolerance would allow a point.
 constexpr double kMostTurnRad = 0.25 * std::numbers::pi;
 
-/// Half a unit of the last decimal, in X, Y and Z.
-double rounding_mm(int decimals) { return 0.5 * std::sqrt(3.0) * std::pow(10.0, -decimals); }
-
-double chord_tolerance(const CompensateOptions& options, bool single_precision) {
-  const double rounding =
-      rounding_mm(options.decimals) + (single_precision ? kSinglePrecisionMm : 0.0);
-  const double left = ((1.0 - kSpare) * options.tolerance_mm - rounding) / kStretch;
-  if (!(left > 0.0)) {
-    throw grid::precondition("a tolerance of {} mm is used up by rounding to {} decimals",
-                             options.tolerance_mm,
-                             options.decimals);
-  }
-  return left;
-}
-
 bool stays(const Move& move) {
   return !move.arc && move.from.x_mm == move.to.x_mm && move.from.y_mm == move.to.y_mm;
 }
@@ -63,25 +32,13 @@ int sign(double value, int otherwise) { return value > 0.0 ? 1 : value < 0.0 ? -
 
 }  // namespace
 
-double least_tolerance_mm(int decimals) {
-  return (rounding_mm(decimals) + kSinglePrecisionMm) / (1.0 - kSpare);
-}
-
 Compensator::Compensator(const Corrector& corrector, CompensateOptions options, ByteSink out)
     : corrector_(corrector),
       options_(std::move(options)),
       limits_(corrector, options_, std::move(out)),
-      segmenter_(corrector, chord_tolerance(options_, corrector.firmware().single_precision)),
+      segmenter_(corrector, options_.tolerance_mm, options_.decimals),
       table_(offsets_of_command(corrector),
-             {kCellMm, kTableShare * options_.tolerance_mm, kHalvings, kExactFirst}) {
-  const double curvature = kCurvatureSafety * corrector.sampled_curvature_per_mm();
-  const bool straight = !is_chain_linear(corrector.firmware());
-  if (straight) {
-    unchecked_length_mm_ = std::sqrt(
-        8.0 * kUncheckedShare * chord_tolerance(options_, corrector.firmware().single_precision) /
-        std::max(curvature, 1e-9));
-  }
-}
+             {kCellMm, kTableShare * options_.tolerance_mm, kHalvings, kExactFirst}) {}
 
 Result<CompensateSummary> Compensator::run(LineSource& source, const Dialect& dialect) {
   limits_.header(dialect.home_mm[0], dialect.home_mm[1]);
@@ -148,7 +105,7 @@ void Compensator::piece(
   directions_ = directions;
   const double length = (to - from) * length_mm(move);
   const bool whole = move.kind == MoveKind::rapid && options_.keep_rapids_whole;
-  if (whole || (!move.arc && length <= unchecked_length_mm_)) {
+  if (whole || (!move.arc && length <= segmenter_.unchecked_mm())) {
     const auto end = commands(to);
     if (!end) {
       limits_.object(move, end.error(), at(move, to));

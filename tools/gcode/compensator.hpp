@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The last stage of the pipeline: reads a program's events and writes a file whose commands move
-/// the tool along the program's path.
+/// Reads a program's events, places its moves with the map, takes up play, and writes a file whose
+/// commands move the tool along the program's path (segmenter.hpp, limits.hpp).
 ///
-/// Error budget of a path: chord (measured against the exact map, for arcs and lines) + rounding of
-/// the words (half a unit of the last decimal in each axis) <= tolerance. Feed rates per minute are
-/// kept; inverse time feeds are converted to feeds per minute, so that every piece of a move takes
-/// its share of the time.
+/// Feed rates per minute are kept; inverse time feeds are converted to feeds per minute, so that
+/// every piece of a move takes its share of the time.
 ///
 /// Nothing is written that would be cut wrong: targets outside the map or outside the controller's
 /// clamping box, and corrections or slopes of it above the stated limits, are problems, each with
@@ -26,15 +24,13 @@
 
 namespace chaintrue::gcode {
 
-/// Rounding error at this number of decimals; the tolerance must be larger.
-[[nodiscard]] double least_tolerance_mm(int decimals);
-
 /// One run, not thread safe.
 class Compensator final : private Sink {
  public:
   /// Keeps a reference. \throws std::invalid_argument if the tolerance does not exceed the
   /// rounding.
   Compensator(const Corrector& corrector, CompensateOptions options, ByteSink out);
+  Compensator(const Compensator&) = delete;
 
   /// An unexpected value is a problem of the program itself; problems with the map and the
   /// controller are in findings().
@@ -67,7 +63,6 @@ class Compensator final : private Sink {
   Limits limits_;
   Segmenter segmenter_;
   interp::CheckedField table_;  // of command(p) - p, without play
-  double unchecked_length_mm_ = 0.0;
   std::uint64_t moves_ = 0;
   double path_mm_ = 0.0;
   bool homed_ = false;  // and not yet at a place

@@ -7,9 +7,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/precondition.hpp"
+
 namespace chaintrue::gcode {
 namespace {
 
+/// Upper bound of the tool's path length relative to the commanded one (the steepest corrections
+/// allowed are far smaller): a chord's deviation is measured in commands, but the tolerance holds
+/// at the tool.
+constexpr double kStretch = 1.05;
+/// Short straight moves are not checked if their bow is less than this share of the tolerance, by
+/// the sampled curvature and kCurvatureSafety.
+constexpr double kUncheckedShare = 0.25;
+/// Share of the tolerance for verify's own errors, and for the chords' deviation between the points
+/// where they are checked.
+constexpr double kSpare = 0.045;
 /// A chord is accepted if its deviation is this share of the tolerance: sqrt(0.85) = 0.92 of the
 /// longest.
 constexpr double kGoodEnough = 0.85;
@@ -22,12 +34,36 @@ constexpr double kCheckEveryMm = 30.0;
 constexpr int kFewestChecks = 6;
 /// Rounding changes a command's length by less, at two decimals and more.
 constexpr double kRoundingMm = 0.02;
-/// Half a unit of single precision below 2048 mm, in X and Y.
+/// Half a unit of single precision below 2048 mm, in X and Y: of a word, with a margin, and of each
+/// piece of a controller that sums them.
+constexpr double kSinglePrecisionMm = 0.5 * 1.25e-4 * 1.5;
 constexpr double kPieceRoundingMm = 0.5 * 1.2207e-4 * 1.4143;
 /// Chords are not divided below this: output has three decimals.
 constexpr double kShortestMm = 0.002;
 
+/// Half a unit of the last decimal, in X, Y and Z.
+double rounding_mm(int decimals) { return 0.5 * std::sqrt(3.0) * std::pow(10.0, -decimals); }
+
 }  // namespace
+
+double least_tolerance_mm(int decimals) {
+  return (rounding_mm(decimals) + kSinglePrecisionMm) / (1.0 - kSpare);
+}
+
+Segmenter::Segmenter(const Corrector& corrector, double tolerance_mm, int decimals)
+    : corrector_(corrector) {
+  const Firmware& firmware = corrector.firmware();
+  const double rounding =
+      rounding_mm(decimals) + (firmware.single_precision ? kSinglePrecisionMm : 0.0);
+  tolerance_mm_ = ((1.0 - kSpare) * tolerance_mm - rounding) / kStretch;
+  if (!(tolerance_mm_ > 0.0)) {
+    throw grid::precondition(
+        "a tolerance of {} mm is used up by rounding to {} decimals", tolerance_mm, decimals);
+  }
+  if (is_chain_linear(firmware)) return;
+  const double curvature = kCurvatureSafety * corrector.sampled_curvature_per_mm();
+  unchecked_mm_ = std::sqrt(8.0 * kUncheckedShare * tolerance_mm_ / std::max(curvature, 1e-9));
+}
 
 Corrected<double> Segmenter::deviation_mm(const Curve& curve,
                                           const PathSample& a,

@@ -7,6 +7,9 @@
 /// no other choice of samples on the curve needs markedly fewer. The deviation is measured at
 /// interior points of the exact curve from the controller's own path between the two commands, in
 /// space and independent of time.
+///
+/// Error budget of a path: chord (measured against the exact map, for arcs and lines) + rounding of
+/// the words (half a unit of the last decimal in each axis) <= tolerance.
 #pragma once
 
 #include <functional>
@@ -26,12 +29,17 @@ struct PathSample {
 /// The curve: target and command at t.
 using Curve = std::function<Corrected<PathSample>(double t)>;
 
+/// Rounding error at this number of decimals; the tolerance must be larger.
+[[nodiscard]] double least_tolerance_mm(int decimals);
+
 class Segmenter {
  public:
-  /// Keeps a reference.
-  /// \param tolerance_mm largest deviation of a chord from the curve, above zero.
-  Segmenter(const Corrector& corrector, double tolerance_mm)
-      : corrector_(corrector), tolerance_mm_(tolerance_mm) {}
+  /// Keeps a reference. \throws std::invalid_argument if the tolerance does not exceed the rounding.
+  /// \param tolerance_mm of the path, above least_tolerance_mm(decimals).
+  Segmenter(const Corrector& corrector, double tolerance_mm, int decimals);
+
+  /// Straight moves up to this length bow by a small share of the tolerance at most.
+  [[nodiscard]] double unchecked_mm() const { return unchecked_mm_; }
 
   struct Extent {
     double length_mm = 0.0;
@@ -64,7 +72,8 @@ class Segmenter {
                                                CommandWay& way) const;
 
   const Corrector& corrector_;
-  double tolerance_mm_;
+  double tolerance_mm_ = 0.0;  // of a chord
+  double unchecked_mm_ = 0.0;
   double last_step_mm_ = 50.0;  // a typical value, as a first guess
 };
 
