@@ -129,58 +129,26 @@ double ConvexHull::area() const {
   return 0.5 * twice;
 }
 
-std::string_view to_string(PointStatus status) {
-  switch (status) {
-    case PointStatus::inside:
-      return "inside";
-    case PointStatus::edge:
-      return "edge";
-    case PointStatus::extrapolated:
-      return "extrapolated";
-    case PointStatus::outside:
-      return "outside";
-  }
-  throw std::logic_error("unknown status");
-}
-
-RegionAnswer evaluate(const Surface& surface,
-                      const ConvexHull& hull,
-                      const RegionPolicy& policy,
-                      const PlanePoint& at) {
+ValueGradient evaluate(const Surface& surface,
+                       const ConvexHull& hull,
+                       const RegionPolicy& policy,
+                       const PlanePoint& at) {
   if (!(policy.edge_width >= 0.0) || !(policy.fade_width > 0.0)) {
     throw std::invalid_argument(
         fmt::format("an edge of width {} and a fade of {}", policy.edge_width, policy.fade_width));
   }
-  if (!std::isfinite(at.x) || !std::isfinite(at.y)) {
-    return {{}, PointStatus::outside};
-  }
+  if (!std::isfinite(at.x) || !std::isfinite(at.y)) return {};
   const NearestPoint near = hull.nearest(at.x, at.y);
-  if (near.distance == 0.0) {
-    return {surface.at(at.x, at.y), PointStatus::inside};
-  }
-  const bool edge = near.distance <= policy.edge_width;
-  const PointStatus status = edge ? PointStatus::edge : PointStatus::extrapolated;
-  switch (policy.outside) {
-    case OutsidePolicy::refuse:
-      return edge ? RegionAnswer{linear(surface, near), status}
-                  : RegionAnswer{{}, PointStatus::outside};
-    case OutsidePolicy::linear:
-      return {linear(surface, near), status};
-    case OutsidePolicy::clamp:
-      return {clamped(surface, near), status};
-    case OutsidePolicy::fade: {
-      ValueGradient z = linear(surface, near);
-      const double s =
-          std::clamp((near.distance - policy.edge_width) / policy.fade_width, 0.0, 1.0);
-      const double weight = (1.0 - s) * (1.0 - s) * (1.0 + 2.0 * s);
-      const double fall = -6.0 * s * (1.0 - s) / policy.fade_width;
-      z = {weight * z.value,
-           weight * z.dx + fall * near.direction.x * z.value,
-           weight * z.dy + fall * near.direction.y * z.value};
-      return {z, status};
-    }
-  }
-  throw std::logic_error("unknown outside policy");
+  if (near.distance == 0.0) return surface.at(at.x, at.y);
+  if (policy.outside == OutsidePolicy::clamp) return clamped(surface, near);
+  const ValueGradient z = linear(surface, near);
+  if (policy.outside == OutsidePolicy::linear) return z;
+  const double s = std::clamp((near.distance - policy.edge_width) / policy.fade_width, 0.0, 1.0);
+  const double weight = (1.0 - s) * (1.0 - s) * (1.0 + 2.0 * s);
+  const double fall = -6.0 * s * (1.0 - s) / policy.fade_width;
+  return {weight * z.value,
+          weight * z.dx + fall * near.direction.x * z.value,
+          weight * z.dy + fall * near.direction.y * z.value};
 }
 
 }  // namespace chaintrue::interp

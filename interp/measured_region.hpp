@@ -5,10 +5,9 @@
 /// The region that is covered by measurements, and the policies for evaluating a surface outside
 /// it.
 ///
-/// The measured region is the convex hull of the points. Outside it a surface is evaluated under a
-/// policy, and every result carries its status; nothing is clamped silently.
+/// The measured region is the convex hull of the points. Outside it a surface is continued by a
+/// policy.
 
-#include <string_view>
 #include <vector>
 
 #include "interp/surface.hpp"
@@ -40,21 +39,10 @@ class ConvexHull {
 };
 
 enum class OutsidePolicy {
-  refuse,  ///< no answer
   fade,    ///< the linear continuation times a weight that falls to zero over fade_width
   linear,  ///< the tangent plane at the nearest measured point
   clamp,   ///< the value at the nearest measured point
 };
-
-/// Status of a value.
-enum class PointStatus {
-  inside,        ///< in the measured region
-  edge,          ///< outside by at most edge_width: continued linearly, except by `clamp`
-  extrapolated,  ///< further out, by the policy
-  outside,       ///< no value
-};
-
-[[nodiscard]] std::string_view to_string(PointStatus status);
 
 struct RegionPolicy {
   OutsidePolicy outside = OutsidePolicy::fade;
@@ -62,18 +50,13 @@ struct RegionPolicy {
   double fade_width = 200.0;  ///< > 0; for `fade`, counted from edge_width on
 };
 
-struct RegionAnswer {
-  ValueGradient z;  ///< zero where status is `outside`
-  PointStatus status;
-};
-
-/// `surface` at (x, y) under the policy. Continuous across the hull and through every policy's zones
-/// (`refuse` ends); `fade` and `linear` are C1 across the hull's edges. The gradient next to an edge
-/// uses a difference of the surface's gradient along the edge (error about 1e-6 of a second
-/// derivative).
-[[nodiscard]] RegionAnswer evaluate(const Surface& surface,
-                                    const ConvexHull& hull,
-                                    const RegionPolicy& policy,
-                                    const PlanePoint& at);
+/// `surface` at (x, y) under the policy: linear up to edge_width outside the hull, but for `clamp`.
+/// Continuous across the hull and through every policy's zones; `fade` and `linear` are C1 across the
+/// hull's edges. The gradient next to an edge uses a difference of the surface's gradient along the
+/// edge (error about 1e-6 of a second derivative). Zero where the place is not finite.
+[[nodiscard]] ValueGradient evaluate(const Surface& surface,
+                                     const ConvexHull& hull,
+                                     const RegionPolicy& policy,
+                                     const PlanePoint& at);
 
 }  // namespace chaintrue::interp

@@ -23,11 +23,11 @@ struct Support {
   std::array<double, 6> slope;
 };
 
-Axis make_axis(const std::vector<double>& nodes, int highest_degree) {
+Axis make_axis(const std::vector<double>& nodes) {
   const SplineAxis checked(nodes);  // throws where the nodes are no axis
   const auto n = static_cast<int>(nodes.size());
   Axis axis;
-  axis.degree = std::min(highest_degree, n >= 6 ? 5 : std::min(n - 1, 3));
+  axis.degree = n >= 6 ? 5 : std::min(n - 1, 3);
   axis.knots.assign(static_cast<std::size_t>(axis.degree) + 1, nodes.front());
   // Drop as many knots at each end as leave n functions; a parabola has no interior knot.
   const int drop = (axis.degree + 1) / 2;
@@ -93,12 +93,8 @@ Eigen::PartialPivLU<Eigen::MatrixXd> collocation(const Axis& axis,
 
 QuinticSpline::QuinticSpline(const std::vector<double>& x_nodes,
                              const std::vector<double>& y_nodes,
-                             const Eigen::Ref<const Eigen::MatrixXd>& values,
-                             int highest_degree)
-    : x_(make_axis(x_nodes, highest_degree)), y_(make_axis(y_nodes, highest_degree)) {
-  if (highest_degree != 3 && highest_degree != 5) {
-    throw std::invalid_argument(fmt::format("a spline of degree {} (3 or 5)", highest_degree));
-  }
+                             const Eigen::Ref<const Eigen::MatrixXd>& values)
+    : x_(make_axis(x_nodes)), y_(make_axis(y_nodes)) {
   if (values.rows() != x_.functions || values.cols() != y_.functions) {
     throw std::invalid_argument(fmt::format("{} x {} values for {} x {} nodes",
                                             values.rows(),

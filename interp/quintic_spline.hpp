@@ -22,12 +22,10 @@ namespace chaintrue::interp {
 /// Immutable, thread safe, `at` allocates nothing.
 class QuinticSpline final : public Surface {
  public:
-  /// `values(ix, iy)`; throws std::invalid_argument as TensorSpline does. `highest_degree` 3 gives
-  /// the cubic not-a-knot spline, computed independently of TensorSpline.
+  /// `values(ix, iy)`; throws std::invalid_argument as TensorSpline does.
   QuinticSpline(const std::vector<double>& x_nodes,
                 const std::vector<double>& y_nodes,
-                const Eigen::Ref<const Eigen::MatrixXd>& values,
-                int highest_degree = 5);
+                const Eigen::Ref<const Eigen::MatrixXd>& values);
 
   [[nodiscard]] ValueGradient at(double x, double y) const override;
   [[nodiscard]] Rectangle domain() const override { return domain_; }

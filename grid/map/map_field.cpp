@@ -256,7 +256,7 @@ std::optional<MapField::Change> MapField::change(MarkPoint mark) const {
     const Eigen::Index row = row_of(side);
     const interp::ValueGradient own = both[side]->at(mark.x_mm, mark.y_mm);
     const interp::ValueGradient reply =
-        interp::evaluate(*both[side], beyond_->hull, beyond_->policy, {mark.x_mm, mark.y_mm}).z;
+        interp::evaluate(*both[side], beyond_->hull, beyond_->policy, {mark.x_mm, mark.y_mm});
     change.lengths_mm[row] = reply.value - own.value;
     change.jacobian.row(row) << reply.dx - own.dx, reply.dy - own.dy;
   }
