@@ -136,7 +136,7 @@ struct Block {
     return has(letter) ? std::optional(value(letter)) : std::nullopt;
   }
   [[nodiscard]] Place place(char letter) const { return {line, columns_[slot(letter)]}; }
-  [[nodiscard]] Place start() const { return {line, 0}; }
+  [[nodiscard]] Place start() const { return {line}; }
   [[nodiscard]] const KnownCode* code(Group group) const {
     return codes[static_cast<std::size_t>(group)];
   }

@@ -185,13 +185,13 @@ void Compensator::move(const Move& move) {
   ++moves_;
   if (move.kind == MoveKind::probe) {
     refuse(not_emittable,
-           {move.line, 0},
+           {move.line},
            "probing needs a dotted code, which some controllers misread; probe before the job, not "
            "within it");
   }
   for (const double turn : move.turn_deg) {
     if (turn != 0.0) {
-      refuse(unsupported_axis, {move.line, 0}, "a two-chain router has no axis A, B or C");
+      refuse(unsupported_axis, {move.line}, "a two-chain router has no axis A, B or C");
     }
   }
   path_mm_ += length_mm(move);

@@ -94,7 +94,7 @@ bool is_marked(std::string_view comment) {
 void refuse_compensated(const Comment& comment) {
   if (!is_marked(comment.text)) return;
   refuse(already_compensated,
-         {comment.line, 0},
+         {comment.line},
          "this file has been compensated before, as this mark in it says; take the original");
 }
 
@@ -157,8 +157,7 @@ void Emitter::command(bool rapid,
   const auto too_large = [](double value) { return !(std::fabs(value) < kLargestMm); };
   if ((xy && (too_large(xy->x_mm) || too_large(xy->y_mm))) || (z_mm && too_large(*z_mm)) ||
       (!rapid && !(feed_mm_per_min > kSlowest && feed_mm_per_min < 1e12))) {
-    refuse(
-        not_emittable, {line, 0}, "a coordinate or feed rate of this move is no sensible number");
+    refuse(not_emittable, {line}, "a coordinate or feed rate of this move is no sensible number");
   }
   text_.assign(rapid ? "G0" : "G1");
   bool moves = false;
@@ -201,14 +200,13 @@ void Emitter::word(const PassedWord& word) {
   if (word.code && word.code->letter == 'G' && word.code->tenths % 10 != 0) {
     refuse(
         not_emittable,
-        {word.line, 0},
+        {word.line},
         fmt::format("{} cannot be written: some controllers read only what stands before the dot",
                     name(*word.code)));
   }
   if (text.size() > (semicolons_ ? kMaxPlotterLine : kMaxOutputLine)) {
-    refuse(not_emittable,
-           {word.line, 0},
-           "this line has more characters than a controller's line holds");
+    refuse(
+        not_emittable, {word.line}, "this line has more characters than a controller's line holds");
   }
   const bool joins = waiting_line_ == word.line && !waiting_word_.empty() &&
                      ((waiting_word_.front() == 'T' && text == "M6") ||

@@ -28,7 +28,7 @@ void Findings::add(Problem problem) {
 }
 
 void Findings::add(Note note) {
-  if (note.problem) return add(Problem{*note.problem, {note.line, 0}, std::move(note.sentence)});
+  if (note.problem) return add(Problem{*note.problem, {note.line}, std::move(note.sentence)});
   ++note_count;
   if (notes.size() < kMostKept) notes.push_back(std::move(note));
 }

@@ -35,7 +35,7 @@ bool Flow::next(SourceLine& line) {
   line_start_ = source_.position();
   if (!source_.next(line)) return false;
   if (line_start_.offset < furthest_) {
-    interpreter_.step({line.number, 0});
+    interpreter_.step({line.number});
   } else {
     furthest_ = source_.position().offset;
   }

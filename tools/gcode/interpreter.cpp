@@ -12,7 +12,8 @@
 
 namespace chaintrue::gcode {
 
-Interpreter::Interpreter(const Dialect& dialect, Sink& sink) : dialect_(dialect), sink_(sink) {
+Interpreter::Interpreter(const Dialect& dialect, const Block& block, Sink& sink)
+    : dialect_(dialect), block_(block), sink_(sink) {
   parameters_.follow([this](int index) { return state_by_number(index); },
                      [this](std::string_view name) { return state_by_name(name); });
 }
@@ -30,9 +31,9 @@ void Interpreter::note_once(Note note) {
   if (noted_.insert(note.name).second) sink_.note(note);
 }
 
-void Interpreter::note_deletable(const Block& block) {
-  if (!block.deletable) return;
-  note_once({block.line,
+void Interpreter::note_deletable() {
+  if (!block_.deletable) return;
+  note_once({block_.line,
              "deletable_line",
              "a line begins with a slash; it is executed, as with the block delete switch off"});
 }
@@ -61,13 +62,12 @@ void Interpreter::note_whole(std::size_t last_line) {
                           fmt::join(left, ", "))});
 }
 
-void Interpreter::pass_line(const Block& block,
-                            const std::vector<CommentText>& texts,
+void Interpreter::pass_line(const std::vector<CommentText>& texts,
                             Code code,
                             std::string_view words) {
-  note_deletable(block);
-  comments(block, texts);
-  PassedWord passed{block.line, name(code).append(words), code};
+  note_deletable();
+  comments(texts);
+  PassedWord passed{block_.line, name(code).append(words), code};
   if (code == g::home) {
     moves_ = passed.moves_itself = true;
     for (const std::size_t axis : {0, 1}) {
@@ -80,70 +80,70 @@ void Interpreter::pass_line(const Block& block,
   sink_.word(passed);
 }
 
-AfterBlock Interpreter::execute(const Block& block, const std::vector<CommentText>& texts) {
-  note_deletable(block);
-  for (const KnownCode* code : block.codes) {
-    if (code != nullptr) sink_.code(block.line, *code);
+AfterBlock Interpreter::execute(const std::vector<CommentText>& texts) {
+  note_deletable();
+  for (const KnownCode* code : block_.codes) {
+    if (code != nullptr) sink_.code(block_.line, *code);
   }
-  const int motion = motion_to_be(block);
-  check_assignments(block);
-  check_words(block, motion);
-  assign(block);
-  comments(block, texts);
-  set_feed(block, motion);
-  pass_words(block);
-  dwell(block);
-  set_modes(block);
-  tool_length(block);
-  once(block);
+  const int motion = motion_to_be();
+  check_assignments();
+  check_words(motion);
+  assign();
+  comments(texts);
+  set_feed(motion);
+  pass_words();
+  dwell();
+  set_modes();
+  tool_length();
+  once();
   if (motion >= 0) {
     if (!std::exchange(units_stated_, true)) {
-      sink_.note({block.line,
+      sink_.note({block_.line,
                   "units_assumed",
                   "the program moves before it says G20 or G21; it is taken to be in millimetres"});
     }
-    move(block, motion);
+    move(motion);
   }
-  return after(block);
+  return after();
 }
 
 /// The motion of this block, or -1.
-int Interpreter::motion_to_be(const Block& block) const {
-  const KnownCode* motion = block.code(Group::motion);
-  const KnownCode* once_code = block.code(Group::once);
+int Interpreter::motion_to_be() const {
+  const KnownCode* motion = block_.code(Group::motion);
+  const KnownCode* once_code = block_.code(Group::once);
   const bool once_takes_axes = once_code != nullptr && once_code->uses('x');
-  const bool length_takes_axes = block.is(g::tool_length_stated);
-  const bool centre = block.has('i') || block.has('j') || block.has('k');
+  const bool length_takes_axes = block_.is(g::tool_length_stated);
+  const bool centre = block_.has('i') || block_.has('j') || block_.has('k');
   if (once_takes_axes && length_takes_axes) {
-    refuse(modal_conflict, block, "two codes of the line claim its axis words");
+    refuse(modal_conflict, block_, "two codes of the line claim its axis words");
   }
   if (motion != nullptr && motion->uses('x')) {
     if (once_takes_axes || length_takes_axes) {
-      refuse(modal_conflict, block, "two codes of the line claim its axis words");
+      refuse(modal_conflict, block_, "two codes of the line claim its axis words");
     }
     return motion->tenths;
   }
   if (once_takes_axes || length_takes_axes) return -1;
-  if (!block.has_axes() && !(centre && is_arc(modes_.motion))) return -1;
+  if (!block_.has_axes() && !(centre && is_arc(modes_.motion))) return -1;
   if (motion != nullptr || modes_.motion == g::no_motion) {
     refuse(no_motion_mode,
-           block,
+           block_,
            "axis words stand here, but no motion (G0, G1, G2, G3 ...) is in force that "
            "could use them");
   }
   return modes_.motion;
 }
 
-void Interpreter::check_assignments(const Block& block) const {
-  for (const Assignment& assignment : block.assignments) {
+void Interpreter::check_assignments() const {
+  for (const Assignment& assignment : block_.assignments) {
     const bool fixed = assignment.index != 0 ? !parameters_.writable(assignment.index)
                                              : state_by_name(assignment.name).has_value();
     if (fixed) refuse(bad_parameter, assignment.place, "this parameter can only be read");
   }
 }
 
-void Interpreter::assign(const Block& block) {
-  for (const Assignment& assignment : block.assignments) {
+void Interpreter::assign() {
+  for (const Assignment& assignment : block_.assignments) {
     if (assignment.index != 0) {
       parameters_.set(assignment.index, assignment.value);
     } else {
@@ -181,13 +181,13 @@ std::string Interpreter::written_out(std::string_view text) const {
   return result;
 }
 
-void Interpreter::comments(const Block& block, const std::vector<CommentText>& texts) {
+void Interpreter::comments(const std::vector<CommentText>& texts) {
   for (const CommentText& text : texts) {
     if (text.semicolon && holds_moves(text.text)) {
-      sink_.note({block.line, "line_ends_lost", kLineEndsLost, line_ends_lost});
+      sink_.note({block_.line, "line_ends_lost", kLineEndsLost, line_ends_lost});
       moves_ = true;  // which one problem says
     }
-    Comment comment{block.line, text.text, false};
+    Comment comment{block_.line, text.text, false};
     std::string_view body = text.text;
     body.remove_prefix(std::min(body.find_first_not_of(" \t"), body.size()));
     const std::size_t comma = body.find(',');
@@ -205,8 +205,8 @@ void Interpreter::comments(const Block& block, const std::vector<CommentText>& t
   }
 }
 
-void Interpreter::set_feed(const Block& block, int motion) {
-  if (const KnownCode* mode = block.code(Group::feed_mode)) {
+void Interpreter::set_feed(int motion) {
+  if (const KnownCode* mode = block_.code(Group::feed_mode)) {
     const FeedMode next =
         mode->tenths == g::inverse_time ? FeedMode::inverse_time : FeedMode::per_minute;
     // A feed rate of the other mode has no meaning; LinuxCNC clears it with every G94 that follows
@@ -215,74 +215,74 @@ void Interpreter::set_feed(const Block& block, int motion) {
     modes_.feed_mode = next;
   }
   const bool inverse = modes_.feed_mode == FeedMode::inverse_time;
-  if (block.has('f')) {
-    if (block.code(Group::units) != nullptr && block.is(g::inches) != modes_.inches && !inverse) {
-      sink_.note({block.line,
+  if (block_.has('f')) {
+    if (block_.code(Group::units) != nullptr && block_.is(g::inches) != modes_.inches && !inverse) {
+      sink_.note({block_.line,
                   "feed_before_units",
                   "F and a change of units share a line: F counts in the old unit here, other "
                   "controllers take the new one"});
     }
-    modes_.feed = inverse ? block.value('f') : length(block, 'f');
+    modes_.feed = inverse ? block_.value('f') : length('f');
   }
   const bool feeds = motion == g::line || is_arc(motion) || is_cycle(motion) || is_probe(motion);
   if (!feeds) return;
   if (inverse && is_cycle(motion)) {
-    refuse(bad_cycle, block, "a canned cycle cannot run with inverse time feed (G93)");
+    refuse(bad_cycle, block_, "a canned cycle cannot run with inverse time feed (G93)");
   }
-  if (inverse && !block.has('f')) {
-    refuse(no_feed_rate, block, "with inverse time feed (G93) every feed move needs its own F");
+  if (inverse && !block_.has('f')) {
+    refuse(no_feed_rate, block_, "with inverse time feed (G93) every feed move needs its own F");
   }
   if (!(modes_.feed > 0.0)) {
-    refuse(no_feed_rate, block, "no feed rate (F) is set for this move, or it is zero");
+    refuse(no_feed_rate, block_, "no feed rate (F) is set for this move, or it is zero");
   }
 }
 
-void Interpreter::set_modes(const Block& block) {
-  if (const KnownCode* plane = block.code(Group::plane)) modes_.plane = plane->tenths;
-  if (const KnownCode* units = block.code(Group::units)) {
+void Interpreter::set_modes() {
+  if (const KnownCode* plane = block_.code(Group::plane)) modes_.plane = plane->tenths;
+  if (const KnownCode* units = block_.code(Group::units)) {
     modes_.inches = units->tenths == g::inches;
     units_stated_ = true;
   }
-  if (const KnownCode* system = block.code(Group::system)) {
+  if (const KnownCode* system = block_.code(Group::system)) {
     select_system(system->tenths <= g::system_6 ? (system->tenths - g::system_1) / 10 + 1
                                                 : system->tenths - g::system_7 + 7);
   }
-  if (const KnownCode* distance = block.code(Group::distance))
+  if (const KnownCode* distance = block_.code(Group::distance))
     modes_.incremental = distance->tenths == g::incremental;
-  if (const KnownCode* centres = block.code(Group::arc_distance)) {
+  if (const KnownCode* centres = block_.code(Group::arc_distance)) {
     modes_.absolute_centres = centres->tenths == g::absolute_centres;
     note_once(
-        {block.line,
+        {block_.line,
          "dotted_code",
          "the classic Maslow firmware reads G91.1 as G91 and G90.1 as G90; the compensated file "
          "holds neither"});
   }
-  if (block.is(g::no_motion)) modes_.motion = g::no_motion;
-  if (const KnownCode* retract = block.code(Group::retract))
+  if (block_.is(g::no_motion)) modes_.motion = g::no_motion;
+  if (const KnownCode* retract = block_.code(Group::retract))
     modes_.retract_to_r = retract->tenths == g::retract_to_r;
 }
 
-AfterBlock Interpreter::after(const Block& block) const {
+AfterBlock Interpreter::after() const {
   AfterBlock result;
-  if (const KnownCode* flow = block.code(Group::flow)) {
+  if (const KnownCode* flow = block_.code(Group::flow)) {
     if (*flow == m(99)) {
       result.flow = AfterBlock::Flow::leave_program;
       return result;
     }
-    if (!block.has('p')) refuse(missing_word, block, "M98 needs the number of a program as P");
+    if (!block_.has('p')) refuse(missing_word, block_, "M98 needs the number of a program as P");
     result.flow = AfterBlock::Flow::call_program;
-    result.program = std::lround(block.value('p'));
-    result.repeats = std::lround(block.find('l').value_or(1.0));
+    result.program = std::lround(block_.value('p'));
+    result.repeats = std::lround(block_.find('l').value_or(1.0));
     return result;
   }
-  const KnownCode* stop = block.code(Group::stop);
+  const KnownCode* stop = block_.code(Group::stop);
   if (stop == nullptr) return result;
   if (*stop == m(2) || *stop == m(30)) {
     result.flow = AfterBlock::Flow::end;
     result.end_word = *stop == m(2) ? "M2" : "M30";
     return result;
   }
-  pass(block, *stop);
+  pass(*stop);
   return result;
 }
 

@@ -55,20 +55,17 @@ struct AfterBlock {
 
 class Interpreter {
  public:
-  /// Keeps a reference to the sink.
-  Interpreter(const Dialect& dialect, Sink& sink);
+  /// Keeps references: to the block that each execute() takes, and to the sink.
+  Interpreter(const Dialect& dialect, const Block& block, Sink& sink);
   Interpreter(const Interpreter&) = delete;
   Interpreter& operator=(const Interpreter&) = delete;
 
-  [[nodiscard]] AfterBlock execute(const Block& block, const std::vector<CommentText>& comments);
+  [[nodiscard]] AfterBlock execute(const std::vector<CommentText>& comments);
 
   [[nodiscard]] Parameters& parameters() { return parameters_; }
   [[nodiscard]] const Dialect& dialect() const { return dialect_; }
   /// A plotter's own code, or M0 with a text, which is passed on as it is.
-  void pass_line(const Block& block,
-                 const std::vector<CommentText>& comments,
-                 Code code,
-                 std::string_view words);
+  void pass_line(const std::vector<CommentText>& comments, Code code, std::string_view words);
   /// Notes on the program as a whole, at its end.
   void note_whole(std::size_t last_line);
   /// Counts one step against the budget.
@@ -114,65 +111,63 @@ class Interpreter {
   struct Cycle;
 
   // interpreter.cpp: the order of execution.
-  void comments(const Block& block, const std::vector<CommentText>& texts);
-  int motion_to_be(const Block& block) const;
-  void set_feed(const Block& block, int motion);
-  void set_modes(const Block& block);
-  AfterBlock after(const Block& block) const;
-  void assign(const Block& block);
+  void comments(const std::vector<CommentText>& texts);
+  int motion_to_be() const;
+  void set_feed(int motion);
+  void set_modes();
+  AfterBlock after() const;
+  void assign();
   /// Remarks of one name are made once a program.
   void note_once(Note note);
-  void note_deletable(const Block& block);
-  void check_assignments(const Block& block) const;
+  void note_deletable();
+  void check_assignments() const;
   [[nodiscard]] std::string written_out(std::string_view text) const;
 
   // interpreter_words.cpp: which code a block's words belong to, and words that are passed through.
-  void check_words(const Block& block, int motion) const;
-  void pass_words(const Block& block);
-  void dwell(const Block& block);
-  void tool_length(const Block& block);
-  void pass(const Block& block, Code code, std::string_view words = {}) const;
+  void check_words(int motion) const;
+  void pass_words();
+  void dwell();
+  void tool_length();
+  void pass(Code code, std::string_view words = {}) const;
   /// With the words of the block that belong to it, lengths in mm of a unit.
-  void pass_with_words(const Block& block, const KnownCode& code, double unit = 1.0) const;
+  void pass_with_words(const KnownCode& code, double unit = 1.0) const;
 
   // interpreter_offsets.cpp: coordinate systems, G10, G28, G30, G52, G92.
   void select_system(int system);
   void read_system(int system, Axes& origin, double& rotation_deg) const;
-  void once(const Block& block);
-  void set_system(const Block& block);
-  void set_offset(const Block& block);
+  void once();
+  void set_system();
+  void set_offset();
   void cancel_offset(bool forget);
   void restore_offset();
-  void go_home(const Block& block, int first_parameter);
-  void note_home(const Block& block, const char* sentence);
+  void go_home(int first_parameter);
+  void note_home(const char* sentence);
   void store_home(int first_parameter);
-  void needs_known_z(const Block& block) const;
+  void needs_known_z() const;
   void refresh_frame();
   [[nodiscard]] Axes to_machine(const Axes& program) const;
   [[nodiscard]] Axes to_program(const Axes& machine) const;
 
   // interpreter_motion.cpp
-  void move(const Block& block, int motion);
-  Axes target(const Block& block) const;
+  void move(int motion);
+  Axes target() const;
   /// In mm, or degrees.
-  [[nodiscard]] double axis_value(const Block& block, std::size_t axis) const;
-  void machine_height(const Block& block, int motion);
-  void pass_height(const Block& block, std::string text, Code code);
-  void check_start(const Block& block, int motion);
-  void check_height(const Block& block, const Axes& machine) const;
-  void polar(const Block& block, Axes& program) const;
-  void straight(const Block& block, MoveKind kind, const Axes& machine);
-  void arc(const Block& block, bool clockwise);
-  void probe(const Block& block);
-  [[nodiscard]] double length(const Block& block, char letter) const {
-    return block.value(letter) * mm_per_unit();
-  }
+  [[nodiscard]] double axis_value(std::size_t axis) const;
+  void machine_height(int motion);
+  void pass_height(std::string text, Code code);
+  void check_start(int motion);
+  void check_height(const Axes& machine) const;
+  void polar(Axes& program) const;
+  void straight(MoveKind kind, const Axes& machine);
+  void arc(bool clockwise);
+  void probe();
+  [[nodiscard]] double length(char letter) const { return block_.value(letter) * mm_per_unit(); }
   [[nodiscard]] double mm_per_unit() const { return modes_.inches ? 25.4 : 1.0; }
   [[nodiscard]] Point on_sheet(const Axes& machine) const;
   [[nodiscard]] Move basic_move(std::size_t line, MoveKind kind, const Axes& to) const;
 
   // interpreter_cycles.cpp
-  void cycle(const Block& block, int motion);
+  void cycle(int motion);
 
   // interpreter_state.cpp
   [[nodiscard]] std::string system_name() const;
@@ -182,6 +177,7 @@ class Interpreter {
   [[nodiscard]] std::optional<double> state_by_name(std::string_view name) const;
 
   Dialect dialect_;
+  const Block& block_;
   Sink& sink_;
   Parameters parameters_;
   Modes modes_;

@@ -22,7 +22,6 @@ constexpr const char* kSpindleStands = "the cycle stops the spindle, but it is n
 /// A cycle's numbers, in the program's frame, mm, and its moves.
 struct Interpreter::Cycle {
   Interpreter& interpreter;
-  const Block& block;
   int motion = 0;
   PlaneAxes axes;
   Axes program{};                // where it started; the axes outside the plane stay there
@@ -35,7 +34,7 @@ struct Interpreter::Cycle {
   void go(MoveKind kind, double height) const;
   void rapid(double height) const { go(MoveKind::rapid, height); }
   void feed(double height) const { go(MoveKind::feed, height); }
-  void pass(Code code, std::string_view words = {}) const { interpreter.pass(block, code, words); }
+  void pass(Code code, std::string_view words = {}) const { interpreter.pass(code, words); }
   void dwell() const { pass(g::dwell, with_value(" P", interpreter.sticky_.p)); }
 
   void drill() const;
@@ -53,9 +52,9 @@ Axes Interpreter::Cycle::at(double height) const {
 }
 
 void Interpreter::Cycle::go(MoveKind kind, double height) const {
-  interpreter.step(block.start());
+  interpreter.step(interpreter.block_.start());
   const Axes machine = at(height);
-  Move move = interpreter.basic_move(block.line, kind, machine);
+  Move move = interpreter.basic_move(interpreter.block_.line, kind, machine);
   move.names_xy = true;
   move.names_z = true;
   interpreter.sink_.move(move);
@@ -63,16 +62,16 @@ void Interpreter::Cycle::go(MoveKind kind, double height) const {
   interpreter.z_unknown_ = false;
 }
 
-void Interpreter::cycle(const Block& block, int motion) {
-  Cycle cycle{*this, block, motion, plane_axes(modes_.plane), to_program(machine_)};
+void Interpreter::cycle(int motion) {
+  Cycle cycle{*this, motion, plane_axes(modes_.plane), to_program(machine_)};
   const char depth_letter = kAxisLetters[cycle.axes.normal];
-  if (!block.has_axes()) refuse(bad_cycle, block, "a canned cycle needs axis words");
-  if (block.has('a') || block.has('b') || block.has('c') || block.has('@') || block.has('^')) {
-    refuse(bad_cycle, block, "a canned cycle takes X, Y and Z only");
+  if (!block_.has_axes()) refuse(bad_cycle, block_, "a canned cycle needs axis words");
+  if (block_.has('a') || block_.has('b') || block_.has('c') || block_.has('@') || block_.has('^')) {
+    refuse(bad_cycle, block_, "a canned cycle takes X, Y and Z only");
   }
   if (z_unknown_) {
     refuse(unsupported_code,
-           block,
+           block_,
            "after probing, G53, G28 or G30 only the machine knows where a cycle starts");
   }
   const bool again = modes_.motion == motion;
@@ -82,38 +81,38 @@ void Interpreter::cycle(const Block& block, int motion) {
   if (!within) sticky_.start = cycle.program[cycle.axes.normal];
   sticky_.plane = modes_.plane;
   const auto sticky = [&](char letter, double& kept, bool is_length) -> bool {
-    if (block.has(letter)) kept = is_length ? length(block, letter) : block.value(letter);
-    return block.has(letter) || again;
+    if (block_.has(letter)) kept = is_length ? length(letter) : block_.value(letter);
+    return block_.has(letter) || again;
   };
   if (!sticky('r', sticky_.r, true)) {
-    refuse(bad_cycle, block, "the cycle's R (the height of its retract plane) is missing");
+    refuse(bad_cycle, block_, "the cycle's R (the height of its retract plane) is missing");
   }
   if (!sticky(depth_letter, sticky_.depth, true)) {
-    refuse(bad_cycle, block, "the cycle's depth is missing");
+    refuse(bad_cycle, block_, "the cycle's depth is missing");
   }
   const bool dwells = motion == g::drill_dwell || motion == g::bore_stop ||
                       motion == g::bore_manual || motion == g::bore_dwell;
   if (!sticky('p', sticky_.p, false)) {
-    if (dwells) refuse(bad_cycle, block, "the cycle's dwell time P is missing");
+    if (dwells) refuse(bad_cycle, block_, "the cycle's dwell time P is missing");
     sticky_.p = 0.0;
   }
   const bool pecks = motion == g::peck_break || motion == g::peck;
   if (!sticky('q', sticky_.q, true) && pecks) {
-    refuse(bad_cycle, block, "the cycle's depth of a peck, Q, is missing");
+    refuse(bad_cycle, block_, "the cycle's depth of a peck, Q, is missing");
   }
   if (pecks && !(sticky_.q > 0.0)) {
-    refuse(bad_cycle, block, "the depth Q must be above zero");
+    refuse(bad_cycle, block_, "the depth Q must be above zero");
   }
-  if (sticky_.p < 0.0) refuse(bad_cycle, block, "the dwell time is below zero");
-  const double repeats = block.find('l').value_or(1.0);
+  if (sticky_.p < 0.0) refuse(bad_cycle, block_, "the dwell time is below zero");
+  const double repeats = block_.find('l').value_or(1.0);
   if (!(repeats >= 1.0) || std::round(repeats) != repeats) {
-    refuse(bad_cycle, block, "a cycle is repeated a whole number of times, at least once");
+    refuse(bad_cycle, block_, "a cycle is repeated a whole number of times, at least once");
   }
 
   double height = cycle.program[cycle.axes.normal];
   const std::size_t axes[] = {cycle.axes.first, cycle.axes.second};
   const auto word = [&](std::size_t axis, double otherwise) {
-    return block.has(kAxisLetters[axis]) ? length(block, kAxisLetters[axis]) : otherwise;
+    return block_.has(kAxisLetters[axis]) ? length(kAxisLetters[axis]) : otherwise;
   };
   std::array<double, 2> place{};
   std::array<double, 2> stride{};
@@ -128,7 +127,7 @@ void Interpreter::cycle(const Block& block, int motion) {
   cycle.retract = sticky_.r + (modes_.incremental ? sticky_.start : 0.0);
   cycle.bottom = sticky_.depth + (modes_.incremental ? cycle.retract : 0.0);
   if (cycle.retract < cycle.bottom) {
-    refuse(bad_cycle, block, "the retract plane R lies below the cycle's bottom");
+    refuse(bad_cycle, block_, "the retract plane R lies below the cycle's bottom");
   }
   modes_.motion = motion;
   // From below the R plane first straight up to it; a row that began below it goes to it even from
@@ -181,9 +180,9 @@ void Interpreter::Cycle::tap_or_bore() const {
   const int spindle = interpreter.modes_.spindle;
   const bool stops_spindle = motion == g::tap || motion == g::bore_stop || motion == g::bore_manual;
   if (motion == g::tap && spindle != 3) {
-    refuse(bad_cycle, block, "tapping (G84) needs the spindle turning clockwise");
+    refuse(bad_cycle, interpreter.block_, "tapping (G84) needs the spindle turning clockwise");
   }
-  if (stops_spindle && spindle == 0) refuse(bad_cycle, block, kSpindleStands);
+  if (stops_spindle && spindle == 0) refuse(bad_cycle, interpreter.block_, kSpindleStands);
   feed(bottom);
   if (motion == g::tap) {
     for (const int number : {5, 4}) pass(m(number));
@@ -212,12 +211,13 @@ void Interpreter::Cycle::tap_or_bore() const {
 /// G87: through the hole with an oriented spindle, bored from below.
 void Interpreter::Cycle::back_bore() const {
   const Code start = m(interpreter.modes_.spindle);
-  if (start == m(0)) refuse(bad_cycle, block, kSpindleStands);
+  if (start == m(0)) refuse(bad_cycle, interpreter.block_, kSpindleStands);
   const char words[] = {'i', 'j', 'k'};
   for (const char letter : words) {
-    if (!block.has(letter)) refuse(bad_cycle, block, "back boring (G87) needs I, J and K");
+    if (!interpreter.block_.has(letter))
+      refuse(bad_cycle, interpreter.block_, "back boring (G87) needs I, J and K");
   }
-  const auto length = [&](std::size_t axis) { return interpreter.length(block, words[axis]); };
+  const auto length = [&](std::size_t axis) { return interpreter.length(words[axis]); };
   Cycle aside = *this;
   aside.hole[0] += length(axes.first);
   aside.hole[1] += length(axes.second);

@@ -44,63 +44,62 @@ Move Interpreter::basic_move(std::size_t line, MoveKind kind, const Axes& to) co
   return move;
 }
 
-void Interpreter::move(const Block& block, int motion) {
+void Interpreter::move(int motion) {
   moves_ = true;
-  check_start(block, motion);
+  check_start(motion);
   switch (motion) {
     case g::rapid:
     case g::line: {
       modes_.motion = motion;
-      if (block.is(g::machine_frame)) {
-        if (block.has_z_alone()) return machine_height(block, motion);
+      if (block_.is(g::machine_frame)) {
+        if (block_.has_z_alone()) return machine_height(motion);
         note_home(
-            block,
             "G53 with X or Y goes to a place of the machine's own frame, and only the machine "
             "knows where on the sheet that is; write the place on the sheet without G53, and "
             "G53 with Z on a line of its own");
       }
-      const auto machine = target(block);
-      return straight(block, motion == g::rapid ? MoveKind::rapid : MoveKind::feed, machine);
+      const auto machine = target();
+      return straight(motion == g::rapid ? MoveKind::rapid : MoveKind::feed, machine);
     }
     case g::arc_clockwise:
     case g::arc_counterclockwise:
       modes_.motion = motion;
-      return arc(block, motion == g::arc_clockwise);
+      return arc(motion == g::arc_clockwise);
     default:
-      if (!is_probe(motion)) return cycle(block, motion);
+      if (!is_probe(motion)) return cycle(motion);
       modes_.motion = motion;
-      return probe(block);
+      return probe();
   }
 }
 
-double Interpreter::axis_value(const Block& block, std::size_t axis) const {
+double Interpreter::axis_value(std::size_t axis) const {
   const char letter = kAxisLetters[axis];
-  return axis < 3 ? length(block, letter) : block.value(letter);
+  return axis < 3 ? length(letter) : block_.value(letter);
 }
 
 /// The target of the block's axis words, in the machine frame.
-Axes Interpreter::target(const Block& block) const {
-  const bool in_machine = block.is(g::machine_frame);
+Axes Interpreter::target() const {
+  const bool in_machine = block_.is(g::machine_frame);
   Axes place = in_machine ? machine_ : to_program(machine_);
-  if (block.has('@') || block.has('^')) {
-    if (in_machine) refuse(bad_word_value, block, "G53 takes no polar coordinates");
-    polar(block, place);
+  if (block_.has('@') || block_.has('^')) {
+    if (in_machine) refuse(bad_word_value, block_, "G53 takes no polar coordinates");
+    polar(place);
   }
   for (std::size_t i = 0; i < place.size(); ++i) {
-    if (!block.has(kAxisLetters[i])) continue;
-    const double value = axis_value(block, i);
+    if (!block_.has(kAxisLetters[i])) continue;
+    const double value = axis_value(i);
     place[i] = modes_.incremental ? place[i] + value : value;
   }
   return in_machine ? place : to_machine(place);
 }
 
 /// Whether the program has stated the place that it steps from.
-void Interpreter::check_start(const Block& block, int motion) {
-  const bool is_polar = block.has('@') || block.has('^');
+void Interpreter::check_start(int motion) {
+  const bool is_polar = block_.has('@') || block_.has('^');
   for (const std::size_t axis : {0, 1}) {
-    if (!block.has(kAxisLetters[axis]) && !is_polar && !is_arc(motion)) continue;
+    if (!block_.has(kAxisLetters[axis]) && !is_polar && !is_arc(motion)) continue;
     if (modes_.incremental && !placed_[axis]) {
-      note_once({block.line,
+      note_once({block_.line,
                  "start_relative",
                  "the program is relative (G91) before it has gone to a place: where it cuts "
                  "depends on where "
@@ -114,110 +113,110 @@ void Interpreter::check_start(const Block& block, int motion) {
 }
 
 /// Passed as it is: only the machine knows where that is in the work's frame.
-void Interpreter::pass_height(const Block& block, std::string text, Code code) {
+void Interpreter::pass_height(std::string text, Code code) {
   moves_ = z_unknown_ = z_is_machine_ = true;
-  sink_.word({block.line, std::move(text), code, true});
+  sink_.word({block_.line, std::move(text), code, true});
 }
 
 /// A height above the machine's switch or stop, which no work offset reaches.
-void Interpreter::machine_height(const Block& block, int motion) {
-  std::string text = with_value(motion == g::rapid ? "G53 G0 Z" : "G53 G1 Z", length(block, 'z'));
+void Interpreter::machine_height(int motion) {
+  std::string text = with_value(motion == g::rapid ? "G53 G0 Z" : "G53 G1 Z", length('z'));
   if (motion != g::rapid) {
     if (modes_.feed_mode == FeedMode::inverse_time) {
       refuse(unsupported_code,
-             block,
+             block_,
              "a height in the machine's frame (G53) takes a feed rate in mm/min or inch/min");
     }
     text += with_value(" F", modes_.feed);
   }
-  pass_height(block, std::move(text), g::machine_frame);
+  pass_height(std::move(text), g::machine_frame);
 }
 
 /// A slope begins at a height that is known.
-void Interpreter::check_height(const Block& block, const Axes& machine) const {
-  if (!block.has('z') || !z_unknown_) return;
+void Interpreter::check_height(const Axes& machine) const {
+  if (!block_.has('z') || !z_unknown_) return;
   if (modes_.incremental) {
     refuse(unsupported_code,
-           block.place('z'),
+           block_.place('z'),
            "after probing, G53, G28 or G30 only the machine knows its height, so Z cannot "
            "step from it (G91) here");
   }
   if (z_is_machine_ && (machine[0] != machine_[0] || machine[1] != machine_[1])) {
     refuse(unsupported_code,
-           block.place('z'),
+           block_.place('z'),
            "after a height in the machine's frame (G53, G28, G30) Z moves by itself first, "
            "without X and Y: only the machine knows the height that it starts from");
   }
 }
 
 /// @ is the distance from the program's zero in XY, ^ the angle in degrees.
-void Interpreter::polar(const Block& block, Axes& program) const {
+void Interpreter::polar(Axes& program) const {
   if (modes_.plane != g::plane_xy) {
-    refuse(bad_word_value, block, "polar coordinates (@, ^) are for the XY plane (G17)");
+    refuse(bad_word_value, block_, "polar coordinates (@, ^) are for the XY plane (G17)");
   }
-  if (block.has('x') || block.has('y')) {
-    refuse(modal_conflict, block, "a point has X and Y or polar coordinates (@, ^), not both");
+  if (block_.has('x') || block_.has('y')) {
+    refuse(modal_conflict, block_, "a point has X and Y or polar coordinates (@, ^), not both");
   }
   double radius = std::hypot(program[0], program[1]);
   double angle_deg = std::atan2(program[1], program[0]) / kRadiansPerDegree;
-  if ((modes_.incremental || !block.has('^')) && radius == 0.0) {
-    refuse(bad_word_value, block, "at the program's zero a polar step has no direction");
+  if ((modes_.incremental || !block_.has('^')) && radius == 0.0) {
+    refuse(bad_word_value, block_, "at the program's zero a polar step has no direction");
   }
-  if (block.has('@')) radius = (modes_.incremental ? radius : 0.0) + length(block, '@');
-  if (block.has('^')) angle_deg = (modes_.incremental ? angle_deg : 0.0) + block.value('^');
+  if (block_.has('@')) radius = (modes_.incremental ? radius : 0.0) + length('@');
+  if (block_.has('^')) angle_deg = (modes_.incremental ? angle_deg : 0.0) + block_.value('^');
   program[0] = radius * std::cos(angle_deg * kRadiansPerDegree);
   program[1] = radius * std::sin(angle_deg * kRadiansPerDegree);
 }
 
-void Interpreter::straight(const Block& block, MoveKind kind, const Axes& machine) {
-  check_height(block, machine);
-  if (block.has('z')) z_unknown_ = z_is_machine_ = false;
-  Move move = basic_move(block.line, kind, machine);
-  name_axes(block, move);
+void Interpreter::straight(MoveKind kind, const Axes& machine) {
+  check_height(machine);
+  if (block_.has('z')) z_unknown_ = z_is_machine_ = false;
+  Move move = basic_move(block_.line, kind, machine);
+  name_axes(block_, move);
   sink_.move(move);
   machine_ = machine;
 }
 
-void Interpreter::probe(const Block& block) {
-  if (!block.has('x') && !block.has('y') && !block.has('z')) {
-    refuse(missing_word, block, "probing needs an axis word");
+void Interpreter::probe() {
+  if (!block_.has('x') && !block_.has('y') && !block_.has('z')) {
+    refuse(missing_word, block_, "probing needs an axis word");
   }
-  const auto machine = target(block);
+  const auto machine = target();
   if (machine[0] != machine_[0] || machine[1] != machine_[1]) {
     refuse(unsupported_code,
-           block,
+           block_,
            "probing sideways (X, Y) ends at a place that only the machine knows");
   }
   if (std::fabs(machine[2] - machine_[2]) < 0.254) {
-    refuse(bad_word_value, block, "the probe starts closer than 0.254 mm (0.01 inch) to its end");
+    refuse(bad_word_value, block_, "the probe starts closer than 0.254 mm (0.01 inch) to its end");
   }
-  straight(block, MoveKind::probe, machine);
+  straight(MoveKind::probe, machine);
   z_unknown_ = true;
   z_is_machine_ = false;
   for (int i = 0; i < 3; ++i)
     parameters_.set(parameter::kProbe + i, machine_[static_cast<std::size_t>(i)]);
 }
 
-void Interpreter::arc(const Block& block, bool clockwise) {
+void Interpreter::arc(bool clockwise) {
   double count = 1.0;
-  if (block.has('p')) {
-    count = block.value('p');
+  if (block_.has('p')) {
+    count = block_.value('p');
     if (count < 1.0 || count > kMostTurns || std::round(count) != count) {
       refuse(bad_arc,
-             block.place('p'),
+             block_.place('p'),
              fmt::format("P, the number of turns, is a whole number from 1 to {}", kMostTurns));
     }
   }
-  if (block.is(g::machine_frame)) {
-    refuse(bad_word_value, block, "G53 needs G0 or G1");
+  if (block_.is(g::machine_frame)) {
+    refuse(bad_word_value, block_, "G53 needs G0 or G1");
   }
   if (z_unknown_ && modes_.plane != g::plane_xy) {
     refuse(unsupported_code,
-           block,
+           block_,
            "after probing, G53, G28 or G30 only the machine knows where an upright arc "
            "(G18, G19) starts");
   }
-  const auto machine = target(block);
+  const auto machine = target();
   const Axes start = to_program(machine_);
   const Axes end = to_program(machine);
   const PlaneAxes plane = plane_axes(modes_.plane);
@@ -231,7 +230,7 @@ void Interpreter::arc(const Block& block, bool clockwise) {
   request.absolute_centre = modes_.absolute_centres;
   request.mm_per_unit = mm_per_unit();
   // LinuxCNC takes absolute centres in the program's frame, offsets included.
-  const auto found = attempt([&] { return circle_of(request, block); });
+  const auto found = attempt([&] { return circle_of(request, block_); });
   if (!found) {
     if (!sink_.goes_on_after(found.error())) throw Refusal(found.error());
     machine_ = machine;
@@ -260,13 +259,13 @@ void Interpreter::arc(const Block& block, bool clockwise) {
   const double sweep = std::fabs(arc.sweep_rad);
   if (sweep < 2.0 * kHalfTurnRad - 1e-3) {
     ++arcs_;
-    if (sweep > kHalfTurnRad && long_arcs_++ == 0) first_long_arc_ = block.line;
+    if (sweep > kHalfTurnRad && long_arcs_++ == 0) first_long_arc_ = block_.line;
   }
-  Move move = basic_move(block.line, MoveKind::arc, machine);
+  Move move = basic_move(block_.line, MoveKind::arc, machine);
   move.arc = arc;
-  check_height(block, machine);
-  if (block.has('z')) z_unknown_ = z_is_machine_ = false;
-  name_axes(block, move);
+  check_height(machine);
+  if (block_.has('z')) z_unknown_ = z_is_machine_ = false;
+  name_axes(block_, move);
   sink_.move(move);
   machine_ = machine;
 }

@@ -75,23 +75,23 @@ void Interpreter::select_system(int system) {
 }
 
 /// Codes that act once: offsets and homes. G4 and G53 are handled elsewhere.
-void Interpreter::once(const Block& block) {
-  const KnownCode* code = block.code(Group::once);
+void Interpreter::once() {
+  const KnownCode* code = block_.code(Group::once);
   if (code == nullptr) return;
   switch (code->tenths) {
     case g::set_data:
-      return set_system(block);
+      return set_system();
     case g::home:
-      return go_home(block, parameter::kHome);
+      return go_home(parameter::kHome);
     case g::set_home:
       return store_home(parameter::kHome);
     case g::second_home:
-      return go_home(block, parameter::kSecondHome);
+      return go_home(parameter::kSecondHome);
     case g::set_second_home:
       return store_home(parameter::kSecondHome);
     case g::local_offset:
     case g::offset_here:
-      return set_offset(block);
+      return set_offset();
     case g::offset_off_forget:
       return cancel_offset(true);
     case g::offset_off:
@@ -103,37 +103,37 @@ void Interpreter::once(const Block& block) {
   }
 }
 
-void Interpreter::needs_known_z(const Block& block) const {
-  if (!z_unknown_ || !block.has('z')) return;
+void Interpreter::needs_known_z() const {
+  if (!z_unknown_ || !block_.has('z')) return;
   refuse(unsupported_code,
-         block.place('z'),
+         block_.place('z'),
          "after probing, G53, G28 or G30 only the machine knows its height, so Z cannot be set "
          "from it here");
 }
 
-void Interpreter::set_system(const Block& block) {
-  const double mode = block.find('l').value_or(-1.0);
+void Interpreter::set_system() {
+  const double mode = block_.find('l').value_or(-1.0);
   if (mode != 2.0 && mode != 20.0) {
     refuse(unsupported_code,
-           block,
+           block_,
            "of G10 only L2 and L20 (work offsets) are supported; tool tables are not");
   }
-  const double number = block.find('p').value_or(-1.0);
+  const double number = block_.find('p').value_or(-1.0);
   if (number < 0.0 || number > 9.0 || std::round(number) != number) {
-    refuse(bad_word_value, block, "G10 needs P0 (the system in force) to P9");
+    refuse(bad_word_value, block_, "G10 needs P0 (the system in force) to P9");
   }
   const int system = number == 0.0 ? modes_.system : static_cast<int>(number);
   const bool from_here = mode == 20.0;
   if (from_here) {
-    needs_known_z(block);
-    if (block.has('r')) {
-      refuse(bad_word_value, block.place('r'), "R (a rotation) belongs to G10 L2, not to L20");
+    needs_known_z();
+    if (block_.has('r')) {
+      refuse(bad_word_value, block_.place('r'), "R (a rotation) belongs to G10 L2, not to L20");
     }
   }
-  if (block.has('@') || block.has('^')) {
-    refuse(bad_word_value, block, "G10 takes no polar coordinates");
+  if (block_.has('@') || block_.has('^')) {
+    refuse(bad_word_value, block_, "G10 takes no polar coordinates");
   }
-  if (block.has('r')) parameters_.set(rotation_parameter(system), block.value('r'));
+  if (block_.has('r')) parameters_.set(rotation_parameter(system), block_.value('r'));
 
   Axes origin;
   double rotation_deg = 0.0;
@@ -148,8 +148,8 @@ void Interpreter::set_system(const Block& block) {
   Axes shift{};
   const bool offset_on = parameters_.stored(parameter::kOffsetOn) != 0.0;
   for (std::size_t i = 0; i < origin.size(); ++i) {
-    if (!block.has(kAxisLetters[i])) continue;
-    const double value = axis_value(block, i);
+    if (!block_.has(kAxisLetters[i])) continue;
+    const double value = axis_value(i);
     if (from_here) {
       shift[i] = here[i] - (offset_on ? frame_.offset[i] : 0.0) - value;
     } else {
@@ -165,19 +165,19 @@ void Interpreter::set_system(const Block& block) {
 
 /// G92 gives the machine's position the stated coordinates; G52 states the offset itself. They
 /// share it.
-void Interpreter::set_offset(const Block& block) {
-  if (!block.has_axes()) {
-    refuse(missing_word, block, "G52 and G92 need an axis word");
+void Interpreter::set_offset() {
+  if (!block_.has_axes()) {
+    refuse(missing_word, block_, "G52 and G92 need an axis word");
   }
-  if (block.has('@') || block.has('^')) {
-    refuse(bad_word_value, block, "G52 and G92 take no polar coordinates");
+  if (block_.has('@') || block_.has('^')) {
+    refuse(bad_word_value, block_, "G52 and G92 take no polar coordinates");
   }
-  const bool from_here = block.is(g::offset_here);
-  if (from_here) needs_known_z(block);
+  const bool from_here = block_.is(g::offset_here);
+  if (from_here) needs_known_z();
   const Axes program = to_program(machine_);
   for (std::size_t i = 0; i < frame_.offset.size(); ++i) {
-    if (!block.has(kAxisLetters[i])) continue;
-    const double value = axis_value(block, i);
+    if (!block_.has(kAxisLetters[i])) continue;
+    const double value = axis_value(i);
     frame_.offset[i] = from_here ? program[i] + frame_.offset[i] - value : value;
     if (from_here && i < 2) placed_[i] = true;
   }
@@ -207,42 +207,40 @@ void Interpreter::store_home(int first) {
   home_known_[first == parameter::kHome ? 0 : 1] = true;
 }
 
-void Interpreter::note_home(const Block& block, const char* sentence) {
-  sink_.note({block.line, "home_assumed", sentence, unknown_home});
+void Interpreter::note_home(const char* sentence) {
+  sink_.note({block_.line, "home_assumed", sentence, unknown_home});
 }
 
 /// Through the point of the axis words, then home with those axes; with all if none is given.
-void Interpreter::go_home(const Block& block, int first) {
-  const auto through = target(block);
+void Interpreter::go_home(int first) {
+  const auto through = target();
   moves_ = true;
   if (!dialect_.home_is_zero && !home_known_[first == parameter::kHome ? 0 : 1]) {
     const Code code = first == parameter::kHome ? g::home : g::second_home;
-    if (block.has_z_alone()) {
+    if (block_.has_z_alone()) {
       // In whole nanometres, which the rounding of offsets and inches leaves alone.
-      const double z_mm =
-          std::round(1e6 * (modes_.incremental ? length(block, 'z') : through[2])) / 1e6;
+      const double z_mm = std::round(1e6 * (modes_.incremental ? length('z') : through[2])) / 1e6;
       const std::string word = (modes_.incremental ? "G91 " : "") + name(code) + " Z";
-      return pass_height(block, with_value(word, z_mm), code);
+      return pass_height(with_value(word, z_mm), code);
     }
     note_home(
-        block,
         "the place that G28 and G30 go to is stored in the machine, and only the machine knows "
         "where on the sheet that is; write the place on the sheet, and leave X and Y out of the "
         "retract (G28 G91 Z0)");
   }
   placed_[0] = placed_[1] = true;
-  straight(block, MoveKind::rapid, through);
+  straight(MoveKind::rapid, through);
   Axes home{};
   for (std::size_t i = 0; i < home.size(); ++i)
     home[i] = parameters_.stored(first + static_cast<int>(i));
-  if (!block.has_axes()) return straight(block, MoveKind::rapid, home);
+  if (!block_.has_axes()) return straight(MoveKind::rapid, home);
   // The words refer to axes of the program, which differ from the machine's in a rotated frame.
   const Axes home_program = to_program(home);
   Axes program = to_program(machine_);
   for (std::size_t i = 0; i < program.size(); ++i) {
-    if (block.has(kAxisLetters[i])) program[i] = home_program[i];
+    if (block_.has(kAxisLetters[i])) program[i] = home_program[i];
   }
-  return straight(block, MoveKind::rapid, to_machine(program));
+  return straight(MoveKind::rapid, to_machine(program));
 }
 
 }  // namespace chaintrue::gcode

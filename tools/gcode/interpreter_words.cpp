@@ -83,107 +83,106 @@ long whole(double value) { return std::lround(value); }
 
 }  // namespace
 
-void Interpreter::check_words(const Block& block, int motion) const {
+void Interpreter::check_words(int motion) const {
   for (const char letter : {'u', 'v', 'w'}) {
-    if (block.has(letter)) {
+    if (block_.has(letter)) {
       refuse(unsupported_axis,
-             block.place(letter),
+             block_.place(letter),
              fmt::format("the axis {} is not supported", upper(letter)));
     }
   }
   for (const char letter : std::string_view("dehijklpqr")) {
-    if (!block.has(letter)) continue;
-    const KnownCode& user = user_of(letter, block, motion);
-    if (user.uses(upper(letter))) check_whole(block, letter, " of " + name(user));
+    if (!block_.has(letter)) continue;
+    const KnownCode& user = user_of(letter, block_, motion);
+    if (user.uses(upper(letter))) check_whole(block_, letter, " of " + name(user));
   }
-  if (block.is(g::machine_frame)) {
+  if (block_.is(g::machine_frame)) {
     if (motion != g::rapid && motion != g::line)
-      refuse(bad_word_value, block, "G53 needs G0 or G1 and axis words");
+      refuse(bad_word_value, block_, "G53 needs G0 or G1 and axis words");
     const bool incremental =
-        block.code(Group::distance) ? block.is(g::incremental) : modes_.incremental;
-    if (incremental) refuse(modal_conflict, block, "G53 cannot be used in G91");
+        block_.code(Group::distance) ? block_.is(g::incremental) : modes_.incremental;
+    if (incremental) refuse(modal_conflict, block_, "G53 cannot be used in G91");
   }
   for (const char letter : {'s', 't', 'f'}) {
-    if (block.has(letter) && block.value(letter) < 0.0) {
-      refuse(bad_word_value, block.place(letter), fmt::format("{} is negative", upper(letter)));
+    if (block_.has(letter) && block_.value(letter) < 0.0) {
+      refuse(bad_word_value, block_.place(letter), fmt::format("{} is negative", upper(letter)));
     }
   }
-  if (block.has('t')) check_whole(block, 't', ", a tool's number,");
+  if (block_.has('t')) check_whole(block_, 't', ", a tool's number,");
 }
 
-void Interpreter::pass(const Block& block, Code code, std::string_view words) const {
-  sink_.word({block.line, name(code).append(words), code});
+void Interpreter::pass(Code code, std::string_view words) const {
+  sink_.word({block_.line, name(code).append(words), code});
 }
 
-void Interpreter::pass_with_words(const Block& block, const KnownCode& code, double unit) const {
+void Interpreter::pass_with_words(const KnownCode& code, double unit) const {
   std::string words;
   for (const char letter : code.words) {
-    if (!block.has(lower(letter))) continue;
-    const double value = block.value(lower(letter));
+    if (!block_.has(lower(letter))) continue;
+    const double value = block_.value(lower(letter));
     const bool is_whole = letter == upper(letter);
     words +=
         with_value(std::string{' ', upper(letter)}, is_whole ? std::round(value) : value * unit);
   }
-  pass(block, code, words);
+  pass(code, words);
 }
 
-void Interpreter::pass_words(const Block& block) {
-  if (block.has('s')) {
-    modes_.spindle_rpm = block.value('s');
-    sink_.word({block.line, with_value("S", modes_.spindle_rpm)});
+void Interpreter::pass_words() {
+  if (block_.has('s')) {
+    modes_.spindle_rpm = block_.value('s');
+    sink_.word({block_.line, with_value("S", modes_.spindle_rpm)});
   }
-  if (block.has('t')) {
-    modes_.selected_tool = whole(block.value('t'));
-    sink_.word({block.line, fmt::format("T{}", modes_.selected_tool)});
+  if (block_.has('t')) {
+    modes_.selected_tool = whole(block_.value('t'));
+    sink_.word({block_.line, fmt::format("T{}", modes_.selected_tool)});
   }
-  if (const KnownCode* output = block.code(Group::output)) {
-    check_complete(block, *output);
-    pass_with_words(block, *output);
+  if (const KnownCode* output = block_.code(Group::output)) {
+    check_complete(block_, *output);
+    pass_with_words(*output);
   }
-  if (const KnownCode* tool = block.code(Group::tool)) {
-    check_complete(block, *tool);
-    modes_.tool = *tool == m(61) ? whole(block.value('q')) : modes_.selected_tool;
-    pass_with_words(block, *tool);
+  if (const KnownCode* tool = block_.code(Group::tool)) {
+    check_complete(block_, *tool);
+    modes_.tool = *tool == m(61) ? whole(block_.value('q')) : modes_.selected_tool;
+    pass_with_words(*tool);
   }
-  if (const KnownCode* spindle = block.code(Group::spindle)) {
+  if (const KnownCode* spindle = block_.code(Group::spindle)) {
     modes_.spindle = *spindle == m(5) ? 0 : spindle->tenths / 10;
-    pass(block, *spindle);
+    pass(*spindle);
   }
-  if (const KnownCode* coolant = block.code(Group::coolant)) pass(block, *coolant);
-  if (const KnownCode* changed = block.code(Group::override)) pass_with_words(block, *changed);
+  if (const KnownCode* coolant = block_.code(Group::coolant)) pass(*coolant);
+  if (const KnownCode* changed = block_.code(Group::override)) pass_with_words(*changed);
 }
 
-void Interpreter::dwell(const Block& block) {
-  if (!block.is(g::dwell)) return;
-  if (!block.has('p') || block.value('p') < 0.0)
-    refuse(missing_word, block, "G4 needs its time as P, not below zero");
+void Interpreter::dwell() {
+  if (!block_.is(g::dwell)) return;
+  if (!block_.has('p') || block_.value('p') < 0.0)
+    refuse(missing_word, block_, "G4 needs its time as P, not below zero");
   note_once(
-      {block.line,
+      {block_.line,
        "dwell_unit",
        "G4 counts P in seconds here, in milliseconds on the classic Maslow firmware; P passes "
        "unchanged"});
-  pass(block, g::dwell, with_value(" P", block.value('p')));
+  pass(g::dwell, with_value(" P", block_.value('p')));
 }
 
-void Interpreter::tool_length(const Block& block) {
+void Interpreter::tool_length() {
   // G41 and G42 reach this point only if tools have no diameter.
-  if (block.is(g::cutter_off)) pass(block, g::cutter_off);
-  if (block.is(g::tool_length_stated)) {
-    if (block.has('x') || block.has('y') || block.has('a') || block.has('b') || block.has('c')) {
-      refuse(unsupported_code, block, "a tool offset (G43.1) in any axis but Z moves the path");
+  if (block_.is(g::cutter_off)) pass(g::cutter_off);
+  if (block_.is(g::tool_length_stated)) {
+    if (block_.has('x') || block_.has('y') || block_.has('a') || block_.has('b') ||
+        block_.has('c')) {
+      refuse(unsupported_code, block_, "a tool offset (G43.1) in any axis but Z moves the path");
     }
-    pass(block,
-         g::tool_length_stated,
-         block.has('z') ? with_value(" Z", length(block, 'z')) : std::string());
-  } else if (const KnownCode* code = block.code(Group::tool_length)) {
-    pass_with_words(block, *code);
+    pass(g::tool_length_stated, block_.has('z') ? with_value(" Z", length('z')) : std::string());
+  } else if (const KnownCode* code = block_.code(Group::tool_length)) {
+    pass_with_words(*code);
   }
-  if (block.is(g::exact_stop)) {
+  if (block_.is(g::exact_stop)) {
     // Some controllers misread its dot.
-    pass(block, g::exact_path);
-  } else if (const KnownCode* control = block.code(Group::path_control)) {
+    pass(g::exact_path);
+  } else if (const KnownCode* control = block_.code(Group::path_control)) {
     // check_words has ensured that P and Q belong to no other code of the line.
-    pass_with_words(block, *control, mm_per_unit());
+    pass_with_words(*control, mm_per_unit());
   }
 }
 

@@ -80,7 +80,7 @@ void Limits::word(const PassedWord& word) {
   if (is_length && !firmware.tool_lengths) {
     refuse(
         not_emittable,
-        {word.line, 0},
+        {word.line},
         fmt::format("{}: {} keeps no tool lengths, so every height after it could be wrong; take "
                     "G43 out and set Z to zero with each tool",
                     word.text,
@@ -88,7 +88,7 @@ void Limits::word(const PassedWord& word) {
   }
   if (word.moves_itself && !knows_code(firmware, *word.code)) {
     refuse(not_emittable,
-           {word.line, 0},
+           {word.line},
            fmt::format("{}: {} does not know {} and would take the height for one above the work; "
                        "write a safe height of the work (G0 Z...)",
                        word.text,
@@ -108,7 +108,7 @@ void Limits::comment(const Comment& comment) {
 void Limits::object(const Move& move, const CorrectionFailure& failure, Point place) {
   findings_.add(
       Problem{failure.reason == CorrectionReason::controller ? outside_controller : outside_map,
-              {move.line, 0},
+              {move.line},
               fmt::format("{} {}", in_xy(place), failure.sentence())});
 }
 
@@ -122,7 +122,7 @@ void Limits::examine(const Move& move, const PathSample& sample) {
     summary_.largest_correction_line = move.line;
   }
   const auto object_to = [&](ProblemName name, std::string sentence) {
-    findings_.add(Problem{name, {move.line, 0}, std::move(sentence)});
+    findings_.add(Problem{name, {move.line}, std::move(sentence)});
   };
   if (size > options_.largest_correction_mm) {
     object_to(

@@ -31,7 +31,10 @@ constexpr OtherKind kOtherKinds[] = {
 class Program::Runner {
  public:
   Runner(LineSource& source, const Dialect& dialect, Sink& sink)
-      : interpreter_(dialect, sink), source_(source), flow_(source, interpreter_), sink_(sink) {}
+      : interpreter_(dialect, block_, sink),
+        source_(source),
+        flow_(source, interpreter_),
+        sink_(sink) {}
 
   bool step() {
     if (ended_) return false;
@@ -51,7 +54,7 @@ class Program::Runner {
 
  private:
   void end_of_file() {
-    flow_.finish({summary_.lines, 0});
+    flow_.finish({summary_.lines});
     if (opened_by_percent_) {
       sink_.note({summary_.lines,
                   "no_closing_percent",
@@ -88,7 +91,7 @@ class Program::Runner {
     ++summary_.blocks;
     if (dialect.passes_plotter_codes) {
       if (const auto word = plotter_word(line_, at, dialect.plotter_home_mm.has_value()))
-        return interpreter_.pass_line(block_, line_.comments, word->code, word->words);
+        return interpreter_.pass_line(line_.comments, word->code, word->words);
     }
     try {
       read_words(ValueReader(line_, interpreter_.parameters(), at),
@@ -98,7 +101,7 @@ class Program::Runner {
       if (holds_moves(line_.text)) lines_lost(raw.number);
       throw;
     }
-    follow(interpreter_.execute(block_, line_.comments));
+    follow(interpreter_.execute(line_.comments));
   }
 
   void other_kind(const SourceLine& raw, std::size_t first) const {
@@ -110,7 +113,7 @@ class Program::Runner {
   }
 
   [[noreturn]] static void lines_lost(std::size_t line) {
-    refuse(line_ends_lost, {line, 0}, kLineEndsLost);
+    refuse(line_ends_lost, {line}, kLineEndsLost);
   }
 
   /// The text is the operator's: a plotter's controller shows it, in other programs it is a message.
@@ -119,7 +122,7 @@ class Program::Runner {
     block_.clear(number);
     const bool shows = interpreter_.dialect().passes_plotter_codes;
     if (!shows) sink_.comment({number, text.text, true});
-    interpreter_.pass_line(block_, text.comments, text.code, shows ? " " + text.text : "");
+    interpreter_.pass_line(text.comments, text.code, shows ? " " + text.text : "");
   }
 
   char peek(std::size_t at) const { return at < line_.text.size() ? line_.text[at] : '\0'; }
@@ -166,12 +169,12 @@ class Program::Runner {
     }
   }
 
+  Block block_;
   Interpreter interpreter_;
   LineSource& source_;
   Flow flow_;
   Sink& sink_;
   CleanLine line_;
-  Block block_;
   ProgramSummary summary_;
   bool begun_ = false;
   bool opened_by_percent_ = false;

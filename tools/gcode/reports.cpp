@@ -44,7 +44,7 @@ class Sampler final : public Sink {
       }
       findings_.add(Problem{
           outside_map,
-          {move.line, 0},
+          {move.line},
           fmt::format("{} {}", in_xy(place), correction_failure(answer.error()).sentence())});
       return;
     }
@@ -129,7 +129,7 @@ class Surveyor final : public Sink {
           area.x_max - area.x_min,
           area.y_max - area.y_min);
     }
-    findings_.add(Problem{outside_sheet, {line, 0}, std::move(sentence)});
+    findings_.add(Problem{outside_sheet, {line}, std::move(sentence)});
   }
 
   Sheet sheet_;

@@ -25,7 +25,7 @@ double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm
 [[noreturn]] void no_place(const CorrectionFailure& failure, Point command, std::size_t line) {
   const bool controller = failure.reason == CorrectionReason::controller;
   refuse(controller ? outside_controller : outside_map,
-         {line, 0},
+         {line},
          fmt::format("{}: the tool's place {}", in_xy(command), failure.sentence()));
 }
 
