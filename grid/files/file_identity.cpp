@@ -50,6 +50,12 @@ void note_as_read(int descriptor) {
     log.files.push_back(*identity);
 }
 
+void forget_files_read() {
+  ReadLog& log = read_log();
+  const std::scoped_lock lock(log.mutex);
+  log.files.clear();
+}
+
 std::vector<FileIdentity> files_read() {
   ReadLog& log = read_log();
   const std::scoped_lock lock(log.mutex);

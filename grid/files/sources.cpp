@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "grid/files/read_log.hpp"
+
 namespace chaintrue::grid::files {
 namespace {
 
@@ -28,7 +30,10 @@ void note_source(SourceFile source) {
     sources.push_back(std::move(source));
 }
 
-void forget_sources() { sources_of_this_thread().clear(); }
+void forget_sources() {
+  sources_of_this_thread().clear();
+  forget_files_read();
+}
 
 std::vector<std::string> changed_since(const Provenance& then, const std::vector<SourceFile>& now) {
   std::vector<std::string> changed;

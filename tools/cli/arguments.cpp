@@ -18,7 +18,7 @@ struct Rule {
   std::string harmless;
 };
 
-/// Of all verbs; one command line a process.
+/// Of the current command line, all verbs.
 std::vector<Rule>& rules() {
   static std::vector<Rule> all;
   return all;
@@ -203,6 +203,8 @@ Verb Verb::with_name() const {
   while (verb->get_name().empty() && verb->get_parent() != nullptr) verb = verb->get_parent();
   return Verb(*verb);
 }
+
+void forget_option_rules() { rules().clear(); }
 
 std::vector<OptionRule> option_rules() {
   // Checks and places of other tables keep what they point at.

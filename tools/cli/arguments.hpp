@@ -71,6 +71,8 @@ struct OptionRule {
 };
 /// Of all verbs, in the order in which they were made.
 [[nodiscard]] std::vector<OptionRule> option_rules();
+/// Those of an earlier command line in this process.
+void forget_option_rules();
 
 /// An option of the command line, by its longest name, with the words that were given for it: none
 /// for a flag.

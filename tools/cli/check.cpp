@@ -17,6 +17,7 @@
 #include "grid/map/map_check.hpp"
 #include "tools/cli/check_document.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/places.hpp"
@@ -39,6 +40,7 @@ struct CheckCommand {
   std::vector<std::string> with;
   bool json = false;
   std::string output = "-";
+  std::string report;
 };
 
 /// A valid map says what it is good for; after re-zeroing, and where the points do not decide, a few
@@ -123,15 +125,18 @@ CheckResult check_of_anchors(const InputFile& belts, const InputFile& anchors) {
 }
 
 void write_check(const grid::Check& check, const CheckCommand& command, bool of_belts) {
-  if (command.json) {
-    write_output(
-        command.output,
-        of_belts ? grid::files::write_anchors_check(check) : grid::files::write_map_check(check));
-    return;
+  const report::Document document =
+      of_belts ? anchors_check_document(check) : map_check_document(check);
+  std::string text;
+  if (!command.json) {
+    text = report::render_text(document);
+  } else {
+    text = of_belts ? grid::files::write_anchors_check(check) : grid::files::write_map_check(check);
   }
-  write_output(
-      command.output,
-      report::render_text(of_belts ? anchors_check_document(check) : map_check_document(check)));
+  std::vector<grid::files::OutputFile> outputs = {{command.output, text}};
+  if (!command.report.empty())
+    outputs.push_back({command.report, report::render_html(document)});
+  write_outputs(outputs);
 }
 
 /// Anchors that hold have a report; those that do not are diagnosed.
@@ -154,10 +159,7 @@ int run_check(Verb verb, const CheckCommand& command) {
   bool is_after = false;
   const CheckResult check =
       of_belts ? check_of_anchors(files.front(), map) : check_of_map(command, files, map, is_after);
-  if (!check) {
-    fmt::print(stderr, "{}: {}\n", files.front().name, check.error().sentence());
-    return kBadInput;
-  }
+  if (!check) throw Failed(files.front().name, check.error());
   write_check(*check, command, of_belts);
   if (of_belts) {
     say_next_of_anchors(*check, command);
@@ -196,6 +198,8 @@ void add_check(Verb app) {
   add_output(
       verb, "-o,--output", command->output, {Origin::table, Origin::check}, "- is standard output")
       .shows_default();
+  add_output(
+      verb, "--report", command->report, {Origin::page}, "The answer as a web page (HTML)");
   verb.footer(
       "Three to five points far apart are enough, or holes and the distances between them;\n"
       "chaintrue plan --check picks the most informative points.\n"

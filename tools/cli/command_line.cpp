@@ -35,8 +35,7 @@ const CLI::App* verb_named(const CLI::App& app, const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> words_of(int argc, char** argv) {
-  std::vector<std::string> words(argv + 1, argv + argc);
+std::vector<std::string> words_of(std::vector<std::string> words) {
   if (words.empty() || words.front() != "help") return words;
   words.erase(words.begin());
   words.push_back("--help");

@@ -10,8 +10,8 @@
 
 namespace chaintrue::cli {
 
-/// The words after the program's name; `help fit` becomes `fit --help`.
-[[nodiscard]] std::vector<std::string> words_of(int argc, char** argv);
+/// The words for the parser; `help fit` becomes `fit --help`.
+[[nodiscard]] std::vector<std::string> words_of(std::vector<std::string> typed);
 
 /// The sentence about a verb or an option that nobody knows, with the one that was probably meant or
 /// where to look; empty where all are known.

@@ -92,36 +92,30 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   grid::Measured input;
   if (!of_belts && !of_drawing)
     input = load_measured(opened, command.input, command.tape, MeasuredUse::fit);
-  auto found = of_belts     ? diagnosed_belts(command, file)
-               : of_drawing ? diagnosed_drawing(command, file)
-                            : diagnosed(command, input);
-  if (!found) {
-    fmt::print(stderr, "{}\n", found.error());
-    return kBadInput;
-  }
+  const Diagnosis found = of_belts     ? diagnosed_belts(command, file)
+                          : of_drawing ? diagnosed_drawing(command, file)
+                                       : diagnosed(command, input);
   const std::string source = file_name(command.input.grid);
   const grid::Provenance origin = made_by(verb);
-  const std::string written = files::write_diagnosis(*found, origin);
+  const std::string written = files::write_diagnosis(found, origin);
   std::vector<files::OutputFile> outputs;
   const auto add = [&outputs](const std::string& path, auto&& text) {
     if (!path.empty()) outputs.push_back({path, text()});
   };
   add(command.output, [&] { return written; });
   report::Document document = diagnosis_document(
-      *found, source, command.report.empty() ? report::Detail::verbose : report::Detail::page);
+      found, source, command.report.empty() ? report::Detail::verbose : report::Detail::page);
   add_made_by(origin, document.sections);
   add(command.report, [&] { return report::render_html(document); });
-  add(command.extended_machine, [&] { return extended_machine_text(*found, source); });
+  add(command.extended_machine, [&] { return extended_machine_text(found, source); });
   add(command.corrected_grid, [&] {
-    const auto ordered = found->visiting_order
-                             ? grid::diagnosis::visited_in(input, found->visiting_order->order)
-                             : std::nullopt;
+    const auto ordered =
+        found.visiting_order ? grid::diagnosis::visited_in(input, found.visiting_order->order) : std::nullopt;
     grid::MeasuredGrid corrected = ordered ? *ordered->grids().front() : *input.first_grid();
-    return corrected_grid_text(
-        *found, std::move(corrected), ordered || !command.assume_order.empty());
+    return corrected_grid_text(found, std::move(corrected), ordered || !command.assume_order.empty());
   });
   tl::expected<std::string, std::string> law;
-  if (!command.law.empty()) law = law_text(*found);
+  if (!command.law.empty()) law = law_text(found);
   if (law && !law->empty()) outputs.push_back({command.law, *law});
   const bool is_stdout_taken = std::any_of(
       outputs.begin(), outputs.end(), [](const auto& output) { return output.path == "-"; });
@@ -137,7 +131,7 @@ int run_diagnose(Verb verb, const DiagnoseCommand& command) {
     fmt::print(stderr, "{}: {}\n", files::name_in_messages(command.input.grid), law.error());
     return kNotSupportedOrOutside;
   }
-  say_next_of(command, *found);
+  say_next_of(command, found);
   return kDone;
 }
 
@@ -207,9 +201,14 @@ void add_diagnose(Verb app) {
   verb.add_flag("--accept-class",
                 command->accept_class,
                 "If the points cannot tell long links from a long tape, assume the links, without "
-                "a measurement of them")
+                 "a measurement of them")
       .acts_on(facts::grid | facts::holes,
                "to be left out: it is of a chain or a tape that is long");
+  verb.add_flag("--no-gain",
+                command->without_gain,
+                "Do not compute how much naming the causes improves the map, which takes most of "
+                "the time")
+      .acts_on(facts::grid | facts::holes, "to be left out of belts and drawings: what is gained is of a map");
   add_number(verb,
              "--seed",
              command->seed,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "grid/belts/belts_error.hpp"
 #include "grid/diagnosis/anchors_with_causes.hpp"
@@ -14,6 +15,7 @@
 #include "grid/threads/use_threads.hpp"
 #include "tools/cli/assumed_order.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 
@@ -45,8 +47,10 @@ void assume_order(const DiagnoseCommand& command, grid::MeasuredGrid& measured) 
   for (std::size_t i = 0; i < measured.points.size(); ++i) measured.points[i].order = (*numbers)[i];
 }
 
-std::string sentence_of(const std::string& path, const grid::diagnosis::DiagnosisFailure& failure) {
-  return fmt::format("{}: {}", files::name_in_messages(path), failure.sentence());
+template <class T>
+T value_of(tl::expected<T, grid::diagnosis::DiagnosisFailure> result, const std::string& path) {
+  if (result) return *std::move(result);
+  throw Failed(files::name_in_messages(path), result.error());
 }
 
 /// "28 points and 20 distances"
@@ -64,17 +68,19 @@ std::string counted(const grid::Measured& measured) {
 /// minute, and more would name nothing else.
 constexpr std::size_t kMostDiagnosed = 1200;
 
-/// Empty where there are not too many.
-std::string too_many_to_diagnose(const grid::Measured& measured) {
+void refuse_too_many_to_diagnose(const grid::Measured& measured, const std::string& path) {
   std::size_t units = 0;
   for (const auto* own : measured.grids()) units += own->points.size();
   for (const auto* set : measured.holes()) units += set->distances.size();
-  if (units <= kMostDiagnosed) return {};
-  return fmt::format(
-      "{} are more than a diagnosis takes ({}): leave some out, evenly over the bed, and keep "
-      "those that were measured twice; chaintrue fit takes them all",
-      counted(measured),
-      kMostDiagnosed);
+  if (units <= kMostDiagnosed) return;
+  throw Failed(
+      files::name_in_messages(path),
+      "too_many",
+      fmt::format(
+          "{} are more than a diagnosis takes ({}): leave some out, evenly over the bed, and keep "
+          "those that were measured twice; chaintrue fit takes them all",
+          counted(measured),
+          kMostDiagnosed));
 }
 
 /// Readings better than the simulation is computed over a bed.
@@ -90,30 +96,35 @@ void note_fine_readings(const grid::Measured& measured, Diagnosis& found) {
   }
 }
 
-DiagnosisOutcome diagnosis_of(const DiagnoseCommand& command, const grid::Measured& measured) {
+grid::diagnosis::DiagnosisOptions diagnosis_options(const DiagnoseCommand& command) {
   grid::diagnosis::DiagnosisOptions options;
   options.seed = command.seed;
   options.order_assumed = !command.assume_order.empty();
   options.accept_class = command.accept_class;
+  options.improvement = !command.without_gain;
   options.progress = shown_progress();
-  auto found = grid::diagnosis::diagnose(measured, options);
-  if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
-  if (found->grid_name.empty()) found->grid_name = file_name(command.input.grid);
-  return *std::move(found);
+  return options;
+}
+
+/// With the file's name where the readings have none.
+Diagnosis named(tl::expected<Diagnosis, grid::diagnosis::DiagnosisFailure> result,
+                const DiagnoseCommand& command) {
+  Diagnosis found = value_of(std::move(result), command.input.grid);
+  if (found.grid_name.empty()) found.grid_name = file_name(command.input.grid);
+  return found;
 }
 
 /// How well what was found predicts the grid of --held-out.
-tl::expected<grid::diagnosis::Transfer, std::string> held_out(const DiagnoseCommand& command,
-                                                              const grid::MeasuredGrid& measured,
-                                                              const Diagnosis& found) {
+grid::diagnosis::Transfer held_out(const DiagnoseCommand& command,
+                                   const grid::MeasuredGrid& measured,
+                                   const Diagnosis& found) {
   GridInput other = command.input;
   other.grid = command.held_out;
   const grid::MeasuredGrid to = read_grid_input(other);
-  auto transferred = grid::diagnosis::transfer(measured, found, to);
-  if (!transferred) return tl::unexpected(sentence_of(command.held_out, transferred.error()));
-  if (transferred->to.empty())
-    transferred->to = to.name.empty() ? file_name(command.held_out) : to.name;
-  return *std::move(transferred);
+  auto transferred = value_of(grid::diagnosis::transfer(measured, found, to), command.held_out);
+  if (transferred.to.empty())
+    transferred.to = to.name.empty() ? file_name(command.held_out) : to.name;
+  return transferred;
 }
 
 /// The number that a fit of the same belts begins with.
@@ -129,62 +140,51 @@ std::string file_name(const std::string& path) {
   return path == "-" ? "standard input" : std::filesystem::path(path).filename().string();
 }
 
-DiagnosisOutcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
+Diagnosis diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
   if (grid::MeasuredGrid* own = measured.first_grid()) assume_order(command, *own);
-  if (const std::string sentence = too_many_to_diagnose(measured); !sentence.empty()) {
-    return tl::unexpected(
-        fmt::format("{}: {}", files::name_in_messages(command.input.grid), sentence));
-  }
+  refuse_too_many_to_diagnose(measured, command.input.grid);
   grid::keep_freed_memory();
-  auto found = diagnosis_of(command, measured);
-  if (!found) return found;
-  note_fine_readings(measured, *found);
+  Diagnosis found =
+      named(grid::diagnosis::diagnose(measured, diagnosis_options(command)), command);
+  note_fine_readings(measured, found);
   if (!command.assume_order.empty()) {
-    found->notes.insert(found->notes.begin(),
-                        fmt::format("The visiting order was not measured but assumed: {}, lines "
-                                    "from the top left.",
-                                    command.assume_order));
+    found.notes.insert(found.notes.begin(),
+                       fmt::format("The visiting order was not measured but assumed: {}, lines "
+                                   "from the top left.",
+                                   command.assume_order));
   }
-  if (command.held_out.empty()) return found;
-  auto transferred = held_out(command, *measured.first_grid(), *found);
-  if (!transferred) return tl::unexpected(transferred.error());
-  found->transferred = *std::move(transferred);
+  if (!command.held_out.empty())
+    found.transferred = held_out(command, *measured.first_grid(), found);
   return found;
 }
 
-DiagnosisOutcome diagnosed_belts(const DiagnoseCommand& command, const InputFile& file) {
+Diagnosis diagnosed_belts(const DiagnoseCommand& command, const InputFile& file) {
   const std::vector<std::size_t> without = points_left_out(command.without);
   const files::ReadBelts read = load_belts(file, "a diagnosis", without);
   // Twice as many take four times as long (docs/maslow4.md).
   constexpr std::size_t kMostPlaces = 2000;
   if (read.belts.points.size() > kMostPlaces) {
-    return tl::unexpected(
-        fmt::format("{}: {} places are more than a diagnosis takes ({}): leave some out, evenly "
-                    "over the sheet; "
-                    "chaintrue fit takes them all",
-                    file.name,
+    throw Failed(
+        file.name,
+        "too_many",
+        fmt::format("{} places are more than a diagnosis takes ({}): leave some out, evenly over "
+                    "the sheet; chaintrue fit takes them all",
                     read.belts.points.size(),
                     kMostPlaces));
   }
-  grid::diagnosis::DiagnosisOptions options;
-  options.seed = command.seed;
-  options.progress = shown_progress();
-  auto found = grid::diagnosis::diagnose(
-      read.belts, files::indices_without(read.belts.points.size(), without), options);
-  if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
-  if (found->grid_name.empty()) found->grid_name = file_name(command.input.grid);
-  found->tool_today = tool_today(read.belts);
-  return *std::move(found);
+  Diagnosis found =
+      named(grid::diagnosis::diagnose(read.belts,
+                                      files::indices_without(read.belts.points.size(), without),
+                                      diagnosis_options(command)),
+            command);
+  found.tool_today = tool_today(read.belts);
+  return found;
 }
 
-DiagnosisOutcome diagnosed_drawing(const DiagnoseCommand& command, const InputFile& file) {
-  grid::diagnosis::DiagnosisOptions options;
-  options.seed = command.seed;
-  options.progress = shown_progress();
-  auto found = grid::diagnosis::diagnose(files::parse_drawing(file.text, file.name), options);
-  if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
-  if (found->grid_name.empty()) found->grid_name = file_name(command.input.grid);
-  return *std::move(found);
+Diagnosis diagnosed_drawing(const DiagnoseCommand& command, const InputFile& file) {
+  return named(grid::diagnosis::diagnose(files::parse_drawing(file.text, file.name),
+                                         diagnosis_options(command)),
+               command);
 }
 
 }  // namespace chaintrue::cli

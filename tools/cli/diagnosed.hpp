@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <string>
-#include <tl/expected.hpp>
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
@@ -26,21 +25,23 @@ struct DiagnoseCommand {
   std::string held_out;
   std::string assume_order;
   bool accept_class = false;
+  bool without_gain = false;
   std::string without;  ///< points of belts, from 1
   std::uint64_t seed = 1;
   bool json = false;
 };
 
-/// Or the sentence why there is none.
-using DiagnosisOutcome = tl::expected<grid::diagnosis::Diagnosis, std::string>;
+// Each throws Failed where there is no diagnosis.
 
 /// Grids and holes; an order that was assumed is put into `measured`.
-[[nodiscard]] DiagnosisOutcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured);
+[[nodiscard]] grid::diagnosis::Diagnosis diagnosed(const DiagnoseCommand& command,
+                                                   grid::Measured& measured);
 /// Belts are diagnosed by themselves, on the machine in their own file.
-[[nodiscard]] DiagnosisOutcome diagnosed_belts(const DiagnoseCommand& command, const InputFile& file);
+[[nodiscard]] grid::diagnosis::Diagnosis diagnosed_belts(const DiagnoseCommand& command,
+                                                         const InputFile& file);
 /// A test drawing is diagnosed by itself, on the plotter in its own file.
-[[nodiscard]] DiagnosisOutcome diagnosed_drawing(const DiagnoseCommand& command,
-                                                 const InputFile& file);
+[[nodiscard]] grid::diagnosis::Diagnosis diagnosed_drawing(const DiagnoseCommand& command,
+                                                           const InputFile& file);
 
 /// Without its folders.
 [[nodiscard]] std::string file_name(const std::string& path);

@@ -18,6 +18,7 @@
 #include "grid/files/whole_file.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "grid/threads/use_threads.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/cli/fit_the_belts.hpp"
 #include "tools/cli/fit_the_drawing.hpp"
 #include "tools/cli/grid_input.hpp"
@@ -74,8 +75,8 @@ constexpr const char* kNoMachine =
 
 constexpr grid::files::Range kWishMm{"mm", 0.001, 50.0};
 
-/// Empty where there are not too many.
-std::string too_many(const grid::Measured& measured) {
+/// \throws Failed
+void refuse_too_many(const grid::Measured& measured) {
   std::size_t points = 0;
   std::size_t distances = 0;
   std::size_t holes = 0;
@@ -88,62 +89,54 @@ std::string too_many(const grid::Measured& measured) {
       holes += set.holes.size();
     }
   }
-  const auto sentence = [](std::size_t found, const char* what, std::size_t most) {
-    return fmt::format("{} {} are more than a fit takes ({}): leave some out, evenly over the bed",
-                       found,
-                       what,
-                       most);
+  const auto refuse = [&](std::size_t found, const char* what, std::size_t most) {
+    if (found <= most) return;
+    throw Failed(
+        measured.files().front().name,
+        "too_many",
+        fmt::format("{} {} are more than a fit takes ({}): leave some out, evenly over the bed",
+                    found,
+                    what,
+                    most));
   };
-  if (points > kMostPoints) return sentence(points, "points", kMostPoints);
-  if (distances > kMostDistances) return sentence(distances, "distances", kMostDistances);
-  if (holes > kMostHoles) return sentence(holes, "holes", kMostHoles);
-  return {};
+  refuse(points, "points", kMostPoints);
+  refuse(distances, "distances", kMostDistances);
+  refuse(holes, "holes", kMostHoles);
 }
 
-/// What the reader of maps says of this one; empty where it takes it.
-std::string refused_by_its_reader(const std::string& text) {
+/// \throws Failed for a map that its reader does not take
+void check_as_read(const std::string& text, const std::string& measured) {
   try {
     (void)grid::files::parse_map(text, "the map");
   } catch (const grid::files::InputError& error) {
-    return error.problems().front().message();
+    throw Failed(measured,
+                 name_of(grid::FitReason::impossible_readings),
+                 "no machine can be as these points say, so no map is written: " +
+                     error.problems().front().message());
   }
-  return {};
 }
 
-/// The map goes to its file, the words to standard error; a fit that failed is reported.
+/// The map goes to its file, the words to standard error.
 int finish(Verb verb,
            const FitCommand& command,
-           const tl::expected<grid::CompensationMap, grid::FitFailure>& map,
+           const grid::CompensationMap& map,
            std::vector<report::Section> more) {
-  if (!map) {
-    fmt::print(stderr,
-               "{}: {}\n",
-               grid::files::name_in_messages(command.input.grid),
-               map.error().sentence());
-    return kBadInput;
-  }
-  std::string text = grid::files::write_map(*map, made_by(verb));
-  if (const std::string problem = refused_by_its_reader(text); !problem.empty()) {
-    fmt::print(stderr,
-               "{}: no machine can be as these points say, so no map is written: {}\n",
-               grid::files::name_in_messages(command.input.grid),
-               problem);
-    return kBadInput;
-  }
+  std::string text = grid::files::write_map(map, made_by(verb));
+  check_as_read(text, grid::files::name_in_messages(command.input.grid));
   std::vector<grid::files::OutputFile> outputs = {{command.output, std::move(text)}};
   if (command.json)
-    outputs.push_back({"-", grid::files::write_fit(*map, fit_sentence(*map), command.wish_mm)});
+    outputs.push_back({"-", grid::files::write_fit(map, fit_sentence(map), command.wish_mm)});
   write_outputs(outputs);
   const report::Detail detail = command.verbose ? report::Detail::verbose : report::Detail::always;
-  report::Document document = map_document(*map, command.output, detail, command.wish_mm);
+  report::Document document = map_document(map, command.output, detail, command.wish_mm);
   std::move(more.begin(), more.end(), std::back_inserter(document.sections));
   fmt::print(stderr, "{}", report::render_text(document, detail));
-  if (const std::string why = not_to_cut_with(*map); !why.empty()) {
+  if (const std::string why = not_to_cut_with(map); !why.empty()) {
     fmt::print(stderr, "{}\n", why);
     say_next({"diagnose", command.input.grid});
     return kCheckFailed;
   }
-  const model::Machine* machine = map->machine();
+  const model::Machine* machine = map.machine();
   const bool typed = machine != nullptr && machine->controller.settings.motor_spacing_mm;
   if (typed) {
     say_next({"export", "groundcontrol", command.output});
@@ -185,14 +178,14 @@ tl::expected<grid::JointFit, grid::FitFailure> fit_of(const FitCommand& command,
 
 /// The file and those of --with in one estimate.
 int fit_jointly(Verb verb, const FitCommand& command, const grid::Measured& measured) {
-  auto fit = fit_of(command, measured);
+  const auto fit = fit_of(command, measured);
   if (fit) return finish(verb, command, fit->map, distances_of(measured, *fit));
-  if (measured.files().size() == 1) return finish(verb, command, tl::unexpected(fit.error()), {});
-  fmt::print(stderr, "chaintrue fit: {}\n", fit.error().sentence());
-  return kBadInput;
+  throw Failed(measured.files().size() == 1 ? grid::files::name_in_messages(command.input.grid)
+                                            : "chaintrue fit",
+               fit.error());
 }
 
-/// Splines through the lengths of one grid; option_rules.def refuses anything else.
+/// Splines through the lengths of one grid; the options' rules refuse anything else.
 int fit_directly(Verb verb, const FitCommand& command, const grid::MeasuredFile& file) {
   grid::FitOptions options;
   options.surface = grid::SurfaceKind::direct;
@@ -200,7 +193,9 @@ int fit_directly(Verb verb, const FitCommand& command, const grid::MeasuredFile&
   options.ends = {{end, end}, {end, end}};
   options.outside = rule_of(command.outside, {});
   options.progress = shown_progress();
-  return finish(verb, command, grid::fit(*file.grid(), options), {});
+  const auto map = grid::fit(*file.grid(), options);
+  if (!map) throw Failed(grid::files::name_in_messages(command.input.grid), map.error());
+  return finish(verb, command, *map, {});
 }
 
 Facts facts_of(const FitCommand& command, const std::vector<InputFile>& files) {
@@ -242,12 +237,8 @@ int run_fit(Verb verb, const FitCommand& command) {
   grid::Measured all;
   for (const InputFile& file : opened)
     all.add(load_measured(file, command.input, command.tape, MeasuredUse::fit));
-  const std::vector<grid::MeasuredFile>& files = all.files();
-  if (const std::string sentence = too_many(all); !sentence.empty()) {
-    fmt::print(stderr, "{}: {}\n", files.front().name, sentence);
-    return kBadInput;
-  }
-  return command.surface == "direct" ? fit_directly(verb, command, files.front())
+  refuse_too_many(all);
+  return command.surface == "direct" ? fit_directly(verb, command, all.files().front())
                                      : fit_jointly(verb, command, all);
 }
 

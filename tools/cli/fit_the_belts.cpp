@@ -16,6 +16,7 @@
 #include "tools/cli/anchors_document.hpp"
 #include "tools/cli/anchors_sections.hpp"
 #include "tools/cli/belts_wish.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/cli/made_by.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
@@ -111,10 +112,7 @@ bool is_of_four_belts(const InputFile& file) {
 int fit_the_belts(const BeltsFitCommand& command) {
   const BeltFiles all = read_all(command);
   const auto found = fitted(all);
-  if (!found) {
-    fmt::print(stderr, "{}: {}\n", command.files.front().name, found.error().sentence());
-    return kBadInput;
-  }
+  if (!found) throw Failed(command.files.front().name, found.error());
   const std::string text =
       files::write_anchors(numbered_as_in_the_file(*found, all), made_by(command.verb));
   std::vector<files::OutputFile> outputs = {{command.output, text}};

@@ -13,7 +13,7 @@ namespace {
 
 namespace files = grid::files;
 
-/// Of the command line; one a process.
+/// Of the current command line.
 files::Problems& problems() {
   static files::Problems all("command line");
   return all;
@@ -76,5 +76,7 @@ Option add_numbers(Verb verb,
 }
 
 void check_numbers() { problems().throw_if_any(); }
+
+void forget_numbers() { problems() = files::Problems("command line"); }
 
 }  // namespace chaintrue::cli

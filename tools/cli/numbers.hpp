@@ -68,5 +68,7 @@ Option add_numbers(Verb verb,
 
 /// After parsing. \throws files::InputError with every number that was none or out of its range.
 void check_numbers();
+/// Before another command line in this process.
+void forget_numbers();
 
 }  // namespace chaintrue::cli

@@ -15,7 +15,7 @@ struct OptionCheck {
   std::function<void(OptionProblems&)> check;
 };
 
-/// Of the command line; one a process.
+/// Of the current command line.
 std::vector<OptionCheck>& checks() {
   static std::vector<OptionCheck> all;
   return all;
@@ -25,6 +25,13 @@ std::vector<OptionCheck>& checks() {
 
 void add_option_check(Verb verb, std::function<void(OptionProblems&)> check) {
   checks().push_back({verb, std::move(check)});
+}
+
+void begin_command_line() {
+  checks().clear();
+  forget_option_rules();
+  forget_numbers();
+  forget_places();
 }
 
 void check_command_line() {

@@ -35,7 +35,7 @@ struct Place {
   }
 };
 
-/// Of all verbs; one command line a process.
+/// Of all verbs of the current command line.
 std::vector<Place>& places() {
   static std::vector<Place> all;
   return all;
@@ -285,6 +285,8 @@ void write_folder(Verb verb, const std::string& folder, const std::vector<Folder
     throw;
   }
 }
+
+void forget_places() { places().clear(); }
 
 void check_places() {
   const std::vector<Place> chosen = chosen_places();

@@ -67,6 +67,8 @@ void write_folder(Verb verb, const std::string& folder, const std::vector<Folder
 
 /// For the verb that was chosen, before its work. \throws files::InputError with all that is wrong.
 void check_places();
+/// Before another command line in this process.
+void forget_places();
 
 /// One output, or several: all or none. \throws as files::write_whole_files.
 void write_output(const std::string& path, const std::string& text);

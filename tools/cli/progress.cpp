@@ -57,7 +57,7 @@ using Line = RepeatedLine;
 
 /// Nothing where nobody watches. Short work is not worth a word.
 std::unique_ptr<Line> shown_line() {
-  if (::isatty(STDERR_FILENO) == 0) return nullptr;
+  if (::isatty(::fileno(stderr)) == 0) return nullptr;
   constexpr std::chrono::seconds kQuiet(1);
   constexpr std::chrono::milliseconds kStep(250);
   return std::make_unique<Line>(stderr, [] { return state().words(); }, kQuiet, kStep);

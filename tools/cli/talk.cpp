@@ -51,7 +51,7 @@ void set_called_as(std::string_view name) {
 }
 
 bool shows_colours() {
-  static const bool shows = ::isatty(STDERR_FILENO) == 1 && environment("NO_COLOR").empty() &&
+  static const bool shows = ::isatty(::fileno(stderr)) == 1 && environment("NO_COLOR").empty() &&
                             environment("TERM") != "dumb";
   return shows;
 }

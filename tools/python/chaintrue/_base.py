@@ -7,6 +7,7 @@ import functools
 import html
 import json
 import os
+import pathlib
 import warnings
 from typing import Any, Callable, Iterable, Optional, Sequence, Union
 
@@ -14,6 +15,7 @@ import numpy
 
 from . import _core
 from ._records import Record, table
+from ._run import File, run
 
 PathLike = Union[str, "os.PathLike[str]"]
 """A path of a file."""
@@ -91,6 +93,10 @@ class Filed(Written):
         """The thing whose to_dict() this is, held to what a file is held to."""
         return told(cls, parsed(cls, json.dumps(contents), "the dictionary"))
 
+    @property
+    def _file(self) -> File:
+        return File(f"{type(self).__name__.lower()}.json", self._text)
+
     def __reduce__(self) -> tuple[Any, ...]:
         return _again, (type(self), self._text, self._sources)
 
@@ -114,24 +120,28 @@ class Made(Filed):
         "that is not known.",
     )
 
-    def _page(self, source: str, certificate: bool = False) -> str:
-        return _core.page(self._text, source, certificate)
+    @classmethod
+    def _by(cls, *words: Union[str, File], sources: Sources) -> Any:
+        """What a verb makes, by the sources of its inputs in place of the run's own files."""
+        result = cls.__name__.lower() + ".json"
+        contents = json.loads(run(*words, "-o", result, out=[result])[0][result])
+        contents["made_by"]["inputs"] = [{"name": name, "sha256": hash} for name, hash in sources]
+        return cls._of(parsed(cls, json.dumps(contents), "the result")[0])
+
+    def _page(self, source: str, *options: str) -> str:
+        """As `chaintrue report` makes it of a file with that name."""
+        page = "page.html"
+        file = File(pathlib.PurePath(source).name or "Python", self._text)
+        return run("report", file, "-o", page, *options, out=[page])[0][page]
 
     def _repr_html_(self) -> str:
         return framed(self._page("Python"))
 
 
-def made_by(
-    verb: str, options: dict[str, Any], sources: Iterable[tuple[str, str]]
-) -> tuple[str, list[str], list[tuple[str, str]]]:
-    """Where such a call's result comes from; options as those of the command, without what was not
-    given."""
-    given = [
-        option if value is True else f"{option} {value}"
-        for option, value in options.items()
-        if value is not None and value is not False
-    ]
-    return verb, given, list(sources)
+def inputs(things: Iterable[Filed]) -> list[Union[str, File]]:
+    """The words that name these things' files to a verb."""
+    words = [word for thing in things for word in ("--with", thing._file)]
+    return words[1:]
 
 
 def parsed(kind: type[Filed], text: str, file: str) -> tuple[str, list[str]]:

@@ -6,10 +6,11 @@ from __future__ import annotations
 import os
 from typing import Any, Optional, Union
 
-from . import _core, _plots
-from ._base import PathLike, Written, framed, key
-from ._maps import Anchors, Map, Measured, sorted_out, texts_of
+from . import _plots
+from ._base import PathLike, Written, framed, inputs, key
+from ._maps import Anchors, Map, Measured, sorted_out
 from ._records import Record, Records, records
+from ._run import run
 
 
 class Check(Written):
@@ -68,13 +69,13 @@ def check(
               when the map was measured: groundcontrol.ini, webcontrol.json, or a machine file
     """
     grids, holes, belts = sorted_out(measured, "check")
-    if isinstance(calibration, Anchors):
-        if grids or holes or len(belts) != 1:
-            raise ValueError("anchors are checked by one Belts")
-        if settings is not None:
-            raise ValueError("settings are of a map: anchors are checked by lengths")
-        return Check(*_core.check_anchors(calibration._text, belts[0]._text))
-    if belts:
+    if isinstance(calibration, Anchors) and (grids or holes or len(belts) != 1):
+        raise ValueError("anchors are checked by one Belts")
+    if isinstance(calibration, Map) and belts:
         raise ValueError("a map is checked by Grids and Holes; Belts check Anchors")
-    file = "" if settings is None else os.fspath(settings)
-    return Check(*_core.check_map(calibration._text, texts_of(grids, holes), file))
+    words = ["check", calibration._file, *inputs(measured), "--json"]
+    if settings is not None:
+        words += ["--settings", os.fspath(settings)]
+    answer, page = "check.json", "check.html"
+    files, _ = run(*words, "-o", answer, "--report", page, out=[answer, page])
+    return Check(files[answer], files[page])

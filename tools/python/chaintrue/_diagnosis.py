@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from typing import Any, Optional
 
-from . import _core, _plots
-from ._base import Made, PathLike, from_file, key, made_by, sources_of, told
-from ._maps import Measured, sorted_out, texts_of
+from . import _plots
+from ._base import Made, PathLike, from_file, inputs, key, sources_of, told
+from ._maps import Measured, sorted_out
 from ._measured import Grid, Machine, machine_in
 from ._records import Record, Records, records
 
@@ -88,13 +88,14 @@ def diagnose(
         raise TypeError(f"held_out is a Grid, not {type(held_out).__name__}")
     if held_out is not None and (len(grids) != 1 or holes or belts):
         raise ValueError("held_out is predicted by what one Grid alone says")
-    if belts and (len(belts) > 1 or grids or holes):
-        raise ValueError("Belts are diagnosed by themselves, one at a time")
-    origin = made_by(
-        "diagnose", {"--seed": None if seed == 1 else seed}, sources_of(*measured, held_out)
-    )
-    other = "" if held_out is None else held_out._text
-    return Diagnosis._of(_core.diagnose(texts_of(grids, holes, belts), seed, gain, other, origin))
+    words = ["diagnose", *inputs(measured)]
+    if seed != 1:
+        words += ["--seed", str(seed)]
+    if not gain and not belts:
+        words += ["--no-gain"]
+    if held_out is not None:
+        words += ["--held-out", held_out._file]
+    return Diagnosis._by(*words, sources=sources_of(*measured, held_out))
 
 
 def read_diagnosis(path: PathLike) -> Diagnosis:

@@ -10,7 +10,7 @@ import numpy
 from numpy.typing import ArrayLike
 
 from . import _core, _plots
-from ._base import Made, PathLike, from_file, key, made_by, one_of, sources_of, told
+from ._base import Made, PathLike, from_file, inputs, key, one_of, sources_of, told
 from ._lengths import Lengths, answered, masked, places_of
 from ._measured import Grid, Machine
 from ._records import Record, Records, records
@@ -212,32 +212,13 @@ def fit(
     """
     one = isinstance(measured, (Grid, Holes, Belts))
     things = [measured] if one else list(measured)
-    grids, holes, belts = sorted_out(things, "fit")
-    sources = sources_of(*things)
-    if accept_class and plain:
-        raise ValueError("accept_class says which of two causes acts: leave plain out")
-    one_of(surface, "surface", ("residual", "direct"))
-    if surface == "direct" and (plain or accept_class):
-        raise ValueError("a direct surface has no machine that could err")
-    if belts or any(read._are_of_belts for read in holes):
-        return _fit_belts(grids, holes, belts, surface, plain or accept_class, sources)
-    if surface == "direct" and (holes or len(grids) != 1):
-        raise ValueError("a direct surface is of the lengths of one Grid")
-    direct = surface == "direct"
-    options = {"--surface direct": direct, "--plain": plain, "--accept-class": accept_class}
-    origin = made_by("fit", options, sources)
-    return Map._of(_core.fit(texts_of(grids, holes), direct, plain, accept_class, origin))
-
-
-def _fit_belts(
-    grids: list, holes: list, belts: list, surface: str, of_causes: bool, sources: list
-) -> Anchors:
-    if grids or len(belts) > 1:
-        raise ValueError("anchors are fitted to one Belts and any number of Holes")
-    if surface != "residual" or of_causes:
-        raise ValueError("surface, plain and accept_class are of two chains: leave them out with Belts")
-    text = belts[0]._text if belts else ""
-    return Anchors._of(_core.fit_belts(text, texts_of(holes), made_by("fit", {}, sources)))
+    _, holes, belts = sorted_out(things, "fit")
+    words = ["fit", *inputs(things)]
+    if one_of(surface, "surface", ("residual", "direct")) == "direct":
+        words += ["--surface", "direct"]
+    words += ["--plain"] * plain + ["--accept-class"] * accept_class
+    kind = Anchors if belts or any(read._are_of_belts for read in holes) else Map
+    return kind._by(*words, sources=sources_of(*things))
 
 
 def read_map(path: PathLike) -> Map:

@@ -28,7 +28,7 @@ def report(
     """
     if certificate and not isinstance(of, Map):
         raise ValueError("only a map has a certificate")
-    page = of._page(source, certificate) if isinstance(of, Map) else of._page(source)
+    page = of._page(source, *["--certificate"] * certificate)
     if path is not None:
         _core.write(os.fspath(path), page)
     return page

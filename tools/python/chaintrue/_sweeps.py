@@ -5,16 +5,21 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 import os
 import pathlib
 import tempfile
 import warnings
 from typing import Any, Optional, Union
 
-from . import _core, _plots
+from . import _plots
 from ._base import PathLike, framed, text_of
 from ._measured import Machine
 from ._records import Records, records
+from ._run import run
+
+_FACTORS = ("machine", "effects", "used_on", "surface", "spacing", "jitter_mm", "noise_mm", "grid")
+"""Columns of results.csv."""
 
 
 class Sweep:
@@ -27,16 +32,15 @@ class Sweep:
     summary    what summary.json holds
     """
 
-    def __init__(self, found: dict[str, Any], folder: pathlib.Path):
-        self.name: str = found["name"]
-        self.question: str = found["question"]
-        self.errors: Records = records(found["errors"])
-        with open(folder / "results.csv", newline="", encoding="utf-8") as lines:
-            self.results: Records = records(
-                {key: _number(value) for key, value in line.items()} for line in csv.DictReader(lines)
-            )
+    def __init__(self, folder: pathlib.Path):
+        with open(folder / "results.csv", newline="", encoding="utf-8") as table:
+            lines = list(csv.DictReader(table))
+        self.results: Records = records({key: _number(value) for key, value in line.items()} for line in lines)
         self.summary: dict[str, Any] = json.loads((folder / "summary.json").read_text("utf-8"))
-        self._page_text: str = found["page"]
+        self.name: str = self.summary["name"]
+        self.question: str = self.summary["question"]
+        self.errors: Records = _errors_of(lines)
+        self._page_text: str = (folder / "report.html").read_text("utf-8")
 
     def to_frame(self) -> Any:
         """results.to_frame(): a pandas.DataFrame. Raises MissingPackage without pandas."""
@@ -78,10 +82,31 @@ def sweep(
         path = specification
         if isinstance(specification, dict):
             path = _written(specification, place)
-        found = _core.sweep(os.fspath(path), str(place), threads)
-        for sentence in found["warnings"]:
+        words = ["sweep", os.fspath(path), "-o", str(place), "--resume", "--threads", str(threads)]
+        *assumed, _, _ = run(*words, out=[])[1].splitlines()
+        for sentence in assumed:
             warnings.warn(sentence, stacklevel=2)
-        return Sweep(found, place)
+        return Sweep(place)
+
+
+def _errors_of(cells: list[dict[str, str]]) -> Records:
+    """What one level of one factor comes to at one number of points, over all else."""
+    found: dict[tuple[str, str, str], list[dict[str, str]]] = {}
+    for factor in _FACTORS:
+        for cell in cells:
+            if cell["status"] == "done":
+                found.setdefault((factor, cell[factor], cell["points"]), []).append(cell)
+    return records(
+        {
+            "factor": factor,
+            "level": level,
+            "points": int(points),
+            "cells": len(same),
+            "tool_rms_mm": math.sqrt(sum(float(cell["tool_rms_mm"]) ** 2 for cell in same) / len(same)),
+            "tool_max_mm": max(float(cell["tool_max_mm"]) for cell in same),
+        }
+        for (factor, level, points), same in found.items()
+    )
 
 
 def _written(contents: dict[str, Any], folder: pathlib.Path) -> pathlib.Path:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/python/core/failures.hpp"
-
 #include "grid/files/input_error.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/python/core/bind.hpp"
 
 namespace chaintrue::python {
@@ -42,8 +41,8 @@ void translate_failures() {
       raise("InputError", std::string(error.what()), problems_of(error));
     } catch (const GcodeFailure& failure) {
       raise("GcodeError", std::string(failure.what()), problems_of(failure));
-    } catch (const Failure& failure) {
-      raise("Failure", std::string(failure.what()), failure.reason);
+    } catch (const cli::Failed& failed) {
+      raise("Failure", std::string(failed.what()), failed.reason());
     }
   });
 }

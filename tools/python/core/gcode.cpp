@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "grid/files/file_type.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/cli/gcode_expected.hpp"
 #include "tools/cli/gcode_job.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/python/core/bind.hpp"
-#include "tools/python/core/failures.hpp"
 #include "tools/report/path_report.hpp"
 
 namespace chaintrue::python {
@@ -103,7 +103,7 @@ Compensated compensated(const std::string& program,
     result.proof =
         verified(options, machine, program, result.text, cli::verify_options(options, machine));
     if (!result.proof->holds()) {
-      throw Failure("not_held",
+      throw cli::Failed("the program", "not_held",
                     fmt::format("Run on a simulated {} controller, the compensated program does "
                                 "not hold {} mm: {}. Try another tolerance_mm.",
                                 machine.corrector().firmware().name,
@@ -165,7 +165,8 @@ py::dict compensate(const std::string& program,
     const GcodeMachine machine = machine_of(options, target);
     if (machine.map() != nullptr && !options.forced) {
       const std::string why = cli::not_to_cut_with(*machine.map());
-      if (!why.empty()) throw Failure("not_to_cut_with", why + " force=True goes on all the same.");
+      if (!why.empty())
+        throw cli::Failed("the map", "not_to_cut_with", why + " force=True continues anyway.");
     }
     // What the machine reads is known now.
     from.inputs = grid::files::sources_read();

@@ -1,84 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Maps of two chains and anchors of four belts: fitted, and asked with arrays.
+/// Maps of two chains and anchors of four belts, asked with arrays.
 #include <algorithm>
 #include <optional>
-#include <stdexcept>
 
 #include "grid/belts/belt_map.hpp"
-#include "grid/belts/belts_and_holes.hpp"
-#include "grid/diagnosis/anchors_with_causes.hpp"
-#include "grid/diagnosis/causes_fit.hpp"
 #include "grid/files/anchors_file.hpp"
-#include "grid/files/belts_file.hpp"
 #include "grid/files/file_type.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/map_file.hpp"
-#include "grid/map/fit.hpp"
-#include "grid/map/joint_fit.hpp"
 #include "grid/map/map_in_frame.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/python/core/bind.hpp"
-#include "tools/python/core/failures.hpp"
 
 namespace chaintrue::python {
 namespace {
 
 namespace files = grid::files;
 using files::FittedAnchors;
-
-grid::CompensationMap fitted_map(const grid::Measured& measured,
-                                 bool direct,
-                                 bool plain,
-                                 bool accept_class) {
-  if (direct) {
-    grid::FitOptions options;
-    options.surface = grid::SurfaceKind::direct;
-    return value_or_throw(grid::fit(*measured.grids().front(), options));
-  }
-  if (plain) return value_or_throw(grid::joint_fit(measured)).map;
-  grid::diagnosis::CausesFitOptions options;
-  options.accept_class = accept_class;
-  return value_or_throw(grid::diagnosis::fit_with_causes(measured, options)).fit.map;
-}
-
-std::string fit(
-    const Texts& texts, bool direct, bool plain, bool accept_class, const MadeBy& made_by) {
-  const py::gil_scoped_release others_may_work;
-  return files::write_map(fitted_map(measured_of(texts), direct, plain, accept_class),
-                          provenance_of(made_by));
-}
-
-/// A machine that holes do not name is that of the belts, where its anchors are known.
-grid::BeltHoles on_belts(const files::ReadHoles& read,
-                         const std::optional<grid::MeasuredBelts>& belts) {
-  if (read.belt_machine) return {*read.belt_machine, read.holes};
-  if (belts && belts->machine.anchors_known && !read.holes.machine)
-    return {belts->machine, read.holes};
-  throw std::invalid_argument(
-      "these holes name no machine on four belts: give them the one that cut them, with the "
-      "anchors in force at the time");
-}
-
-FittedAnchors fitted_anchors(const std::optional<grid::MeasuredBelts>& belts, const Texts& holes) {
-  if (holes.empty())
-    return {belts.value().name, value_or_throw(grid::diagnosis::fit_with_causes(belts.value()))};
-  std::vector<grid::BeltHoles> sets;
-  for (const std::string& text : holes) sets.push_back(on_belts(holes_of(text), belts));
-  grid::MeasuredBelts measured;
-  measured.machine = sets.front().machine;
-  measured.name = sets.front().set.name;
-  if (belts) measured = *belts;
-  grid::BeltsAndHolesFit found = value_or_throw(grid::fit_belts_and_holes(measured, sets));
-  return {measured.name, std::move(found.belts), std::move(found.holes)};
-}
-
-std::string fit_belts(const std::string& belts, const Texts& holes, const MadeBy& made_by) {
-  const py::gil_scoped_release others_may_work;
-  std::optional<grid::MeasuredBelts> measured;
-  if (!belts.empty()) measured = files::parse_belts(belts, "").belts;
-  return files::write_anchors(fitted_anchors(measured, holes), provenance_of(made_by));
-}
 
 py::dict query(const grid::LengthMap& map, const Pairs& points) {
   const auto count = static_cast<std::size_t>(points.shape(0));
@@ -117,9 +57,10 @@ Pairs inverse(const grid::LengthMap& map, const Pairs& lengths) {
 
 grid::BeltMap belt_map(const FittedAnchors& anchors) {
   if (!anchors.holes && !anchors.fit.coordinates.front().stated_mm) {
-    throw Failure("no_anchors_in_force",
-                  "These anchors were fitted to belts that do not say which anchors were in force: "
-                  "where commands count from follows from them.");
+    throw cli::Failed("the anchors",
+                      "no_anchors_in_force",
+                      "These anchors were fitted to belts that do not say which anchors were in force: "
+                      "where commands count from follows from them.");
   }
   return grid::BeltMap(anchors.fit, anchors.holes ? &*anchors.holes : nullptr);
 }
@@ -139,7 +80,8 @@ class Answering {
   auto ask(Ask asked, const Pairs& pairs, bool bed) const {
     if (belts_) return asked(*belts_, pairs);
     if (bed && map_->machine() == nullptr)
-      throw Failure("no_machine", "A map without a machine knows only the frame of its marks.");
+      throw cli::Failed(
+          "the map", "no_machine", "A map without a machine knows only the frame of its marks.");
     return asked(grid::MapInFrame(*map_, bed ? grid::MapFrame::bed : grid::MapFrame::marks), pairs);
   }
 
@@ -158,8 +100,6 @@ class Answering {
 }  // namespace
 
 void add_maps(py::module_& module) {
-  module.def("fit", fit);
-  module.def("fit_belts", fit_belts);
   module.def("maslow4_settings", [](const std::string& anchors) {
     return files::write_maslow4_settings(files::parse_anchors(anchors, "").fit).text;
   });

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
@@ -53,7 +52,9 @@ py::tuple parse(const std::string& kind,
                 const std::string& machine,
                 bool few) {
   const auto answer = [](const std::string& written, const std::vector<files::Warning>& warnings) {
-    return py::make_tuple(written, sentences_of(warnings));
+    std::vector<std::string> sentences;
+    for (const files::Warning& warning : warnings) sentences.push_back(warning.message());
+    return py::make_tuple(written, sentences);
   };
   OptionalMachine stated;
   if (!machine.empty()) stated = files::parse_machine(machine, "");
@@ -113,29 +114,6 @@ grid::MeasuredGrid grid_of(const std::string& text) {
 
 files::ReadHoles holes_of(const std::string& text) {
   return read_as_holes(text, "", std::nullopt, true);
-}
-
-grid::Measured measured_of(const Texts& texts) {
-  grid::Measured measured;
-  for (const std::string& text : texts) {
-    const files::FileKind kind = files::kind_of(text, "");
-    if (kind == files::FileKind::belt_holes) {
-      throw std::invalid_argument(
-          "these holes are of a machine on four belts: they are fitted with its belts alone");
-    }
-    if (kind == files::FileKind::grid) {
-      measured.add(grid_of(text));
-    } else {
-      measured.add(holes_of(text).holes);
-    }
-  }
-  return measured;
-}
-
-std::vector<std::string> sentences_of(const std::vector<files::Warning>& warnings) {
-  std::vector<std::string> sentences;
-  for (const files::Warning& warning : warnings) sentences.push_back(warning.message());
-  return sentences;
 }
 
 grid::Provenance provenance_of(const MadeBy& made_by) {

@@ -3,16 +3,13 @@
 /// chaintrue._core: the libraries for Python. The user interface and its documentation are in the
 /// package's Python.
 #include "tools/python/core/bind.hpp"
-#include "tools/python/core/failures.hpp"
 
 PYBIND11_MODULE(_core, module) {
   module.attr("__version__") = CHAINTRUE_VERSION;
   chaintrue::python::translate_failures();
   chaintrue::python::add_measured(module);
   chaintrue::python::add_maps(module);
-  chaintrue::python::add_diagnoses(module);
-  chaintrue::python::add_checks(module);
   chaintrue::python::add_plans(module);
   chaintrue::python::add_gcode(module);
-  chaintrue::python::add_sweeps(module);
+  chaintrue::python::add_run(module);
 }

@@ -16,6 +16,7 @@
 #include "grid/planning/measurement_plan.hpp"
 #include "grid/planning/second_visits.hpp"
 #include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/cli/holes_drawing.hpp"
 #include "tools/cli/holes_words.hpp"
 #include "tools/cli/plan_after.hpp"
@@ -23,7 +24,6 @@
 #include "tools/cli/sheet.hpp"
 #include "tools/cli/sheet_page.hpp"
 #include "tools/python/core/bind.hpp"
-#include "tools/python/core/failures.hpp"
 
 namespace chaintrue::python {
 namespace {
@@ -36,6 +36,12 @@ using Asked = std::tuple<int,
                          std::optional<double>,
                          std::string,
                          double>;
+
+template <class Expected>
+auto value_or_throw(Expected result) {
+  if (result) return *std::move(result);
+  throw cli::Failed("chaintrue plan", result.error());
+}
 
 template <class Place>
 Pairs rows_of(const std::vector<Place>& places) {

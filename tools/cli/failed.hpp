@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a verb throws that cannot do its task with sound input: the sentence for a person, and the
+/// reason by a name that stays when sentences change.
+///
+/// \code
+///   if (!check) throw Failed(file.name, check.error());
+/// \endcode
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::grid {
+enum class BeltsFitReason;
+enum class CheckReason;
+enum class FitReason;
+enum class PlanReason;
+namespace diagnosis {
+enum class DiagnosisReason;
+}
+}  // namespace chaintrue::grid
+
+namespace chaintrue::cli {
+
+/// The enumerator's own name: "no_machine".
+[[nodiscard]] std::string_view name_of(grid::BeltsFitReason reason);
+[[nodiscard]] std::string_view name_of(grid::CheckReason reason);
+[[nodiscard]] std::string_view name_of(grid::FitReason reason);
+[[nodiscard]] std::string_view name_of(grid::PlanReason reason);
+[[nodiscard]] std::string_view name_of(grid::diagnosis::DiagnosisReason reason);
+
+class Failed : public std::runtime_error {
+ public:
+  /// \param about the file, or the command, that the message begins with
+  Failed(std::string about, std::string_view reason, const std::string& sentence, int code = kBadInput)
+      : std::runtime_error(sentence), about_(std::move(about)), reason_(reason), code_(code) {}
+  /// \param failure a Failure of one of the reasons above
+  template <class Failure>
+  Failed(std::string about, const Failure& failure)
+      : Failed(std::move(about), name_of(failure.reason), failure.sentence()) {}
+
+  [[nodiscard]] const std::string& about() const { return about_; }
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+  [[nodiscard]] int code() const { return code_; }
+
+ private:
+  std::string about_;
+  std::string reason_;
+  int code_;
+};
+
+}  // namespace chaintrue::cli
