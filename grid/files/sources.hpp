@@ -27,7 +27,7 @@ namespace chaintrue::grid::files {
 [[nodiscard]] std::vector<SourceFile> sources_read();
 /// For a file that is read in another way.
 void note_source(SourceFile source);
-/// Begins anew, on a thread that does more than one piece of work; files_read() is empty then, too.
+/// Begins anew, on a thread that does more than one piece of work.
 void forget_sources();
 
 /// What a map's, a diagnosis' or anchors' file says of itself; empty where it says nothing. For a file
