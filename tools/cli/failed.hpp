@@ -35,7 +35,7 @@ namespace chaintrue::cli {
 
 class Failed : public std::runtime_error {
  public:
-  /// \param about the file, or the command, that the message begins with
+  /// \param about the file, or the command, that the message begins with; empty: it was printed
   Failed(std::string about, std::string_view reason, const std::string& sentence, int code = kBadInput)
       : std::runtime_error(sentence), about_(std::move(about)), reason_(reason), code_(code) {}
   /// \param failure a Failure of one of the reasons above

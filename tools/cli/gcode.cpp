@@ -224,6 +224,10 @@ void add_gcode(Verb app) {
   compensate.add_flag("--no-verify",
                       options->no_verify,
                       "Do not run the output on the simulated machine before it is written");
+  compensate.add_flag("--json",
+                      options->json,
+                      "Print the result as JSON, with each piece of the path: line, 1 for a rapid, "
+                      "start and end, correction at either (x, y, mm)");
   compensate.footer(
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "grid/files/sources.hpp"
 #include "tools/cli/gcode_expected.hpp"
@@ -124,6 +125,47 @@ void say_what_it_is_for(const GcodeMachine& machine, const GcodeOptions& options
   }
 }
 
+/// \param strays_mm how far the tool leaves the path on the simulated machine; "null": it was not run
+std::string json_of(const gcode::CompensateSummary& summary,
+                    const gcode::Findings& findings,
+                    const std::string& strays_mm,
+                    const PromisedError& promised,
+                    const report::PathReport& picture) {
+  std::vector<std::string> notes, pieces;
+  for (const gcode::Note& note : findings.notes) {
+    notes.push_back(fmt::format("{{\"line\": {}, \"name\": {}, \"sentence\": {}}}",
+                                note.line,
+                                in_quotes(note.name),
+                                in_quotes(note.sentence)));
+  }
+  for (const report::PathPiece& piece : picture.pieces()) {
+    pieces.push_back(fmt::format("[{}, {}, {}, {}, {}, {}, {}, {}, {}, {}]",
+                                 piece.line,
+                                 piece.is_rapid ? 1 : 0,
+                                 piece.x0_mm,
+                                 piece.y0_mm,
+                                 piece.x1_mm,
+                                 piece.y1_mm,
+                                 piece.correction0.x_mm,
+                                 piece.correction0.y_mm,
+                                 piece.correction1.x_mm,
+                                 piece.correction1.y_mm));
+  }
+  return fmt::format(
+      "{{\"moves\": {}, \"commands\": {}, \"path_mm\": {}, \"largest_correction_mm\": {}, "
+      "\"largest_correction_line\": {}, \"strays_mm\": {}, {},\n\"notes\": [{}],\n"
+      "\"pieces\": [{}]}}\n",
+      summary.moves,
+      summary.commands,
+      summary.path_mm,
+      summary.largest_correction_mm,
+      summary.largest_correction_line,
+      strays_mm,
+      as_members(promised),
+      fmt::join(notes, ", "),
+      fmt::join(pieces, ",\n"));
+}
+
 int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   const GcodeText text(options.program);
   auto source = text.open({"the program", 1, options.no_verify ? 1 : 2});
@@ -135,17 +177,22 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   settings.on_command =
       [&](const gcode::Move& move, const gcode::PathSample& from, const gcode::PathSample& to) {
         if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
-        if (!options.report.empty() && move.names_xy) picture.add(drawn(move, from, to));
+        if ((options.json || !options.report.empty()) && move.names_xy)
+          picture.add(drawn(move, from, to));
       };
   grid::files::PendingFile output(options.output);
   gcode::Compensator compensator(
       machine.corrector(), settings, [&](std::string_view bytes) { output.write(bytes); });
   const auto summary = compensator.run(source, options.dialect());
-  const int code = report(options.program, compensator.findings());
-  if (!summary) return report(options.program, summary.error());
-  if (code != kDone) {
+  const gcode::Findings& findings = compensator.findings();
+  report(options.program, findings);
+  if (!summary) {
+    report(options.program, summary.error());
+    throw GcodeRefused({summary.error()});
+  }
+  if (!findings.problems.empty()) {
     fmt::print(stderr, "nothing is written\n");
-    return code;
+    throw GcodeRefused(findings.problems);
   }
   Proof proof;
   if (!options.no_verify) proof = prove(options, machine, text, output);
@@ -197,7 +244,16 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
     page = report::render_html(document);
   }
   if (holds) {
-    take_place(output, options.output, {{options.report, page}});
+    std::vector<grid::files::OutputFile> others = {{options.report, page}};
+    if (options.json)
+      others.push_back(
+          {"-",
+           json_of(*summary,
+                   findings,
+                   options.no_verify ? "null" : fmt::format("{:.6f}", proof.largest_mm),
+                   promised,
+                   picture)});
+    take_place(output, options.output, others);
   } else if (!options.report.empty()) {
     write_output(options.report, page);
   }
@@ -212,7 +268,9 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
         machine.corrector().firmware().name,
         options.tolerance_mm,
         proof.fault);
-  } else if (!options.no_verify) {
+    throw Failed("", "not_held", proof.fault, kCheckFailed);
+  }
+  if (!options.no_verify) {
     fmt::print(stderr,
                "run on a simulated {} controller: the tool stays within {:.4f} mm of the path, "
                "tolerance {} "
@@ -221,13 +279,11 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
                proof.largest_mm,
                options.tolerance_mm);
   }
-  if (holds) {
-    fmt::print(stderr, "{}", in_words(promised));
-    say_what_it_is_for(machine, options);
-  }
-  if (holds && is_usual(options))
+  fmt::print(stderr, "{}", in_words(promised));
+  say_what_it_is_for(machine, options);
+  if (is_usual(options))
     say_next(with_map_words(options, {"gcode", "verify", options.program, options.output}));
-  return holds ? kDone : kCheckFailed;
+  return kDone;
 }
 
 }  // namespace
@@ -235,7 +291,8 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
 int run_gcode_compensate(const GcodeOptions& options) {
   const GcodeMachine machine(options);
   const grid::CompensationMap* map = machine.map();
-  if (map != nullptr && !options.forced && refuses_to_cut_with(*map)) return kCheckFailed;
+  if (map != nullptr && !options.forced && refuses_to_cut_with(*map))
+    throw Failed("", "not_to_cut_with", not_to_cut_with(*map), kCheckFailed);
   return compensate_for(machine, options);
 }
 

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <utility>
 #include <system_error>
 
 #include "grid/files/file_identity.hpp"
@@ -28,6 +29,13 @@ namespace {
 
 int exit_code(gcode::ProblemName name) {
   return gcode::kind(name) == gcode::ProblemKind::bad_input ? kBadInput : kNotSupportedOrOutside;
+}
+
+std::string sentence_of(const std::vector<gcode::Problem>& problems) {
+  std::string text;
+  for (const gcode::Problem& problem : problems)
+    text += (text.empty() ? "" : "\n") + problem.message();
+  return text;
 }
 
 }  // namespace
@@ -123,6 +131,19 @@ std::string compensated_name(const std::string& program) {
   return std::filesystem::path(path)
       .replace_extension(".true" + path.extension().string())
       .string();
+}
+
+GcodeRefused::GcodeRefused(std::vector<gcode::Problem> found)
+    : Failed("", "bad_program", sentence_of(found), exit_code(found.front().name)),
+      problems(std::move(found)) {}
+
+std::string in_quotes(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
 }
 
 int report(const std::string& file, const gcode::Problem& problem) {

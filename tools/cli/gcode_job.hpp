@@ -6,12 +6,14 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "grid/files/pending_file.hpp"
 #include "grid/progress.hpp"
 #include "grid/provenance.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/cli/gcode_machine.hpp"
 #include "tools/gcode/verifier.hpp"
 
@@ -49,6 +51,15 @@ class GcodeText {
 
 /// part.nc becomes part.true.nc.
 [[nodiscard]] std::string compensated_name(const std::string& program);
+
+/// A program that is refused, once all that is wrong in it was printed.
+struct GcodeRefused : Failed {
+  explicit GcodeRefused(std::vector<gcode::Problem> found);
+  std::vector<gcode::Problem> problems;
+};
+
+/// A JSON text.
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// Prints a problem to stderr as `file: line 3: ...`; gives the exit code that its kind has.
 int report(const std::string& file, const gcode::Problem& problem);

@@ -32,15 +32,6 @@ std::string in_words(const gcode::Deviation& worst) {
       worst.run_line);
 }
 
-std::string in_quotes(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return result + '"';
-}
-
 void print_json(const gcode::VerifySummary& summary,
                 const gcode::Result<gcode::Deviation>& control,
                 const PromisedError& promised,
@@ -54,7 +45,7 @@ void print_json(const gcode::VerifySummary& summary,
       summary.largest_mm(),
       summary.feeds.distance_mm,
       summary.rapids.distance_mm,
-      summary.feeds.original_line,
+      summary.worst().original_line,
       tolerance_mm,
       control ? fmt::format("{:.6f}", control->distance_mm) : "null",
       summary.tick_overshoot_mm,
@@ -168,8 +159,8 @@ int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
   const auto summary =
       gcode::verify(intended, run, machine.corrector(), options.dialect(), settings);
   if (!summary) {
-    return report(summary.error().in_original ? options.program : options.other,
-                  summary.error().problem);
+    report(summary.error().in_original ? options.program : options.other, summary.error().problem);
+    throw GcodeRefused({summary.error().problem});
   }
   auto again = original.open({"the same without compensation", 2, 2});
   const auto control =

@@ -69,7 +69,7 @@ int with_exit_code(const std::function<int()>& work) {
   } catch (const grid::files::InputError& error) {
     return report_bad_input(error);
   } catch (const Failed& failed) {
-    fmt::print(stderr, "{}: {}\n", failed.about(), failed.what());
+    if (!failed.about().empty()) fmt::print(stderr, "{}: {}\n", failed.about(), failed.what());
     return failed.code();
   } catch (const grid::files::ReaderGone&) {
     return kDone;

@@ -95,7 +95,9 @@ class Filed(Written):
 
     @property
     def _file(self) -> File:
-        return File(f"{type(self).__name__.lower()}.json", self._text)
+        """By the name of the file that it was read from."""
+        name = self._sources[0][0] if len(self._sources) == 1 else f"{type(self).__name__.lower()}.json"
+        return File(name, self._text)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _again, (type(self), self._text, self._sources)

@@ -77,5 +77,5 @@ def check(
     if settings is not None:
         words += ["--settings", os.fspath(settings)]
     answer, page = "check.json", "check.html"
-    files, _ = run(*words, "-o", answer, "--report", page, out=[answer, page])
+    files, _, _ = run(*words, "-o", answer, "--report", page, out=[answer, page])
     return Check(files[answer], files[page])

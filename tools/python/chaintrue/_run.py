@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import pathlib
+import re
 import tempfile
 from typing import NamedTuple, Sequence, Union
 
@@ -21,12 +22,12 @@ class File(NamedTuple):
     text: str
 
 
-def run(*words: Union[str, File], out: Sequence[str]) -> tuple[dict[str, str], str]:
+def run(*words: Union[str, File], out: Sequence[str] = ()) -> tuple[dict[str, str], str, str]:
     """Runs `chaintrue WORDS` in a folder of its own, with the Files among the words in it.
 
     out  words that name a file that the run writes
 
-    Returns these files' texts by name, and what the run printed. Raises InputError and Failure.
+    Returns these files' texts by name, standard output and standard error. Raises InputError and Failure.
     """
     with tempfile.TemporaryDirectory(prefix="chaintrue-") as scratch:
         folder = pathlib.Path(scratch)
@@ -39,23 +40,16 @@ def run(*words: Union[str, File], out: Sequence[str]) -> tuple[dict[str, str], s
                 line.append(str(path))
             else:
                 line.append(str(folder / word) if word in out else word)
+
+        def by_name(text: str) -> str:
+            return re.sub(rf"{re.escape(scratch)}/(\d+/)?", "", text)
+
         try:
-            code, printed = _core.run(line)
+            code, printed, said = _core.run(line)
         except InputError as error:
-            raise _named_by_name(error, scratch) from None
+            problems = [tuple(map(by_name, problem)) for problem in error.problems]
+            raise InputError(by_name(str(error)), problems) from None
         if code > _CHECK_FAILED:
-            raise Failure(printed.replace(f"{scratch}/", "").strip())
-        return {name: (folder / name).read_text("utf-8") for name in out}, printed
-
-
-def _named_by_name(error: InputError, folder: str) -> InputError:
-    """The same error; files in the run's folder by their names alone."""
-
-    def named(text: str) -> str:
-        begin = text.find(f"{folder}/")
-        if begin < 0:
-            return text
-        _, _, rest = text[begin + len(folder) + 1 :].partition("/")
-        return named(text[:begin] + rest)
-
-    return InputError(named(str(error)), [tuple(map(named, problem)) for problem in error.problems])
+            raise Failure(by_name(said).strip())
+        texts = {name: (folder / name).read_bytes().decode("utf-8", "surrogateescape") for name in out}
+        return texts, printed, said

@@ -83,7 +83,7 @@ def sweep(
         if isinstance(specification, dict):
             path = _written(specification, place)
         words = ["sweep", os.fspath(path), "-o", str(place), "--resume", "--threads", str(threads)]
-        *assumed, _, _ = run(*words, out=[])[1].splitlines()
+        *assumed, _, _ = run(*words)[2].splitlines()
         for sentence in assumed:
             warnings.warn(sentence, stacklevel=2)
         return Sweep(place)

@@ -23,7 +23,7 @@ A program is a path, or its text where that has more than one line. Options that
 from __future__ import annotations
 
 import dataclasses
-import hashlib
+import json
 import os
 import pathlib
 from typing import Any, Optional, Union
@@ -35,6 +35,7 @@ from . import _core, _plots
 from ._base import PathLike, facts_table, in_words, one_of
 from ._errors import GcodeError, GcodeProblem
 from ._maps import Anchors, Map
+from ._run import File, run
 
 __all__ = ["Compensated", "GcodeError", "GcodeProblem", "Verification", "compensate", "verify"]
 
@@ -68,7 +69,7 @@ class Compensated:
 
     def write(self, path: PathLike) -> None:
         """Writes the program, whole or not at all."""
-        _core.write(os.fspath(path), self.text)
+        _core.write(os.fspath(path), self.text.encode("utf-8", "surrogateescape"))
 
     def plot(self, ax: Any = None) -> Any:
         """The path, and arrows of the correction; the axes are given back."""
@@ -142,14 +143,16 @@ def compensate(
     Raises GcodeError with every line that cannot be compensated, Failure where the result would not
     hold.
     """
-    asked = _options(options)
-    asked.no_verify = not verified
-    asked.forced = force
-    given = [_as_typed(name, value) for name, value in options.items() if value is not False]
-    target = _target(calibration)
-    sources = [*_sources_of(program), *(calibration._sources or _as_written(calibration))]
-    origin = ("gcode compensate", given, sources)
-    return Compensated(**_core.compensate(_text(program), target, asked, origin))
+    words = ["gcode", "compensate", _file(program, "program.nc"), *_words(calibration, options)]
+    words += ["--no-verify"] * (not verified) + ["--force"] * force
+    files, answer, _ = run(*words, "-o", _OUTPUT, "--json", out=[_OUTPUT])
+    found = json.loads(answer)
+    return Compensated(
+        text=files[_OUTPUT],
+        notes=[tuple(note.values()) for note in found.pop("notes")],
+        pieces=numpy.array(found.pop("pieces"), dtype=numpy.float64).reshape(-1, 10),
+        **{key: found[key] for key in _keys(Compensated) & found.keys()},
+    )
 
 
 def verify(
@@ -159,61 +162,55 @@ def verify(
     **options: Any,
 ) -> Verification:
     """What the compensated program does on a simulated machine, against what the program means."""
-    run = compensated.text if isinstance(compensated, Compensated) else _text(compensated)
-    return Verification(**_core.verify(_text(program), run, _target(calibration), _options(options)))
+    ran = compensated.text if isinstance(compensated, Compensated) else compensated
+    files = [_file(program, "program.nc"), _file(ran, "compensated.nc")]
+    _, answer, _ = run("gcode", "verify", *files, *_words(calibration, options), "--json")
+    found = json.loads(answer)
+    found["line"] = found["original_line"]
+    return Verification(**{key: found[key] for key in _keys(Verification)})
 
 
-def _options(given: dict[str, Any]) -> Any:
-    options = _core.GcodeOptions()
-    known = [name for name in dir(options) if name[0] != "_" and name not in ("forced", "no_verify")]
-    for name, value in given.items():
-        if name not in known:
-            raise TypeError(f"there is no option {name}, but {', '.join(known)}")
-        if name == "home":
-            x, y = value
-            value = f"{float(x)!r},{float(y)!r}"
-        elif name in ("machine", "settings"):
-            value = os.fspath(value)
-        elif name == "frame":
-            one_of(value, "frame", ("marks", "bed"))
-        elif name == "controller":
-            kinds = ("maslow_classic", "holey", "fluidnc_wallplotter", "ideal", "maslow4")
-            one_of(value, "controller", kinds)
-        setattr(options, name, value)
-    return options
+_OUTPUT = "output.nc"
+_FLAGS = {
+    "keep_rapids_whole": "--keep-rapids-whole",
+    "home_is_zero": "--home-is-zero",
+    "skip_deletable": "--block-delete",
+    "tools_have_no_diameter": "--tools-have-no-diameter",
+}
+_CHOICES = {
+    "frame": ("marks", "bed"),
+    "controller": ("maslow_classic", "holey", "fluidnc_wallplotter", "ideal", "maslow4"),
+}
+_NUMBERS = ("tolerance_mm", "decimals", "largest_correction_mm", "steepest_correction")
+_OTHERS = ("home", "machine", "settings")
 
 
-def _text(program: Union[str, PathLike]) -> str:
-    if isinstance(program, str) and "\n" in program:
-        return program
-    return pathlib.Path(program).read_bytes().decode("utf-8", "surrogateescape")
-
-
-def _as_typed(name: str, value: Any) -> str:
-    """The option of the command: --tolerance-mm 0.1."""
-    word = "--" + name.replace("_", "-")
-    if value is True:
-        return word
-    if name in ("machine", "settings"):
-        return f"{word} {pathlib.Path(value).name}"
-    return f"{word} {','.join(map(str, value)) if name == 'home' else value}"
-
-
-def _sources_of(program: Union[str, PathLike]) -> list[tuple[str, str]]:
-    """The program's file; none of a text."""
-    if isinstance(program, str) and "\n" in program:
-        return []
-    path = pathlib.Path(program)
-    return [(path.name, hashlib.sha256(path.read_bytes()).hexdigest())]
-
-
-def _as_written(calibration: Union[Map, Anchors]) -> list[tuple[str, str]]:
-    """The file that write() would make of it."""
-    name = "anchors" if isinstance(calibration, Anchors) else "map"
-    return [(name, hashlib.sha256(calibration._text.encode()).hexdigest())]
-
-
-def _target(calibration: Union[Map, Anchors]) -> str:
+def _words(calibration: Union[Map, Anchors], options: dict[str, Any]) -> list[Union[str, File]]:
+    """Calibration and options as the command takes them."""
     if not isinstance(calibration, (Map, Anchors)):
         raise TypeError(f"programs are compensated with a Map or Anchors, not {calibration!r}")
-    return calibration._text
+    words: list[Union[str, File]] = ["--map", calibration._file]
+    known = (*_NUMBERS, *_CHOICES, *_OTHERS, *_FLAGS)
+    for name, value in options.items():
+        if name not in known:
+            raise TypeError(f"there is no option {name}, but {', '.join(known)}")
+        if name in _FLAGS:
+            words += [_FLAGS[name]] * bool(value)
+            continue
+        if name in _CHOICES:
+            one_of(value, name, _CHOICES[name])
+        text = ",".join(map(str, value)) if name == "home" else os.fspath(value) if name in _OTHERS else str(value)
+        words.append(f"--{name.replace('_', '-')}={text}")
+    return words
+
+
+def _file(program: Union[str, PathLike], name: str) -> File:
+    """The program's file; `name` for a text."""
+    if isinstance(program, str) and "\n" in program:
+        return File(name, program)
+    path = pathlib.Path(program)
+    return File(path.name, path.read_bytes().decode("utf-8", "surrogateescape"))
+
+
+def _keys(kind: type) -> set[str]:
+    return {field.name for field in dataclasses.fields(kind)}

@@ -3,7 +3,7 @@
 /// chaintrue._core, part by part: each function adds its functions to the module. Private to
 /// tools/python; what a user sees is the package's Python.
 ///
-/// Verbs run as the command runs them (run.cpp); here are the readers, and what takes and gives arrays.
+/// Verbs run as the command runs them (run.cpp). Beside them are the readers, and what takes and gives arrays.
 /// Everything that has a file is the text of this file, both ways. Arrays are float64 of shape (n, 2); NaN where there is
 /// no answer, which Python masks.
 #pragma once
@@ -12,15 +12,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "grid/files/holes_file.hpp"
-#include "grid/files/sources.hpp"
-#include "tools/gcode/problem.hpp"
 
 namespace chaintrue::python {
 
@@ -36,27 +32,13 @@ using Texts = std::vector<std::string>;
 /// As written by this module: a few points or distances are enough, since these may only check.
 [[nodiscard]] grid::MeasuredGrid grid_of(const std::string& text);
 [[nodiscard]] grid::files::ReadHoles holes_of(const std::string& text);
-/// A program that is refused, with every line that has a problem.
-struct GcodeFailure : std::runtime_error {
-  GcodeFailure(const std::string& sentence, std::vector<gcode::Problem> found)
-      : std::runtime_error(sentence), problems(std::move(found)) {}
-  std::vector<gcode::Problem> problems;
-};
-
-/// From here on files::InputError, cli::Failed and GcodeFailure arrive in Python as the exceptions of
+/// From here on files::InputError, cli::Failed and cli::GcodeRefused arrive in Python as the exceptions of
 /// chaintrue/_errors.py.
 void translate_failures();
-
-/// Files by name and SHA-256, as Python keeps them with what was read.
-using Sources = std::vector<std::pair<std::string, std::string>>;
-/// Verb, options and inputs of where a result comes from.
-using MadeBy = std::tuple<std::string, std::vector<std::string>, Sources>;
-[[nodiscard]] grid::Provenance provenance_of(const MadeBy& made_by);
 
 void add_measured(py::module_& module);
 void add_maps(py::module_& module);
 void add_plans(py::module_& module);
-void add_gcode(py::module_& module);
 void add_run(py::module_& module);
 
 }  // namespace chaintrue::python

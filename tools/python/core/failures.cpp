@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/input_error.hpp"
-#include "tools/cli/failed.hpp"
+#include "tools/cli/gcode_job.hpp"
 #include "tools/python/core/bind.hpp"
 
 namespace chaintrue::python {
@@ -21,7 +21,7 @@ py::list problems_of(const grid::files::InputError& error) {
   return problems;
 }
 
-py::list problems_of(const GcodeFailure& failure) {
+py::list problems_of(const cli::GcodeRefused& failure) {
   py::list problems;
   for (const gcode::Problem& problem : failure.problems) {
     problems.append(py::make_tuple(
@@ -39,7 +39,7 @@ void translate_failures() {
       std::rethrow_exception(thrown);
     } catch (const grid::files::InputError& error) {
       raise("InputError", std::string(error.what()), problems_of(error));
-    } catch (const GcodeFailure& failure) {
+    } catch (const cli::GcodeRefused& failure) {
       raise("GcodeError", std::string(failure.what()), problems_of(failure));
     } catch (const cli::Failed& failed) {
       raise("Failure", std::string(failed.what()), failed.reason());

@@ -13,6 +13,7 @@
 #include "grid/files/grid_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/map_file.hpp"
+#include "grid/files/sources.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/python/core/bind.hpp"
 
@@ -94,7 +95,8 @@ py::tuple read(const std::string& kind,
   files::forget_sources();
   const py::tuple found =
       parse(kind, files::read_whole_file(path), files::name_in_messages(path), machine, few);
-  Sources sources;
+  // By name and SHA-256.
+  std::vector<std::pair<std::string, std::string>> sources;
   for (const grid::SourceFile& file : files::sources_read())
     sources.emplace_back(file.name, file.sha256);
   return py::make_tuple(found[0], found[1], sources);
@@ -114,13 +116,6 @@ grid::MeasuredGrid grid_of(const std::string& text) {
 
 files::ReadHoles holes_of(const std::string& text) {
   return read_as_holes(text, "", std::nullopt, true);
-}
-
-grid::Provenance provenance_of(const MadeBy& made_by) {
-  const auto& [verb, options, sources] = made_by;
-  grid::Provenance found{std::string(files::version()), verb, options, {}};
-  for (const auto& [name, sha256] : sources) found.inputs.push_back({name, sha256});
-  return found;
 }
 
 void add_measured(py::module_& module) {

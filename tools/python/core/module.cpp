@@ -10,6 +10,5 @@ PYBIND11_MODULE(_core, module) {
   chaintrue::python::add_measured(module);
   chaintrue::python::add_maps(module);
   chaintrue::python::add_plans(module);
-  chaintrue::python::add_gcode(module);
   chaintrue::python::add_run(module);
 }

@@ -15,44 +15,45 @@
 namespace chaintrue::python {
 namespace {
 
-/// Takes what this process prints through C's streams, which glibc lets a program exchange.
+/// Takes what this process prints to one of C's streams, which glibc lets a program exchange.
 class Printed {
  public:
-  Printed() {
-    if (stream_ == nullptr) throw std::bad_alloc();
-    stdout = stderr = stream_;
+  explicit Printed(std::FILE*& stream) : stream_(stream), own_(stream) {
+    taken_ = ::open_memstream(&text_, &size_);
+    if (taken_ == nullptr) throw std::bad_alloc();
+    stream_ = taken_;
   }
   ~Printed() {
-    stdout = out_;
-    stderr = err_;
-    std::fclose(stream_);
+    stream_ = own_;
+    std::fclose(taken_);
     std::free(text_);
   }
   Printed(const Printed&) = delete;
   Printed& operator=(const Printed&) = delete;
 
   [[nodiscard]] std::string text() const {
-    std::fflush(stream_);
+    std::fflush(taken_);
     return {text_, size_};
   }
 
  private:
+  std::FILE*& stream_;
+  std::FILE* own_;
+  std::FILE* taken_ = nullptr;
   char* text_ = nullptr;
   std::size_t size_ = 0;
-  std::FILE* stream_ = ::open_memstream(&text_, &size_);
-  std::FILE* out_ = stdout;
-  std::FILE* err_ = stderr;
 };
 
-/// The exit code, and what was printed.
-std::pair<int, std::string> run(const std::vector<std::string>& words) {
+/// The exit code, standard output and standard error.
+std::tuple<int, std::string, std::string> run(const std::vector<std::string>& words) {
   const py::gil_scoped_release others_may_work;
   static std::mutex one_at_a_time;
   const std::scoped_lock lock(one_at_a_time);
-  const Printed printed;
+  const Printed out(stdout);
+  const Printed err(stderr);
   const int code =
       cli::run_command(words, [](const std::function<int()>& work) { return work(); });
-  return {code, printed.text()};
+  return {code, out.text(), err.text()};
 }
 
 }  // namespace
