@@ -40,8 +40,8 @@ class Failed : public std::runtime_error {
       : std::runtime_error(sentence), about_(std::move(about)), reason_(reason), code_(code) {}
   /// \param failure a Failure of one of the reasons above
   template <class Failure>
-  Failed(std::string about, const Failure& failure)
-      : Failed(std::move(about), name_of(failure.reason), failure.sentence()) {}
+  Failed(std::string about, const Failure& failure, int code = kBadInput)
+      : Failed(std::move(about), name_of(failure.reason), failure.sentence(), code) {}
 
   [[nodiscard]] const std::string& about() const { return about_; }
   [[nodiscard]] const std::string& reason() const { return reason_; }

@@ -16,6 +16,7 @@
 #include "grid/planning/measurement_plan.hpp"
 #include "grid/planning/second_visits.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
@@ -151,10 +152,7 @@ int run_plan(Verb verb, PlanOptions options) {
   take(options.position_noise_mm, options.request.noise.position_mm);
   check_options(options, machine.bed);
   const auto plan = grid::plan_measurement(machine, options.request);
-  if (!plan) {
-    fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence());
-    return kNotSupportedOrOutside;
-  }
+  if (!plan) throw Failed("chaintrue plan", plan.error(), kNotSupportedOrOutside);
   // A small bed has room for fewer marks than were asked for.
   OptionProblems problems;
   problems.require(
@@ -170,7 +168,10 @@ int run_plan(Verb verb, PlanOptions options) {
       sheet_outputs(sheet,
                     machine,
                     {noise.length_mm, noise.position_mm, grid::StatedNoise{}.dof},
-                    outputs_of(options));
+                    outputs_of(options),
+                    fmt::format("\"expected_rms_mm\": {}, \"expected_largest_mm\": {}",
+                                errors.rms_mm,
+                                errors.largest_mm));
   if (!options.drawing.empty())
     outputs.push_back({options.drawing, draw_plan(*plan, machine.bed, errors)});
   write_outputs(outputs);
@@ -280,7 +281,10 @@ void add_plan(Verb app) {
              "The list with empty cells to fill in: CSV, or JSON if the name ends in .json; - is "
              "standard output")
       .shows_default();
-  verb.add_flag("--json", options->json, "Print the list as JSON, including the machine")
+  verb.add_flag("--json",
+                options->json,
+                "Print the list as JSON, including the machine; where the list goes into a file, the "
+                "places and what is expected")
       .acts_on(facts::lattice | facts::tape | facts::check,
                "to be left out with --after: the lines are as the file they go into");
   add_output(verb,

@@ -11,6 +11,7 @@
 #include "grid/files/whole_file.hpp"
 #include "model/chains/chain_mechanism.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/talk.hpp"
@@ -55,16 +56,16 @@ int plan_the_check(const grid::CompensationMap& map,
                    const PlanOutputs& wanted) {
   check_options(options.request, map);
   const auto plan = grid::plan_check(map, options.request);
-  if (!plan) {
-    fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence());
-    return kNotSupportedOrOutside;
-  }
+  if (!plan) throw Failed("chaintrue plan", plan.error(), kNotSupportedOrOutside);
   const Sheet sheet{plan->marks, sheet_of(options.measure, map.machine())};
   std::vector<files::OutputFile> outputs = sheet_outputs(
       sheet,
       *map.machine(),
       {options.request.length_mm, options.request.position_mm, grid::StatedNoise{}.dof},
-      wanted);
+      wanted,
+      fmt::format("\"expected_sigmas\": [{}, {}]",
+                  plan->expected_sigmas.left,
+                  plan->expected_sigmas.right));
   if (!wanted.drawing.empty()) outputs.push_back({wanted.drawing, draw(*plan, map)});
   write_outputs(outputs);
   fmt::print(

@@ -11,6 +11,7 @@
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/failed.hpp"
 #include "tools/cli/holes_drawing.hpp"
 #include "tools/cli/holes_words.hpp"
 #include "tools/cli/numbers.hpp"
@@ -97,10 +98,7 @@ int plan_the_holes(const HolesPlanOptions& options,
   grid::HolesPlanRequest request = options.request;
   request.progress = shown_progress();
   const auto plan = grid::plan_holes(machine, request);
-  if (!plan) {
-    fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence());
-    return kNotSupportedOrOutside;
-  }
+  if (!plan) throw Failed("chaintrue plan", plan.error(), kNotSupportedOrOutside);
   std::vector<files::OutputFile> outputs;
   if (!wanted.drawing.empty()) outputs.push_back({wanted.drawing, draw_holes_plan(*plan)});
   if (!wanted.page.empty()) outputs.push_back({wanted.page, holes_page(*plan, wanted.list)});
@@ -114,6 +112,14 @@ int plan_the_holes(const HolesPlanOptions& options,
   outputs.push_back({wanted.list,
                      is_json_wanted(wanted.json, wanted.list) ? files::write_holes_sheet(plan->set)
                                                               : workshop_list(*plan)});
+  std::vector<model::MarkPoint> holes;
+  for (const grid::Hole& hole : plan->set.holes)
+    holes.push_back(model::identity_placement(hole.commanded));
+  add_answer(holes,
+             {},
+             fmt::format("\"expected_rms_mm\": {}", plan->expected_rms_mm),
+             wanted,
+             outputs);
   write_outputs(outputs);
   fmt::print(stderr, "{}", plan_in_words(*plan, options.request));
   return kDone;

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -68,7 +69,13 @@ int run_command(const std::vector<std::string>& typed, const Guard& guard) {
         return kUsage;
       }
     }
-    return guard([&] { return app.exit(error) == 0 ? kDone : kUsage; });
+    return guard([&] {
+      std::ostringstream out, err;
+      const int code = app.exit(error, out, err) == 0 ? kDone : kUsage;
+      fmt::print("{}", out.str());
+      fmt::print(stderr, "{}", err.str());
+      return code;
+    });
   }
   QuietTalk talk(is_quiet);
   const int code = guard([&] {

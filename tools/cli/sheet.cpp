@@ -172,7 +172,7 @@ std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
 }
 
 bool is_json_wanted(bool json, const std::string& output) {
-  return json || output.ends_with(".json");
+  return output == "-" ? json : output.ends_with(".json");
 }
 
 }  // namespace chaintrue::cli

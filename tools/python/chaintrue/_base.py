@@ -222,13 +222,6 @@ def same_count(counts: dict[str, Optional[int]]) -> None:
             raise ValueError(f"{counts[first]} {first}, but {counts[name]} {name}")
 
 
-def in_range(value: Any, name: str, least: float, most: float) -> Any:
-    """The number, or ValueError that says its range."""
-    if not least <= value <= most:
-        raise ValueError(f"{name} is {value}, but must be {least} to {most}")
-    return value
-
-
 def one_of(word: str, name: str, words: tuple[str, ...]) -> str:
     if word not in words:
         known = ", ".join(words[:-1]) + " or " + words[-1]

@@ -2,19 +2,15 @@
 """What core/*.cpp adds to the module. A text is that of a file of the thing; what was assumed of one
 comes alongside it, a sentence each."""
 
-from typing import Any, Optional, Union
+from typing import Any, Union
 
 import numpy
 from numpy.typing import NDArray
 
 __version__: str
-PLANNED_POINTS: tuple[int, int]
-PLANNED_HOLES: tuple[int, int]
-PLANNED_CHECK_POINTS: tuple[int, int]
 
 _Rows = NDArray[numpy.float64]
 _Sources = list[tuple[str, str]]
-_Asked = tuple[int, Optional[float], Optional[float], Optional[float], str, float]
 
 class Answering:
     def __init__(self, text: str) -> None: ...
@@ -29,15 +25,4 @@ def write(path: str, text: Union[str, bytes]) -> None: ...
 def format_version(file_type: str) -> str: ...
 def run(words: list[str]) -> tuple[int, str, str]: ...
 def maslow4_settings(anchors: str) -> str: ...
-def plan_marks(machine: str, asked: _Asked, second_visits: int) -> dict[str, Any]: ...
-def plan_check(map: str, asked: _Asked) -> dict[str, Any]: ...
-def plan_holes(
-    machine: str,
-    asked: _Asked,
-    distances: int,
-    edges: bool,
-    tape_sigma_mm: float,
-    hole_sigma_mm: float,
-) -> dict[str, Any]: ...
 def plan_after(found: str, texts: list[str]) -> dict[str, Any]: ...
-def planned_distances(holes: int, edges: bool) -> tuple[int, int]: ...

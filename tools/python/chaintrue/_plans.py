@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import os
 from typing import Any, Iterable, Optional, Union
 
@@ -11,12 +12,16 @@ import numpy
 from numpy.typing import NDArray
 
 from . import _core, _plots
-from ._base import PathLike, facts_table, in_range, in_words, one_of
+from ._base import PathLike, facts_table, in_words, one_of
 from ._diagnosis import Diagnosis
 from ._maps import Map, Measured, sorted_out, texts_of
 from ._measured import Grid, Machine
 from ._records import Records, records
+from ._run import run
 from ._taped import Belts, Holes
+
+
+_USUAL_DEPTH_MM = 3.0
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -100,7 +105,7 @@ def plan(
     tape_sigma_mm: float = 0.5,
     hole_sigma_mm: float = 0.3,
     measure: str = "",
-    drill_depth_mm: float = 3.0,
+    drill_depth_mm: float = _USUAL_DEPTH_MM,
 ) -> Plan:
     """Where to measure. Of a Machine: so many points (28), or holes and a tape's distances. Of a Map:
     the few points (5) that tell best whether it still holds. Of what was measured, after its
@@ -122,27 +127,38 @@ def plan(
     if not isinstance(of, (Machine, Map)):
         raise TypeError("a plan is of a Machine or a Map; of what was measured, give its Diagnosis: after")
     one_of(measure, "measure", ("", "places", "lengths"))
-    if isinstance(of, Map):
-        if holes is not None or second_visits:
-            raise ValueError("a map is checked by a few points, each visited once")
-        usual, limits = 5, _core.PLANNED_CHECK_POINTS
-    else:
-        usual, limits = 28, _core.PLANNED_POINTS
     if holes is not None and points is not None:
         raise ValueError("give points or holes, not both")
-    count = holes if holes is not None else usual if points is None else points
-    if holes is None:
-        in_range(count, "points", *limits)
-    asked = (count, margin_mm, length_noise_mm, position_noise_mm, measure, drill_depth_mm)
-    if isinstance(of, Map):
-        return Plan(**_core.plan_check(of._text, asked))
-    if holes is None:
-        in_range(second_visits, "second_visits", 0, count // 3)
-        return Plan(**_core.plan_marks(of._text, asked, second_visits))
-    in_range(holes, "holes", *_core.PLANNED_HOLES)
-    if distances:
-        in_range(distances, "distances", *_core.planned_distances(holes, edges))
-    return Plan(**_core.plan_holes(of._text, asked, distances, edges, tape_sigma_mm, hole_sigma_mm))
+    asked = {
+        "points": points,
+        "holes": holes,
+        "distances": distances or None,
+        "second-visits": second_visits or None,
+        "margin-mm": margin_mm,
+        "length-noise-mm": length_noise_mm,
+        "position-noise-mm": position_noise_mm,
+        "tape-sigma-mm": None if holes is None else tape_sigma_mm,
+        "hole-sigma-mm": None if holes is None else hole_sigma_mm,
+        "measure": measure or None,
+    }
+    words = ["plan", "--check" if isinstance(of, Map) else "--machine", of._file]
+    words += [f"--{name}={value}" for name, value in asked.items() if value is not None]
+    words += ["--edges"] * edges
+    depth = [] if drill_depth_mm == _USUAL_DEPTH_MM else [f"--depth-mm={drill_depth_mm}"]
+    sheet, page, program, drawing = "sheet.json", "page.html", "program.nc", "drawing.svg"
+    outputs = ["--page", page, "--gcode", program, "--svg", drawing]
+    made, table, _ = run(*words, *outputs, *depth, out=[page, program, drawing])
+    listed, answer, _ = run(*words, "-o", sheet, "--json", out=[sheet])
+    found = json.loads(answer)
+    return Plan(
+        marks=numpy.array(found.pop("marks")),
+        table=table,
+        sheet=listed[sheet],
+        page=made[page],
+        program=made[program],
+        drawing=made[drawing],
+        **found,
+    )
 
 
 def _plan_after(measured: Any, found: Diagnosis) -> Plan:
@@ -152,4 +168,6 @@ def _plan_after(measured: Any, found: Diagnosis) -> Plan:
     grids, holes, belts = sorted_out([measured] if one else measured, "plan")
     if belts and (len(belts) > 1 or grids or holes):
         raise ValueError("Belts are diagnosed by themselves, one at a time")
-    return Plan(**_core.plan_after(found._text, texts_of(grids, holes, belts)))
+    plan = _core.plan_after(found._text, texts_of(grids, holes, belts))
+    marks = numpy.array(plan.pop("marks")).reshape(-1, 2)
+    return Plan(marks=marks, visits=list(range(len(marks))), program="", **plan)

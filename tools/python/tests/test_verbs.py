@@ -55,11 +55,11 @@ def test_plans_of_holes_and_of_checks(tmp_path, machine, calibration):
 @pytest.mark.parametrize(
     "asked, says",
     [
-        ({"points": 3}, "points is 3"),
+        ({"points": 3}, "--points: found 3"),
         ({"points": 28, "holes": 9}, "not both"),
-        ({"holes": 1}, "holes is 1"),
-        ({"holes": 6, "distances": 1}, "distances is 1"),
-        ({"second_visits": 20}, "second_visits is 20"),
+        ({"holes": 1}, "--holes: found 1"),
+        ({"holes": 6, "distances": 1}, "--distances: found 1"),
+        ({"second_visits": 20}, "--second-visits: found 20"),
         ({"measure": "angles"}, "measure is"),
     ],
 )
