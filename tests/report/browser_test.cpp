@@ -230,7 +230,6 @@ TEST(Browser, PagesAreDrawnWhole) {
                   {"residual_scatter", "point_marks", 14 * kPoints},
                   {"probability_bars", "bars", 4},
                   {"gain_bars", "bars", 6},
-                  {"name_support", "point_marks", kPoints},
                   {"next_points", "next_marks", 2},
                   {"next_points", "measured_marks", kPoints}});
     expect_fits_a_phone(visits[3]);

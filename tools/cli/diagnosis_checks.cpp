@@ -5,19 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "tools/cli/diagnosis_words.hpp"
-#include "tools/report/bed_chart.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
 using grid::diagnosis::Diagnosis;
-using grid::diagnosis::PointPicture;
 using grid::diagnosis::Removal;
-using report::Chart;
-using report::DataTable;
 using report::Section;
 using report::Table;
 
@@ -45,54 +40,6 @@ std::string verdict_without(const Removal& removal) {
     text += fmt::format("{}{}", text.empty() ? "" : "; ", cause_title(cause));
   }
   return text;
-}
-
-Chart support_chart(const Diagnosis& found) {
-  Chart chart{.specification = "name_support",
-              .title = "How much each point counts for the name",
-              .caption =
-                  "Blue: without the point the name would be less sure; vermilion: surer. Area: "
-                  "natural logarithm of the change in its odds. A dark rim: without this point the "
-                  "name would change."};
-  constexpr std::size_t kLabels = 3;
-  std::vector<const Removal*> points;
-  for (const Removal& removal : found.stability->removals) {
-    if (removal.what == Removal::What::point) points.push_back(&removal);
-  }
-  std::vector<const Removal*> heaviest = points;
-  std::stable_sort(heaviest.begin(), heaviest.end(), [](const Removal* a, const Removal* b) {
-    return a->support > b->support;
-  });
-  if (heaviest.size() > kLabels) heaviest.resize(kLabels);
-  double largest = 0.0;
-  std::map<std::size_t, const PointPicture*> pictures;
-  for (const PointPicture& picture : found.points) pictures[picture.index] = &picture;
-  DataTable table{
-      "points", {"name", "label", "x_mm", "y_mm", "support", "stands", "text", "verdict"}, {}};
-  std::vector<report::Arrow> marks;
-  for (const Removal* removal : points) {
-    const auto picture = pictures.find(removal->index);
-    if (picture == pictures.end()) continue;
-    const model::MarkPoint& mark = picture->second->mark;
-    const bool is_labelled =
-        !removal->stands || std::find(heaviest.begin(), heaviest.end(), removal) != heaviest.end();
-    largest = std::max(largest, std::abs(removal->support));
-    marks.push_back({.x_mm = mark.x_mm, .y_mm = mark.y_mm});
-    table.rows.push_back({point_name(removal->index),
-                          is_labelled ? fmt::format("{}", removal->index + 1) : std::string(),
-                          mark.x_mm,
-                          mark.y_mm,
-                          removal->support,
-                          removal->stands,
-                          percent(removal->probability),
-                          verdict_without(*removal)});
-  }
-  const model::Bed& bed = found.extended_machine.bed;
-  chart.data = {std::move(table)};
-  chart.signals = report::bed_signals(
-      {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm}, marks);
-  chart.signals.push_back({"largest", std::max(largest, 1e-6)});
-  return chart;
 }
 
 Table removals_table(const Diagnosis& found) {
@@ -137,12 +84,6 @@ Section stability_section(const Diagnosis& found) {
                       fmt::format("Does the name hang on a few {}?", name(found.observations))};
   section.blocks.emplace_back(removals_table(found));
   const auto& removals = found.stability->removals;
-  // Distances have no place on the bed.
-  if (std::any_of(removals.begin(), removals.end(), [](const Removal& removal) {
-        return removal.what == Removal::What::point;
-      })) {
-    section.blocks.emplace_back(support_chart(found));
-  }
   section.is_folded = std::all_of(
       removals.begin(), removals.end(), [](const Removal& removal) { return removal.stands; });
   return section;
