@@ -17,9 +17,9 @@ namespace {
 
 namespace files = grid::files;
 
-/// These change nothing of what is made: what is printed, what may be replaced, the default.
-constexpr std::array<std::string_view, 7> kWithoutTrace = {
-    "--force", "--json", "--plain", "--quiet", "--threads", "--verbose", "--wish-mm"};
+/// These change nothing of what is made: what is printed, what may be replaced.
+constexpr std::array<std::string_view, 6> kWithoutTrace = {
+    "--force", "--json", "--quiet", "--threads", "--verbose", "--wish-mm"};
 
 std::string in_words(Verb verb, const GivenOption& option) {
   const bool is_file = use_of(verb, option.name) == PlaceUse::input;

@@ -95,9 +95,7 @@ class Filed(Written):
 
     @property
     def _file(self) -> File:
-        """By the name of the file that it was read from."""
-        name = self._sources[0][0] if len(self._sources) == 1 else f"{type(self).__name__.lower()}.json"
-        return File(name, self._text)
+        return File(f"{type(self).__name__.lower()}.json", self._text)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _again, (type(self), self._text, self._sources)
@@ -121,6 +119,11 @@ class Made(Filed):
         "version, verb, options, and inputs with name and sha256 of each file that was read; None where "
         "that is not known.",
     )
+
+    @property
+    def _file(self) -> File:
+        """By the name of the file that it was read from, which stands in a program's head."""
+        return File(self._sources[0][0], self._text) if self._sources else super()._file
 
     @classmethod
     def _by(cls, *words: Union[str, File], sources: Sources) -> Any:
