@@ -11,6 +11,7 @@ import numpy
 import pytest
 
 import chaintrue
+from chaintrue import _core
 from conftest import FIXTURES
 
 BRACKET = FIXTURES / "gcode" / "bracket.nc"
@@ -213,3 +214,13 @@ def test_a_sweep_goes_on_where_it_was(tmp_path, machine):
         chaintrue.sweep({**asked, "repetitions": 3}, tmp_path / "cells")
     with pytest.raises(chaintrue.InputError, match="grids"):
         chaintrue.sweep({**asked, "grids": ["a lot"]})
+
+
+def test_the_module_writes_the_commands_bytes(tmp_path, calibration, diagnosis):
+    """Though the module's run reads another file than the command's."""
+    path = str(FIXTURES / "grids" / "seven_by_four.json")
+    for thing, verb in ((calibration, ["fit", path]), (diagnosis, ["diagnose", path, "--no-gain"])):
+        thing.write(tmp_path / "module.json")
+        code, _, _ = _core.run([*verb, "-o", str(tmp_path / "command.json")])
+        assert code == 0
+        assert (tmp_path / "command.json").read_bytes() == (tmp_path / "module.json").read_bytes()
