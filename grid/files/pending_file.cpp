@@ -252,10 +252,16 @@ void PendingFile::take_name() {
 void PendingFile::put_out() const {
   if (!target_.empty()) return;
   const auto open_already = descriptor_behind(path_);
-  // Buffered output is written first.
-  if (open_already) std::fflush(*open_already == STDERR_FILENO ? stderr : stdout);
-  const int descriptor = open_already ? *open_already : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
-  const bool is_written = descriptor >= 0 && write_all(descriptor, held_);
+  // The standard streams keep the order of what is printed there.
+  std::FILE* stream = open_already == STDOUT_FILENO   ? stdout
+                      : open_already == STDERR_FILENO ? stderr
+                                                      : nullptr;
+  const int descriptor =
+      open_already ? open_already.value() : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+  const bool is_written =
+      stream != nullptr
+          ? std::fwrite(held_.data(), 1, held_.size(), stream) == held_.size() && std::fflush(stream) == 0
+          : descriptor >= 0 && write_all(descriptor, held_);
   const int error_number = errno;
   if (!open_already && descriptor >= 0) ::close(descriptor);
   if (is_written) return;
