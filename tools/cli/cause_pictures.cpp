@@ -13,7 +13,6 @@
 #include "model/reading_model.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
-#include "tools/report/bed_chart.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -86,9 +85,7 @@ report::Chart chart_of(const Diagnosis& found,
     arrows[i].dy_mm = shifts[i].y();
     largest_mm = std::max(largest_mm, shifts[i].norm());
   }
-  const model::Bed& bed = found.extended_machine.bed;
-  const report::Outline sheet{
-      -0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
+  const report::Outline sheet = bed_of(found);
   report::Chart chart = report::arrows_chart(
       sheet, arrows, report::magnification_of(sheet, arrows), report::kBeforeColor);
   chart.title = fmt::format(

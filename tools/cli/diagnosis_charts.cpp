@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "tools/cli/diagnosis_words.hpp"
-#include "tools/report/bed_chart.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -21,23 +20,9 @@ using report::Outline;
 
 constexpr const char* kChains[] = {"left", "right"};
 
-Outline measured_sheet(const Diagnosis& found) {
-  const model::Bed& bed = found.extended_machine.bed;
-  return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
-}
-
 std::vector<Arrow> arrows_of(const Diagnosis& found, Eigen::Vector2d PointPicture::*shift) {
   std::vector<Arrow> arrows;
-  for (const PointPicture& point : found.points) {
-    arrows.push_back({point_name(point.index),
-                      point.mark.x_mm,
-                      point.mark.y_mm,
-                      (point.*shift).x(),
-                      (point.*shift).y(),
-                      point.bad,
-                      point.noise_sigma_mm.x(),
-                      point.noise_sigma_mm.y()});
-  }
+  for (const PointPicture& point : found.points) arrows.push_back(arrow_of(point, point.*shift));
   return arrows;
 }
 
@@ -86,13 +71,9 @@ double largest(const Diagnosis& found, Eigen::Vector2d PointPicture::*residual) 
 
 std::vector<Panel> panels_of(const Diagnosis& found) {
   std::vector<Panel> panels = {{"Measured", &PointPicture::chain_before_mm}};
-  panels.push_back({found.causes.size() > 1 && found.verdict != grid::diagnosis::Verdict::named_set
-                        ? fmt::format("The {} causes named", found.causes.size())
-                        : cause_title(found.causes.front().cause),
-                    &PointPicture::best_mm});
+  panels.push_back({title_of_causes(found), &PointPicture::best_mm});
   if (found.causes.front().rival && largest(found, &PointPicture::rival_mm) > 0.0) {
-    panels.push_back({fmt::format("Rival: {}", cause_title(*found.causes.front().rival)),
-                      &PointPicture::rival_mm});
+    panels.push_back({title_of_rival(found), &PointPicture::rival_mm});
   }
   panels.push_back({"What is left", &PointPicture::chain_after_mm});
   return panels;
@@ -142,7 +123,7 @@ Chart strip_chart(const Diagnosis& found,
     }
   }
   chart.data = {std::move(heads), std::move(points)};
-  chart.signals = report::bed_signals(measured_sheet(found), arrows_of(found, &PointPicture::before_mm));
+  chart.signals = report::bed_signals(bed_of(found), arrows_of(found, &PointPicture::before_mm));
   chart.signals.push_back({"largest_mm", std::max(full_mm, 1e-6)});
   chart.signals.push_back({"panels", static_cast<double>(panels.size())});
   return chart;
@@ -150,9 +131,36 @@ Chart strip_chart(const Diagnosis& found,
 
 }  // namespace
 
+Outline bed_of(const Diagnosis& found) {
+  const model::Bed& bed = found.extended_machine.bed;
+  return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
+}
+
+Arrow arrow_of(const PointPicture& point, const Eigen::Vector2d& shift_mm) {
+  return {point_name(point.index),
+          point.mark.x_mm,
+          point.mark.y_mm,
+          shift_mm.x(),
+          shift_mm.y(),
+          point.bad,
+          point.noise_sigma_mm.x(),
+          point.noise_sigma_mm.y()};
+}
+
+std::string title_of_causes(const Diagnosis& found) {
+  const bool act_together =
+      found.causes.size() > 1 && found.verdict != grid::diagnosis::Verdict::named_set;
+  return act_together ? fmt::format("The {} causes named", found.causes.size())
+                      : cause_title(found.causes.front().cause);
+}
+
+std::string title_of_rival(const Diagnosis& found) {
+  return fmt::format("Rival: {}", cause_title(*found.causes.front().rival));
+}
+
 std::vector<report::ChartRow> arrow_charts(const Diagnosis& found) {
   return report::arrow_rows(
-      measured_sheet(found),
+      bed_of(found),
       arrows_of(found, &PointPicture::before_mm),
       found.causes.empty() ? std::vector<Arrow>{} : arrows_of(found, &PointPicture::after_mm),
       {"Before: the machine calibrated",
@@ -192,7 +200,7 @@ Chart next_points_chart(const Diagnosis& found) {
                          percent(place.raises_probability_to)});
   }
   chart.data = {std::move(measured), std::move(next)};
-  chart.signals = report::bed_signals(measured_sheet(found), marks);
+  chart.signals = report::bed_signals(bed_of(found), marks);
   return chart;
 }
 

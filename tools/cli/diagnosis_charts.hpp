@@ -10,9 +10,18 @@
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
-#include "tools/report/document.hpp"
+#include "tools/report/bed_chart.hpp"
 
 namespace chaintrue::cli {
+
+/// The bed of the machine as found, about its middle.
+[[nodiscard]] report::Outline bed_of(const grid::diagnosis::Diagnosis& found);
+/// A point's error of the tool, with one sigma of its noise.
+[[nodiscard]] report::Arrow arrow_of(const grid::diagnosis::PointPicture& point,
+                                     const Eigen::Vector2d& shift_mm);
+/// Of the causes named, and of the first one's rival, which it must have. Precondition: a cause is named.
+[[nodiscard]] std::string title_of_causes(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] std::string title_of_rival(const grid::diagnosis::Diagnosis& found);
 
 /// The tool, or the distances, before and with the causes. Precondition of this and the next two:
 /// readings.

@@ -110,23 +110,12 @@ std::vector<report::ChartRow> law_rest_charts(const Diagnosis& found) {
       return p.index == point.index;
     });
     const Eigen::Vector2d& shift = found.causes.empty() ? point.before_mm : point.after_mm;
-    Arrow arrow{.name = point_name(point.index),
-                .x_mm = point.mark.x_mm,
-                .y_mm = point.mark.y_mm,
-                .dx_mm = shift.x(),
-                .dy_mm = shift.y(),
-                .is_bad = point.bad,
-                .noise_x_mm = point.noise_sigma_mm.x(),
-                .noise_y_mm = point.noise_sigma_mm.y()};
-    before.push_back(arrow);
+    before.push_back(arrow_of(point, shift));
     if (own == law.points.end() || !own->left_x_mm || !own->left_y_mm) continue;
-    arrow.dx_mm = *own->left_x_mm;
-    arrow.dy_mm = *own->left_y_mm;
-    after.push_back(arrow);
+    after.push_back(arrow_of(point, {*own->left_x_mm, *own->left_y_mm}));
   }
-  const model::Bed& bed = found.extended_machine.bed;
   return report::arrow_rows(
-      {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm},
+      bed_of(found),
       before,
       after,
       {found.causes.empty() ? "Without it: the machine calibrated" : "Without it: what the causes leave",

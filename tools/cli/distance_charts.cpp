@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/residual_scatter.hpp"
-#include "tools/report/bed_chart.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -104,12 +104,9 @@ class Panels {
   }
   Chart finish(Chart chart) {
     chart.specification = "hole_distances";
-    const model::Bed& bed = found_.extended_machine.bed;
     std::vector<report::Arrow> marks = marks_of(found_);
     marks.insert(marks.end(), marks_.begin(), marks_.end());
-    chart.signals = report::bed_signals(
-        {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm},
-        marks);
+    chart.signals = report::bed_signals(bed_of(found_), marks);
     chart.signals.push_back({"panels", static_cast<double>(heads_.rows.size())});
     chart.data = {std::move(heads_), std::move(lines_), std::move(holes_)};
     return chart;
@@ -205,15 +202,9 @@ Chart distance_chart(const Diagnosis& found) {
 
 Chart distance_strip_chart(const Diagnosis& found) {
   std::vector<DistancePanel> panels = {{"Measured", &DistancePicture::before_mm}};
-  const bool several =
-      found.causes.size() > 1 && found.verdict != grid::diagnosis::Verdict::named_set;
-  panels.push_back({several ? fmt::format("The {} causes named", found.causes.size())
-                            : cause_title(found.causes.front().cause),
-                    &DistancePicture::best_mm});
-  if (found.causes.front().rival) {
-    panels.push_back({fmt::format("Rival: {}", cause_title(*found.causes.front().rival)),
-                      &DistancePicture::rival_mm});
-  }
+  panels.push_back({title_of_causes(found), &DistancePicture::best_mm});
+  if (found.causes.front().rival)
+    panels.push_back({title_of_rival(found), &DistancePicture::rival_mm});
   panels.push_back({"What is left", &DistancePicture::after_mm});
   return residual_panels(found, panels, "Distance by distance");
 }
