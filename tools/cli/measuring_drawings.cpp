@@ -4,47 +4,26 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <string_view>
 
-#include "tools/report/bed_chart.hpp"
+#include "tools/cli/svg.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
 constexpr double kHowWide = 380.0, kHowHigh = 200.0;
 
-/// An SVG under way: what is there in black, what is measured in blue.
-class Drawing {
+/// What is there in black, what is measured in blue.
+class Drawing : public Svg {
  public:
-  explicit Drawing(std::string_view title) {
-    fmt::format_to(std::back_inserter(svg_),
-                   "<svg class=\"how\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} "
-                   "{:.0f}\" font-family=\"sans-serif\" font-size=\"13\" role=\"img\"><title>{}"
-                   "</title>\n",
-                   kHowWide,
-                   kHowHigh,
-                   title);
-  }
+  explicit Drawing(std::string_view title)
+      : Svg(kHowWide, kHowHigh, "class=\"how\" font-size=\"13\" role=\"img\"", title) {}
   void path(std::string_view d, std::string_view look = "fill=\"none\" stroke=\"#111\"") {
-    fmt::format_to(std::back_inserter(svg_), "<path d=\"{}\" {}/>\n", d, look);
-  }
-  void circle(double x, double y, double r, std::string_view look) {
-    fmt::format_to(std::back_inserter(svg_),
-                   "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" {}/>\n",
-                   x,
-                   y,
-                   r,
-                   look);
+    Svg::path(d, look);
   }
   void text(double x, double y, std::string_view words, std::string_view anchor = "middle") {
-    fmt::format_to(std::back_inserter(svg_),
-                   "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n",
-                   x,
-                   y,
-                   anchor,
-                   words);
+    Svg::text(x, y, words, anchor);
   }
   /// A measured length, with an arrow head at either end.
   void measure(double x1, double y1, double x2, double y2) {
@@ -59,7 +38,6 @@ class Drawing {
                      head(x2, y2, x1, y1)),
          blue);
   }
-  [[nodiscard]] std::string finished() const { return svg_ + "</svg>\n"; }
 
  private:
   /// At (x, y), of an arrow that comes from (from_x, from_y).
@@ -74,8 +52,6 @@ class Drawing {
                        x + kLong * std::cos(back + kHalfOpening),
                        y + kLong * std::sin(back + kHalfOpening));
   }
-
-  std::string svg_;
 };
 
 constexpr std::string_view kWood = "fill=\"#f7f1e6\" stroke=\"#111\"";

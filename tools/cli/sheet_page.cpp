@@ -5,17 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "tools/cli/holes_drawing.hpp"
 #include "tools/cli/measuring_drawings.hpp"
+#include "tools/cli/svg.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
 using model::MarkPoint;
+using report::escaped;
 
 constexpr std::string_view kStyle = R"(
 @page { margin: 12mm; }
@@ -37,21 +38,6 @@ td:first-child, th:first-child { text-align: left; white-space: nowrap; }
 tr { break-inside: avoid; }
 @media screen and (max-width: 600px) { .drawings, .tables { flex-direction: column; align-items: stretch; } }
 )";
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 /// Two tables next to each other, so that an evening's readings are on one sheet of paper; the next
 /// two below, on the next sheet.
@@ -106,51 +92,45 @@ std::string page_of(const std::string& title,
 
 /// The bed as it hangs, numbered marks along the way from one to the next.
 std::string drawing_of(const Sheet& sheet, const model::Bed& bed) {
-  constexpr double kWide = 900.0;
+  constexpr double kDrawingWide = 900.0;
   constexpr double kEdge = 20.0;
-  const double scale = kWide / bed.width_mm;
-  const double high = scale * bed.height_mm;
-  const auto x = [&](MarkPoint at) { return kEdge + scale * (at.x_mm + 0.5 * bed.width_mm); };
-  const auto y = [&](MarkPoint at) { return kEdge + scale * (0.5 * bed.height_mm - at.y_mm); };
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" "
-      "font-family=\"sans-serif\" role=\"img\"><title>The bed with its numbered marks</title>\n"
-      "<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" "
-      "stroke=\"#111\" stroke-width=\"2\"/>\n<polyline fill=\"none\" stroke=\"#999\" "
-      "stroke-dasharray=\"6 5\" points=\"",
-      kWide + 2.0 * kEdge,
-      high + 2.0 * kEdge,
-      kEdge,
-      kEdge,
-      kWide,
-      high);
+  const BedView view(bed.width_mm, bed.height_mm, {kEdge, kEdge}, kDrawingWide);
+  const auto x = [&](MarkPoint at) { return view.x(at.x_mm); };
+  const auto y = [&](MarkPoint at) { return view.y(at.y_mm); };
+  Svg svg(kDrawingWide + 2.0 * kEdge,
+                  view.high() + 2.0 * kEdge,
+                  "role=\"img\"",
+                  "The bed with its numbered marks");
+  svg.rectangle(
+      kEdge, kEdge, kDrawingWide, view.high(), "fill=\"none\" stroke=\"#111\" stroke-width=\"2\"");
   const std::vector<SheetVisit> visits = visits_of(sheet);
+  std::string walk;
   for (const SheetVisit& visit : visits)
-    fmt::format_to(std::back_inserter(svg), "{:.1f},{:.1f} ", x(visit.mark), y(visit.mark));
-  svg += "\"/>\n";
+    walk += fmt::format("{:.1f},{:.1f} ", x(visit.mark), y(visit.mark));
+  svg.add("<polyline fill=\"none\" stroke=\"#999\" stroke-dasharray=\"6 5\" points=\"{}\"/>\n", walk);
   // As large as the nearest two marks leave room for.
   double nearest = 80.0;
   for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       nearest = std::min(nearest,
-                         scale * std::hypot(sheet.marks[i].x_mm - sheet.marks[k].x_mm,
+                         view.scale() * std::hypot(sheet.marks[i].x_mm - sheet.marks[k].x_mm,
                                             sheet.marks[i].y_mm - sheet.marks[k].y_mm));
     }
   }
   const double radius = std::clamp(0.45 * nearest, 3.0, 16.0);
   for (const SheetVisit& visit : visits) {
     if (visit.again != 0) continue;
-    fmt::format_to(std::back_inserter(svg),
-                   "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"{2:.1f}\" fill=\"#fff\" "
-                   "stroke=\"#111\" stroke-width=\"1.5\"/><text x=\"{0:.1f}\" y=\"{3:.1f}\" "
-                   "text-anchor=\"middle\" font-size=\"{2:.1f}\">{4}</text>\n",
-                   x(visit.mark),
-                   y(visit.mark),
-                   radius,
-                   y(visit.mark) + 0.35 * radius,
-                   visit.number);
+    svg.circle(x(visit.mark),
+               y(visit.mark),
+               radius,
+               "fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.5\"");
+    svg.text(x(visit.mark),
+             y(visit.mark) + 0.35 * radius,
+             fmt::format("{}", visit.number),
+             "middle",
+             fmt::format("font-size=\"{:.1f}\"", radius));
   }
-  return svg + "</svg>";
+  return svg.finished();
 }
 
 std::string blank_cells(int count) {

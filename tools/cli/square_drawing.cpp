@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <utility>
 
-#include "tools/report/bed_chart.hpp"
+#include "tools/cli/svg.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -59,24 +59,6 @@ class SquarePicture {
   double scale_, left_, top_, magnification_;
 };
 
-void write_text(std::string& svg,
-                double x,
-                double y,
-                std::string_view anchor,
-                std::string_view words,
-                double turn_deg = 0.0) {
-  const std::string turn =
-      turn_deg == 0.0 ? ""
-                      : fmt::format(" transform=\"rotate({:.0f} {:.1f} {:.1f})\"", turn_deg, x, y);
-  fmt::format_to(std::back_inserter(svg),
-                 "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n",
-                 x,
-                 y,
-                 anchor,
-                 turn,
-                 words);
-}
-
 }  // namespace
 
 std::string draw_square(const model::CutSquare& square, const model::SquareTask& task) {
@@ -87,71 +69,52 @@ std::string draw_square(const model::CutSquare& square, const model::SquareTask&
     commanded += (i == 0 ? "" : " ") + picture.commanded(i);
     cut += (i == 0 ? "" : " ") + picture.cut(i);
   }
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-      "height=\"{1:.0f}\" "
-      "font-family=\"sans-serif\" font-size=\"15\" fill=\"#222222\">\n"
-      "<title>A {2:g} mm square at ({3:g}, {4:g}) mm</title>\n"
-      "<desc>Dashed: as commanded. Solid: as cut, errors drawn {5:g} times as large.</desc>\n"
-      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
-      "<polygon points=\"{6}\" fill=\"none\" stroke=\"#888888\" stroke-width=\"1.5\" "
-      "stroke-dasharray=\"7 5\"/>\n"
-      "<polygon points=\"{7}\" fill=\"{8}\" fill-opacity=\"0.08\" stroke=\"{8}\" "
-      "stroke-width=\"2.5\" "
-      "stroke-linejoin=\"round\"/>\n",
-      kWide,
-      kHigh,
-      task.size_mm,
-      task.corner.x_mm,
-      task.corner.y_mm,
-      picture.magnification(),
-      commanded,
-      cut,
-      report::kAfterColor);
-  write_text(
-      svg,
-      kWide / 2,
-      34.0,
-      "middle",
-      fmt::format(
-          "A {:g} mm square at ({:g}, {:g}) mm", task.size_mm, task.corner.x_mm, task.corner.y_mm));
-  write_text(svg,
-             kWide / 2,
-             58.0,
-             "middle",
-             fmt::format("dashed: commanded · solid: cut, errors drawn {:g} times as large",
-                         picture.magnification()));
+  const std::string title = fmt::format(
+      "A {:g} mm square at ({:g}, {:g}) mm", task.size_mm, task.corner.x_mm, task.corner.y_mm);
+  Svg svg(kWide, kHigh, "font-size=\"15\" fill=\"#222222\"", title);
+  svg.fill();
+  svg.add("<polygon points=\"{0}\" fill=\"none\" stroke=\"#888888\" stroke-width=\"1.5\" "
+          "stroke-dasharray=\"7 5\"/>\n"
+          "<polygon points=\"{1}\" fill=\"{2}\" fill-opacity=\"0.08\" stroke=\"{2}\" "
+          "stroke-width=\"2.5\" stroke-linejoin=\"round\"/>\n",
+          commanded,
+          cut,
+          report::kAfterColor);
+  const auto line = [&svg](double y, std::string_view words) {
+    svg.text(kWide / 2, y, words, "middle");
+  };
+  line(34.0, title);
+  line(58.0,
+       fmt::format("dashed: commanded \u00b7 solid: cut, errors drawn {:g} times as large",
+                   picture.magnification()));
   const auto side = [&square](SquareSide which) {
     const model::CutSide& s = square.side(which);
     return fmt::format("{:.2f} mm, bow {:+.2f}", s.length_mm, s.bow_mm);
   };
-  const double middle_x = kSquareLeft + kSide / 2, middle_y = kSquareTop + kSide / 2;
-  write_text(svg, middle_x, kSquareTop + 70.0, "middle", side(SquareSide::top));
-  write_text(svg, middle_x, kSquareTop + kSide - 60.0, "middle", side(SquareSide::bottom));
-  write_text(svg, kSquareLeft + 70.0, middle_y, "middle", side(SquareSide::left), -90.0);
-  write_text(svg, kSquareLeft + kSide - 60.0, middle_y, "middle", side(SquareSide::right), -90.0);
-  write_text(svg,
-             kWide / 2,
-             kSquareTop + kSide + 90.0,
+  const double middle_y = kSquareTop + kSide / 2;
+  line(kSquareTop + 70.0, side(SquareSide::top));
+  line(kSquareTop + kSide - 60.0, side(SquareSide::bottom));
+  for (const auto& [which, x] : {std::pair(SquareSide::left, kSquareLeft + 70.0),
+                                 std::pair(SquareSide::right, kSquareLeft + kSide - 60.0)}) {
+    svg.text(x,
+             middle_y,
+             side(which),
              "middle",
-             fmt::format("diagonals: rising {:.2f} mm, falling {:.2f} mm (commanded {:.2f})",
-                         square.rising_diagonal_mm,
-                         square.falling_diagonal_mm,
-                         task.size_mm * std::sqrt(2.0)));
-  write_text(svg,
-             kWide / 2,
-             kSquareTop + kSide + 116.0,
-             "middle",
-             fmt::format("as a whole moved by ({:+.2f}, {:+.2f}) mm and turned by {:+.3f} mrad",
-                         square.offset.x_mm,
-                         square.offset.y_mm,
-                         1e3 * square.rotation_rad));
-  write_text(svg,
-             kWide / 2,
-             kSquareTop + kSide + 142.0,
-             "middle",
-             "bow: the farthest that a side leaves the line between its corners, + outwards");
-  return svg + "</svg>\n";
+             fmt::format("transform=\"rotate(-90 {:.1f} {:.1f})\"", x, middle_y));
+  }
+  line(kSquareTop + kSide + 90.0,
+       fmt::format("diagonals: rising {:.2f} mm, falling {:.2f} mm (commanded {:.2f})",
+                   square.rising_diagonal_mm,
+                   square.falling_diagonal_mm,
+                   task.size_mm * std::sqrt(2.0)));
+  line(kSquareTop + kSide + 116.0,
+       fmt::format("as a whole moved by ({:+.2f}, {:+.2f}) mm and turned by {:+.3f} mrad",
+                   square.offset.x_mm,
+                   square.offset.y_mm,
+                   1e3 * square.rotation_rad));
+  line(kSquareTop + kSide + 142.0,
+       "bow: the farthest that a side leaves the line between its corners, + outwards");
+  return svg.finished();
 }
 
 }  // namespace chaintrue::cli

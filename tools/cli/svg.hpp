@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Pictures that are made without Vega: an SVG under way, and the bed's place in it.
+///
+/// \code
+///   const BedView view(2438.4, 1219.2, {30, 80}, 900);
+///   Svg svg(960, view.high() + 170, "font-size=\"13\"", "28 points to measure");
+///   svg.circle(view.x(100), view.y(200), 4, "fill=\"#000\"");
+///   write_file("plan.svg", svg.finished());
+/// \endcode
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "tools/report/bed_chart.hpp"
+#include "tools/report/typeset.hpp"
+
+namespace chaintrue::cli {
+
+/// From millimetres on a bed, zero in its middle and y up, to a picture's units.
+class BedView {
+ public:
+  /// \param corner the upper left one in the picture
+  BedView(double bed_width_mm, double bed_height_mm, const report::ToolVector& corner, double wide)
+      : half_width_mm_(0.5 * bed_width_mm),
+        half_height_mm_(0.5 * bed_height_mm),
+        left_(corner.x_mm),
+        top_(corner.y_mm),
+        wide_(wide) {}
+  [[nodiscard]] double scale() const { return 0.5 * wide_ / half_width_mm_; }
+  [[nodiscard]] double x(double x_mm) const { return left_ + scale() * (x_mm + half_width_mm_); }
+  [[nodiscard]] double y(double y_mm) const { return top_ + scale() * (half_height_mm_ - y_mm); }
+  [[nodiscard]] double high() const { return scale() * 2.0 * half_height_mm_; }
+
+ private:
+  double half_width_mm_, half_height_mm_, left_, top_, wide_;
+};
+
+/// Texts are escaped; a `look` is attributes as they stand in an element.
+class Svg {
+ public:
+  /// \param look of the whole: its font and what else all elements share
+  Svg(double wide, double high, std::string_view look, std::string_view title) {
+    add("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+        "width=\"{0:.0f}\" height=\"{1:.0f}\" font-family=\"sans-serif\" {2}>\n<title>{3}</title>\n",
+        wide,
+        high,
+        look,
+        report::escaped(title));
+  }
+  template <class... Arguments>
+  void add(::fmt::format_string<Arguments...> element, Arguments&&... arguments) {
+    text_ += fmt::format(element, std::forward<Arguments>(arguments)...);
+  }
+  /// White behind all that follows.
+  void fill() { text_ += "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"; }
+  void rectangle(double x, double y, double wide, double high, std::string_view look) {
+    add("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" {}/>\n", x, y, wide, high, look);
+  }
+  void circle(double x, double y, double radius, std::string_view look) {
+    add("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.1f}\" {}/>\n", x, y, radius, look);
+  }
+  void path(std::string_view d, std::string_view look) { add("<path d=\"{}\" {}/>\n", d, look); }
+  /// \param anchor start, middle or end
+  void text(double x,
+            double y,
+            std::string_view words,
+            std::string_view anchor = "start",
+            std::string_view look = "") {
+    add("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" {}>{}</text>\n", x, y, anchor, look, report::escaped(words));
+  }
+  [[nodiscard]] std::string finished() const { return text_ + "</svg>\n"; }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace chaintrue::cli
