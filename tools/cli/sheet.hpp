@@ -79,7 +79,7 @@ struct DrillPlace {
 /// Drills every mark; where lengths are read, stops above it until the owner goes on.
 [[nodiscard]] std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options);
 
-/// A list is JSON where it is asked for, or where its file is called so.
+/// A list in a file is JSON where the file is called so; on standard output, where it is asked for.
 [[nodiscard]] bool is_json_wanted(bool json, const std::string& output);
 
 }  // namespace chaintrue::cli
