@@ -46,7 +46,8 @@ enum class AnalysisDepth { anchors, verdict };
 
 /// The frame with the readings that the decision keeps, and the causes that it holds; unless that settles
 /// nowhere.
-[[nodiscard]] std::optional<FitGivenCauses> fit_as_decided(const BeltsAnalysis& belts, const Analysis& decided);
+[[nodiscard]] std::optional<FitGivenCauses> fit_as_decided(const BeltsAnalysis& belts,
+                                                           const Analysis& decided);
 
 /// Of each reading, whether the decision keeps it.
 [[nodiscard]] belts::Counting decided_counting(const Analysis& analysis);
