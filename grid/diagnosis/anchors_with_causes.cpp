@@ -127,8 +127,7 @@ tl::expected<AnchorsWithCauses, BeltsFitFailure> fit_anchors_with_causes(const M
       belts::fit_report(without_causes, FitDiagnostics(without_causes, frame), covariance);
   fit.causes = std::move(causes);
   fit.rms_mm = alone->rms_mm;
-  Explained explained{{frame, sizes}, {}};
-  fit.half_left_out = prediction_by_halves(analysed->belts, explained);
+  fit.half_left_out = prediction_by_halves(analysed->belts, {frame, sizes, {}});
   return AnchorsWithCauses{{std::move(fit), std::move(frame), std::move(covariance)},
                          std::move(without_causes)};
 }

@@ -85,13 +85,13 @@ double uncertain_mm(const model::BeltMachine& machine,
   return std::sqrt(square);
 }
 
-ToolError tool_error(const Explained& explained,
+ToolError tool_error(const FitGivenCauses& given,
                      const MeasuredBelts& belts,
                      const BeltsFit& alone,
                      const model::BeltMachine& machine,
                      const Eigen::MatrixXd& covariance) {
-  const auto effects = resolved(explained.given.causes);
-  const std::vector<FramePoint>& places = explained.given.frame.state.places;
+  const auto effects = resolved(given.causes);
+  const std::vector<FramePoint>& places = given.frame.state.places;
   ToolError error;
   error.after_mm = uncertain_mm(machine, covariance, places);
   const auto of = [&](const model::BeltMachine& by) {
@@ -108,19 +108,17 @@ double rms_of_all_mm(const MeasuredBelts& belts, const FitGivenCauses& given) {
   from.counting.assign(belts.points.size(), belts::kAllBelts);
   const auto fitted = fit_given_causes(belts, given.causes, from);
   const FitGivenCauses& at = fitted ? *fitted : given;
-  const MeasuredBelts without_causes = without_effects(belts, at.causes, at.frame.state);
-  const Eigen::VectorXd left = belts::reading_lines(without_causes, at.frame.state).residual_mm;
+  const Eigen::VectorXd left = belts::reading_lines(at.without_causes, at.frame.state).residual_mm;
   return std::sqrt(left.squaredNorm() / as_double(left.size()));
 }
 
 /// By the tape, with the causes taken out: a stretch makes the belts' millimetres longer as a scale does, and counted
 /// in both it would be taken out twice. Not known where no frame holds the tape once they are.
-std::optional<BeltScale> scale_given_causes(const MeasuredBelts& belts, const Explained& explained) {
+std::optional<BeltScale> scale_given_causes(const MeasuredBelts& belts, const FitGivenCauses& given) {
   if (belts.distances.empty()) return std::nullopt;
-  MeasuredBelts taped = explained.without_causes;
+  MeasuredBelts taped = given.without_causes;
   taped.distances = belts.distances;
-  const belts::AnchorFit& given = explained.given.frame;
-  const auto fitted = belts::fit_anchors_from(taped, given.state, given.counting);
+  const auto fitted = belts::fit_anchors_from(taped, given.frame.state, given.frame.counting);
   if (!fitted) return std::nullopt;
   const belts::FitDiagnostics view(taped, *fitted);
   return belts::fit_report(taped, view, view.covariance()).scale;
@@ -129,31 +127,29 @@ std::optional<BeltScale> scale_given_causes(const MeasuredBelts& belts, const Ex
 }  // namespace
 
 std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
-                                                   const Explained& explained) {
+                                                   const FitGivenCauses& given) {
   return belts::predict_by_halves(
       belts,
-      explained.given.frame,
+      given.frame,
       [&](const belts::AnchorFit& from) -> std::optional<belts::Refitted> {
-        auto fitted = fit_given_causes(belts, explained.given.causes, from);
+        auto fitted = fit_given_causes(belts, given.causes, from);
         if (!fitted) return std::nullopt;
-        auto without_causes = without_effects(belts, fitted->causes, fitted->frame.state);
-        return belts::Refitted{std::move(fitted->frame), std::move(without_causes)};
+        return belts::Refitted{std::move(fitted->frame), std::move(fitted->without_causes)};
       });
 }
 
-Explained explained(const BeltsAnalysis& a) {
-  Explained result{{a.frame, a.known}, {}};
-  result.given.frame.counting = decided_counting(a);
-  if (auto given = fit_as_decided(a, a)) result.given = *std::move(given);
-  result.without_causes = without_effects(a.belts, result.given.causes, result.given.frame.state);
-  return result;
+FitGivenCauses explained(const BeltsAnalysis& a) {
+  if (auto given = fit_as_decided(a, a)) return *std::move(given);
+  FitGivenCauses as_before{a.frame, a.known, without_effects(a.belts, a.known, a.frame.state)};
+  as_before.frame.counting = decided_counting(a);
+  return as_before;
 }
 
 BeltsFindings belts_findings(const BeltsAnalysis& a,
-                             const Explained& explained,
+                             const FitGivenCauses& given,
                              const MeasuredBelts& belts,
                              const BeltsFit& alone) {
-  const belts::AnchorFit& frame = explained.given.frame;
+  const belts::AnchorFit& frame = given.frame;
   BeltsFindings found;
   found.machine = belts::with_anchors(belts.machine, a.averaged.anchors);
   const Eigen::MatrixXd covariance = a.averaged.covariance_mm2;
@@ -166,9 +162,9 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
                             std::sqrt(covariance(at, at))};
   }
   found.spread_before_mm = alone.residual_sigma_mm;
-  found.rms_before_mm = rms_of_all_mm(a.belts, {a.alone, {}});
-  found.rms_mm = rms_of_all_mm(a.belts, explained.given);
-  const belts::FitDiagnostics view(explained.without_causes, frame);
+  found.rms_before_mm = rms_of_all_mm(a.belts, {a.alone, {}, a.belts});
+  found.rms_mm = rms_of_all_mm(a.belts, given);
+  const belts::FitDiagnostics view(given.without_causes, frame);
   double good_square = 0.0;
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     BeltPlacePicture place{frame.state.places[k], belts.points[k].order, {}, {}, {}};
@@ -185,9 +181,9 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
   found.checks = static_cast<int>(std::max<Eigen::Index>(frame.checks - values, 1));
   found.residual_sigma_mm = std::sqrt(good_square / found.checks);
   found.prediction_before = alone.half_left_out;
-  found.prediction = prediction_by_halves(a.belts, explained);
-  found.tool = tool_error(explained, belts, alone, found.machine, covariance);
-  found.scale = scale_given_causes(belts, explained);
+  found.prediction = prediction_by_halves(a.belts, given);
+  found.tool = tool_error(given, belts, alone, found.machine, covariance);
+  found.scale = scale_given_causes(belts, given);
   if (found.scale) found.tool.scale_mm_per_m = 1000.0 * found.scale->sigma;
   found.firmware_fit = belts.firmware_fit;
   return found;
@@ -244,16 +240,16 @@ std::optional<Belt> equally_likely_belt(const belts::FitDiagnostics& view, std::
 
 }  // namespace
 
-std::vector<Outlier> bad_belts(const Explained& explained) {
-  const belts::FitDiagnostics view(explained.without_causes, explained.given.frame);
+std::vector<Outlier> bad_belts(const FitGivenCauses& given) {
+  const belts::FitDiagnostics view(given.without_causes, given.frame);
   std::vector<Outlier> result;
-  for (std::size_t k = 0; k < explained.without_causes.points.size(); ++k) {
+  for (std::size_t k = 0; k < given.without_causes.points.size(); ++k) {
     std::vector<Belt> bad;
     Outlier outlier;
     outlier.of = Observations::belts;
     outlier.index = k;
     for (const Belt belt : kBelts) {
-      if (explained.given.frame.counting[k][belt]) continue;
+      if (given.frame.counting[k][belt]) continue;
       bad.push_back(belt);
       const BeltResidual own = view.residual(k, belt);
       if (std::abs(own.deleted_residual_mm) <= std::abs(outlier.residual_mm)) continue;

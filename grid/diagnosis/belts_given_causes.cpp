@@ -168,19 +168,26 @@ std::optional<FitGivenCauses> fit_given_causes(const MeasuredBelts& belts,
   // length, which take six.
   constexpr int kMostRounds = 12;
   const MeasuredBelts untaped = without_distances(belts);
-  FitGivenCauses given{from, std::move(causes)};
+  FitGivenCauses given{from, std::move(causes), {}};
+  const auto take_out = [&] {
+    given.without_causes = without_effects(untaped, given.causes, given.frame.state);
+  };
+  take_out();
   const std::vector<FreeValue> free = free_values(given.causes);
   for (int round = 0; round < kMostRounds; ++round) {
-    const MeasuredBelts without_causes = without_effects(untaped, given.causes, given.frame.state);
-    auto frame = belts::fit_anchors_from(without_causes, given.frame.state, given.frame.counting);
+    auto frame =
+        belts::fit_anchors_from(given.without_causes, given.frame.state, given.frame.counting);
     if (!frame) return std::nullopt;
     given.frame = *std::move(frame);
-    if (free.empty() && round > 0) return given;
-    const Eigen::MatrixXd columns =
-        value_columns(untaped, given.causes, given.frame.state, free);
-    const Eigen::VectorXd change = least_squares(
-        without_effects(untaped, given.causes, given.frame.state), given.frame, columns);
-    if (moved(change, free, given.causes) && round > 0) return given;
+    take_out();
+    if (free.empty() && round > 0) break;
+    const Eigen::VectorXd change =
+        least_squares(given.without_causes,
+                      given.frame,
+                      value_columns(untaped, given.causes, given.frame.state, free));
+    const bool is_settled = moved(change, free, given.causes);
+    take_out();
+    if (is_settled && round > 0) break;
   }
   return given;
 }

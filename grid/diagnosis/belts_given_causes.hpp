@@ -54,6 +54,7 @@ namespace chaintrue::grid::diagnosis {
 struct FitGivenCauses {
   belts::AnchorFit frame;
   std::vector<SizedCause> causes;
+  MeasuredBelts without_causes;  ///< the readings without what these add; no distances
 };
 /// From a state near by; sizes that are whole numbers stay, others within their ranges. Empty where
 /// nothing settles.

@@ -10,22 +10,17 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Anchors, places and sizes at rest with the causes that were decided on, and the readings without
-/// what these add.
-struct Explained {
-  FitGivenCauses given;
-  MeasuredBelts without_causes;
-};
-[[nodiscard]] Explained explained(const BeltsAnalysis& analysis);
+/// Anchors, places and sizes at rest with the causes that were decided on.
+[[nodiscard]] FitGivenCauses explained(const BeltsAnalysis& analysis);
 
 /// Lower belts of either half of the places by a fit to the other, sizes of the causes as well; empty
 /// with too few places.
 [[nodiscard]] std::optional<BeltPrediction> prediction_by_halves(const MeasuredBelts& belts,
-                                                                 const Explained& explained);
+                                                                 const FitGivenCauses& given);
 
 /// Everything but words; `alone` is what fit_belts() makes of the same belts.
 [[nodiscard]] BeltsFindings belts_findings(const BeltsAnalysis& analysis,
-                                           const Explained& explained,
+                                           const FitGivenCauses& given,
                                            const MeasuredBelts& belts,
                                            const BeltsFit& alone);
 
@@ -33,7 +28,7 @@ struct Explained {
 [[nodiscard]] Unexplained unexplained(const BeltsAnalysis& analysis);
 
 /// Readings set aside: of a place of which more than one is, the place.
-[[nodiscard]] std::vector<Outlier> bad_belts(const Explained& explained);
+[[nodiscard]] std::vector<Outlier> bad_belts(const FitGivenCauses& given);
 
 /// Measurements are proposed where they reach a chance of a quarter: eight that reach a sixth are eight
 /// for nothing.

@@ -41,7 +41,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
   BeltsAnalysis& a = *analysed;
   const LawsFound found = laws_found(analysis_of_laws(a));
   std::vector<CauseGivenLaw> given_law = name_given_law(found, BeltRules(a), a);
-  const Explained given = explained(a);
+  const FitGivenCauses given = explained(a);
   Diagnosis d;
   d.observations = Observations::belts;
   d.grid_name = belts.name;
