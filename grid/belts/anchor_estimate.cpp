@@ -22,8 +22,6 @@ namespace {
 /// A frame whose readings are off by more has converged on the wrong side of something, or holds gross
 /// slips: other starts are tried as well.
 constexpr double kPlausibleSpreadMm = 10.0;
-/// A frame that meets its readings exactly has not shown that they are.
-constexpr double kLeastSpreadMm = 1e-3;
 
 double least_spread_mm(const MeasuredBelts& belts) {
   std::vector<double> lengths;
@@ -87,6 +85,13 @@ void place_all(const MeasuredBelts& belts,
   }
 }
 
+void place_all(const MeasuredBelts& belts, AnchorFit& fit) {
+  place_all(belts,
+            readings_of(belts, fit.counting, fit.residual_sigma_mm),
+            mechanism_at(belts, fit.state),
+            fit);
+}
+
 namespace {
 
 /// Without the points whose lengths end nowhere about these anchors, where these are few: a reading
@@ -139,12 +144,7 @@ std::optional<AnchorFit> fit_alone(const MeasuredBelts& belts,
 }
 
 std::optional<AnchorFit> with_places(const MeasuredBelts& belts, std::optional<AnchorFit> fit) {
-  if (fit) {
-    place_all(belts,
-              readings_of(belts, fit->counting, fit->residual_sigma_mm),
-              mechanism_at(belts, fit->state),
-              *fit);
-  }
+  if (fit) place_all(belts, *fit);
   return fit;
 }
 

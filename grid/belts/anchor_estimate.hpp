@@ -50,6 +50,8 @@ void place_all(const MeasuredBelts& belts,
                const observation::BeltLengthReadings& readings,
                const std::shared_ptr<const model::Mechanism>& mechanism,
                AnchorFit& fit);
+/// The same about the fit's own state, with what counts and the spread as it has them.
+void place_all(const MeasuredBelts& belts, AnchorFit& fit);
 
 /// What the estimator is asked of belts alone: anchors of which nothing is known but a start, every
 /// unit at full weight. `belts` without distances.

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <string_view>
 #include <vector>
 
 #include "grid/belts/measured_belts.hpp"
@@ -19,6 +21,12 @@ inline constexpr model::PerBelt<bool> kAllBelts{true, true, true, true};
 /// tl x, tl y, tr x, tr y, br x.
 inline constexpr Eigen::Index kAnchorUnknowns = 5;
 using AnchorVector = Eigen::Matrix<double, kAnchorUnknowns, 1>;
+
+/// What they are called in files.
+inline constexpr std::array<std::string_view, 5> kCoordinateNames = {
+    "tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"};
+/// A frame that meets its readings exactly has not shown that they are.
+inline constexpr double kLeastSpreadMm = 1e-3;
 
 /// What the unknowns are at.
 struct FrameState {

@@ -150,10 +150,8 @@ tl::expected<std::pair<BeltsFit, belts::AnchorFit>, BeltsFitFailure> by_belts(
     stated.state.anchors = belts::anchors_of(measured.machine);
     BeltsFit fit;
     fit.machine = measured.machine;
-    constexpr std::array<const char*, 5> kNames = {
-        "tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"};
-    for (std::size_t i = 0; i < kNames.size(); ++i) {
-      fit.coordinates[i].name = kNames[i];
+    for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
+      fit.coordinates[i].name = belts::kCoordinateNames[i];
       fit.coordinates[i].stated_mm = stated.state.anchors[as_index(i)];
     }
     return std::pair(std::move(fit), std::move(stated));

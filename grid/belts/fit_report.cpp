@@ -16,9 +16,6 @@ using model::kBelts;
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kCoordinateNames = {
-    "tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"};
-
 void fill_coordinates(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFit& fit) {
   const AnchorVector stated = anchors_of(belts.machine);
   const AnchorVector fitted = anchors_of(fit.machine);

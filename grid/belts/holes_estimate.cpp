@@ -105,12 +105,9 @@ std::optional<FrameState> HolesEstimate::converged_about_known(
     state.anchors = anchors;
     state.log_scale = alone_.state.log_scale + change[kAnchorUnknowns];
     if (!(moved_mm < kConvergedMm)) continue;
-    AnchorFit fit;
+    AnchorFit fit = alone_;
     fit.state = state;
-    place_all(belts_,
-              readings_of(belts_, alone_.counting, alone_.residual_sigma_mm),
-              mechanism_at(belts_, state),
-              fit);
+    place_all(belts_, fit);
     return fit.state;
   }
   return std::nullopt;

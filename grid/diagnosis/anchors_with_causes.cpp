@@ -18,20 +18,10 @@ using belts::kAnchorUnknowns;
 using model::Belt;
 using model::kBelts;
 
-/// As fit_belts() has it: readings in whole hundredths leave no less.
-constexpr double kLeastSpreadMm = 1e-3;
-
-void find_places(const MeasuredBelts& belts, AnchorFit& frame) {
-  belts::place_all(belts,
-                   belts::readings_of(belts, frame.counting, frame.residual_sigma_mm),
-                   belts::mechanism_at(belts, frame.state),
-                   frame);
-}
-
 /// Places, and the spread about them.
 void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, AnchorFit& frame) {
   const MeasuredBelts untaped = without_distances(without_causes);
-  find_places(untaped, frame);
+  belts::place_all(untaped, frame);
   frame.checks = std::max<Eigen::Index>(belts::checks_of(frame.counting) - as_index(sizes), 1);
   const belts::ReadingLines lines = belts::reading_lines(untaped, frame.state);
   double square = 0.0;
@@ -40,7 +30,7 @@ void place_and_judge(const MeasuredBelts& without_causes, std::size_t sizes, Anc
       if (frame.counting[k][belt]) square += std::pow(lines.residual_mm[belts::row_of(k, belt)], 2);
     }
   }
-  frame.residual_sigma_mm = std::max(std::sqrt(square / as_double(frame.checks)), kLeastSpreadMm);
+  frame.residual_sigma_mm = std::max(std::sqrt(square / as_double(frame.checks)), belts::kLeastSpreadMm);
 }
 
 /// (1) of anchors_with_causes.hpp. \returns the covariance of anchors and scale; empty where the
@@ -66,7 +56,7 @@ std::optional<Eigen::MatrixXd> take_distances(const MeasuredBelts& without_cause
   const Eigen::VectorXd found = factor.solve(sum);
   frame.state.anchors = found.head<kAnchorUnknowns>();
   frame.state.log_scale = found[kAnchorUnknowns];
-  find_places(without_causes, frame);
+  belts::place_all(without_causes, frame);
   return factor.inverse();
 }
 
