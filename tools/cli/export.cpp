@@ -493,9 +493,7 @@ void add_export(Verb app) {
   groundcontrol.runs(command, export_groundcontrol);
   add_maslow4(verb);
   add_export_plotter(verb);
-  add_export_linuxcnc(verb);
-  add_export_klipper(verb);
-  add_export_straight(verb);
+  add_export_map(verb);
 }
 
 }  // namespace chaintrue::cli

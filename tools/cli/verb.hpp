@@ -35,8 +35,6 @@ enum ExitCode {
 void add_import_maslow4(Verb import);
 void add_import_plotter(Verb import);
 void add_export_plotter(Verb export_verb);
-void add_export_linuxcnc(Verb export_verb);
-void add_export_klipper(Verb export_verb);
-void add_export_straight(Verb export_verb);
+void add_export_map(Verb export_verb);
 
 }  // namespace chaintrue::cli

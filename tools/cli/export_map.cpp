@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a map becomes for other controllers: a kinematics module, or the settings that come closest.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "grid/files/klipper_kinematics.hpp"
+#include "grid/files/linuxcnc_kinematics.hpp"
+#include "grid/map/map_in_frame.hpp"
+#include "grid/map/straight_settings.hpp"
+#include "tools/cli/input_file.hpp"
+#include "tools/cli/map_words.hpp"
+#include "tools/cli/option_checks.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+struct MapCommand {
+  std::string map;
+  std::string output;
+};
+
+/// A map with its name in what is written.
+struct NamedMap {
+  const grid::CompensationMap& map;
+  std::string name;
+};
+
+/// What is written, and what to do with it; or why there is none.
+struct Written {
+  std::string text;
+  std::string remark;
+};
+using WrittenOrWhy = tl::expected<Written, std::string>;
+
+std::string without_table(const grid::MapFailure& failure) {
+  return failure.sentence() +
+         ". A table needs lengths all over the map; fit it with --outside continued";
+}
+
+WrittenOrWhy klipper_module(const NamedMap& named, const std::string&) {
+  const auto nearest = grid::straight_settings(named.map, grid::Anchors::free);
+  if (!nearest) return tl::unexpected(nearest.error().sentence());
+  auto module = grid::files::klipper_kinematics(
+      grid::MapInFrame(named.map), {nearest->anchors, nearest->longer_mm}, named.name);
+  if (!module) return tl::unexpected(without_table(module.error()));
+  return Written{
+      std::move(module->source),
+      fmt::format(
+          "{} x {} lengths of both chains, {:.0f} mm apart; between them the table is within "
+          "{:.4f} mm of the map, and moves go in pieces of at most {:g} mm.\nCopy it as "
+          "chaintrue.py into klippy/kinematics, and say kinematics: chaintrue in printer.cfg, "
+          "with a [stepper_left] and a [stepper_right]. The file's first lines say the rest.",
+          module->columns,
+          module->rows,
+          module->spacing_mm,
+          module->largest_error_mm,
+          module->piece_mm)};
+}
+
+/// The component is called as its file is: halcompile takes the name from there.
+std::string module_name(const std::string& output) {
+  return output == "-" ? "chaintrue_kins" : std::filesystem::path(output).stem().string();
+}
+
+void check_module_name(const std::string& output, OptionProblems& problems) {
+  const std::string name = module_name(output);
+  const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
+  const bool is_identifier =
+      !name.empty() && is_letter(static_cast<unsigned char>(name.front())) &&
+      std::all_of(name.begin(), name.end(), [&](char c) {
+        return is_letter(static_cast<unsigned char>(c)) || (c >= '0' && c <= '9');
+      });
+  if (!is_identifier) {
+    problems.add(
+        "--output",
+        output,
+        "a file such as chaintrue_kins.c: LinuxCNC calls the module by its name, of letters, "
+        "digits and _",
+        grid::ProblemKind::output_place);
+  }
+}
+
+WrittenOrWhy linuxcnc_module(const NamedMap& named, const std::string& output) {
+  const std::string name = module_name(output);
+  auto module = grid::files::linuxcnc_kinematics(grid::MapInFrame(named.map), {name, named.name});
+  if (!module) return tl::unexpected(without_table(module.error()));
+  return Written{
+      std::move(module->source),
+      fmt::format(
+          "{} x {} lengths of both chains, {:.0f} mm apart; between them the table is within "
+          "{:.4f} mm of the map{}.\nBuild and install it where LinuxCNC (2.9 or later) runs: "
+          "halcompile --install {}.c. In the machine's INI file: [KINS] KINEMATICS = {} and "
+          "JOINTS = 3, [TRAJ] LINEAR_UNITS = mm.",
+          module->columns,
+          module->rows,
+          module->spacing_mm,
+          module->largest_error_mm,
+          module->largest_error_mm > grid::files::kTableErrorMm
+              ? ", more than it should be: this map bends within millimetres"
+              : "",
+          name,
+          name)};
+}
+
+std::string fluidnc_lines(const grid::StraightSettings& s) {
+  return fmt::format(
+      "kinematics:\n"
+      "  WallPlotter:\n"
+      "    left_anchor_x: {:.3f}\n"
+      "    left_anchor_y: {:.3f}\n"
+      "    right_anchor_x: {:.3f}\n"
+      "    right_anchor_y: {:.3f}\n"
+      "axes:\n"
+      "  x:\n"
+      "    steps_per_mm: <steps of a turn / mm of chain in a turn, times {:.6f}>\n"
+      "  y:\n"
+      "    steps_per_mm: <steps of a turn / mm of chain in a turn, times {:.6f}>\n",
+      s.anchors.left.x_mm,
+      s.anchors.left.y_mm,
+      s.anchors.right.x_mm,
+      s.anchors.right.y_mm,
+      s.more_steps.left,
+      s.more_steps.right);
+}
+
+/// Its x counts from the left anchor, its y down from the line between them.
+std::string grblhal_lines(const grid::StraightSettings& s) {
+  return fmt::format(
+      "$130={:.3f}\n"
+      "$100=<steps of a turn / mm of chain in a turn, times {:.6f}>\n"
+      "$101=<steps of a turn / mm of chain in a turn, times {:.6f}>\n"
+      "; 0, 0 of the sheet is at X{:.3f} Y{:.3f} of the controller, whose Y counts downwards\n",
+      s.anchors.right.x_mm - s.anchors.left.x_mm,
+      s.more_steps.left,
+      s.more_steps.right,
+      -s.anchors.left.x_mm,
+      s.anchors.left.y_mm);
+}
+
+template <grid::Anchors kAnchors, auto kLines>
+WrittenOrWhy straight_lines(const NamedMap& named, const std::string&) {
+  const auto nearest = grid::straight_settings(named.map, kAnchors);
+  if (!nearest) return tl::unexpected(nearest.error().sentence());
+  return Written{
+      kLines(*nearest),
+      fmt::format(
+          "With these numbers the tool is still off by {:.2f} mm rms over the measured part, "
+          "{:.2f} mm at worst: straight lines do not sag. {}",
+          nearest->left_over.rms_mm,
+          nearest->left_over.maximum_mm,
+          kAnchors == grid::Anchors::free
+              ? "Switch it on with the tool at 0, 0 of the sheet."
+              : "It draws Y downwards: mirror a program, and move it by the place in the "
+                "last line.")};
+}
+
+struct Controller {
+  const char* name;
+  const char* help;
+  const char* output;
+  Origin kind;
+  const char* output_help;
+  WrittenOrWhy (*write)(const NamedMap& named, const std::string& output);
+};
+
+constexpr Controller kControllers[] = {
+    {"linuxcnc",
+     "Write the map as a kinematics module for LinuxCNC, which then needs no compensated files",
+     "chaintrue_kins.c",
+     Origin::table,
+     "The module's source (C); - is standard output",
+     linuxcnc_module},
+    {"klipper",
+     "Write the map as a kinematics module for Klipper, which then needs no compensated files",
+     "chaintrue.py",
+     Origin::table,
+     "The module's source (Python); - is standard output",
+     klipper_module},
+    {"fluidnc",
+     "Find the WallPlotter settings that come closest to a map, and the error they leave",
+     "-",
+     Origin::list,
+     "Output file; - is standard output",
+     straight_lines<grid::Anchors::free, fluidnc_lines>},
+    {"grblhal",
+     "Find grblHAL's wall plotter settings that come closest to a map, and the error they leave",
+     "-",
+     Origin::list,
+     "Output file; - is standard output",
+     straight_lines<grid::Anchors::level, grblhal_lines>},
+};
+
+int export_map(Verb verb, const MapCommand& command, const Controller& controller) {
+  const InputFile file = open_input(command.map);
+  require_kind(file, {FileKind::map});
+  const grid::CompensationMap map = load_map(file);
+  if (!verb.is_given("--force") && refuses_to_cut_with(map)) return kCheckFailed;
+  const auto written =
+      controller.write({map, std::filesystem::path(file.name).filename().string()}, command.output);
+  if (!written) {
+    fmt::print(stderr, "{}: {}\n", file.name, written.error());
+    return kNotSupportedOrOutside;
+  }
+  write_output(command.output, written->text);
+  fmt::print(stderr, "{}\n", written->remark);
+  return kDone;
+}
+
+}  // namespace
+
+void add_export_map(Verb export_verb) {
+  for (const Controller& controller : kControllers) {
+    auto command = std::make_shared<MapCommand>(MapCommand{{}, controller.output});
+    Verb verb = export_verb.add_verb(controller.name, controller.help);
+    add_input(verb, "map", command->map, "A chaintrue_map file").required();
+    add_output(verb, "-o,--output", command->output, {controller.kind}, controller.output_help)
+        .shows_default();
+    const bool is_module = controller.kind == Origin::table;
+    verb.footer(fmt::format(
+        "{}Example:\n"
+        "  build/chaintrue fit fixtures/start/marks.csv --machine "
+        "fixtures/machines/groundcontrol.json -o map.json\n"
+        "  build/chaintrue export {} map.json{}{}",
+        is_module ? "" : "For what they leave, compensate each program (gcode compensate).\n\n",
+        controller.name,
+        is_module ? " -o " : "",
+        is_module ? controller.output : ""));
+    if (controller.write == linuxcnc_module) {
+      add_option_check(verb, [command](OptionProblems& problems) {
+        check_module_name(command->output, problems);
+      });
+    }
+    verb.runs(command, [&controller](Verb chosen, const MapCommand& own) {
+      return export_map(chosen, own, controller);
+    });
+  }
+}
+
+}  // namespace chaintrue::cli
