@@ -74,10 +74,8 @@ std::vector<std::size_t> point_numbers_of(const std::string& text,
                                           std::string_view what) {
   constexpr double kMost = 1e6;
   std::vector<std::size_t> numbers;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', begin), text.size());
-    const auto number = number_of(text.substr(begin, comma - begin));
-    begin = comma + 1;
+  for (const std::string& part : parts_at_commas(text)) {
+    const auto number = number_of(part);
     if (!number || !(*number >= 1.0) || !(*number <= kMost) || *number != std::floor(*number)) {
       throw InputError(
           {{"the command line",

@@ -96,14 +96,6 @@ const Record<BeltMachine>& belt_record() {
   return record;
 }
 
-void check_machine(const Cursor& at, BeltMachine& machine) {
-  for (const model::MachineProblem& problem : model::problems_of(machine)) {
-    const std::string place = at.pointer() + problem.parameter;
-    // A field that could not be read keeps its default, which needs no check.
-    if (!at.problems().at_or_below(place)) at.problems().add(place, problem);
-  }
-}
-
 constexpr Range kPull{"", 1e-3, 1e6};
 
 /// One key for each unit.
@@ -404,7 +396,9 @@ const Record<BeltMachine>& belt_machine_record() {
             &BeltMachine::setting_names,
             choice<model::SettingNames>({{"in_kinematics", model::SettingNames::in_kinematics},
                                          {"top_level", model::SettingNames::top_level}}))
-        .check(check_machine);
+        .check([](const Cursor& at, BeltMachine& own) {
+          report_impossible(at, model::problems_of(own));
+        });
     return machine;
   }();
   return record;

@@ -141,50 +141,47 @@ const Record<Shift>& shift_record() {
   return record;
 }
 
-/// The indices of outliers and their displacements: two lists of the same length.
+/// The indices of the outliers that are distances next to points, or of all others.
+void index_key(Record<Diagnosis>& record,
+               const char* key,
+               const char* meaning,
+               bool beside_points) {
+  const auto is_beside = [](const Diagnosis& object, const Outlier& bad) {
+    return bad.of == Observations::distances && object.observations == Observations::both;
+  };
+  record.computed(
+      key,
+      meaning,
+      !beside_points,
+      list(index_number()),
+      [beside_points](Diagnosis& object, const std::vector<std::size_t>& read) {
+        for (const std::size_t index : read) {
+          Outlier& bad = object.outliers.emplace_back();
+          if (beside_points) bad.of = Observations::distances;
+          bad.index = index;
+        }
+      },
+      [=](const Diagnosis& object) -> std::optional<std::vector<std::size_t>> {
+        std::vector<std::size_t> indices;
+        for (const Outlier& bad : object.outliers) {
+          if (is_beside(object, bad) == beside_points) indices.push_back(bad.index);
+        }
+        if (beside_points && indices.empty()) return std::nullopt;
+        return indices;
+      });
+}
+
+/// The indices of outliers and their displacements: lists of the same length together.
 void outlier_keys(Record<Diagnosis>& record) {
-  static const Value<std::vector<int>> indices = list(integer(0, kMostNumbered));
   static const Value<std::vector<Shift>> shifts = list(object(shift_record()));
-  record.custom(
-      "bad_points",
-      "Indices of the points (for holes alone: of the distances) that were left out.",
-      true,
-      indices.expected,
-      [](const Cursor& at, Diagnosis& object) {
-        const auto read = indices.read(at);
-        if (!read) return;
-        for (const int index : *read)
-          object.outliers.push_back({.index = static_cast<std::size_t>(index)});
-      },
-      [](const Diagnosis& object) {
-        Json json = Json::array();
-        for (const Outlier& bad : object.outliers) {
-          if (bad.of == Observations::distances && object.observations == Observations::both)
-            continue;
-          json.push_back(bad.index);
-        }
-        return std::optional<Json>(std::move(json));
-      });
-  record.custom(
-      "bad_distances",
-      "Indices of the distances that were left out, if there were points too.",
-      false,
-      indices.expected,
-      [](const Cursor& at, Diagnosis& object) {
-        const auto read = indices.read(at);
-        if (!read) return;
-        for (const int index : *read)
-          object.outliers.push_back(
-              {.of = Observations::distances, .index = static_cast<std::size_t>(index)});
-      },
-      [](const Diagnosis& object) {
-        Json json = Json::array();
-        for (const Outlier& bad : object.outliers) {
-          if (bad.of == Observations::distances && object.observations == Observations::both)
-            json.push_back(bad.index);
-        }
-        return json.empty() ? std::nullopt : std::optional<Json>(std::move(json));
-      });
+  index_key(record,
+            "bad_points",
+            "Indices of the points (for holes alone: of the distances) that were left out.",
+            false);
+  index_key(record,
+            "bad_distances",
+            "Indices of the distances that were left out, if there were points too.",
+            true);
   record.custom(
       "bad_point_shifts",
       "One for each bad point, and after them for each bad distance.",

@@ -269,11 +269,7 @@ void check_machine(const Cursor& at, Machine& machine) {
             size(machine.bed.width_mm, machine.bed.height_mm)));
     return;
   }
-  for (const model::MachineProblem& problem : model::problems_of(machine)) {
-    const std::string place = at.pointer() + problem.parameter;
-    // A field that could not be read keeps its default, which needs no check.
-    if (!at.problems().at_or_below(place)) at.problems().add(place, problem);
-  }
+  report_impossible(at, model::problems_of(machine));
   // The sums of effects and machine are checked only if the machine itself is valid.
   if (!at.clean()) return;
   check_declared_on_bed(at.child("declared_effects"), machine);

@@ -179,10 +179,7 @@ void choose_lengths(const Maslow4Options& options,
 std::vector<LogPart> log_parts_of(const std::string& text, const std::string& option) {
   constexpr int kMost = 1000000;
   std::vector<LogPart> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', begin), text.size());
-    const std::string part = text.substr(begin, comma - begin);
-    begin = comma + 1;
+  for (const std::string& part : parts_at_commas(text)) {
     const auto points = pair_of(part, ':', 0, kMost);
     const auto run = number_of(part);
     if (points && (*points)[0] <= (*points)[1]) {

@@ -71,10 +71,8 @@ void check_frame(const MeasuredBelts& session, const std::string& name) {
 
 std::vector<BeltPull> pulls_of(const std::string& text, const std::string& option) {
   std::vector<BeltPull> pulls;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', begin), text.size());
-    const auto pull = pull_of(std::string_view(text).substr(begin, comma - begin));
-    begin = comma + 1;
+  for (const std::string& part : parts_at_commas(text)) {
+    const auto pull = pull_of(part);
     if (pull && (pulls.empty() || pull->unit == pulls.front().unit)) {
       pulls.push_back(*pull);
       continue;

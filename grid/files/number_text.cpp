@@ -7,8 +7,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "grid/files/parse_double.hpp"
 #include "grid/files/length_text.hpp"
+#include "grid/files/parse_double.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -57,7 +57,20 @@ std::optional<double> number_of(std::string_view text) {
   return std::isfinite(parsed.value) ? std::optional(parsed.value) : std::nullopt;
 }
 
-std::optional<std::array<int, 2>> pair_of(std::string_view text, char between, int least, int most) {
+std::vector<std::string> parts_at_commas(std::string_view text) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    parts.emplace_back(text.substr(begin, comma - begin));
+    begin = comma + 1;
+  }
+  return parts;
+}
+
+std::optional<std::array<int, 2>> pair_of(std::string_view text,
+                                          char between,
+                                          int least,
+                                          int most) {
   std::array<int, 2> pair{};
   const char* const end = text.data() + text.size();
   const auto [middle, first] = std::from_chars(text.data(), end, pair[0]);
@@ -100,10 +113,14 @@ std::optional<double> checked_number(std::string_view text,
   if (value && range.holds(*value)) return value;
   std::string hint = looks_like_decimal_comma(text) ? ", with a decimal point, not a comma" : "";
   if (const auto fraction = fraction_of_date(text)) {
-    hint = fmt::format("; a spreadsheet has made a date of {0}: write 0 {0}, in a column whose format is text",
-                       *fraction);
+    hint = fmt::format(
+        "; a spreadsheet has made a date of {0}: write 0 {0}, in a column whose format is text",
+        *fraction);
   }
-  problems.add(place, text, fmt::format("{} ({}){}", range.expected(), name, hint), kind_of_bad_number(text));
+  problems.add(place,
+               text,
+               fmt::format("{} ({}){}", range.expected(), name, hint),
+               kind_of_bad_number(text));
   return std::nullopt;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "grid/files/problems.hpp"
 
@@ -29,6 +30,9 @@ struct Range {
 
 /// "7x4" for 'x': two whole numbers from `least` to `most`; empty for any other text.
 [[nodiscard]] std::optional<std::array<int, 2>> pair_of(std::string_view text, char between, int least, int most);
+
+/// "7,12" as "7" and "12"; an empty text is one empty part.
+[[nodiscard]] std::vector<std::string> parts_at_commas(std::string_view text);
 
 /// True for a number outside a double's range: 1e999, NaN, Infinity.
 [[nodiscard]] bool is_beyond_double(std::string_view text);

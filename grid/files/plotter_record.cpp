@@ -131,11 +131,7 @@ const Record<PlotterUncertainty>& uncertainty_of_plotter_record() {
 
 void check_plotter_machine(const Cursor& at, PlotterMachine& machine) {
   if (!at.has("name")) machine.name.clear();
-  for (const model::MachineProblem& problem : model::problems_of(machine)) {
-    const std::string place = at.pointer() + problem.parameter;
-    // A field that could not be read keeps its default, which needs no check.
-    if (!at.problems().at_or_below(place)) at.problems().add(place, problem);
-  }
+  report_impossible(at, model::problems_of(machine));
 }
 
 const Record<PlotterMachine>& plotter_machine_record() {

@@ -53,6 +53,13 @@ Value<Eigen::Vector2d> pair_of_numbers(const Range& range) {
            }}};
 }
 
+void report_impossible(const Cursor& at, const std::vector<model::MachineProblem>& found) {
+  for (const model::MachineProblem& problem : found) {
+    const std::string place = at.pointer() + problem.parameter;
+    if (!at.problems().at_or_below(place)) at.problems().add(place, problem);
+  }
+}
+
 Value<model::Setting> setting_word() {
   std::vector<std::pair<std::string, model::Setting>> names;
   for (auto setting : model::kMachineSettings) names.emplace_back(model::name(setting), setting);

@@ -66,6 +66,10 @@ template <std::size_t N, class V>
           {words, list(element, N).expected.schema}};
 }
 
+/// Reports what no machine can be like. A field that could not be read keeps its default, which needs
+/// no check.
+void report_impossible(const Cursor& at, const std::vector<model::MachineProblem>& found);
+
 /// The name of a setting of the machine or of the sheet.
 [[nodiscard]] Value<model::Setting> setting_word();
 
