@@ -142,10 +142,10 @@ const Record<Shift>& shift_record() {
 }
 
 /// The indices of the outliers that are distances next to points, or of all others.
-void index_key(Record<Diagnosis>& record,
-               const char* key,
-               const char* meaning,
-               bool beside_points) {
+void outlier_indices(Record<Diagnosis>& record,
+                     const char* key,
+                     const char* meaning,
+                     bool beside_points) {
   const auto is_beside = [](const Diagnosis& object, const Outlier& bad) {
     return bad.of == Observations::distances && object.observations == Observations::both;
   };
@@ -174,14 +174,14 @@ void index_key(Record<Diagnosis>& record,
 /// The indices of outliers and their displacements: lists of the same length together.
 void outlier_keys(Record<Diagnosis>& record) {
   static const Value<std::vector<Shift>> shifts = list(object(shift_record()));
-  index_key(record,
-            "bad_points",
-            "Indices of the points (for holes alone: of the distances) that were left out.",
-            false);
-  index_key(record,
-            "bad_distances",
-            "Indices of the distances that were left out, if there were points too.",
-            true);
+  outlier_indices(record,
+                  "bad_points",
+                  "Indices of the points (for holes alone: of the distances) that were left out.",
+                  false);
+  outlier_indices(record,
+                  "bad_distances",
+                  "Indices of the distances that were left out, if there were points too.",
+                  true);
   record.custom(
       "bad_point_shifts",
       "One for each bad point, and after them for each bad distance.",

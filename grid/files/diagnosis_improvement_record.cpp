@@ -39,7 +39,7 @@ constexpr std::string_view kAsDelivered =
     "As delivered: with the machine file's settings, for commands with the controller's. At the "
     "measured points; tool_today is over the measured part.";
 constexpr std::string_view kCalibrated = "With calibrated settings.";
-constexpr std::string_view kExtended = "With the named causes.";
+constexpr std::string_view kWithCauses = "With the named causes.";
 constexpr std::string_view kAndSurface = "With the causes and a smooth surface.";
 
 using Improvement = HeldOutImprovement;
@@ -48,7 +48,7 @@ constexpr std::array kImprovementRows = {
     ErrorRow<Improvement>{
         "placed", "After the best placement of the sheet.", nullptr, &Improvement::placed},
     ErrorRow<Improvement>{"calibrated", kCalibrated, &Improvement::calibrated},
-    ErrorRow<Improvement>{"extended", kExtended, &Improvement::extended},
+    ErrorRow<Improvement>{"extended", kWithCauses, &Improvement::extended},
     ErrorRow<Improvement>{"extended_and_surface", kAndSurface, &Improvement::extended_and_surface},
     ErrorRow<Improvement>{
         "surface_only", "With a smooth surface and no cause.", &Improvement::surface_only},
@@ -56,7 +56,7 @@ constexpr std::array kImprovementRows = {
 constexpr std::array kTransferRows = {
     ErrorRow<Transfer>{"as_delivered", kAsDelivered, &Transfer::uncalibrated},
     ErrorRow<Transfer>{"calibrated", kCalibrated, &Transfer::calibrated},
-    ErrorRow<Transfer>{"extended", kExtended, &Transfer::extended},
+    ErrorRow<Transfer>{"extended", kWithCauses, &Transfer::extended},
     ErrorRow<Transfer>{"extended_and_surface", kAndSurface, &Transfer::extended_and_surface},
 };
 
