@@ -147,17 +147,18 @@ void Emitter::header(const std::vector<std::string>& comments) {
   put_line(semicolons_ ? "G90" : "G21 G90");
 }
 
-void Emitter::command(bool rapid,
-                      std::size_t line,
+void Emitter::command(const Move& move,
                       std::optional<model::BedPoint> xy,
                       std::optional<double> z_mm,
                       double feed_mm_per_min) {
+  const bool rapid = move.kind == MoveKind::rapid;
   constexpr double kLargestMm = 1e8;
   constexpr double kSlowest = 1e-12;
   const auto too_large = [](double value) { return !(std::fabs(value) < kLargestMm); };
   if ((xy && (too_large(xy->x_mm) || too_large(xy->y_mm))) || (z_mm && too_large(*z_mm)) ||
       (!rapid && !(feed_mm_per_min > kSlowest && feed_mm_per_min < 1e12))) {
-    refuse(not_emittable, {line}, "a coordinate or feed rate of this move is no sensible number");
+    refuse(
+        not_emittable, {move.line}, "a coordinate or feed rate of this move is no sensible number");
   }
   text_.assign(rapid ? "G0" : "G1");
   bool moves = false;

@@ -61,8 +61,7 @@ class Emitter {
   void header(const std::vector<std::string>& comments);
   /// One straight command. XY is empty for a move in Z alone, z if the height does not change. A
   /// command that changes nothing after rounding is left out.
-  void command(bool rapid,
-               std::size_t line,
+  void command(const Move& move,
                std::optional<model::BedPoint> xy,
                std::optional<double> z_mm,
                double feed_mm_per_min);

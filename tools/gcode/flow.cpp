@@ -16,12 +16,9 @@ constexpr std::size_t kDeepestCall = 10;
 
 /// Where a line's O-word may begin: after a slash and a line number.
 std::size_t control_start(std::string_view text) {
-  std::size_t at = 0;
-  if (at < text.size() && text[at] == '/') ++at;
-  if (at < text.size() && text[at] == 'n') {
-    ++at;
-    while (at < text.size() && ((text[at] >= '0' && text[at] <= '9') || text[at] == '.')) ++at;
-  }
+  std::size_t at = text.starts_with('/') ? 1 : 0;
+  if (text.substr(at).starts_with('n'))
+    at = std::min(text.find_first_not_of("0123456789.", at + 1), text.size());
   return at;
 }
 

@@ -164,8 +164,7 @@ std::string Interpreter::written_out(std::string_view text) const {
         const std::size_t close = text.find('>', from);
         return close == std::string_view::npos ? text.size() : close + 1;
       }
-      while (from < text.size() && text[from] >= '0' && text[from] <= '9') ++from;
-      return from;
+      return past_digits(text, from);
     };
     const std::size_t end = end_of(at + 1);
     const auto value = attempt([&] {

@@ -58,8 +58,7 @@ void Limits::command(const Move& move, double feed_mm_per_min, const PathSample&
   if (here_ && options_.on_command) options_.on_command(move, *here_, sample);
   here_ = sample;
   if (!hold()) return;
-  emitter_.command(move.kind == MoveKind::rapid,
-                   move.line,
+  emitter_.command(move,
                    model::BedPoint{sample.command.x_mm, sample.command.y_mm},
                    move.names_z ? std::optional(sample.target.z_mm) : std::nullopt,
                    feed_mm_per_min);
@@ -69,8 +68,7 @@ void Limits::height(const Move& move, double feed_mm_per_min) {
   if (!hold()) return;
   if (here_) here_->target.z_mm = here_->command.z_mm = move.to.z_mm;
   if (length_mm(move) == 0.0 && move.feed.mode == FeedMode::inverse_time) return;
-  emitter_.command(
-      move.kind == MoveKind::rapid, move.line, std::nullopt, move.to.z_mm, feed_mm_per_min);
+  emitter_.command(move, std::nullopt, move.to.z_mm, feed_mm_per_min);
   if (here_ && options_.on_command) options_.on_command(move, *here_, *here_);
 }
 

@@ -86,8 +86,7 @@ class Cleaner {
     for (const char c : raw_.substr(0, at_))
       sum = static_cast<unsigned char>(sum ^ static_cast<unsigned char>(c));
     const std::size_t digits = at_ + 1;
-    std::size_t end = digits;
-    while (end < raw_.size() && raw_[end] >= '0' && raw_[end] <= '9') ++end;
+    const std::size_t end = past_digits(raw_, digits);
     unsigned stated = 0;
     const auto [stop, error] = std::from_chars(raw_.data() + digits, raw_.data() + end, stated);
     if (error != std::errc{} || stop != raw_.data() + end) {
@@ -120,6 +119,10 @@ char upper(char letter) {
 
 char lower(char letter) {
   return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+}
+
+std::size_t past_digits(std::string_view text, std::size_t at) {
+  return std::min(text.find_first_not_of("0123456789", at), text.size());
 }
 
 LineSource::LineSource(std::unique_ptr<std::istream> stream) : stream_(std::move(stream)) {

@@ -87,6 +87,8 @@ struct CleanLine {
 /// A word's letter as messages show it, and as the reader knows it; any other character as it is.
 [[nodiscard]] char upper(char letter);
 [[nodiscard]] char lower(char letter);
+/// Where a run of digits from `at` on ends.
+[[nodiscard]] std::size_t past_digits(std::string_view text, std::size_t at);
 
 /// Splits a line into text and comments; a RepRap checksum (`*71`) is checked and removed.
 /// \throws Refusal

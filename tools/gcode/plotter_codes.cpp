@@ -88,7 +88,7 @@ std::optional<PlotterWord> plotter_word(const CleanLine& line, std::size_t at, b
 std::optional<TextLine> text_line(std::string_view raw, bool of_plotter) {
   raw = trimmed(raw);
   if (raw.empty() || (raw.front() != 'M' && raw.front() != 'm')) return std::nullopt;
-  const std::size_t end = std::min(raw.find_first_not_of("0123456789", 1), raw.size());
+  const std::size_t end = past_digits(raw, 1);
   const int number = number_of(raw.substr(1, end - 1));
   const bool shows = of_plotter && (number == 117 || number == 118);
   if (!shows && number != 0 && number != 1) return std::nullopt;

@@ -128,14 +128,11 @@ class Program::Runner {
   char peek(std::size_t at) const { return at < line_.text.size() ? line_.text[at] : '\0'; }
 
   void line_number(std::size_t& at) {
-    const std::size_t start = ++at;
-    while (peek(at) >= '0' && peek(at) <= '9') ++at;
+    const std::size_t start = at + 1;
+    at = past_digits(line_.text, start);
     if (at == start)
       refuse(bad_line_number, line_.place(start), "N needs a whole number, not negative");
-    if (peek(at) == '.') {
-      ++at;
-      while (peek(at) >= '0' && peek(at) <= '9') ++at;
-    }
+    if (peek(at) == '.') at = past_digits(line_.text, at + 1);
   }
 
   void percent(const SourceLine& raw) {
