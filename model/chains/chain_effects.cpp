@@ -97,10 +97,12 @@ constexpr Effect sled_width{
     .id = "sled_width",
     .station = Station::machine,
     .sides = kNoSide,
-    .parameters = {size("offset_mm", "w", "true distance between the brackets less the file's", 5.0, -200.0, 200.0)},
-    .cause = "the brackets of the sled are farther apart or nearer together than the machine file says",
+    .parameters = {size("offset_mm", "w", "true distance between the brackets less the file's",
+                        5.0, -200.0, 200.0)},
+    .cause =
+        "the brackets of the sled are farther apart or nearer together than the machine file says",
     .signature =
-        "both chains too short or too long by nearly the same, most in the upper corners, where they lie "
+        "both chains too short or too long by nearly the same, most along the top, where they lie "
         "flat",
     .equation = "spacing = spacing_stated + w",
     .source = "statics of a sled on two brackets, which turns about the bit",
@@ -116,8 +118,10 @@ constexpr Effect sled_height{
     .id = "sled_height",
     .station = Station::machine,
     .sides = kNoSide,
-    .parameters = {size("offset_mm", "h", "true height of the brackets over the bit less the file's", 5.0, -200.0, 200.0)},
-    .cause = "the brackets of the sled are higher or lower over the bit than the machine file says",
+    .parameters = {size("offset_mm", "h", "true height of the brackets over the bit less the file's",
+                        5.0, -200.0, 200.0)},
+    .cause =
+        "the brackets of the sled are higher or lower over the bit than the machine file says",
     .signature =
         "the whole bed shifted up or down, a little less where the sled tilts, in the lower corners",
     .equation = "height = height_stated + h",
@@ -134,7 +138,9 @@ constexpr Effect sled_cg{
     .id = "sled_cg",
     .station = Station::machine,
     .sides = kNoSide,
-    .parameters = {size("offset_mm", "g", "how much farther below the bit the centre of gravity is than the file says", 10.0, -500.0, 500.0)},
+    .parameters = {size("offset_mm", "g",
+                        "how much farther below the bit the centre of gravity is than the file says",
+                        10.0, -500.0, 500.0)},
     .cause = "the sled's centre of gravity is higher or lower than the machine file says",
     .signature =
         "the sled tilts more or less at the sides: nothing on the middle line, opposite errors left and "
