@@ -85,5 +85,4 @@ inline constexpr double kAnchorShiftMm = 5.0;
     std::optional<double> anchor_sigma_mm = std::nullopt,
     std::optional<BeltScaleKnowledge> scale = std::nullopt);
 
-
 }  // namespace chaintrue::model
