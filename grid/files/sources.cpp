@@ -14,6 +14,11 @@ std::vector<SourceFile>& sources_of_this_thread() {
   return sources;
 }
 
+std::optional<std::vector<SourceFile>>& stated_sources() {
+  thread_local std::optional<std::vector<SourceFile>> sources;
+  return sources;
+}
+
 }  // namespace
 
 std::string_view version() { return CHAINTRUE_VERSION; }
@@ -22,7 +27,11 @@ std::string name_without_folders(const std::filesystem::path& path) {
   return path == "-" ? "standard input" : path.filename().string();
 }
 
-std::vector<SourceFile> sources_read() { return sources_of_this_thread(); }
+std::vector<SourceFile> sources_read() {
+  return stated_sources().value_or(sources_of_this_thread());
+}
+
+void state_sources(std::vector<SourceFile> sources) { stated_sources() = std::move(sources); }
 
 void note_source(SourceFile source) {
   std::vector<SourceFile>& sources = sources_of_this_thread();
@@ -32,6 +41,7 @@ void note_source(SourceFile source) {
 
 void forget_sources() {
   sources_of_this_thread().clear();
+  stated_sources().reset();
   forget_files_read();
 }
 

@@ -27,8 +27,11 @@ namespace chaintrue::grid::files {
 [[nodiscard]] std::vector<SourceFile> sources_read();
 /// For a file that is read in another way.
 void note_source(SourceFile source);
-/// Begins anew, on a thread that does more than one piece of work.
+/// Begins anew, on a thread that does more than one piece of work; files_read() is empty then, too.
 void forget_sources();
+/// What sources_read() says from now on, until forget_sources(): the files that are read on this thread
+/// were written for a piece of work, of what these held.
+void state_sources(std::vector<SourceFile> sources);
 
 /// What a map's, a diagnosis' or anchors' file says of itself; empty where it says nothing. For a file
 /// that its reader has taken.

@@ -129,9 +129,8 @@ class Made(Filed):
     def _by(cls, *words: Union[str, File], sources: Sources) -> Any:
         """What a verb makes, by the sources of its inputs in place of the run's own files."""
         result = cls.__name__.lower() + ".json"
-        contents = json.loads(run(*words, "-o", result, out=[result])[0][result])
-        contents["made_by"]["inputs"] = [{"name": name, "sha256": hash} for name, hash in sources]
-        return cls._of(parsed(cls, json.dumps(contents), "the result")[0])
+        files, _, _ = run(*words, "-o", result, out=[result], sources=sources)
+        return cls._of(files[result])
 
     def _page(self, source: str, *options: str) -> str:
         """As `chaintrue report` makes it of a file with that name."""

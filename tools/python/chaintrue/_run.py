@@ -6,7 +6,7 @@ from __future__ import annotations
 import pathlib
 import re
 import tempfile
-from typing import NamedTuple, Sequence, Union
+from typing import NamedTuple, Optional, Sequence, Union
 
 from . import _core
 from ._errors import Failure, InputError
@@ -22,10 +22,15 @@ class File(NamedTuple):
     text: str
 
 
-def run(*words: Union[str, File], out: Sequence[str] = ()) -> tuple[dict[str, str], str, str]:
+def run(
+    *words: Union[str, File],
+    out: Sequence[str] = (),
+    sources: Optional[Sequence[tuple[str, str]]] = None,
+) -> tuple[dict[str, str], str, str]:
     """Runs `chaintrue WORDS` in a folder of its own, with the Files among the words in it.
 
-    out  words that name a file that the run writes
+    out      words that name a file that the run writes
+    sources  names and SHA-256 of the files that a result is made from, in place of the run's Files
 
     Returns these files' texts by name, standard output and standard error. Raises InputError and Failure.
     """
@@ -45,7 +50,7 @@ def run(*words: Union[str, File], out: Sequence[str] = ()) -> tuple[dict[str, st
             return re.sub(rf"{re.escape(scratch)}/(\d+/)?", "", text)
 
         try:
-            code, printed, said = _core.run(line)
+            code, printed, said = _core.run(line, sources)
         except InputError as error:
             problems = [tuple(map(by_name, problem)) for problem in error.problems]
             raise InputError(by_name(str(error)), problems) from None

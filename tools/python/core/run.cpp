@@ -9,7 +9,9 @@
 #include <functional>
 #include <mutex>
 #include <new>
+#include <optional>
 
+#include "grid/files/sources.hpp"
 #include "tools/python/core/bind.hpp"
 
 namespace chaintrue::python {
@@ -44,15 +46,25 @@ class Printed {
   std::size_t size_ = 0;
 };
 
+using Sources = std::vector<std::pair<std::string, std::string>>;
+
 /// The exit code, standard output and standard error.
-std::tuple<int, std::string, std::string> run(const std::vector<std::string>& words) {
+/// \param sources by name and SHA-256, what a result is made from in place of the files of the run
+std::tuple<int, std::string, std::string> run(const std::vector<std::string>& words,
+                                              const std::optional<Sources>& sources) {
   const py::gil_scoped_release others_may_work;
   static std::mutex one_at_a_time;
   const std::scoped_lock lock(one_at_a_time);
   const Printed out(stdout);
   const Printed err(stderr);
-  const int code =
-      cli::run_command(words, [](const std::function<int()>& work) { return work(); });
+  const int code = cli::run_command(words, [&](const std::function<int()>& work) {
+    if (sources) {
+      std::vector<grid::SourceFile> stated;
+      for (const auto& [name, sha256] : *sources) stated.push_back({name, sha256});
+      grid::files::state_sources(std::move(stated));
+    }
+    return work();
+  });
   return {code, out.text(), err.text()};
 }
 

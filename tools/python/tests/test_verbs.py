@@ -221,6 +221,6 @@ def test_the_module_writes_the_commands_bytes(tmp_path, calibration, diagnosis):
     path = str(FIXTURES / "grids" / "seven_by_four.json")
     for thing, verb in ((calibration, ["fit", path]), (diagnosis, ["diagnose", path, "--no-gain"])):
         thing.write(tmp_path / "module.json")
-        code, _, _ = _core.run([*verb, "-o", str(tmp_path / "command.json")])
+        code, _, _ = _core.run([*verb, "-o", str(tmp_path / "command.json")], None)
         assert code == 0
         assert (tmp_path / "command.json").read_bytes() == (tmp_path / "module.json").read_bytes()
