@@ -220,7 +220,7 @@ def test_the_module_writes_the_commands_bytes(tmp_path, calibration, diagnosis):
     """Though the module's run reads another file than the command's."""
     path = str(FIXTURES / "grids" / "seven_by_four.json")
     for thing, verb in ((calibration, ["fit", path]), (diagnosis, ["diagnose", path, "--no-gain"])):
-        thing.write(tmp_path / "module.json")
-        code, _, _ = _core.run([*verb, "-o", str(tmp_path / "command.json")], None)
-        assert code == 0
-        assert (tmp_path / "command.json").read_bytes() == (tmp_path / "module.json").read_bytes()
+        written, commands = tmp_path / f"{verb[0]}_module.json", tmp_path / f"{verb[0]}.json"
+        thing.write(written)
+        assert _core.run([*verb, "-o", str(commands)], None)[0] == 0
+        assert commands.read_bytes() == written.read_bytes()
