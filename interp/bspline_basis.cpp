@@ -12,7 +12,7 @@ namespace {
 
 using Four = std::array<double, 4>;
 
-// The four B-splines over one cell at t in [0, 1], and their derivatives by t.
+// The four B-splines over one cell at t in [0, 1] and their derivatives with respect to t.
 Four values(double t) {
   const double s = 1.0 - t;
   return {s * s * s / 6.0,
@@ -175,7 +175,7 @@ Eigen::MatrixXd BsplineBasis::polynomial_coefficients(int degree) const {
     throw std::invalid_argument(fmt::format("polynomials of degree {}; known are 1 and 2", degree));
   }
   // Marsden's identity (de Boor, chapter IX, (30)): the coefficients of a straight line are its
-  // values at the knot averages; those of a parabola are its values there less a third of the
+  // values at the knot averages; those of a parabola are its values there minus a third of the
   // squared step.
   const double step_u = 2.0 * step_x_ / rectangle_.width();
   const double step_v = 2.0 * step_y_ / rectangle_.height();

@@ -45,7 +45,7 @@ class BsplineBasis {
 
   [[nodiscard]] BasisSupport at(double x, double y) const;
 
-  /// The same as a dense row of size(): f(x, y) = row . c.
+  /// The functions' values as a dense row of size(): f(x, y) = row . c.
   [[nodiscard]] Eigen::VectorXd row(double x, double y) const;
 
   /// Value and gradient of the surface with these coefficients.
@@ -55,7 +55,7 @@ class BsplineBasis {
 
   /// P with c' P c = integral over the rectangle of the squared derivatives of that order (exact):
   /// 2 is the thin plate's f_xx^2 + 2 f_xy^2 + f_yy^2, 3 is f_xxx^2 + 3 f_xxy^2 + 3 f_xyy^2 +
-  /// f_yyy^2. Symmetric, positive semidefinite; its null space are the polynomials of lower degree.
+  /// f_yyy^2. Symmetric, positive semidefinite; its null space is the polynomials of lower degree.
   /// Unit: length^(2 - 2 order). Throws std::invalid_argument for other orders.
   [[nodiscard]] Eigen::MatrixXd bending_penalty(int order) const;
 

@@ -76,7 +76,7 @@ CheckedField::Found CheckedField::find(double x, double y) {
   for (Level& level : levels_) {
     const double u = x / level.spacing;
     const double v = y / level.spacing;
-    // Farther out than any bed nothing is tabulated.
+    // Farther out than any bed.
     constexpr double kMostCells = 1e6;
     if (!(std::fabs(u) < kMostCells && std::fabs(v) < kMostCells)) return {};
     const double left = std::floor(u);

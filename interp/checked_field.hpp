@@ -2,14 +2,14 @@
 #pragma once
 
 /// \file
-/// A function R2 -> R2 that costs much, tabulated where it is asked for, with a checked error.
+/// An expensive function R2 -> R2, tabulated on demand with a checked error.
 ///
 /// Square cells of a lattice are filled as they are needed. A cell interpolates the function at the
 /// sixteen nodes around it (cubic Lagrange in x and in y, continuous from cell to cell; the error is
 /// 0.023 h^4 times the fourth derivatives, h the spacing) once it has been compared with the exact
 /// value at two places inside: twice the larger difference must be within the bound. A cell that
-/// misses it is divided into four, as often as is allowed, and then given up: the caller computes
-/// such places. Cells next to a place without a value are treated alike.
+/// misses it is divided into four, up to a limit, and then abandoned: the caller computes such
+/// places. Cells next to a place without a value are treated alike.
 ///
 /// Error: below the bound at the checked places. Memory: 400 bytes a cell, 5 MB for a sheet in cells
 /// of 16 mm. Deterministic: the same calls in the same order give the same bits. Not thread safe.
@@ -35,9 +35,8 @@ class CheckedField {
     double spacing = 1.0;  ///< of the lattice, > 0
     double bound = 0.0;    ///< of the error's absolute value
     int halvings = 0;      ///< of the spacing, in cells that miss the bound
-    /// 0: a cell is filled at first sight. Otherwise so many places are left to the caller first,
-    /// and from then on the cells cost no more evaluations than were left to the caller: tables
-    /// never take more time than they could save.
+    /// 0: a cell is filled at its first use. Otherwise this many places are left to the caller
+    /// first; after that, cells cost no more evaluations than the caller has made.
     std::int64_t left_first = 0;
   };
 

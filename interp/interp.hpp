@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// All of interp that a user needs: `#include <chaintrue/interp.hpp>`. README.md says which surface
+/// The public interface of interp: `#include <chaintrue/interp.hpp>`. README.md says which surface
 /// suits which data.
 #pragma once
 

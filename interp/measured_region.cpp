@@ -67,7 +67,7 @@ ConvexHull::ConvexHull(const std::vector<PlanePoint>& points) {
       }
       corners_.push_back(*it);
     }
-    corners_.pop_back();  // the other half begins with it
+    corners_.pop_back();  // the other half starts with it
   };
   if (sorted.size() >= 3) {
     half(sorted.begin(), sorted.end());

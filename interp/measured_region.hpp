@@ -2,8 +2,7 @@
 #pragma once
 
 /// \file
-/// The region that is covered by measurements, and the policies for evaluating a surface outside
-/// it.
+/// The region covered by measurements, and the policies for evaluating a surface outside it.
 ///
 /// The measured region is the convex hull of the points. Outside it a surface is continued by a
 /// policy.
@@ -14,7 +13,7 @@
 
 namespace chaintrue::interp {
 
-/// The nearest point of a region and how far it is.
+/// The nearest point of a region and its distance.
 struct NearestPoint {
   PlanePoint point;
   double distance;       ///< 0 inside

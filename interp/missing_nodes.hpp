@@ -44,7 +44,7 @@ struct NodeIndex {
   Eigen::Index ix = 0;
   Eigen::Index iy = 0;
 };
-/// Has the shape of model's Failure, which interp does not know.
+/// Has the shape of model's Failure, which interp may not include.
 struct UnfillableNode {
   MissingNodeReason reason = MissingNodeReason::too_few_in_line;
   NodeIndex place;

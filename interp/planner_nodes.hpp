@@ -15,7 +15,7 @@ namespace chaintrue::interp {
 [[nodiscard]] std::vector<double> chebyshev_lobatto(double low, double high, int count);
 
 /// Columns and rows for `points` over width by height: columns * rows <= points, both at least 2.
-/// The score is the share of the points used less half the logarithm of the ratio of the two
+/// The score is the share of the points used minus half the logarithm of the ratio of the two
 /// spacings. Throws std::invalid_argument for fewer than 4 points or an empty rectangle.
 struct GridShape {
   int columns = 0;

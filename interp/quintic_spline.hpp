@@ -9,7 +9,7 @@
 /// the parabola with three, the straight line with two. Knots: the interior nodes without the
 /// (degree - 1) / 2 next to each end (C. de Boor, A Practical Guide to Splines, chapter XIII).
 /// Exact for every polynomial of those degrees. Outside, the polynomial of the nearest edge cell
-/// continues; at degree five that is good for a fraction of a cell only.
+/// continues; at degree five it is accurate for only a fraction of a cell.
 
 #include <vector>
 

@@ -49,7 +49,8 @@ namespace chaintrue::interp {
 struct Ridge {
   Eigen::Index first = 0;
   Eigen::Index count = 0;
-  /// The lambda that the search is centred on; 0: where the ridge weighs as much as X'X.
+  /// The lambda that the search is centred on; 0 chooses the one at which the ridge weighs as much
+  /// as X'X.
   double balance = 0.0;
 };
 
@@ -100,7 +101,7 @@ enum class FitReason {
   rank_deficient,  ///< data, priors and ridge together leave a combination of columns free
   not_converged,   ///< the search for the smoothing did not converge
 };
-/// Has the shape of model's Failure, which interp does not know.
+/// Has the shape of model's Failure, which interp may not include.
 struct FitFailure {
   using Reason = FitReason;
   FitReason reason;
@@ -112,8 +113,8 @@ struct FitFailure {
 struct PenalisedFit {
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd covariance;            ///< A^-1, smoothing and sigma2 taken as known
-  Eigen::MatrixXd corrected_covariance;  ///< smoothing and sigma2 averaged over
-  double lambda = 1.0;                   ///< without meaning where there is no ridge
+  Eigen::MatrixXd corrected_covariance;  ///< averaged over smoothing and sigma2
+  double lambda = 1.0;                   ///< meaningless without a ridge
   double inverse_lambda = 1.0;           ///< averaged as corrected_covariance is: the prior variance
   double sigma2 = 1.0;
   double edf = 0.0;                 ///< trace of the hat matrix
@@ -128,8 +129,7 @@ struct PenalisedFit {
     const Eigen::Ref<const Eigen::MatrixXd>& spread,
     double sigma2);
 
-/// The same for a group of many rows, with W W' = X_g A^-1 X_g' (W is m x q): costs m q^2 + q^3,
-/// not m^3.
+/// For a group of many rows, with W W' = X_g A^-1 X_g' (W is m x q): costs m q^2 + q^3, not m^3.
 [[nodiscard]] tl::expected<Eigen::VectorXd, FitFailure> held_out_residual_by_root(
     const Eigen::Ref<const Eigen::VectorXd>& residual,
     const Eigen::Ref<const Eigen::MatrixXd>& root,
@@ -153,7 +153,7 @@ struct FitOptions {
 [[nodiscard]] tl::expected<PenalisedFit, FitFailure> fit_penalised(const PenalisedProblem& problem,
                                                                    const FitOptions& options = {});
 
-/// The same with lambda and sigma2 given. Cost: O(q^3), without an eigendecomposition.
+/// The fit with lambda and sigma2 given. Cost: O(q^3), without an eigendecomposition.
 [[nodiscard]] tl::expected<PenalisedFit, FitFailure> fit_with_smoothing(
     const PenalisedProblem& problem, double lambda, double sigma2);
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Notation and equations as in the header.
 #include "interp/reml_likelihood.hpp"
 
 #include <algorithm>
@@ -51,8 +50,8 @@ void check(const PenalisedProblem& problem) {
 }  // namespace
 
 ScaledCholesky::ScaledCholesky(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& diagonal) {
-  // A pivot of the unit-diagonal matrix below this share of its size means that a combination of
-  // columns is free.
+  // A pivot of the unit-diagonal matrix below this value means that a combination of columns is
+  // undetermined.
   constexpr double kZeroPivot = 1e-12;
   if (!(diagonal.array() > 0.0).all()) return;
   scale_ = diagonal.array().rsqrt();
@@ -265,7 +264,7 @@ void Likelihood::add_derivatives(State& state, const Factor& factor, double devi
   const double in_ridge = factor.lambda * v.dot(plain.cwiseProduct(v));
   const Eigen::Matrix2d square = linear::gram(halves) + Eigen::Matrix2d::Constant(in_ridge);
 
-  // The second derivative of exp(+-theta) adds the first derivative once more, with its sign.
+  // The second derivative of exp(+-theta) adds the signed first derivative again.
   const Theta twice(first + trace);
   state.hessian = -2.0 * square - second;
   state.hessian(0, 0) += twice[0];

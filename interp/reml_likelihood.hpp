@@ -66,18 +66,18 @@ class Likelihood {
   /// Keeps a reference. \throws std::invalid_argument where shapes do not fit or a number is not
   /// finite.
   Likelihood(const PenalisedProblem& problem, SmoothingPrior prior);
-  /// For one theta: the ridge counts as prior knowledge, which spares the eigendecomposition.
+  /// For one theta: the ridge is treated as a prior, so no eigendecomposition is needed.
   Likelihood(const PenalisedProblem& problem, const Theta& fixed);
 
   [[nodiscard]] bool has_ridge() const { return eigenvalues_.size() > 0; }
   [[nodiscard]] bool finds_sigma2() const { return finds_sigma2_; }
   [[nodiscard]] bool noise_from_repeats() const { return extra_degrees_ > 0.0; }
-  /// The lambda where the ridge weighs as much as the data; 0 where the data say nothing of it.
+  /// The lambda at which the ridge weighs as much as the data; 0 if the data do not determine it.
   [[nodiscard]] double balance() const;
   /// Mean square of the responses, an upper bound of the noise. At least 1e-20: rows are whitened,
-  /// and ten digits below the assumed sigma is rounding.
+  /// so ten digits below the assumed sigma is rounding.
   [[nodiscard]] double response_variance() const;
-  /// Derivatives of the flat prior's terms in V, asked for or not.
+  /// Derivatives of the flat prior's terms in V, whether or not V includes them.
   [[nodiscard]] Theta flat_slope() const;
   [[nodiscard]] SmoothingPrior prior() const { return prior_kind_; }
 
@@ -107,7 +107,7 @@ class Likelihood {
     ScaledCholesky corner;    // of H
     double log_determinant;
   };
-  /// What minimises |y - X b|^2 / sigma2 + (b - b0)' S (b - b0), and that minimum.
+  /// The minimiser of |y - X b|^2 / sigma2 + (b - b0)' S (b - b0), and that minimum.
   struct BestFit {
     Eigen::VectorXd coefficients;
     double deviance;

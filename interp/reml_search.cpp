@@ -11,8 +11,8 @@ namespace chaintrue::interp::reml {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Ten decades either side of balance: beyond, the ridge (or the data) is below the rounding of the
-// other.
+// Ten decades either side of balance: beyond them the ridge (or the data) is below the other's
+// rounding.
 constexpr double kHalfRange = 23.0;
 constexpr double kLongestStep = 4.0;
 // V is of order one near its minimum; a gradient of 1e-7 moves theta by about 1e-7 of its sigma.
@@ -48,8 +48,8 @@ double value_at(const Likelihood& likelihood, const Theta& theta) {
   return state ? state->value : kInfinity;
 }
 
-// lambda is moved over the range, and sigma2 below the responses' variance where it is unknown; the
-// best of them starts the search.
+// Scans lambda over its range and, if sigma2 is unknown, sigma2 below the responses' variance; the
+// best point starts the search.
 Theta scan(const Likelihood& likelihood, const Theta& balance, const Limits& limits) {
   constexpr double kReach = 15.0;
   constexpr double kStep = 3.0;
@@ -86,7 +86,7 @@ Theta free_of(const Theta& theta, const Theta& gradient, const Limits& limits) {
   return free;
 }
 
-// Where the others have a curvature of 1 and no part in the rest.
+// Fixed unknowns get a curvature of 1 and no coupling.
 Eigen::Matrix2d restricted(const Eigen::Matrix2d& hessian, const Theta& free) {
   Eigen::Matrix2d result = hessian.cwiseProduct(free * free.transpose());
   result.diagonal() += Theta::Ones() - free;
@@ -108,11 +108,11 @@ double largest_free_gradient(const Theta& theta, const State& state, const Limit
   return free_of(theta, state.gradient, limits).cwiseProduct(state.gradient).lpNorm<Eigen::Infinity>();
 }
 
-// V determines theta only to the square root of its rounding; its gradient to its own. Near a minimum
-// Newton's steps continue as long as the gradient decreases.
+// V determines theta only to the square root of V's rounding; the gradient determines it to its own
+// rounding. Near a minimum Newton's steps continue as long as the gradient decreases.
 void polish(const Likelihood& likelihood, const Limits& limits, Theta& theta, State& state) {
   constexpr int kMostSteps = 4;
-  // Longer steps creep along a V that is flat, or leave another one's minimum.
+  // Longer steps creep along a flat V or leave the minimum.
   constexpr double kNear = 1e-2;
   for (int i = 0; i < kMostSteps; ++i) {
     const Theta step = newton_step(state, free_of(theta, state.gradient, limits));
@@ -150,7 +150,7 @@ Theta standard_errors(const SearchResult& found) {
   return sigma;
 }
 
-// Walks over the posterior's density.
+// Walks the posterior density.
 class Walker {
  public:
   Walker(const Likelihood& likelihood, const SearchResult& found)
@@ -251,12 +251,12 @@ tl::expected<SearchResult, FitReason> search(const Likelihood& likelihood,
       theta = next;
       state = likelihood.evaluate(theta, Order::hessian);
       if (!state) return rank_deficient;
-      // Changes of V below 1e-10 are negligible; where its gradient is all rounding it never gets
-      // small.
+      // Changes of V below 1e-10 are negligible; where the gradient is dominated by rounding it
+      // never gets small.
       converged = before - state->value < 1e-10;
     }
   }
-  // If the gradient itself ended the search there is nothing to refine.
+  // If the gradient ended the search there is nothing to refine.
   if (converged) polish(likelihood, limits, theta, *state);
   return SearchResult{theta, limits.low, limits.high, *std::move(state)};
 }

@@ -16,7 +16,7 @@
 namespace chaintrue::interp {
 namespace {
 
-// Power coefficients from the values and the (scaled) slopes at the two ends of the unit interval.
+// Power coefficients from the values and (scaled) slopes at the ends of the unit interval.
 std::array<double, 4> powers(double f0, double f1, double d0, double d1) {
   const double rise = f1 - f0;
   return {f0, d0, 3.0 * rise - 2.0 * d0 - d1, d0 + d1 - 2.0 * rise};
@@ -72,14 +72,15 @@ SplinePair::SplinePair(const TensorSpline& first, const TensorSpline& second)
 }
 
 struct SplinePair::Kernel {
-  // The interval, or the one at the nearer end, and the place in it.
+  // The interval (beyond the ends, the nearest one) and the place in it.
   [[gnu::always_inline]] static double locate(const Axis& axis, double x, std::ptrdiff_t& index) {
     // One maximum, one minimum: nested conditionals become branches, which are mispredicted near the
     // edges of a small table.
     const double guess = (x - axis.first) * axis.per_mean_length;
     const double low = guess > 0.0 ? guess : 0.0;
     index = static_cast<int>(low < axis.last ? low : axis.last);
-    // Even nodes are met at once: a look at them would be a branch that random places mispredict.
+    // Even nodes need no search: comparing with them would be a branch that random places
+    // mispredict.
     if (axis.even) return guess - static_cast<double>(index);
     const Interval* const interval = axis.intervals.data();
     while (index > 0 && x < interval[index].low) --index;
@@ -96,8 +97,8 @@ struct SplinePair::Kernel {
     const double v = locate(pair.y_, point.y, j);
     const double* const cell =
         pair.cells_.data()[j * static_cast<std::ptrdiff_t>(pair.x_.intervals.size()) + i].c.data();
-    // Horner's rule for the polynomial in u of each power of v of both surfaces: eight loops abreast
-    // that the compiler turns into vectors.
+    // Horner's rule for the polynomial in u of each power of v of both surfaces: eight parallel
+    // loops that the compiler vectorises.
     std::array<double, 8> p;
     std::array<double, 8> slope;
     for (std::size_t l = 0; l < 8; ++l) {

@@ -7,9 +7,9 @@
 ///
 /// Each cell holds the power coefficients of both bicubics interleaved, c[i][j][surface] for u^i
 /// v^j with u, v in [0, 1]: 256 bytes a cell. The values are those of the splines to rounding, also
-/// outside the rectangle of the nodes, where the bicubic of the nearest edge cell continues. The
-/// many use AVX2 where the processor has it; contraction to fused multiply-add is off, so that
-/// either way gives the same bits.
+/// outside the rectangle of the nodes, where the bicubic of the nearest edge cell continues.
+/// Batches use AVX2 where the processor has it; contraction to fused multiply-add is off, so both
+/// ways give the same bits.
 
 #include <array>
 #include <cstddef>

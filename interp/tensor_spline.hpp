@@ -65,7 +65,7 @@ class TensorSpline final : public Surface {
                const Eigen::Ref<const Eigen::MatrixXd>& values,
                const TensorEnds& ends = {},
                const EdgeSlopes& slopes = {});
-  /// A surface on axes that are already factored.
+  /// On axes that are already factored.
   TensorSpline(std::shared_ptr<const TensorAxes> axes,
                const Eigen::Ref<const Eigen::MatrixXd>& values,
                const EdgeSlopes& slopes = {});
