@@ -22,13 +22,13 @@ struct MarkPoint {
   double y_mm = 0.0;
 };
 
-/// The mark of a sheet whose coordinates are the bed's.
+/// The mark if the sheet's coordinates are the bed's.
 constexpr BedPoint identity_placement(MarkPoint mark) { return {mark.x_mm, mark.y_mm}; }
 constexpr MarkPoint identity_placement(BedPoint place) { return {place.x_mm, place.y_mm}; }
 
 enum class Side { left, right };
 
-/// The lengths paid out by the two motors; addressed by side where that is a variable.
+/// The lengths paid out by the two motors.
 struct ChainLengths {
   double left_mm = 0.0;
   double right_mm = 0.0;

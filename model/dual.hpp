@@ -65,12 +65,12 @@ struct Dual {
     return a.chained(power, power);
   }
   friend Dual log(const Dual& a) { return a.chained(std::log(a.value), 1.0 / a.value); }
-  /// With the derivative 0 at 0.
+  /// The derivative at 0 is 0.
   friend Dual abs(const Dual& a) {
     const double sign = a.value > 0.0 ? 1.0 : a.value < 0.0 ? -1.0 : 0.0;
     return a.chained(std::abs(a.value), sign);
   }
-  /// a where they are equal, also in their derivatives.
+  /// Returns a, with its derivatives, where the two are equal.
   friend constexpr Dual min(const Dual& a, const Dual& b) { return b.value < a.value ? b : a; }
   friend constexpr Dual max(const Dual& a, const Dual& b) { return b.value > a.value ? b : a; }
   /// a^b. Where b is a plain number, a may be negative or 0 as far as the power has a derivative

@@ -48,7 +48,6 @@ struct EquilibriumConstants {
 
 [[nodiscard]] EquilibriumConstants equilibrium_constants(const EquilibriumParameters& parameters);
 
-/// The unknowns.
 struct EquilibriumState {
   double h_left = 0.0, v_left = 0.0;
   PerSide<double> s;
@@ -142,8 +141,8 @@ inline double moment_by_psi(const EquilibriumConstants& m,
          a.right_x * t.right.h - m.W * m.cg * std::cos(psi);
 }
 
-/// One chain's equations with its S (and other unknowns of its own) eliminated: coefficients of its
-/// H and V and of psi, and the load.
+/// One chain's equations with its S (and other private unknowns) eliminated: coefficients of its H
+/// and V and of psi, and the load.
 struct SledRow {
   double h = 0.0, v = 0.0, psi = 0.0, load = 0.0;
 };

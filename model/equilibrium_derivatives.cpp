@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every derivative of the lengths from one elimination: how a parameter moves (1) and (2), and how
-// the unknowns answer.
+// Every derivative of the lengths from one elimination: how a parameter changes (1) and (2), and
+// how the unknowns respond.
 #include <numbers>
 
 #include "model/equilibrium_kinematics.hpp"

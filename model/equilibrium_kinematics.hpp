@@ -9,8 +9,7 @@
 
 namespace chaintrue::model {
 
-/// For models that leave something out: zero in the parameters, and lengths that do not depend on
-/// it.
+/// For models that neglect a term: its parameter is zero and the lengths do not depend on it.
 struct NotModelled {
   bool sprocket = false;
   bool chain_weight = false;

@@ -17,7 +17,7 @@
 
 namespace chaintrue {
 
-/// The place of a failure that is of no place.
+/// The place of a failure that concerns no place.
 struct Nowhere {
   friend bool operator==(const Nowhere&, const Nowhere&) = default;
 };
@@ -29,14 +29,14 @@ template <typename ReasonType, typename PlaceType = Nowhere>
 struct Failure {
   using Reason = ReasonType;
 
-  /// The reason is the whole answer; sentence_of(reason) has its words.
+  /// The sentence is sentence_of(reason).
   constexpr Failure(Reason why) : reason(std::move(why)) {}  // NOLINT: an error is made of its reason
-  /// With the sentence: of a whole task, which names what it was about.
+  /// With a sentence of its own, for a whole task.
   Failure(Reason why, std::string words) : reason(std::move(why)), text(std::move(words)) {}
 
   Failure(Reason why, PlaceType where) : reason(std::move(why)), place(std::move(where)) {}
 
-  /// The same at a place.
+  /// As above, at a place.
   template <typename OtherPlace>
   [[nodiscard]] Failure<Reason, OtherPlace> at(OtherPlace where) const {
     Failure<Reason, OtherPlace> there(reason, text);
@@ -44,7 +44,7 @@ struct Failure {
     there.place = std::move(where);
     return there;
   }
-  /// The same for the reason of what lies below; `below` has static lifetime.
+  /// As above, with the sentence of the underlying failure; `below` has static lifetime.
   [[nodiscard]] Failure because_of(std::string_view below) const {
     Failure more = *this;
     more.cause = below;
@@ -63,9 +63,9 @@ struct Failure {
 
   Reason reason;
   PlaceType place{};
-  /// What lies below: the sentence of the pose's own failure. Empty: none is known.
+  /// The sentence of the underlying failure of a pose; may be empty.
   std::string_view cause;
-  /// Empty: the words are those of the reason.
+  /// Empty: use the sentence of the reason.
   std::string text;
 
   friend bool operator==(const Failure&, const Failure&) = default;

@@ -22,8 +22,8 @@ class FormulaKinematics final : public Kinematics {
   [[nodiscard]] PoseResult inverse(BedPoint point) const override;
   [[nodiscard]] PoseResult forward(ChainLengths lengths) const override;
   [[nodiscard]] Eigen::Matrix2d jacobian(const Pose& pose) const override;
-  /// Zero for parameters that are not in the formula: the firmware's sag factor is a number of its
-  /// own, not a weight.
+  /// Zero for parameters that are not in the formula: the firmware's sag factor is a separate
+  /// number, not a weight.
   [[nodiscard]] Eigen::Vector2d sensitivity(const Pose& pose, Parameter parameter) const override;
 
  private:

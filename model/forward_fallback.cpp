@@ -17,7 +17,7 @@ CircleGuess intersect(const PerSide<MotorPosition>& motors, double left_mm, doub
   const double square = (left_mm - along) * (left_mm + along);
   CircleGuess guess;
   guess.circles_meet = square > 0.0;
-  guess.hopeless = !(1.2 * (left_mm + right_mm) > span);  // NaN is hopeless too
+  guess.hopeless = !(1.2 * (left_mm + right_mm) > span);  // also true for NaN
   // Chains that do not meet are drawn taut just below the beam: a hundredth of the spacing.
   const double share = guess.circles_meet ? along / span : left_mm / (left_mm + right_mm);
   const double below = guess.circles_meet ? std::sqrt(square) : 0.01 * span;
@@ -67,7 +67,7 @@ PoseResult forward_by_inverse(const Kinematics& kinematics,
                               const DomainLimits& limits,
                               ChainLengths lengths) {
   constexpr int kMaxSteps = 60;
-  constexpr double kConvergedMm = 1e-7;  // Newton is quadratic: one step more ends at rounding
+  constexpr double kConvergedMm = 1e-7;  // Newton is quadratic: one more step reaches rounding
   const CircleGuess guess = circle_guess(limits, lengths);
   if (guess.hopeless) return tl::unexpected(PoseReason::too_short);
   const auto failure = [&] {

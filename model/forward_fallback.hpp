@@ -12,7 +12,7 @@ namespace chaintrue::model {
 
 /// Straight lines from the axes to a common point: the initial guess of every forward solution.
 /// Lengths are past 12 o'clock and include the ring; the wrap is taken from the guess's own angles.
-/// A point below the beam where the circles do not meet.
+/// If the circles do not meet, a point below the beam.
 struct CircleGuess {
   BedPoint point;
   bool circles_meet = false;

@@ -58,7 +58,7 @@ enum class PoseReason {
   above_sprockets,    ///< at or above the line between the sprockets
   link_does_not_fit,  ///< the ring or bracket is longer than the distance to the sprocket
   slack,              ///< a chain would be in compression, or hangs slack
-  too_short,          ///< chains that cannot meet each other
+  too_short,          ///< the chains are too short to meet
   not_converged,      ///< the iteration did not converge
 };
 
@@ -103,7 +103,7 @@ enum class Parameter {
   side_force_n,
 };
 
-/// Const, stateless and thread safe; the hot path neither allocates nor throws.
+/// Stateless and thread safe; the hot path neither allocates nor throws.
 class Kinematics {
  public:
   virtual ~Kinematics() = default;

@@ -90,7 +90,7 @@ struct AppliedEffect {
   /// "left", "right", "both", "x", "y" or "" where the effect has no side.
   std::string side;
   std::map<std::string, double> parameters;
-  /// That it acts, where a diagnosis put it in; empty: somebody stated it.
+  /// Probability that it acts, if a diagnosis added it; empty if it was stated.
   std::optional<double> probability = std::nullopt;
 };
 

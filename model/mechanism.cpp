@@ -130,8 +130,8 @@ tl::expected<ToolPosition, MechanismFailure> locate_by_newton(const Mechanism& m
                                                               const ToolPosition& start,
                                                               const std::vector<bool>& counting) {
   // Where four lengths agree to a few millimetres Gauss-Newton converges linearly; the rate is the
-  // ratio of the residuals to the lengths, some 1e-3 a step. With a reading that is off by metres it
-  // steps too far each time, and the step is shortened by what the last two moves tell of that.
+  // ratio of the residuals to the lengths, some 1e-3 a step. With a reading that is off by metres
+  // each step overshoots, so the step is shortened by the rate seen in the last two.
   constexpr int kMostSteps = 200;
   constexpr double kOvershoots = -0.2;
   constexpr double kShortest = 0.05;

@@ -51,7 +51,7 @@ struct MechanismParameter {
   std::optional<double> stated;  ///< empty: not stated
   /// Prior sigma of the stated value; empty: no prior.
   std::optional<double> prior_sigma;
-  /// Setting the machine's zeros anew sets it.
+  /// Set when the machine is zeroed again.
   bool set_by_zeroing = false;
 };
 
@@ -62,7 +62,7 @@ struct MechanismVisit {
   std::vector<double> direction = {};
   /// Whether a motor pulled its length tight at the reading while others held; empty: none did.
   std::vector<bool> pulled = {};
-  /// How hard, over the pull that sizes of effects refer to.
+  /// Its force over the pull that sizes of effects refer to.
   double pull = 1.0;
 };
 
@@ -131,7 +131,7 @@ class Mechanism {
 
   /// The effects that may act, in the order in which they act.
   [[nodiscard]] virtual std::span<const effects::Effect* const> effects() const = 0;
-  /// Why it cannot have these effects, each with its place ("/effects/0/side"); empty: it can.
+  /// Why it cannot have these effects, each with its place ("/effects/0/side"); empty if it can.
   [[nodiscard]] virtual std::vector<MachineProblem> problems_of_effects(
       const std::vector<AppliedEffect>& applied) const = 0;
   /// With these effects in addition to those it has. \throws std::invalid_argument for effects with
@@ -160,12 +160,12 @@ class Mechanism {
   [[nodiscard]] virtual FrameScale frame_scale() const {
     return {1.0, Eigen::RowVectorXd::Zero(values().size())};
   }
-  /// Where a mark truly is that bears these numbers: its effects of the paper taken out.
+  /// The true position of the mark with these numbers: effects of the paper are removed.
   [[nodiscard]] virtual ToolPosition place_of_mark(const ToolPosition& written) const {
     return written;
   }
-  /// What may have changed since it was calibrated. Where nothing is said: the zeros, all that
-  /// zeroing sets or one of it, or one of the other parameters.
+  /// What may have changed since it was calibrated. By default: all parameters that zeroing sets,
+  /// or one of them, or one of the others.
   [[nodiscard]] virtual std::vector<MechanismChange> possible_changes() const;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What may have changed of a mechanism since it was calibrated: the hypotheses of a check by new
+/// What may have changed in a mechanism since it was calibrated: the hypotheses of a check with new
 /// readings.
 ///
 /// A change is a shift d of one or a few quantities. To length i, which reads f_i, it adds
@@ -37,8 +37,8 @@ enum class Change {
   zeros_and_pitch,
   motors,
   anchor,
-  parameter,  ///< any, of a mechanism that says no more of it
-  unknown,    ///< what follows none of these
+  parameter,  ///< any, for a mechanism without more detail
+  unknown,    ///< follows none of these
   bad_point,  ///< the machine is as it was: one new reading is wrong
 };
 /// As in files.
@@ -46,14 +46,14 @@ enum class Change {
 
 struct MechanismChange {
   Change what = Change::nothing;
-  std::string side;         ///< of what: "left", "both", "tl", a parameter's name; empty: of the whole
-  bool zero_mends = false;  ///< setting the zeros anew puts it right
-  double prior = 0.0;       ///< probability beforehand
+  std::string side;         ///< "left", "both", "tl" or a parameter; empty: the whole machine
+  bool zero_mends = false;  ///< zeroing again corrects it
+  double prior = 0.0;       ///< prior probability
   std::vector<ChangedQuantity> quantities = {};
-  int count = 0;  ///< of what comes in whole steps: teeth skipped
+  int count = 0;  ///< for whole steps, such as skipped teeth
 };
 
-/// Probabilities beforehand; a group's share is divided evenly among its members.
+/// Prior probabilities; a group's share is divided evenly among its members.
 struct ChangePriors {
   double nothing = 0.50;
   /// Chains come off together more often than one alone.

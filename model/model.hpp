@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// All of model that a user needs: `#include <chaintrue/model.hpp>`. Machines on two chains and on four
-/// belts, their kinematics, their controllers, the catalogue of effects, readings with effects.
+/// The public interface of model: `#include <chaintrue/model.hpp>`. Machines on two chains and on
+/// four belts, their kinematics, their controllers, the catalogue of effects, readings with
+/// effects.
 #pragma once
 
 #include "model/belts/belt_controller.hpp"

@@ -254,7 +254,7 @@ tl::expected<PointReading, PoseFailure> ReadingModel::find(ChainLengths lengths,
     Eigen::Vector2d move = reading->position_jacobian.inverse() * missing;
     if (!move.allFinite()) break;
     if (move.norm() > kMaxStrideMm) move *= kMaxStrideMm / move.norm();
-    // A step out of reach is shortened.
+    // Shorten a step that leaves the domain.
     while (move.norm() >= kConvergedMm &&
            !state_->kinematics->inverse({point.x_mm + move[0], point.y_mm + move[1]})) {
       move *= 0.5;
@@ -270,7 +270,7 @@ ChainLengths ReadingModel::added_at_visit(int order, const PerSide<double>& dire
           state_->added_at_visit(Side::right, order, direction.right)};
 }
 
-/// The state of a session: the direction in which each chain last moved.
+/// The direction in which each chain last moved.
 class Session {
  public:
   explicit Session(const ReadingModel& model) : state_(*model.state_) {}

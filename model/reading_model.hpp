@@ -52,8 +52,8 @@ struct PointReading {
   ChainLengths lengths;
   /// d(left, right)/d(x, y). Exact for the equilibrium and for effects of the length; where an
   /// effect depends on a chain's angle, free length or tension, the derivative of those is a
-  /// five-point difference, good to 1e-9 of its size. At the knee of angular_kink it is the one-sided
-  /// derivative above the knee.
+  /// five-point difference, accurate to 1e-9 of its size. At the knee of angular_kink it is the
+  /// one-sided derivative above the knee.
   Eigen::Matrix2d position_jacobian = Eigen::Matrix2d::Zero();
 };
 

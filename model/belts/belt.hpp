@@ -9,7 +9,7 @@
 
 namespace chaintrue::model {
 
-/// Named by the corner of the frame that the belt comes from.
+/// Named after the frame corner that the belt comes from.
 enum class Belt { tl, tr, bl, br };
 
 inline constexpr std::array kBelts = {Belt::tl, Belt::tr, Belt::bl, Belt::br};

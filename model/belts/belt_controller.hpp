@@ -34,7 +34,7 @@ class BeltController final : public ControllerKinematics {
   FramePoint centre_;
 };
 
-/// The name of the same failure of a pose of two chains.
+/// The equivalent failure of a two-chain pose.
 [[nodiscard]] PoseFailure pose_failure(const BeltFailure& failure);
 
 }  // namespace chaintrue::model

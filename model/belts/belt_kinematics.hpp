@@ -59,7 +59,7 @@ struct BeltReading {
 [[nodiscard]] tl::expected<PerBelt<double>, BeltFailure> lengths_at(const BeltMachine& machine,
                                                                     FramePoint place);
 
-/// m of a printed length; the anchors' positions need not be known.
+/// m for a printed length; the anchors' positions need not be known.
 [[nodiscard]] tl::expected<double, BeltFailure> span_of(const BeltMachine& machine,
                                                         Belt belt,
                                                         double length_mm);

@@ -29,7 +29,7 @@
 
 namespace chaintrue::model {
 
-/// A point of the plane of the sheet in the anchors' frame.
+/// A point in the sheet's plane, in the anchors' frame.
 struct FramePoint {
   double x_mm = 0.0;
   double y_mm = 0.0;
@@ -60,7 +60,7 @@ struct BeltMachine {
   std::string name = "Maslow 4";
   /// Heights are the firmware's defaults: the arms cross at different heights.
   PerBelt<Anchor> anchors{{0.0, 0.0, 100.0}, {0.0, 0.0, 56.0}, {0.0, 0.0, 34.0}, {0.0, 0.0, 78.0}};
-  /// True: x_mm and y_mm above are settings in force. False: not known yet, and 0.
+  /// If false, x_mm and y_mm are not known yet and 0.
   bool anchors_known = false;
   double arm_mm = 123.4;
   double end_extension_mm = 30.0;  ///< the belt's end, between its last tooth and the arm
@@ -85,7 +85,7 @@ struct BeltMachine {
 /// The position that the controller intends for a command, with its scales applied.
 [[nodiscard]] FramePoint to_frame(const BeltMachine& machine, BedPoint command);
 
-/// All reasons why a machine is invalid; empty when it is valid. The ranges contain every real
+/// All reasons why a machine is invalid; empty if it is valid. The ranges contain every real
 /// machine.
 [[nodiscard]] std::vector<MachineProblem> problems_of(const BeltMachine& machine);
 

@@ -29,7 +29,7 @@ constexpr std::array<std::string_view, 4> kBeltLengths = {"tl", "tr", "bl", "br"
 constexpr MechanismReason kAnchorsNotKnown{"anchors_not_known",
                                            "the anchors' places are not given"};
 
-/// The scale's place among the parameters.
+/// Index of the scale among the parameters.
 constexpr auto kScale = static_cast<Eigen::Index>(kCoordinates.size());
 
 std::vector<MechanismParameter> stated_parameters(const BeltMachine& machine,

@@ -7,7 +7,7 @@
 ///
 ///   d(length)/d(anchor) = -d(length)/d(place)                                               (1)
 ///
-/// What goes by tensions depends on all anchors.
+/// Effects of tension depend on all anchors.
 ///
 /// Without effects a printed length equals that of belt_kinematics.hpp to rounding, 1e-12 mm.
 #pragma once
@@ -20,9 +20,8 @@
 
 namespace chaintrue::model {
 
-/// What is known beforehand of the logarithm of the scale, the last parameter where there is one: a
-/// taped distance is exp(log_scale) times what belts and anchors make of it. Belts alone tell
-/// nothing of it.
+/// Prior of the logarithm of the scale, which is the last parameter if present: a taped distance is
+/// exp(log_scale) times the modelled one. Belt lengths alone do not determine it.
 struct BeltScaleKnowledge {
   std::optional<double> sigma;  ///< about 0; empty: nothing
 };
@@ -52,8 +51,8 @@ class BeltMechanism final : public MechanismBase {
       const ToolPosition& position) const override;
   [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate_by_first(
       ChainLengths lengths) const override;
-  /// A belt, or all, counts from elsewhere; an anchor has moved. What the frame fixes of an anchor
-  /// cannot move: it shows as the others moving.
+  /// The zero of one belt or of all has shifted; an anchor has moved. Coordinates that define the
+  /// frame cannot move: such a movement appears in the others.
   [[nodiscard]] std::vector<MechanismChange> possible_changes() const override;
 
   /// The anchors, in the order of the lengths.
@@ -75,7 +74,7 @@ class BeltMechanism final : public MechanismBase {
   std::vector<effects::ActingEffect> acting_;
 };
 
-/// One sigma of what a belt's zero is off by after it jumped: a turn of the encoder is 44 mm, a tooth 2.
+/// One sigma of a belt's zero after a jump: a turn of the encoder is 44 mm, a tooth 2 mm.
 inline constexpr double kBeltZeroShiftMm = 5.0;
 /// One sigma of how far an anchor that came loose has moved, in x and in y.
 inline constexpr double kAnchorShiftMm = 5.0;

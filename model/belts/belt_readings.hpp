@@ -3,10 +3,10 @@
 /// The lengths that a router on four belts prints at a position, with effects of belt_effects.cpp,
 /// applied one after the other.
 ///
-///   L   the belt from the anchor as it really is: (1) of belt_kinematics.hpp, for machines that print
+///   L   belt from the anchor's true position: (1) of belt_kinematics.hpp, for machines that print
 ///       belt_and_arm hypot(m, c) - e
 ///   T   the belt's tension, with the anchors as they are set: belt_statics.hpp
-///   K   L and what each effect adds, by L and T: the count
+///   K   the count: L plus what each effect adds, given L and T
 ///   print(K)  K, K + e, or sqrt(K^2 - c^2) + e, with the height c that is set in the machine
 ///
 /// A print depends on the place less the anchors, so that

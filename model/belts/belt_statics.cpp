@@ -32,7 +32,7 @@ UnitPull unit_pull(const BeltMachine& machine, Belt belt, FramePoint place) {
   return {share * along, share_slope * along * along.transpose() + share / span * across};
 }
 
-/// f, G^-1 and lambda = G^-1 f of (2).
+/// f, G^-1 and lambda = G^-1 f from (2).
 struct Balance {
   PerBelt<UnitPull> pulls;
   Eigen::Matrix2d inverse = Eigen::Matrix2d::Zero();
@@ -44,7 +44,7 @@ Balance balance_of(const BeltMachine& machine,
                    const PerBelt<bool>& pulled,
                    double pull,
                    FramePoint place) {
-  // Of the square of the trace: belts that hold on one line to 1e-4 rad.
+  // Share of the squared trace: holding belts within 1e-4 rad of one line.
   constexpr double kOnOneLine = 1e-8;
   Balance balance;
   const double weight = machine.orientation == Orientation::upright ? kWeightOverPull : 0.0;
@@ -106,7 +106,7 @@ BeltTensions tensions_at(const BeltMachine& machine,
   if (!balance.regular) return result;
   for (const Belt anchor : kBelts) {
     const UnitPull& moved = balance.pulls[anchor];
-    // d(lambda)/d(anchor): of f where the belt is pulled, of G where it holds.
+    // d(lambda)/d(anchor): through f for a belt that is pulled, through G for one that holds.
     const Eigen::Matrix2d by_lambda =
         pulled[anchor] ? Eigen::Matrix2d(-pull * balance.inverse * moved.by_anchor)
                        : Eigen::Matrix2d(-balance.inverse *

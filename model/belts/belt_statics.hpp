@@ -13,11 +13,11 @@
 ///   T_h = u_h' G^-1 f,   f = (0, w) - P sum of the pulled u_i                               (2)
 ///
 /// (2) is exact for two belts that hold, the least tensions for three or four, and for one the part
-/// along it. A belt only pulls: T_h below 0 is 0. Where no belt is pulled all are 0: nothing is
-/// known of their tension.
+/// along it. A belt only pulls: T_h below 0 is 0. If no belt is pulled all are 0: their tension is
+/// unknown.
 ///
-/// Exact to rounding with exact derivatives, at most kMostTension. Elastic belts and friction of the
-/// sled are left out of the balance: forces of a rigid frame.
+/// Exact to rounding with exact derivatives, at most kMostTension. The balance neglects elastic
+/// belts and friction of the sled.
 ///
 /// \code
 ///   const BeltTensions t = tensions_at(machine, kLowerBeltsPulled, 1.0, {1500.0, 1000.0});

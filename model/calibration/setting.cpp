@@ -11,7 +11,6 @@ namespace {
 struct SettingRow {
   Setting setting;
   std::string_view word;
-  /// Null for settings of the sheet.
   double& (*member)(Machine&);
   double Uncertainty::*sigma;
 };

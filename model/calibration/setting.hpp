@@ -31,7 +31,7 @@ inline constexpr std::array kMachineSettings = {
 inline constexpr std::array kSheetSettings = {
     Setting::sheet_x_mm, Setting::sheet_y_mm, Setting::sheet_rotation_rad};
 
-/// Of the sheet, not of the machine.
+/// A setting of the sheet, not of the machine.
 [[nodiscard]] constexpr bool is_of_sheet(Setting setting) { return setting >= Setting::sheet_x_mm; }
 /// Position among kSheetSettings.
 [[nodiscard]] constexpr int sheet_column(Setting setting) {

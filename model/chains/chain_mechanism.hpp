@@ -50,13 +50,13 @@ class ChainMechanism final : public MechanismBase {
 
 [[nodiscard]] std::shared_ptr<const ChainMechanism> make_chain_mechanism(const Machine& machine);
 
-/// One sigma of a shift of a zero: up to 3 mm is what re-hanging a chain does.
+/// One sigma of a zero shift: re-hanging a chain shifts it by up to 3 mm.
 inline constexpr double kZeroShiftSigmaMm = 2.0;
-/// Of a pitch that grew: 0.05 % is a year's wear.
+/// One sigma of pitch growth: 0.05 % is a year's wear.
 inline constexpr double kPitchGrowthSigma = 5e-4;
 inline constexpr double kMotorShiftSigmaMm = 5.0;
 
-/// Of two chains of which only the links are known: zeros, teeth skipped, links that grew.
+/// Possible changes of two chains if only their links are known: zeros, skipped teeth, worn links.
 [[nodiscard]] std::vector<MechanismChange> changes_of_chains(double pitch_mm);
 
 }  // namespace chaintrue::model

@@ -28,7 +28,7 @@ struct ControllerSettings {
   std::optional<double> motor_spacing_mm;         // motorspacingx
   std::optional<double> motor_offset_y_mm;        // motoroffsety
   std::optional<double> rotation_radius_mm;       // rotationradius
-  std::optional<double> sled_width_mm;            // sledwidth, of a sled on brackets, as the next two
+  std::optional<double> sled_width_mm;            // sledwidth, bracket sleds only, as the next two
   std::optional<double> sled_height_mm;           // sledheight
   std::optional<double> sled_cg_mm;               // sledcg
   std::optional<double> chain_sag_correction;     // chainsagcorrection, unit 1e-12 / mm^2

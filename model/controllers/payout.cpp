@@ -78,7 +78,7 @@ EquilibriumParameters believed_parameters(const Machine& machine) {
     p.feed = *s.chain_over_sprocket_top ? Feed::over_top : Feed::off_bottom;
   }
   if (s.sled_weight_n) {
-    // The firmware's weights are those of a vertical frame, for the chain as for the sled.
+    // The firmware's weights of chain and sled are those on a vertical frame.
     p.sled_weight_n = *s.sled_weight_n;
     p.chain_weight_n_per_mm = machine.chain.mass_kg_per_m * 1e-3 * kStandardGravity;
     p.sag_correction = closed_form_sag_correction(p.chain_weight_n_per_mm, p.sled_weight_n);

@@ -26,7 +26,7 @@ namespace chaintrue::model::effects {
 [[nodiscard]] std::vector<const Effect*> listed_effects(const Machine& machine);
 /// Those of them that may act on it: on a ring none of brackets, and the other way round.
 [[nodiscard]] std::vector<const Effect*> effects_of(const Machine& machine);
-/// Among these; null where none has this name.
+/// The one with this name among these; null if there is none.
 [[nodiscard]] const Effect* find_effect(const Machine& machine, std::string_view id);
 
 /// All problems of the machine's effects, each with its JSON pointer below the machine
@@ -47,7 +47,7 @@ namespace chaintrue::model::effects {
 /// The effect of the machine's mirror image.
 [[nodiscard]] ActingEffect mirrored(const ActingEffect& acting);
 
-/// docs/effects.md, whole, from the table.
+/// The text of docs/effects.md, from the table.
 [[nodiscard]] std::string catalogue_document();
 
 }  // namespace chaintrue::model::effects

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the formulas of a declaration give on a bed: finite everywhere between the bounds, nothing
-/// at null, and of the paper in proportion to x and y.
+/// Checks a declaration's formulas on a bed: finite everywhere between the bounds, zero at null,
+/// and for the paper proportional to x and y.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 using Problems = std::vector<DeclarationProblem>;
 
-/// Below what the equilibrium's lengths are solved to.
+/// Below the accuracy of the equilibrium's lengths.
 constexpr double kNothingMm = 1e-9;
 
 /// A place or a visit at which formulas are tried.
@@ -52,7 +52,7 @@ std::vector<Trial> trials_of(const Declaration& own, const Machine& machine) {
       return;
     }
     const PoseResult pose = kinematics->inverse({x_mm, y_mm});
-    // Where the sled cannot be held there is nothing to add to.
+    // There is no pose here to add to.
     if (!pose) return;
     for (const Side side : kSides)
       trials.push_back({where, chain_at_rest(*pose, side, machine.sprocket)});
@@ -60,7 +60,7 @@ std::vector<Trial> trials_of(const Declaration& own, const Machine& machine) {
   return trials;
 }
 
-/// Each parameter at its bounds and where it usually is; of a place also in between.
+/// Each parameter at its bounds and its usual size; places also in between.
 std::vector<std::vector<double>> settings_of(const Declaration& own) {
   std::vector<std::vector<double>> all = {{}};
   for (const DeclaredParameter& p : own.parameters) {
@@ -89,7 +89,7 @@ std::string words_of(const Declaration& own, const std::vector<double>& values) 
 
 std::string at_words(const Trial& trial) { return trial.where.empty() ? "" : " at " + trial.where; }
 
-/// One formula with its key, over every trial; the first problem alone.
+/// The first problem of one formula over all trials.
 class FormulaOnBed {
  public:
   FormulaOnBed(const Declaration& own,

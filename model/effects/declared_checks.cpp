@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What is wrong with a declaration, apart from what its formulas give on a bed
-/// (declared_bed_checks.cpp).
+/// Checks of a declaration, except those of its formulas on a bed (declared_bed_checks.cpp).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -237,7 +236,7 @@ void check_formula(const Declaration& own,
   if (!formula) {
     const FormulaProblem& problem = formula.error();
     problems.push_back({place, problem.offset, problem.found, problem.expected});
-    // What it uses is not known: nothing is said of parameters that are not used.
+    // What it uses is unknown, so unused parameters are not reported.
     used.assign(used.size(), true);
     return;
   }
@@ -262,7 +261,7 @@ void check_formula(const Declaration& own,
 
 void check_formulas(const Declaration& own, Problems& problems) {
   std::vector<bool> used(own.parameters.size(), false);
-  // The place of what acts at one visit says at which.
+  // For an effect at one visit, the place gives the visit.
   if (own.acts_on == ActsOn::visit && used.size() > 1) used[1] = true;
   for (const FormulaKey& one : kFormulas) check_formula(own, one, used, problems);
   for (std::size_t i = 0; i < used.size(); ++i) {

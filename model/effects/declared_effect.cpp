@@ -28,7 +28,7 @@ struct UnitWord {
   std::optional<FormulaUnit> unit;  ///< empty: a unit that formulas do not know
 };
 
-// Words that end a name; any other last word is of a plain number.
+// Last words of names that are units; any other last word means a plain number.
 constexpr std::array kUnitWords = {
     UnitWord{"mm", FormulaUnit{.mm = 1.0}},
     UnitWord{"mm2", FormulaUnit{.mm = 2.0}},
@@ -106,7 +106,7 @@ PlaceVariable place_variable(const Effect& effect) {
   if (effect.law == nullptr || effect.parameters.size() < 2)
     throw std::invalid_argument("place_variable: a declared effect with a place");
   const EffectParameter& place = effect.parameters.back();
-  // A turn written in two digits.
+  // One turn, written with two digits.
   constexpr double kTurn = 6.2;
   if (place.name.ends_with("_rad") && place.upper - place.lower >= kTurn)
     return PlaceVariable::phase;

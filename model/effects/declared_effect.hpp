@@ -51,7 +51,7 @@ struct DeclaredParameter {
 /// The content of a file. Texts of formulas are empty where they are not stated.
 struct Declaration {
   std::string id;
-  /// The effect of the catalogue in whose place it is weighed; empty: in addition to all of them.
+  /// The effect of the catalogue that it replaces; empty: it is added to the catalogue.
   std::string instead_of;
   ActsOn acts_on = ActsOn::chain;
   std::vector<EffectSide> sides;
@@ -72,7 +72,7 @@ struct Declaration {
 
 struct DeclarationProblem {
   std::string place;  ///< JSON pointer below the declaration: "/parameters/0/lower"
-  /// Of a formula: where in its text, in bytes.
+  /// For a formula: offset into its text, in bytes.
   std::optional<std::size_t> offset;
   std::string value;
   std::string expected;
@@ -82,21 +82,21 @@ struct DeclarationProblem {
 /// a unit that formulas do not know, such as "_deg".
 [[nodiscard]] std::optional<FormulaUnit> unit_of_name(std::string_view name);
 
-/// Everything that is wrong with a declaration by itself.
+/// All problems of a declaration by itself.
 [[nodiscard]] std::vector<DeclarationProblem> problems_of(const Declaration& declaration);
-/// Whether its formulas are finite, and null at null, on the bed of this machine. Precondition: no
-/// problems of its own.
+/// Whether its formulas are finite, and null at null, on the bed of this machine. Precondition:
+/// problems_of(declaration) is empty.
 [[nodiscard]] std::vector<DeclarationProblem> problems_on_bed(const Declaration& declaration,
                                                               const Machine& machine);
 
-/// The effect so declared, which lives as long as the program, as those of the catalogue do: causes
-/// refer to it. Equal declarations are one effect. \throws std::invalid_argument for a declaration
-/// whose formulas have problems.
+/// The declared effect. Like the catalogue's it lives as long as the program, because causes refer
+/// to it. Equal declarations are one effect. \throws std::invalid_argument for a declaration whose
+/// formulas have problems.
 [[nodiscard]] const Effect& declared_effect(const Declaration& declaration);
 /// Null for an effect of the catalogue.
 [[nodiscard]] const Declaration* declaration_of(const Effect& effect);
 
-/// What a place of a declared effect is compared with, for where it may set in.
+/// The variable that a declared effect's place is compared with.
 enum class PlaceVariable {
   none,
   visit,
@@ -111,7 +111,7 @@ enum class PlaceVariable {
   distance
 };
 /// Precondition: a declared effect with a place. The one variable of the place's unit that its
-/// formula uses; none where there are none or several.
+/// formula uses; empty for none or several.
 [[nodiscard]] PlaceVariable place_variable(const Effect& effect);
 
 [[nodiscard]] std::string_view name(ActsOn acts_on);

@@ -39,7 +39,7 @@ class DeclaredLaw {
 
   [[nodiscard]] const Declaration& declaration() const { return declaration_; }
   [[nodiscard]] const Effect& effect() const { return effect_; }
-  /// Formulas that are not stated are empty.
+  /// Empty if not stated.
   [[nodiscard]] const std::optional<Formula>& adds() const { return adds_; }
   [[nodiscard]] const std::optional<Formula>& adds_x() const { return adds_x_; }
   [[nodiscard]] const std::optional<Formula>& adds_y() const { return adds_y_; }

@@ -75,7 +75,7 @@ struct EffectParameter {
   /// Usual size, one sigma about null (about nominal for a place).
   double prior_sigma = 0.0;
   bool integer = false;
-  /// -1 where the mirror image of the machine has the negative value.
+  /// -1 if mirroring the machine negates the value.
   double mirror_sign = 1.0;
 };
 
@@ -133,7 +133,7 @@ struct LengthState {
 /// A part that a machine may lack.
 enum class Part { none, ring, brackets, body, pulley };
 
-/// What a declared effect is made of (declared_effect.hpp).
+/// A declared effect's formulas (declared_effect.hpp).
 class DeclaredLaw;
 
 /// A function of an effect: one of the catalogue's, or the formula of a declared effect. Equal to

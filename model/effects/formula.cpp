@@ -16,7 +16,8 @@ namespace {
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Of the number that the text begins with: digits, a point, an exponent where digits follow its e.
+/// Length of the number at the start of the text: digits, a point, and an exponent if digits follow
+/// the e.
 std::size_t number_length(std::string_view text) {
   std::size_t end = 0;
   const auto skip_digits = [&] {
@@ -43,12 +44,11 @@ std::string joined(const std::vector<std::string>& names) {
   return list;
 }
 
-/// What is known of a part of the formula.
 struct Operand {
   FormulaUnit unit;
-  /// Made of numbers alone: it takes the unit of what it is added to.
+  /// Consists of numbers alone: it takes the unit of what it is added to.
   bool bare = false;
-  /// Its value, where it is made of numbers alone without functions.
+  /// Its value, if it consists of numbers without functions.
   std::optional<double> constant;
 };
 
@@ -135,7 +135,7 @@ class FormulaParser {
            (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r'))
       ++at_;
   }
-  /// Takes the character where it stands here.
+  /// Consumes the character if it is next.
   bool take(char wanted) {
     skip_blanks();
     if (at_ >= text_.size() || text_[at_] != wanted) return false;
@@ -241,7 +241,7 @@ class FormulaParser {
   void number() {
     const std::size_t offset = at_;
     const std::string digits(text_.substr(at_, number_length(text_.substr(at_))));
-    // std::from_chars of double lacks in libc++ 14; the classic locale has a decimal point everywhere.
+    // libc++ 14 has no std::from_chars for double; the classic locale always uses a decimal point.
     std::istringstream stream(digits);
     stream.imbue(std::locale::classic());
     double value = 0.0;
@@ -337,12 +337,12 @@ class FormulaParser {
               "{} of a number: divide by what has its unit, as in {}(x / (100 * mm))", word, word));
     }
     if (kind == Kind::root) own.unit = {0.5 * own.unit.mm, 0.5 * own.unit.n};
-    // One or nothing, in whatever unit.
+    // The constant 1 or 0, in any unit.
     if (kind == Kind::step) own = {{}, own.bare, {}};
     write({kind, 0.0, 0, offset});
   }
 
-  /// Replaces the last two operands by what comes out of them.
+  /// Replaces the last two operands by the result.
   void combine(Kind kind, std::size_t offset) {
     const Operand b = operands_.back();
     operands_.pop_back();

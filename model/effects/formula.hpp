@@ -55,7 +55,7 @@ struct FormulaName {
   FormulaUnit unit;
 };
 
-/// Why a text is no formula.
+/// Why a text is not a formula.
 struct FormulaProblem {
   std::size_t offset = 0;  ///< into the text, in bytes
   std::string found;

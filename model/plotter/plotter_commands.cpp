@@ -29,7 +29,7 @@ tl::expected<BedPoint, PlotterFailure> newton_below(const PlotterMachine& as_set
                                                     BedPoint start) {
   constexpr int kMostSteps = 60;
   constexpr double kConvergedMm = 1e-9;
-  // Lengths are exact to some 1e-12 mm, so that a difference of 2e-3 mm knows a derivative to 1e-9.
+  // Lengths are exact to about 1e-12 mm, so a difference over 2e-3 mm gives a derivative to 1e-9.
   constexpr double kDifferenceMm = 1e-3;
   constexpr double kLongestStepMm = 100.0;
   const auto at = [&](double x, double y) {
@@ -99,7 +99,8 @@ tl::expected<BedPoint, PoseFailure> PlotterController::command(ChainLengths leng
   }
   const bool is_mural = firmware_ == PlotterFirmware::mural;
   PlotterMachine about = as_set_;
-  // The body is as wide as its pulleys are apart: its cords end where circles about nearer pins meet.
+  // The body is as wide as its pulleys are apart, so its cords meet as if the pins were nearer by
+  // that width.
   if (is_mural) about.pin_spacing_mm -= as_set_.gondola.spacing_mm;
   const double rise = firmware_ == PlotterFirmware::fluidnc ? as_set_.pin_rise_mm : 0.0;
   auto point = circles_meet(about, rise, own);

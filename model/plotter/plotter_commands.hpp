@@ -33,7 +33,7 @@ class PlotterController final : public ControllerKinematics {
   BedPoint pins_middle_;
 };
 
-/// The failure of a pose that has the same meaning, with the plotter's own sentence as its cause.
+/// The equivalent failure of a pose, with the plotter's sentence as its cause.
 [[nodiscard]] PoseFailure pose_failure(const PlotterFailure& failure);
 
 }  // namespace chaintrue::model

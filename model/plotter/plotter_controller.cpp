@@ -71,7 +71,7 @@ tl::expected<ChainLengths, PlotterFailure> mural_lengths(const PlotterMachine& a
     tilt += change;
     pose = pose_at(bot, x, y, tilt);
   }
-  // Passes that go to and fro for ever do so above any place that the bot can hang at.
+  // Iterations that oscillate for ever do so only above any place where the bot can hang.
   if (!(std::abs(change) < 1e-9)) return tl::unexpected(PlotterReason::not_converged);
   const auto length = [&](const Leg& leg, double force_n) {
     return std::hypot(leg.across_mm, leg.down_mm, g.standoff_mm) /

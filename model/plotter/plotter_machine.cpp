@@ -106,7 +106,7 @@ std::vector<MachineProblem> problems_of(const PlotterMachine& machine) {
   checks.range("/uncertainty/scale_mm_per_m", sigma.scale_mm_per_m, 1e-3, 100.0);
   check_gondola(machine, checks);
   if (!checks.sound()) return checks.take();
-  // Cords of a body as wide as its pins hang straight down and place nothing.
+  // With a body as wide as the pins are apart, the cords hang straight down and fix no position.
   if (!(machine.pin_spacing_mm > 1.5 * machine.gondola.spacing_mm)) {
     checks.add("/pin_spacing_mm",
                fmt::format("{}", machine.pin_spacing_mm),

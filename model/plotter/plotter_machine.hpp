@@ -29,7 +29,7 @@ namespace chaintrue::model {
 enum class MotorPlace { wall, gondola };
 [[nodiscard]] std::string_view name(MotorPlace place);
 
-/// What hangs. With `spacing_mm` 0 both cords end at the pen and nothing tilts.
+/// The body that hangs. With `spacing_mm` 0 both cords end at the pen and nothing tilts.
 struct Gondola {
   /// Between the points where the cords hold the body: axles of its pulleys, or eyelets.
   double spacing_mm = 0.0;
@@ -47,7 +47,7 @@ struct Cord {
   double mass_kg_per_m = 0.0;
   /// Strain per newton of tension, on unstretched length; 0: inextensible.
   double compliance_per_n = 0.0;
-  /// What a motor that loses its grip loses: a tooth of the belt, a full step of a spool.
+  /// What a motor loses in one slip: a tooth of the belt, a full step of a spool.
   double tooth_mm = 2.0;
 };
 
@@ -63,9 +63,9 @@ struct DrawingArea {
 struct PlotterUncertainty {
   double pin_spacing_mm = 3.0;
   double pin_rise_mm = 3.0;
-  /// A homing screw, or a cord that was hung by eye.
+  /// For a homing screw, or a cord hung by eye.
   double zero_mm = 10.0;
-  /// Of a pulley's effective diameter.
+  /// One sigma of a pulley's effective diameter.
   double scale_mm_per_m = 3.0;
 };
 
@@ -75,7 +75,7 @@ struct PlotterMachine {
   double pin_rise_mm = 0.0;  ///< right over left
   MotorPlace motors = MotorPlace::wall;
   Feed feed = Feed::over_top;
-  /// Of the line of the cord on its pulley; 0: straight to the pin or the axle.
+  /// Radius of the cord's line on its pulley; 0: straight to the pin or the axle.
   double pulley_radius_mm = 0.0;
   Gondola gondola;
   Cord cord;

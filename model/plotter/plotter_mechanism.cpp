@@ -138,7 +138,7 @@ tl::expected<ToolPosition, MechanismFailure> PlotterMechanism::straight_place(
   for (const Side side : kSides) {
     const double own =
         (lengths[side] - machine_.zero_mm[side]) / (1.0 + 1e-3 * machine_.scale_mm_per_m[side]);
-    // On a pulley there is a quarter turn at most.
+    // At most a quarter turn is on the pulley.
     level[side] = std::max(own - (machine_.motors == MotorPlace::wall
                                       ? 0.25 * std::numbers::pi * machine_.pulley_radius_mm
                                       : 0.0),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chain_plane_offset: the chains run in another plane than the sled's pins.
+/// chain_plane_offset: the chains do not run in the plane of the sled's pins.
 ///   S  free chain [mm]
 ///   z  distance of the planes [mm]
 ///
