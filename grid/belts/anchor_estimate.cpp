@@ -19,8 +19,8 @@ using model::kBelts;
 
 namespace {
 
-/// A frame whose readings are off by more has converged on the wrong side of something, or holds gross
-/// slips: other starts are tried as well.
+/// A frame with larger residuals is a wrong minimum or holds gross errors: other starts are tried
+/// too.
 constexpr double kPlausibleSpreadMm = 10.0;
 
 double least_spread_mm(const MeasuredBelts& belts) {
@@ -38,7 +38,8 @@ bool is_upright_frame(const AnchorVector& a) {
   return a[4] > 0.0 && a[2] > a[0] && a[1] > 0.0 && a[3] > 0.0;
 }
 
-/// An end for any mechanism; of a hole, where the controller means it to be and what it pays out.
+/// A tape's end for any mechanism; for a hole, its commanded place and what the controller pays
+/// out.
 observation::TapeEnd end_of(const model::BeltMachine& machine, const BeltEnd& end) {
   if (const auto* index = std::get_if<std::size_t>(&end)) return observation::AtPlace{*index};
   if (const auto* belt = std::get_if<Belt>(&end))
@@ -94,8 +95,8 @@ void place_all(const MeasuredBelts& belts, AnchorFit& fit) {
 
 namespace {
 
-/// Without the points whose lengths end nowhere about these anchors, where these are few: a reading
-/// that lost a digit would end the estimate before it begins.
+/// Drops the few points whose lengths meet nowhere about these anchors: one reading with a lost
+/// digit would end the estimate before it begins.
 Counting without_nowhere_points(const MeasuredBelts& belts,
                                 const AnchorVector& start,
                                 const Counting& counting) {
@@ -114,7 +115,7 @@ Counting without_nowhere_points(const MeasuredBelts& belts,
   return are_few ? fewer : counting;
 }
 
-/// Belts alone.
+/// Without distances.
 std::optional<AnchorFit> fit_alone(const MeasuredBelts& belts,
                                        const AnchorVector& start,
                                        Counting counting,
@@ -148,7 +149,7 @@ std::optional<AnchorFit> with_places(const MeasuredBelts& belts, std::optional<A
   return fit;
 }
 
-/// The same with the distances, its noise as it is, and where the places are.
+/// With the distances; noise and places are kept.
 std::optional<AnchorFit> with_tape(const MeasuredBelts& belts, std::optional<AnchorFit> fit) {
   if (!fit || belts.distances.empty()) return with_places(belts, std::move(fit));
   const auto readings = std::make_shared<const observation::BeltLengthReadings>(
@@ -166,11 +167,11 @@ std::optional<AnchorFit> with_tape(const MeasuredBelts& belts, std::optional<Anc
   return with_places(belts, std::move(fit));
 }
 
-/// A point of another frame, or with digits lost, distorts the fit of all others, and its four readings
-/// hide one another: points are left out whole, the worst first, while that makes a frame of what was
-/// none.
+/// A point from another frame, or with lost digits, distorts the fit of all others, and its four
+/// readings mask one another. Whole points are left out, the worst first, as long as that turns an
+/// unsound frame into a sound one.
 AnchorFit without_gross_points(const MeasuredBelts& belts, AnchorFit frame) {
-  // Of more points one cannot bend the frame so far that its own readings do not stand out.
+  // Among more points one cannot bend the frame enough to hide its own readings.
   constexpr std::size_t kMostPoints = 100;
   constexpr double kMuchBetter = 3.0;
   const std::size_t count = belts.points.size();
@@ -193,7 +194,7 @@ AnchorFit without_gross_points(const MeasuredBelts& belts, AnchorFit frame) {
   return frame;
 }
 
-/// From the likeliest start, without a tape. Of a fit that is implausible every reading counts.
+/// From the likeliest start, without a tape. In an implausible fit every reading counts.
 std::optional<AnchorFit> first_fit(const MeasuredBelts& belts, Readings which) {
   const Counting all(belts.points.size(), kAllBelts);
   std::optional<AnchorFit> best;
@@ -282,8 +283,8 @@ estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
   input.noise.knowledge = interp::NoiseKnowledge::unknown;
   input.noise_prior = interp::SmoothingPrior::none;
   input.surface = estimation::SurfaceUse::none;
-  input.domain = {0.0, 1.0, 0.0, 1.0};  // of a surface, which there is none
-  // A tape that contradicts the belts by far converges by a tenth a pass.
+  input.domain = {0.0, 1.0, 0.0, 1.0};  // for a surface; there is none
+  // With a tape that contradicts the belts, each pass gains only a tenth.
   input.most_passes = 40;
   return input;
 }
@@ -311,7 +312,7 @@ std::optional<AnchorFit> fit_anchors_robustly(const MeasuredBelts& belts) {
   };
   auto fit = first_fit(untaped, Readings::those_that_fit);
   if (!fit || is_plausible(*fit)) return with_tape(belts, std::move(fit));
-  // Gross readings make a frame implausible; where single ones do not, whole points may.
+  // If rejecting single readings does not make the frame plausible, reject whole points.
   constexpr double kAny = kInfinity;
   const auto robust = [&untaped](const AnchorFit& from) {
     if (!from.is_sound) return from;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Anchors by the one estimator (grid/estimation): belt lengths at places that nobody measured as an
+/// Anchors by the estimator in grid/estimation: belt lengths at unmeasured places as an
 /// observation, each place projected out. Private to grid/belts and what reads its fits.
 ///
-/// Belts alone first: nothing is known of anchors beforehand, so that the noise found is (1) of
-/// belts_fit.hpp, and single readings that do not fit are rejected. Then, where distances were taped,
-/// once more with them, the belts' noise as it was found and the scale a parameter: a tape that
-/// bends the frame must not make the belts seem less sure, and its slip not lead the search.
+/// Belts alone come first, without a prior of the anchors: the noise is (1) of belts_fit.hpp, and
+/// single outliers are rejected. If distances were taped, a second fit adds them with the belts'
+/// noise fixed and the scale as a parameter, so that a wrong tape neither inflates the belts' noise
+/// nor misleads the search.
 ///
 /// \code
 ///   const auto fit = fit_anchors_robustly(belts);
@@ -23,21 +23,20 @@
 
 namespace chaintrue::grid::belts {
 
-/// Readings that count, and the distances; units are places of which three or four count. `about` has a
-/// position of each point to linearise about, or is empty. \throws std::invalid_argument with both distances and
-/// positions.
+/// Readings that count, and the distances; units are places of which three or four readings count.
+/// `about` has a position of each point to linearise about, or is empty. \throws
+/// std::invalid_argument with both distances and positions.
 [[nodiscard]] observation::BeltLengthReadings readings_of(
     const MeasuredBelts& belts,
     const Counting& counting,
     double sigma_mm = 1.0,
     const std::vector<model::FramePoint>& about = {});
 
-/// Four belts at a state of which nothing is known beforehand; with a scale where there are
-/// distances.
+/// Four belts at a state, without priors; with a scale if there are distances.
 [[nodiscard]] std::shared_ptr<const model::Mechanism> mechanism_at(const MeasuredBelts& belts,
                                                                    const FrameState& state);
 
-/// A distance as these belts have it, the points where the state says; empty where a hole cannot be
+/// A distance as these belts predict it, with the points of the state; empty if a hole cannot be
 /// reached.
 [[nodiscard]] std::optional<observation::DistanceLine> distance_at(
     const MeasuredBelts& belts,
@@ -45,7 +44,7 @@ namespace chaintrue::grid::belts {
     const FrameState& state,
     const BeltDistance& distance);
 
-/// Every place by its readings and distances, by all four lengths where too few count.
+/// Every place from its readings and distances; from all four lengths if too few count.
 void place_all(const MeasuredBelts& belts,
                const observation::BeltLengthReadings& readings,
                const std::shared_ptr<const model::Mechanism>& mechanism,
@@ -53,8 +52,8 @@ void place_all(const MeasuredBelts& belts,
 /// The same about the fit's own state, with what counts and the spread as it has them.
 void place_all(const MeasuredBelts& belts, AnchorFit& fit);
 
-/// What the estimator is asked of belts alone: anchors of which nothing is known but a start, every
-/// unit at full weight. `belts` without distances.
+/// The estimator's input for belts alone: anchors without a prior, every unit at full weight.
+/// Precondition: `belts` has no distances.
 [[nodiscard]] estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
                                                        const Counting& counting,
                                                        const AnchorVector& start);
@@ -64,12 +63,12 @@ void place_all(const MeasuredBelts& belts, AnchorFit& fit);
 [[nodiscard]] tl::expected<estimation::Estimate, estimation::EstimationFailure> estimate_anchors(
     const MeasuredBelts& belts, const Counting& counting, const AnchorVector& start);
 
-/// From the likeliest start that leads to a sound frame, every reading counting; where none does the
-/// one that fits best, and empty where no start leads anywhere.
+/// From the likeliest start that leads to a sound frame, with every reading counted; if none does,
+/// the best fit; empty if no start converges.
 [[nodiscard]] std::optional<AnchorFit> fit_anchors(const MeasuredBelts& belts);
-/// The same without the readings that do not fit.
+/// As above, without outliers.
 [[nodiscard]] std::optional<AnchorFit> fit_anchors_robustly(const MeasuredBelts& belts);
-/// From a state near by, with what counts given.
+/// From a nearby state, with the given readings.
 [[nodiscard]] std::optional<AnchorFit> fit_anchors_from(const MeasuredBelts& belts,
                                                    const FrameState& state,
                                                    const Counting& counting);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Anchors and places as a fit has them, and how a machine's anchors stand in a vector. Private to grid/belts and what reads its fits.
+/// A fit's anchors and places, and the order of a machine's anchors in a vector. Private to
+/// grid/belts and what reads its fits.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +14,7 @@
 
 namespace chaintrue::grid::belts {
 
-/// Of each point and belt, whether its reading counts.
+/// For each point and belt, whether its reading counts.
 using Counting = std::vector<model::PerBelt<bool>>;
 
 /// All four belts.
@@ -56,7 +57,7 @@ struct AnchorFit {
 }
 /// In a strip no wider than 50 mm: the anchors could lie on either side of it. \pre one place.
 [[nodiscard]] bool are_on_a_line(const std::vector<model::FramePoint>& places);
-/// Readings that count, less two a place and five.
+/// Counted readings minus two per place minus five.
 [[nodiscard]] Eigen::Index checks_of(const Counting& counting);
 
 }  // namespace chaintrue::grid::belts

@@ -54,7 +54,7 @@ tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit, const Measu
       {mechanism, fit.covariance_mm2, fit.residual_sigma_mm, static_cast<double>(fit.checks)},
       belts::readings_of(belts, all).readings(),
       words_of_anchors());
-  // More than a belt jumps in three turns of its encoder: no change of a frame, but another one.
+  // More than three turns of an encoder: a different frame rather than a changed one.
   constexpr double kAnotherFrameMm = 130.0;
   std::vector<double> residuals_mm;
   if (check) {

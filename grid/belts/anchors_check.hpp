@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Whether fitted anchors still hold, from a few places that the machine has measured since: the check
-/// of lengths_check.hpp with the anchors' covariance and the fit's spread, in words of belts.
+/// Checks whether fitted anchors are still valid, from a few places measured since:
+/// lengths_check.hpp with the anchors' covariance and the fit's spread, in terms of belts.
 ///
 /// \code
 ///   const auto check = check_anchors(fit, new_belts);
@@ -16,8 +16,9 @@
 
 namespace chaintrue::grid {
 
-/// A place is enough; two or three far from each other tell an anchor from a belt. The anchors are the
-/// fit's; what lengths count, arm and heights are those of `belts`. Precondition: it has points.
+/// One place is enough; two or three far apart distinguish an anchor from a belt. The anchors are
+/// the fit's; the kind of length, arm and heights are those of `belts`. Precondition: it has
+/// points.
 [[nodiscard]] tl::expected<Check, CheckFailure> check_anchors(const BeltsFit& fit,
                                                               const MeasuredBelts& belts);
 

@@ -47,16 +47,16 @@ std::string words_of(const std::vector<BeltPair>& swapped) {
 
 namespace {
 
-/// Frames of real machines contradict themselves by 3 mm at most, with the arms left out; one of
-/// swapped belts by tens and hundreds.
+/// Real frames have residuals of at most 3 mm, even if the arms are ignored; swapped belts give
+/// tens to hundreds.
 constexpr double kSoundMm = 15.0;
 /// A swap must be better by this much to be suspected.
 constexpr double kBetter = 4.0;
-/// Anchors that are known to a decimetre or two; a mirror image is off by a side of the frame.
+/// Stated anchors are accurate to a decimetre or two; a mirror image is off by a side of the frame.
 constexpr double kFarMm = 400.0;
-/// Far above what settling leaves, and far below any reading's noise.
+/// Far above the convergence error and far below the noise.
 constexpr double kRoundingMm = 1e-6;
-/// As many points tell a swap as well as all.
+/// This many points reveal a swap as well as all do.
 constexpr std::size_t kMostLookedAt = 16;
 
 using BeltPairs = std::vector<BeltPair>;
@@ -84,7 +84,7 @@ MeasuredBelts swapped(MeasuredBelts belts, const BeltPairs& pairs) {
 
 struct Frame {
   double residual_sigma_mm = kInfinity;
-  /// From what the file states of anchors, or of commands; 0 where it states neither.
+  /// From the stated anchors or commands; 0 if the file has neither.
   double far_mm = 0.0;
   double far_from_commands_mm = 0.0;
 };
@@ -105,7 +105,7 @@ double far_from_commands(const MeasuredBelts& belts, const std::vector<model::Fr
   return std::sqrt(square / as_double(off.size()));
 }
 
-/// A share of how far the commands themselves reach: mirrored ones are off by as much as that.
+/// A share of the extent of the commands: mirrored ones are off by as much as that.
 bool are_commands_far(const MeasuredBelts& belts, double far_mm) {
   std::vector<model::FramePoint> origin(belts.points.size());
   const double reach_mm = far_from_commands(belts, origin);
@@ -115,7 +115,7 @@ bool are_commands_far(const MeasuredBelts& belts, double far_mm) {
 Frame frame_of(const MeasuredBelts& belts) {
   Frame frame;
   const auto fitted = belts::fit_anchors(belts);
-  // Of places on a line some anchors agree with any lengths.
+  // Places on a line fit any lengths with some anchors.
   if (!fitted || !fitted->is_sound || belts::are_on_a_line(fitted->state.places)) return frame;
   frame.residual_sigma_mm = fitted->residual_sigma_mm;
   frame.far_from_commands_mm = far_from_commands(belts, fitted->state.places);
@@ -147,14 +147,14 @@ std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts) {
     if (frame.residual_sigma_mm > kSoundMm || is_far(few, frame)) return false;
     return is_frame || kBetter * frame.residual_sigma_mm < as_stated.residual_sigma_mm;
   };
-  // Of pairs that are mirror images of each other the first: only rounding tells them apart.
+  // Of two mirror-image pairs take the first: they differ only by rounding.
   const auto is_nearer = [](const Frame& a, const Frame& b) {
     if (std::abs(a.far_mm - b.far_mm) > kRoundingMm) return a.far_mm < b.far_mm;
     return a.residual_sigma_mm < b.residual_sigma_mm - kRoundingMm;
   };
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    // Where one pair mends it nobody exchanged two.
+    // If exchanging one pair fixes it, two pairs are not considered.
     if (i == kSinglePairs && best) break;
     if (is_better(frames[i]) && (!best || is_nearer(frames[i], frames[*best]))) best = i;
   }
@@ -176,7 +176,7 @@ std::optional<belts::AnchorFit> frame_of_lengths(const MeasuredBelts& belts) {
 
 std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
     const belts::AnchorFit& frame) {
-  // A lost digit or another frame; what a machine or a hand is off by is for the fit to name.
+  // A lost digit or another frame; smaller errors are left to the fit.
   constexpr double kNowhereMm = 100.0;
   std::vector<NowherePoint> result;
   const model::BeltMachine machine = belts::with_anchors(belts.machine, frame.state.anchors);
@@ -214,7 +214,7 @@ std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
       if (!reading || std::abs(reading->length_mm - read_mm) < gross_mm) continue;
       double most = input_checks::log_density_of(reading->length_mm - read_mm, scale_mm, 1) +
                     input_checks::kThreeTimes;
-      // The other belts tell which of the four numbers it is.
+      // The other belts show which of the four numbers is wrong.
       const double kOneOfFour = std::log(4.0);
       std::string question;
       for (const input_checks::NumberError& slip : input_checks::number_errors(read_mm, false)) {
@@ -262,7 +262,7 @@ std::optional<Eigen::Vector2d> end_of(const BeltEnd& end,
 
 namespace {
 
-/// What the frame makes of each distance; empty where it ends nowhere.
+/// Each distance as the frame predicts it; empty if an end has no position.
 std::vector<std::optional<double>> distances_by_belts(const MeasuredBelts& belts,
                                                       const belts::AnchorFit& frame) {
   std::vector<std::optional<double>> by_belts_mm;
@@ -274,7 +274,7 @@ std::vector<std::optional<double>> distances_by_belts(const MeasuredBelts& belts
   return by_belts_mm;
 }
 
-/// One sigma of what the frame makes of a distance, mm.
+/// One sigma of a predicted distance, mm.
 double sigma_of(const MeasuredBelts& belts,
                 const belts::FitDiagnostics& view,
                 const BeltDistance& distance) {
@@ -317,8 +317,9 @@ std::string question_of(double distance_mm, double by_belts_mm) {
 
 std::vector<DistanceQuestion> suspected_distances(const MeasuredBelts& belts,
                                                   const belts::AnchorFit& frame) {
-  // Belts of all machines are known to half a per cent (scales of 0.1 to 0.3 %); a tape alone that
-  // differs by three times that is wrong. Tapes that agree with one another may tell a scale.
+  // Belt lengths of all known machines are accurate to half a per cent (scales of 0.1 to 0.3 %), so
+  // a single tape that differs by three times that is wrong. Several tapes that agree may show a
+  // true scale.
   constexpr double kFarOff = 0.015;
   constexpr double kFarForAll = 0.12;
   constexpr double kSigmas = 5.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Gross errors that four lengths a place show before anchors are estimated: belts under one another's
-/// names, and places that no anchors make sense of.
+/// Gross errors that four lengths per place reveal before anchors are estimated: exchanged belts,
+/// and places that fit no anchors.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ namespace chaintrue::grid {
 
 using BeltPair = std::pair<model::Belt, model::Belt>;
 
-/// What a hand exchanges: one pair, its mirror image next to it; then two pairs at once, which leave a
-/// frame a frame and turn it over.
+/// Likely exchanges: one pair, followed by its mirror image; then two pairs at once, which give a
+/// valid frame turned over.
 [[nodiscard]] const std::array<std::vector<BeltPair>, 9>& belt_swaps();
 /// "tl and tr swapped and bl and br as well".
 [[nodiscard]] std::string words_of(const std::vector<BeltPair>& swapped);
@@ -27,24 +27,24 @@ using BeltPair = std::pair<model::Belt, model::Belt>;
 struct SwappedBelts {
   /// One pair, or two: both left belts with both right ones.
   std::vector<BeltPair> belts;
-  /// Where nothing but lengths is known, two pairs make mirror images of one frame.
+  /// If only lengths are known, two pairs give mirror images of one frame.
   std::optional<BeltPair> or_else;
-  double as_stated_mm = 0.0;  ///< what the lengths contradict each other by
+  double as_stated_mm = 0.0;  ///< residual of the lengths
   double swapped_mm = 0.0;
 };
-/// A frame of swapped belts is looked for where the lengths as stated make none, or one that is far
-/// from the anchors or the commands that the file states.
+/// Swapped belts are considered if the stated lengths fit no frame, or one far from the stated
+/// anchors or commands.
 [[nodiscard]] std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts);
 
-/// The frame that the lengths make without any tape; empty where they make none.
+/// The frame fitted to the lengths without a tape; empty if they fit none.
 [[nodiscard]] std::optional<belts::AnchorFit> frame_of_lengths(const MeasuredBelts& belts);
 
-/// A point whose lengths end nowhere together.
+/// A point whose lengths do not meet.
 struct NowherePoint {
   std::size_t point = 0;
-  double residual_mm = 0.0;  ///< what the best place leaves of the worst belt
+  double residual_mm = 0.0;  ///< residual of the worst belt at the best place
 };
-/// With the anchors that the other points make.
+/// With the anchors fitted to the other points.
 [[nodiscard]] std::vector<NowherePoint> points_nowhere(const MeasuredBelts& belts,
                                                        const belts::AnchorFit& frame);
 
@@ -57,8 +57,9 @@ struct BeltQuestion {
 [[nodiscard]] std::vector<BeltQuestion> suspected_readings(const MeasuredBelts& belts,
                                                            const belts::AnchorFit& frame);
 
-/// A taped distance that no scale of belts explains: off by more than 1.5 % and five sigmas of what the
-/// lengths alone make of it, or, where the other tapes agree with it, by more than an eighth.
+/// A taped distance that no scale of the belts explains: off by more than 1.5 % and five sigmas
+/// from the prediction by lengths alone or, if the other tapes agree with it, by more than an
+/// eighth.
 struct DistanceQuestion {
   std::size_t distance = 0;
   double by_belts_mm = 0.0;
@@ -72,7 +73,7 @@ struct OtherUnit {
   double factor;  ///< makes millimetres
   double found;   ///< the median length, as it stands
 };
-/// Where no frame is as small as these lengths are.
+/// If no frame is as small as these lengths.
 [[nodiscard]] std::optional<OtherUnit> suspected_unit(const MeasuredBelts& belts);
 
 }  // namespace chaintrue::grid

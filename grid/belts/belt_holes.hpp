@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Holes that a router on four belts cut at commanded places, and what a tape made of them.
+/// Holes that a four-belt router cut at commanded places, and the taped distances between them.
 ///
 /// Notation
 ///   a, s   the frame (anchor_fit.hpp): five coordinates of anchors, logarithm of the scale
@@ -16,7 +16,7 @@
 /// larger the noise is than stated. K is the covariance of what displaces neighbouring holes equally
 /// (tool_displacement.hpp), or nothing.
 ///
-/// Arm, extension and heights fall out of m_i: the controller and the machine have the same.
+/// Arm, extension and heights cancel in m_i: controller and machine share them.
 ///
 /// \code
 ///   const BeltHoles holes{machine_in_force, set};
@@ -37,7 +37,7 @@ namespace chaintrue::grid {
 struct BeltHoles {
   /// With the anchors and scales in force when the holes were cut.
   model::BeltMachine machine;
-  /// Its own machine, which hangs on chains, is none.
+  /// Its machine hangs on chains and is ignored.
   MeasuredHoles set;
 };
 
@@ -68,7 +68,7 @@ struct HoleRows {
 [[nodiscard]] Eigen::MatrixXd hole_covariance(const BeltHoles& holes,
                                               const HoleRows& rows,
                                               double noise_factor);
-/// One sigma squared of where a sheet lies beforehand, x, y and turn.
+/// Prior variances of a sheet's placement: x, y and turn.
 [[nodiscard]] Eigen::Vector3d sheet_variance();
 
 }  // namespace chaintrue::grid::belts

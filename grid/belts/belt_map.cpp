@@ -94,14 +94,14 @@ model::SheetPlacement laid(const std::vector<MarkPoint>& from, const std::vector
   return sheet;
 }
 
-/// Places that the sheet is laid by.
+/// Places that determine the sheet's placement.
 struct Reference {
   BedPoint commanded;
   double left_mm = 0.0;   ///< level span of the top left belt
   double right_mm = 0.0;  ///< of the top right one
 };
 
-/// (1) of one set of unknowns, without the machine.
+/// (1) for one set of unknowns, without the machine.
 class BeltSheet final : public SheetInFrame {
  public:
   double factor = 1.0;
@@ -140,7 +140,7 @@ class BeltSheet final : public SheetInFrame {
   }
 };
 
-/// What a fit says of where the tool is, for any values of its unknowns.
+/// The tool's position by a fit, for any values of its unknowns.
 class Placing {
  public:
   Placing(const BeltsFit& fit, const HolesWithBelts* holes, model::BeltMachine in_force)
@@ -193,7 +193,7 @@ class Placing {
     for (const FittedPlace& place : fit.places) {
       const double left = span_mm(fit.machine, Belt::tl, place.at);
       const double right = span_mm(fit.machine, Belt::tr, place.at);
-      // Where the controller took the tool to be.
+      // Where the controller assumed the tool to be.
       const auto believed = end_of_spans(in_force_, left, right);
       if (!believed) continue;
       references_.push_back({{(believed->x_mm - centre.x_mm) / in_force_.scale_x,
@@ -231,13 +231,13 @@ MechanismMap map_of(const BeltsFit& fit,
   using model::BeltLengths;
   const Placing placing(fit, holes, in_force);
   const Eigen::VectorXd unknowns = unknowns_of(fit, holes);
-  // Level spans: how a belt slants is no news of an error.
+  // Level spans: a belt's slant carries no information about an error.
   MechanismSpread spread{placing.at(unknowns, BeltLengths::span), {}};
   const Eigen::MatrixXd covariance = covariance_of(fit, holes);
   const linear::SymmetricEigen eigen(covariance);
   for (Eigen::Index i = 0; i < unknowns.size(); ++i) {
     const double variance = eigen.eigenvalues()[i];
-    // Below this a direction adds less than rounding to what the others say.
+    // Below this a direction adds less than rounding.
     if (!(variance > 1e-12 * eigen.eigenvalues().maxCoeff())) continue;
     spread.others.push_back(placing.at(
         unknowns + std::sqrt(variance) * eigen.eigenvectors().col(i), BeltLengths::span));

@@ -8,13 +8,13 @@
 ///
 /// R and t lay the sheet: as its edges say, otherwise so that the holes (without holes the places
 /// that the belts measured), as a whole, lie where they were commanded. d is the displacement that
-/// the holes show, or nothing. The inverse of (1) is a fixed point, for d changes by less than a
-/// hundredth of a millimetre in a millimetre.
+/// the holes show, or nothing. The inverse of (1) is found by fixed-point iteration: d changes by
+/// less than 0.01 mm per mm.
 ///
 /// Lengths are those of the belts themselves at the bed's height, from the anchor slanting to the
 /// end: what the motors pay out. `left` is the top left belt.
 ///
-/// A scale that no tape determined is 1: then the sheet is measured in the belts' millimetres.
+/// Without a tape the scale is 1 and the sheet is measured in the belts' millimetres.
 ///
 /// \code
 ///   const BeltMap map(fit.belts, &fit.holes);
@@ -29,7 +29,7 @@
 
 namespace chaintrue::grid {
 
-/// The machine as it was stated before the fit. \throws std::invalid_argument where it was not.
+/// The machine as stated before the fit. \throws std::invalid_argument if it was not stated.
 [[nodiscard]] model::BeltMachine machine_in_force(const BeltsFit& fit);
 
 /// A machine whose upper lengths are the belts' own.
@@ -42,9 +42,9 @@ class BeltMap final : public MechanismMap {
   /// not known, or with fewer than three places.
   explicit BeltMap(const BeltsFit& fit, const HolesWithBelts* holes = nullptr);
 
-  /// Without a scale from a tape, nothing is known of the tool's error in true millimetres.
+  /// Without a scale from a tape, the tool's error in true millimetres is unknown.
   [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(model::BedPoint point) const override;
-  /// What the controller believed when the places, or the holes, were commanded.
+  /// The controller's machine when the places or holes were commanded.
   [[nodiscard]] const model::BeltMachine& in_force() const { return in_force_; }
 
  private:

@@ -57,7 +57,7 @@ void fill_frame(const MeasuredBelts& measured,
     for (const Belt belt : kBelts)
       fit.places[k].belts[belt].residual_mm = there.residual[belts::row_of(k, belt)];
   }
-  // That of the readings as they are stays where these are freed of causes.
+  // The factor found from the uncorrected readings is kept after correcting for causes.
   if (fit.causes.empty())
     fit.rms_mm = rms(std::vector<double>(there.residual.begin(), there.residual.end()));
   if (!fit.scale || measured.distances.empty()) return;
@@ -67,7 +67,7 @@ void fill_frame(const MeasuredBelts& measured,
   }
 }
 
-/// Of x and, where there is one, of the displacement at its places; and the displacement itself.
+/// Covariance of x and, if present, of the displacement at its places; and the displacement.
 Eigen::MatrixXd posterior(const HolesEstimate& frame,
                           const std::vector<BeltHoles>& sets,
                           const TapedState& state,
@@ -102,7 +102,7 @@ Eigen::MatrixXd posterior(const HolesEstimate& frame,
   return prior - linear::carried(cross, now.inverse);
 }
 
-/// Where the edges say that the first set's sheet lies.
+/// Placement of the first set's sheet by its edges.
 std::optional<Eigen::Vector3d> sheet_by_edges(const std::vector<BeltHoles>& sets,
                                               const TapedState& state,
                                               const MeasuredHoles& first) {
@@ -142,7 +142,7 @@ void fill_distances(const HolesEstimate& frame,
     found.holes.push_back({first.holes[i].name, first.holes[i].commanded, state.rows.marks[i]});
 }
 
-/// What belts say by themselves; of no points the machine as stated.
+/// The fit of the belts alone; without points, the machine as stated.
 tl::expected<std::pair<BeltsFit, belts::AnchorFit>, BeltsFitFailure> by_belts(
     const MeasuredBelts& measured) {
   if (measured.points.empty()) {
@@ -162,7 +162,7 @@ tl::expected<std::pair<BeltsFit, belts::AnchorFit>, BeltsFitFailure> by_belts(
   return std::pair(*std::move(fit), *frame);
 }
 
-/// \throws std::invalid_argument where there is nothing to fit; a failure for too many distances.
+/// \throws std::invalid_argument if there is nothing to fit; fails for too many distances.
 std::optional<BeltsFitFailure> refused(const MeasuredBelts& measured,
                                        const std::vector<BeltHoles>& sets) {
   using Reason = BeltsFitFailure::Reason;

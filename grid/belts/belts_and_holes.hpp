@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// One fit of what four belts measured by themselves and of holes that were cut and taped: anchors,
+/// One fit of the lengths that four belts measured and of holes that were cut and taped: anchors,
 /// the absolute scale, and the displacement of the tool from where its upper two belts put it.
 ///
 /// Notation
 ///   x   five coordinates of anchors and the logarithm of the scale; about x_b with covariance S_b
 ///       from the belts (places projected out) or, without belts, as stated
-///   r   distances less what x makes of them; r_b = r + J (x - x_b), J = d(predicted)/dx
+///   r   distances minus their prediction from x; r_b = r + J (x - x_b), J = d(predicted)/dx
 ///   C   covariance of the distances, (1) of belt_holes.hpp
 ///
 ///   minimise  belts(x) + r' C^-1 r                                                          (1)
@@ -14,11 +14,11 @@
 ///   left out:  [V^-1 r_b]_i / [V^-1]_ii with variance 1 / [V^-1]_ii                         (3)
 ///
 /// The noise's factor (a scaled inverse chi square of noise_dof) and the displacement's size and
-/// reach are where (2) is largest on a grid finer than so few readings tell; a displacement joins
-/// where it is twenty times as likely, summed over the grid, as none. A distance beyond 3.5 sigmas
-/// of (3) is rejected, the worst first.
+/// reach maximise (2) on a grid finer than so few readings can resolve; a displacement is included
+/// if it is twenty times as likely, summed over the grid, as none. A distance beyond 3.5 sigmas of
+/// (3) is rejected, the worst first.
 ///
-/// The displacement is what the holes show of the tool; what is left of belts' lengths is not in it.
+/// The displacement is what the holes show; residuals of the belts' lengths are not part of it.
 ///
 /// The map's frame is that of the first set's sheet: by its edges where they were measured in all
 /// directions, otherwise so laid that its holes, as a whole, lie where they were commanded.
@@ -43,16 +43,15 @@
 
 namespace chaintrue::grid {
 
-/// One sigma of the scale beforehand: a belt is 2 % longer or shorter a turn than its make says in
-/// no machine.
+/// Prior sigma of the scale: on no machine is the belt per turn 2 % off its nominal length.
 inline constexpr double kBeltScaleSigma = 0.02;
-/// One sigma of a stated coordinate of an anchor where no belts tell: what six places about the
-/// middle leave (docs/maslow4.md).
+/// One sigma of a stated anchor coordinate without belt readings: the accuracy that six places
+/// about the middle give (docs/maslow4.md).
 inline constexpr double kStatedAnchorMm = 50.0;
-/// (2) takes a second for so many.
+/// (2) takes a second for this many.
 inline constexpr std::size_t kMostTapedByBelts = 400;
 
-/// A hole as the fit has it.
+/// A fitted hole.
 struct BeltHole {
   std::string name;
   model::BedPoint commanded;
@@ -74,13 +73,13 @@ struct BeltTapedDistance {
 struct HolesWithBelts {
   /// In force when the first set was cut: commands count from where its frame's diagonals cross.
   model::BeltMachine machine;
-  std::vector<BeltHole> holes;  ///< of the first set, which the frame is laid by
+  std::vector<BeltHole> holes;  ///< of the first set, which defines the frame
   std::vector<BeltTapedDistance> distances;
-  double noise_factor = 1.0;  ///< over what was stated of tape and holes
+  double noise_factor = 1.0;  ///< relative to the stated noise of tape and holes
   std::optional<DisplacementParts> displacement;
-  /// Of x, and of the displacement at its places.
+  /// Covariance of x, and of the displacement at its places.
   Eigen::MatrixXd covariance;
-  /// Where the edges say that the sheet lies; absent where the holes lay it.
+  /// The sheet's placement by its edges; absent if the holes determine it.
   std::optional<Eigen::Vector3d> sheet;  ///< x_mm, y_mm, rotation_rad
   double left_out_rms_mm = 0.0;          ///< of distances that were not rejected
 };
@@ -90,19 +89,19 @@ struct BeltsAndHolesFit {
   HolesWithBelts holes;
 };
 
-/// What belts say by themselves, with causes counted (diagnosis/anchors_with_causes.hpp).
+/// The fit of the belts alone, allowing for causes (diagnosis/anchors_with_causes.hpp).
 struct BeltsByThemselves {
   BeltsFit fit;
   belts::AnchorFit frame;
   Eigen::MatrixXd covariance;  ///< of five coordinates, mm^2; with a tape of the scale's logarithm too
 };
-/// The same of belts whose readings are freed of the causes in `alone`.
+/// As above, with the readings corrected for the causes in `alone`.
 [[nodiscard]] tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
     const MeasuredBelts& without_causes, const std::vector<BeltHoles>& sets, BeltsByThemselves alone);
 
-/// `belts` may be without points: then what is known of the anchors is what its machine states, to
-/// kStatedAnchorMm. \throws std::invalid_argument without distances, or where the anchors in force
-/// when the holes were cut are not known.
+/// If `belts` has no points, the prior is its machine's anchors with kStatedAnchorMm. \throws
+/// std::invalid_argument without distances, or where the anchors in force when the holes were cut
+/// are not known.
 [[nodiscard]] tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
     const MeasuredBelts& belts, const std::vector<BeltHoles>& sets);
 

@@ -16,7 +16,7 @@ bool anchors_were_known(const BeltsFit& fit) {
                 [](const AnchorCoordinate& one) { return one.stated_mm.has_value(); });
 }
 
-/// Nobody knows the anchors in force: the sheet is laid by the fitted ones.
+/// The anchors in force are unknown: the fitted ones place the sheet.
 BeltsFit by_its_own_anchors(BeltsFit fit) {
   for (AnchorCoordinate& one : fit.coordinates) one.stated_mm = one.fitted_mm;
   return fit;

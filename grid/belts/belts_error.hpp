@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// By how much a router on four belts misses over the measured part of its sheet: today, and with the
-/// anchors that were fitted.
+/// The error of a four-belt router over the measured part of its sheet: with the anchors in force,
+/// and with the fitted ones.
 ///
 ///   today      the controller with the anchors in force, on the fitted map
 ///   expected   the map itself; where holes show a displacement that no anchors take out, with that
 ///
-/// as controller_error.hpp defines an error; the sheet lies as belt_map.hpp lays it. Without a tape both
-/// are in the belts' own millimetres: what the scale is off by is in neither.
+/// as controller_error.hpp defines an error; the sheet lies as belt_map.hpp lays it. Without a tape
+/// both are in the belts' millimetres and exclude the error of the scale.
 ///
 /// \code
 ///   if (const auto error = error_of_belts(fit)) say(error->expected.rms_mm);
@@ -27,8 +27,8 @@ struct BeltsError {
   model::BedPoint worst_at;  ///< of `expected`
 };
 
-/// Nothing with fewer than three places and no holes, or where nothing of the raster was measured.
-/// `holes` may be null.
+/// Empty with fewer than three places and no holes, or if no raster point was measured. `holes` may
+/// be null.
 [[nodiscard]] std::optional<BeltsError> error_of_belts(const BeltsFit& fit,
                                                        const HolesWithBelts* holes = nullptr);
 

@@ -18,10 +18,10 @@ using model::kBelts;
 
 namespace {
 
-/// An anchor that is less sure than this was not found: an arm's length.
+/// An anchor with a larger sigma was not determined: an arm's length.
 constexpr double kLostAnchorMm = 100.0;
-/// Lengths whose rms residual is larger are no readings of four belts of one frame: the machine
-/// itself gives up at 5 mm of its own kind.
+/// Readings with a larger rms residual do not belong to one frame: the machine itself gives up at 5
+/// mm of its own measure.
 constexpr double kNoFrameMm = 50.0;
 
 tl::unexpected<BeltsFitFailure> not_determined(const MeasuredBelts& belts) {
@@ -34,7 +34,7 @@ tl::unexpected<BeltsFitFailure> not_determined(const MeasuredBelts& belts) {
                   pulls));
 }
 
-/// No belt's readings differ by more than the width of a spot: no frame can be made of them.
+/// No belt's readings differ by more than this: all places are in one spot.
 bool are_in_one_spot(const MeasuredBelts& belts) {
   constexpr double kSpotMm = 50.0;
   return all_of(kBelts, [&](Belt belt) {

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The anchors of a router on four belts from what it measured by itself, with the sigma of each and
-/// what it rests on, by readings that err at random alone.
+/// The anchors of a four-belt router from its own measurements, with sigmas for readings that err
+/// only at random.
 ///
 /// 4 N readings of N places leave 2 N - 5 checks once places and anchors have taken their share:
 ///
 ///   spread^2 = sum r^2 / (readings - 2 places - 5)                                          (1)
 ///
-/// is what one belt's reading is off by, whereas the machine's own message ("Find Anchors fit: rms")
-/// divides by the readings. Sigmas are (1) of fit_diagnostics.hpp with this spread.
+/// estimates the error of one belt's reading; the machine's message ("Find Anchors fit: rms")
+/// divides by the readings instead. Sigmas are (1) of fit_diagnostics.hpp with this spread.
 ///
 /// A reading that does not fit the others is rejected, the worst first: the distance of its residual,
 /// against a fit without it, in units of the spread without it. That is Student's t; what counts is
 /// the normal deviate of the same chance.
 ///
-/// Lengths of belts do not determine the scale: all readings 1.005 times as long make a frame 1.005 times as
-/// large. Distances, taped, tell it.
+/// Lengths of belts do not determine the scale: readings that are all 1.005 times as long give a
+/// frame 1.005 times as large. Taped distances determine it.
 ///
 /// Sources: R. Cook and S. Weisberg, Residuals and Influence in Regression (1982), sections 2.2 and
 /// 2.3, for readings left out; D. Wallace, Ann. Math. Statist. 30 (1959) 1121, for the deviate of t,
@@ -41,8 +41,8 @@
 
 namespace chaintrue::grid {
 
-/// Normal deviate beyond which a reading is rejected: chance 7e-6 for a good one, so that one set of
-/// 100 places in 370 loses one.
+/// Normal deviate beyond which a reading is rejected: probability 7e-6 for a good one, so one set
+/// of 100 places in 370 loses one.
 inline constexpr double kBadReadingSigmas = 4.5;
 /// Largest share that is rejected; beyond it the remaining readings do not determine their own noise.
 inline constexpr double kMostBadReadings = 0.12;
@@ -53,7 +53,7 @@ struct AnchorCoordinate {
   std::optional<double> stated_mm;
   double fitted_mm = 0.0;
   double sigma_mm = 0.0;
-  /// Share of its variance that comes of each belt's readings; together 1.
+  /// Share of its variance from each belt's readings; the sum is 1.
   model::PerBelt<double> variance_share;
 };
 
@@ -61,7 +61,7 @@ struct AnchorCoordinate {
 struct BeltResidual {
   double residual_mm = 0.0;  ///< read less fitted
   bool counts = true;        ///< false: rejected
-  double sigmas = 0.0;       ///< against a fit without it; 0 where nothing else knows of it
+  double sigmas = 0.0;       ///< against a fit without it; 0 if nothing else determines it
   double deleted_residual_mm = 0.0;  ///< read less what all other readings make of it
 };
 
@@ -77,22 +77,22 @@ struct BadBeltReading {
   double residual_mm = 0.0;  ///< read less what all other readings make of it
 };
 
-/// Lower belts as predicted from the upper two, at places that were not fitted: what the machine's own
-/// check of tension looks at.
+/// Lower belts as predicted from the upper two, at places that were not fitted; the machine's own
+/// tension check uses the same.
 struct BeltPrediction {
   std::size_t readings = 0;
   double rms_mm = 0.0;
   double largest_mm = 0.0;
 };
 
-/// True over what belts say: from taped distances.
+/// True scale over the belts' scale, from taped distances.
 struct BeltScale {
   double factor = 1.0;
   double sigma = 0.0;
   std::vector<double> residuals_mm;  ///< taped less fitted, of each distance
 };
 
-/// What acts besides the anchors: it is taken out of the readings of a fit.
+/// A cause besides the anchors, which is removed from the readings of a fit.
 struct CauseInAnchorFit {
   std::string effect;  ///< of the belts' table
   std::string side;    ///< a belt, "all", or empty
@@ -108,7 +108,7 @@ struct BeltsFit {
   double residual_sigma_mm = 0.0;  ///< (1)
   int checks = 0;                  ///< the denominator of (1)
   double rms_mm =
-      0.0;  ///< of all readings, the rejected ones included, as the machine's message has it
+      0.0;  ///< of all readings, as in the machine's message
   model::PerBelt<double> rms_of_mm;     ///< of those that count
   std::vector<FittedPlace> places;      ///< of each point
   std::vector<BadBeltReading> bad;      ///< rejected, the worst first
@@ -117,22 +117,23 @@ struct BeltsFit {
   BeltPrediction one_left_out;
   std::optional<BeltPrediction>
       half_left_out;  ///< either half by the other; with ten places and more
-  /// Residuals, places and predictions are of readings without these; rms_mm is of the readings alone.
+  /// Residuals, places and predictions are of readings corrected for these; rms_mm is of the
+  /// readings as read.
   std::vector<CauseInAnchorFit> causes;
 };
 
 enum class BeltsFitReason {
   too_few_points,
   not_determined,  ///< on a line, or in one spot
-  no_frame,        ///< no anchors make sense of the lengths
+  no_frame,        ///< no anchors fit the lengths
   hole_without_anchors,
   too_many_distances,
   tape_contradicts,  ///< the belts, or itself
 };
 using BeltsFitFailure = Failure<BeltsFitReason>;
 
-/// Anchors alone, as the machine itself fits them: sigmas are of belts that do nothing but err at
-/// random. grid/diagnosis/anchors_with_causes.hpp counts what else may act.
+/// Anchors alone, as the machine fits them: sigmas assume random errors only.
+/// grid/diagnosis/anchors_with_causes.hpp allows for other causes.
 [[nodiscard]] tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts);
 
 }  // namespace chaintrue::grid

@@ -41,11 +41,11 @@ double typical_mm(const std::vector<ExpectedPlace>& places, const std::vector<Be
   return median(off);
 }
 
-/// The exchange that agrees best, where it is beyond doubt.
+/// The best exchange, if it is beyond doubt.
 std::optional<std::vector<BeltPair>> swapped(const std::vector<ExpectedPlace>& places,
                                              double as_stated_mm) {
-  // Near the middle of a frame its belts differ by little: a few times what readings and anchors in force
-  // are off by is beyond doubt where an exchange mends three quarters of it.
+  // Near the middle of a frame its belts differ little. A few times the error of readings and
+  // anchors in force is beyond doubt if an exchange removes three quarters of it.
   constexpr double kBeyondDoubtMm = 40.0;
   constexpr double kTimesBetter = 4.0;
   if (as_stated_mm < kBeyondDoubtMm) return std::nullopt;
@@ -85,9 +85,10 @@ std::optional<AgainstCommands> against_commands(const MeasuredBelts& belts) {
 
 std::optional<OtherFrame> suspected_other_frame(const MeasuredBelts& belts,
                                                 const belts::AnchorFit& frame) {
-  // Owners tape their frame to a decimetre or two before the first run; another frame is off by more.
+  // Owners measure their frame to a decimetre or two before the first run; another frame is off by
+  // more.
   constexpr double kFarMm = 400.0;
-  // Where the commands contradict the stated anchors as well.
+  // If the commands contradict the stated anchors too.
   constexpr double kFarWithCommandsMm = 150.0;
   constexpr double kUpperMm = 100.0;
   constexpr double kSigmas = 5.0;

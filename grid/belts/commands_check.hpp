@@ -32,18 +32,17 @@ struct AgainstCommands {
 /// Empty where no anchors are in force, or no place has a command that they reach.
 [[nodiscard]] std::optional<AgainstCommands> against_commands(const MeasuredBelts& belts);
 
-/// The anchors that are stated are not those of the frame that was measured. Two signs: a stated coordinate
-/// lies far from the one that the lengths make, by many of its sigmas; or the upper two belts, by which the
-/// machine moves, do not read what the stated anchors have where it was sent.
+/// The stated anchors are not those of the measured frame. Either a stated coordinate is many
+/// sigmas from the fitted one, or the upper two belts, by which the machine moves, do not read what
+/// the stated anchors predict at the commanded place.
 struct OtherFrame {
   std::string coordinate;  ///< "tr x", the one farthest off
   double stated_mm = 0.0;
   double fitted_mm = 0.0;
-  /// What the upper belts read less the commands, median of the amounts; 0: no commands.
+  /// Median absolute difference of the upper belts from the commands; 0: no commands.
   double upper_mm = 0.0;
 };
-/// `frame` is what the lengths make without a tape. Empty where the stated anchors may be right, or none
-/// are.
+/// `frame` is the fit without a tape. Empty if the stated anchors may be right or none are stated.
 [[nodiscard]] std::optional<OtherFrame> suspected_other_frame(const MeasuredBelts& belts,
                                                               const belts::AnchorFit& frame);
 

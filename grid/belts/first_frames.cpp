@@ -52,8 +52,8 @@ FramePoint nearest_place(const model::BeltMachine& machine,
 std::vector<AnchorVector> first_frames(const MeasuredBelts& belts) {
   std::vector<AnchorVector> frames;
   if (belts.machine.anchors_known) frames.push_back(anchors_of(belts.machine));
-  // Two belts from opposite sides are together at least as long as their side of the frame. Where one
-  // point's lengths lost a digit, the others tell it.
+  // Two belts from opposite sides are together at least as long as their side of the frame. The
+  // other points reveal a lost digit.
   std::vector<double> widths;
   std::vector<double> heights;
   for (const BeltPoint& point : belts.points) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where a fit of anchors begins. Private to grid/belts and what checks anchors.
+/// Starting points for a fit of anchors. Private to grid/belts and what checks anchors.
 #pragma once
 
 #include <vector>
@@ -15,8 +15,8 @@ namespace chaintrue::grid::belts {
                                               const BeltPoint& point,
                                               const model::PerBelt<bool>& counting);
 
-/// Anchors to begin at, the likeliest first: those that are known, and rectangles of the size that
-/// the lengths leave.
+/// Starting anchors, the likeliest first: the known ones, and rectangles of sizes consistent with
+/// the lengths.
 [[nodiscard]] std::vector<AnchorVector> first_frames(const MeasuredBelts& belts);
 
 }  // namespace chaintrue::grid::belts

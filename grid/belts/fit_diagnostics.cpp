@@ -88,7 +88,7 @@ FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& fram
   }
 }
 
-/// Of points that too few readings place: about where they lie in the fit.
+/// For points with too few readings, linearise about their fitted place.
 void FitDiagnostics::add_unplaced(const MeasuredBelts& belts) {
   const ReadingLines lines = reading_lines(belts, frame_.state);
   for (std::size_t k = 0; k < slots_.size(); ++k) {

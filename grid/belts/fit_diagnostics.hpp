@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What is known about a fit of anchors: covariances, residuals, readings and places left out. Private
+/// Diagnostics of a fit of anchors: covariances, residuals, left-out readings and places. Private
 /// to grid/belts and what reads its fits.
 ///
 /// Notation, of a block of places that are found together (belt_lengths.hpp)
@@ -32,14 +32,14 @@
 
 namespace chaintrue::grid::belts {
 
-/// All readings about a state, 4 N rows; those of a belt that cannot be there are 0.
+/// All readings about a state, 4 N rows; 0 for a belt that cannot reach.
 struct ReadingLines {
   Eigen::VectorXd residual_mm;  ///< read less predicted
   Eigen::MatrixX2d by_place;    ///< d(predicted)/d(place)
 };
 [[nodiscard]] ReadingLines reading_lines(const MeasuredBelts& belts, const FrameState& state);
 
-/// Residuals of all readings, those that do not count too, and how places move them.
+/// Residuals of all readings, counted or not, and their derivatives by the places.
 struct FitResiduals {
   Eigen::VectorXd residual;           ///< 4 N, mm
   Eigen::MatrixX2d by_place;          ///< 4 N x 2
@@ -66,19 +66,19 @@ class FitDiagnostics {
   /// A tape ends there.
   [[nodiscard]] bool is_taped(std::size_t point) const;
   [[nodiscard]] Eigen::Matrix2d place_covariance_mm2(std::size_t point) const;
-  /// w cov(a) x': how a answers to a reading.
+  /// w cov(a) x': the response of a to a reading.
   [[nodiscard]] Eigen::VectorXd influence(std::size_t point, model::Belt belt) const;
   [[nodiscard]] BeltResidual residual(std::size_t point, model::Belt belt) const;
-  /// What the fit makes of a distance, and how well it knows it.
+  /// A distance as predicted by the fit, and its sigma.
   struct Expected {
     double mm = 0.0;
     double variance_mm2 = 0.0;
     double with_scale = 0.0;  ///< covariance with the scale's logarithm, where there is one
   };
-  /// Empty where too few readings place an end of it.
+  /// Empty if too few readings determine one of its ends.
   [[nodiscard]] std::optional<Expected> expected(const MeasuredBelts& belts,
                                                  const BeltDistance& distance) const;
-  /// The anchors without any reading of a point that no tape holds, to first order.
+  /// The anchors without the readings of a point that no tape ends at, to first order.
   [[nodiscard]] AnchorVector anchors_without(std::size_t point) const;
 
  private:
@@ -91,7 +91,7 @@ class FitDiagnostics {
     [[nodiscard]] Eigen::MatrixXd precision() const;
     [[nodiscard]] Eigen::VectorXd gradient() const;
   };
-  /// Where a point stands in its block.
+  /// Index of a point in its block.
   struct Slot {
     std::size_t block = 0;
     Eigen::Index place = 0;

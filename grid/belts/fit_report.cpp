@@ -58,7 +58,7 @@ void fill_places(const MeasuredBelts& belts, const FitDiagnostics& view, BeltsFi
         bad.push_back({k, belt, residual.deleted_residual_mm});
       }
     }
-    // Two readings fix a place and check nothing.
+    // Two readings determine a place and leave no check.
     if (bad.size() > 1) {
       fit.bad_points.push_back(k);
     } else {
@@ -149,7 +149,7 @@ std::vector<std::size_t> in_order(const MeasuredBelts& belts) {
 BeltPrediction predict_one_by_one(const MeasuredBelts& belts, const FitDiagnostics& view) {
   std::vector<double> residual_mm;
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
-    // A taped place is not left out: the tape would still hold its place.
+    // A taped place is not left out: the tape would still determine it.
     if (!view.is_placed(k) || view.is_taped(k)) continue;
     predict_point(belts, k, view.anchors_without(k), view.frame().counting[k], residual_mm);
   }

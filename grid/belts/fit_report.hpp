@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A BeltsFit from anchors, places and what is known of them, with how well the upper two belts predict the
-/// lower ones at places that the anchors were not fitted to. Private to grid/belts and what reads its
+/// Assembles a BeltsFit from anchors, places and their covariances, with the error of predicting
+/// the lower belts from the upper two at left-out places. Private to grid/belts and what reads its
 /// fits.
 #pragma once
 
@@ -15,8 +15,9 @@
 
 namespace chaintrue::grid::belts {
 
-/// Everything but what either half of the places predicts of the other. `belts` and `view` are of the
-/// same readings; `covariance` is that of the anchors, mm^2, with a tape of the scale's logarithm too.
+/// Everything except the predictions of each half of the places by the other. `belts` and `view`
+/// are of the same readings; `covariance` is that of the anchors, mm^2, with a tape of the scale's
+/// logarithm too.
 [[nodiscard]] BeltsFit fit_report(const MeasuredBelts& belts,
                                   const FitDiagnostics& view,
                                   const Eigen::MatrixXd& covariance);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Distances between holes that four belts cut, as an observation of the one estimator. Private to
+/// Distances between holes that four belts cut, as an observation for the estimator. Private to
 /// grid/belts.
 ///
-///   r   distances of all sets less what the mechanism's anchors and scale make of them (belt_holes.hpp)
+///   r   distances of all sets minus their prediction (belt_holes.hpp)
 ///   C   their covariance, given
 ///
 ///   y - f = L^-1 r,   L L' = C                                                              (1)
@@ -20,7 +20,7 @@
 
 namespace chaintrue::grid::belts {
 
-/// The distances of all sets, one below the other.
+/// The distances of all sets, concatenated.
 struct TapedRows {
   Eigen::VectorXd residual_mm;
   Eigen::MatrixXd by_frame;             ///< n x 6
@@ -36,7 +36,7 @@ struct TapedRows {
 
 class HoleDistances final : public observation::Observation {
  public:
-  /// `sets` outlive this. Of a mechanism of four belts with a scale.
+  /// `sets` must outlive this. For four belts with a scale.
   HoleDistances(const std::vector<BeltHoles>& sets, const Eigen::MatrixXd& covariance);
 
   [[nodiscard]] const observation::Kind& kind() const override {

@@ -85,13 +85,13 @@ Eigen::VectorXd HolesEstimate::about_the_belts(const TapedRows& rows,
   return rows.residual_mm + rows.by_frame * (frame_vector(state) - frame_vector(alone_.state));
 }
 
-/// The same minimum by Gauss and Newton: of the belts there is S_b alone, six unknowns and no place.
+/// The same minimum by Gauss-Newton: S_b represents the belts, with six unknowns and no places.
 ///
 ///   x = x_b + S_b J' (C + J S_b J')^-1 r_b                                                  (4)
 std::optional<FrameState> HolesEstimate::converged_about_known(
     FrameState state, const Eigen::MatrixXd& covariance) const {
   constexpr int kMostPasses = 20;
-  // Of anchors, mm: a thousandth of what the best tape leaves.
+  // Step of the anchors, mm: a thousandth of the best tape's accuracy.
   constexpr double kConvergedMm = 1e-5;
   for (int pass = 0; pass < kMostPasses; ++pass) {
     const auto rows = taped_rows(sets_, state.anchors, state.log_scale);

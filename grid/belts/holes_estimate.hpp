@@ -13,37 +13,37 @@
 
 namespace chaintrue::grid::belts {
 
-/// Added to the variance of a rejected distance, mm^2: as of a tape read to ten metres, so that it
-/// weighs nothing.
+/// Added to the variance of a rejected distance, mm^2: a sigma of ten metres, so that it has no
+/// weight.
 inline constexpr double kRejectedMm2 = 1e8;
 
-/// Size and reach of the displacement, and what the noise is more than was stated.
+/// Size and reach of the displacement, and the factor on the stated noise.
 struct TapedNoise {
   double factor = 1.0;
   double size_mm = 0.0;  ///< 0: no displacement
   double reach_mm = 1.0;
 };
 
-/// C of the rows of these sets; what is rejected is known to nothing.
+/// C of the rows of these sets, with rejected distances given no weight.
 [[nodiscard]] Eigen::MatrixXd taped_covariance(const std::vector<BeltHoles>& sets,
                                                const TapedRows& rows,
                                                const TapedNoise& noise,
                                                const std::vector<bool>& counting);
 
-/// What is known of anchors and scale but by the holes, about a state.
+/// Anchors and scale as known without the holes, about a state.
 struct WithoutHoles {
   Eigen::MatrixXd covariance;          ///< S_b, 6 x 6
   std::optional<FitDiagnostics> view;  ///< none without points
 };
 
-/// What is known of anchors and the scale's logarithm, in place of what the readings leave: S_b of a
-/// fit that counts causes.
+/// Replaces the covariance of anchors and log scale from the readings: S_b of a fit that allows for
+/// causes.
 using KnownFrame = std::optional<Eigen::MatrixXd>;
 
 class HolesEstimate {
  public:
-  /// `belts` and `sets` outlive this. `alone` is the fit of the belts by themselves, of no points the
-  /// stated anchors. `known` is 6 x 6 and about `alone`.
+  /// `belts` and `sets` must outlive this. `alone` is the fit of the belts alone or, without
+  /// points, the stated anchors. `known` is 6 x 6 and about `alone`.
   HolesEstimate(const MeasuredBelts& belts,
                 const std::vector<BeltHoles>& sets,
                 AnchorFit alone,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a router on four belts measures by itself: the lengths of all four at places that nobody
-/// measured, and distances that a person taped. The places are unknown and found with the anchors.
+/// The measurements of a four-belt router: the lengths of all four belts at unknown places, and
+/// distances taped by hand. The places are estimated with the anchors.
 ///
 /// \code
 ///   MeasuredBelts belts;
@@ -20,8 +20,8 @@
 
 namespace chaintrue::grid {
 
-/// How hard the pulled belts were pulled at a place. A motor's current stands for its force: what it
-/// takes to turn the motor alone is left out of it.
+/// How hard the pulled belts were pulled at a place. A motor's current stands for its force, net of
+/// the idle current.
 struct BeltPull {
   enum class Unit { relative, newton, milliampere };
   double value = 1.0;  ///< above 0
@@ -30,7 +30,7 @@ struct BeltPull {
 };
 
 struct BeltPoint {
-  /// As the controller prints them, BeltMachine::lengths says what they count.
+  /// As the controller prints them; BeltMachine::lengths defines what they count.
   model::PerBelt<double> lengths_mm;
   std::optional<model::BedPoint> commanded = std::nullopt;
   /// Number of the visit; all points have it, distinct, or none.
@@ -40,8 +40,8 @@ struct BeltPoint {
   std::optional<std::vector<model::Belt>> pulled = std::nullopt;
   /// All points have it, in one unit, or none: then all were pulled equally.
   std::optional<BeltPull> pull = std::nullopt;
-  /// What the log holds of single readings that the controller threw away at this place because
-  /// they did not agree.
+  /// Single readings in the log that the controller discarded at this place because they did not
+  /// agree.
   model::PerBelt<std::vector<double>> thrown_away_mm{};
 };
 
@@ -56,10 +56,10 @@ struct BeltDistance {
   BeltEnd from;
   BeltEnd to;
   double distance_mm = 0.0;
-  double sigma_mm = 1.0;  ///< one sigma, of the tape and of what its ends stand for
+  double sigma_mm = 1.0;  ///< one sigma, of the tape and its ends
 };
 
-/// What the machine's own message said of its fit ("Find Anchors fit: rms=..mm max=..mm").
+/// The machine's message about its fit ("Find Anchors fit: rms=..mm max=..mm").
 struct FirmwareFit {
   double rms_mm = 0.0;
   double max_mm = 0.0;
@@ -71,17 +71,17 @@ struct MeasuredBelts {
   std::vector<BeltPoint> points;
   std::vector<BeltDistance> distances;
   std::optional<FirmwareFit> firmware_fit = std::nullopt;
-  /// Sizes of effects refer to this pull; absent: to the least of the points.
+  /// The pull that sizes of effects refer to; absent: the least of the points.
   std::optional<BeltPull> reference_pull = std::nullopt;
 };
 
-/// 2 N - 5 checks of N places: fewer than these leave none to judge by.
+/// N places give 2 N - 5 checks: with fewer places there are none.
 inline constexpr std::size_t kFewestBeltPoints = 5;
-/// A fit or a check of so many takes some seconds (docs/reliability.md).
+/// A fit or check of this many takes some seconds (docs/reliability.md).
 inline constexpr std::size_t kMostBeltPoints = 20000;
 
-/// Belts that the firmware pulls at a place: of an upright frame the lower two; of a flat one those
-/// behind the last move, at the first six places the lower two. `visit` counts from 0.
+/// Belts that the firmware pulls at a place: on an upright frame the lower two; on a flat one those
+/// behind the last move, and at the first six places the lower two. `visit` counts from 0.
 [[nodiscard]] std::vector<model::Belt> pulled_after(model::Orientation orientation,
                                                     model::BedPoint from,
                                                     model::BedPoint to,
@@ -91,7 +91,7 @@ inline constexpr std::size_t kMostBeltPoints = 20000;
 
 /// Whether a motor pulled this belt at the reading.
 [[nodiscard]] bool is_pulled(const BeltPoint& point, model::Belt belt);
-/// The same of all four.
+/// For all four belts.
 [[nodiscard]] model::PerBelt<bool> pulled_belts(const BeltPoint& point);
 /// The pull that sizes of effects refer to; empty where no point has one.
 [[nodiscard]] std::optional<BeltPull> reference_pull(const MeasuredBelts& belts);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Where points stand in their file when others of it were left out by hand: messages and files keep the
+/// Numbers of points in their file when others were left out by hand: messages and files keep the
 /// file's numbers.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace chaintrue::grid {
 
-/// Of each point its place in the file, from 0; empty: none was left out.
+/// Each point's index in the file, from 0; empty: none was left out.
 using PointIndices = std::vector<std::size_t>;
 
 [[nodiscard]] inline std::size_t index_in_file(const PointIndices& indices, std::size_t point) {

@@ -13,9 +13,9 @@ using model::kBelts;
 
 namespace {
 
-/// The firmware repeats a reading until it agrees to as much; places of a start are 100 mm apart.
+/// The firmware repeats a reading until it agrees to this; starting places are 100 mm apart.
 constexpr double kSamePlaceMm = 1.0;
-/// No belt is read better twice in a row, whatever the belts that hold say.
+/// The repeatability of two consecutive readings is never better.
 constexpr double kLeastSigmaMm = 0.1;
 
 bool same_roles(const BeltPoint& a, const BeltPoint& b) {
@@ -51,7 +51,7 @@ std::vector<RepeatedPull> repeated_pulls(const MeasuredBelts& belts) {
     }
     if (!stays || held == 0 || pulled == 0) continue;
     pull.share /= pulled;
-    // A difference of two readings, as those of the belts that hold are.
+    // A difference of two readings, as for the holding belts.
     const double one_mm = std::max(std::sqrt(held_square / held), std::sqrt(2.0) * kLeastSigmaMm);
     pull.sigma = one_mm * std::sqrt(static_cast<double>(pulled)) / length_mm;
     found.push_back(pull);

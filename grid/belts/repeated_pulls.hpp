@@ -24,13 +24,13 @@ struct RepeatedPull {
   std::size_t first = 0;   ///< points
   std::size_t second = 0;  ///< the next one
   double share = 0.0;      ///< (1): positive where the second reading is shorter
-  double sigma = 0.0;      ///< of that, from what the belts that hold changed by
+  double sigma = 0.0;      ///< its sigma, from the change of the holding belts
 };
 
 /// Consecutive points, each taken once, whose belts that hold agree to a millimetre.
 [[nodiscard]] std::vector<RepeatedPull> repeated_pulls(const MeasuredBelts& belts);
 
-/// What they tell, in a sentence; empty where there are none.
+/// The result as a sentence; empty if there are none.
 [[nodiscard]] std::string repeated_pulls_in_words(const MeasuredBelts& belts);
 
 }  // namespace chaintrue::grid

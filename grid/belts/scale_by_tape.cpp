@@ -14,10 +14,10 @@ namespace chaintrue::grid {
 namespace {
 
 constexpr int kDirections = 8;
-/// Holes are proposed at whole tens, which people type.
+/// Holes are proposed at multiples of ten, which are easy to type.
 constexpr double kWholeMm = 10.0;
 
-/// Points of the file that lie outermost in each direction, each once.
+/// The outermost points of the file in each direction, each once.
 std::vector<std::size_t> outermost(const BeltsFit& fit) {
   std::vector<std::size_t> points;
   for (int i = 0; i < kDirections; ++i) {
@@ -58,7 +58,7 @@ belts::AnchorFit frame_of(const BeltsFit& fit) {
     for (const model::Belt belt : model::kBelts) counts[belt] = place.belts[belt].counts;
   }
   if (fit.scale) frame.state.log_scale = std::log(fit.scale->factor);
-  // Lengths without noise are as good as a hundredth of what anybody reads.
+  // Lengths without noise are given a hundredth of a usual sigma.
   constexpr double kFinestMm = 1e-3;
   frame.residual_sigma_mm = std::max(fit.residual_sigma_mm, kFinestMm);
   return frame;
@@ -72,7 +72,7 @@ double sigma_with(const MeasuredBelts& belts,
   if (!expected || !(expected->mm > 0.0)) return kInfinity;
   distance.distance_mm = expected->mm;
   const double noise = distance.sigma_mm * distance.sigma_mm + expected->variance_mm2;
-  // The first distance tells the scale alone.
+  // The first distance determines the scale alone.
   if (!view.has_scale()) return std::sqrt(noise) / expected->mm;
   const double known = view.covariance()(belts::kAnchorUnknowns, belts::kAnchorUnknowns);
   const double left = known - expected->with_scale * expected->with_scale / noise;
@@ -97,7 +97,7 @@ std::optional<DistanceForScale> distance_for_scale(const MeasuredBelts& belts,
   for (const auto& [from, to] : pairs) {
     BeltDistance distance{from, to, 0.0, kTapedDistanceMm};
     const double sigma = sigma_with(belts, view, distance);
-    // A hundredth better is no reason for a hole where two anchors do.
+    // A gain of 1 % does not justify drilling a hole if two anchors serve.
     constexpr double kBetter = 0.99;
     if (std::isfinite(sigma) && (!best || sigma < kBetter * best->sigma))
       best = DistanceForScale{distance, sigma};

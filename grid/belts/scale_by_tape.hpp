@@ -20,7 +20,7 @@
 
 namespace chaintrue::grid {
 
-/// One sigma of a long distance taped with care, mm: two metres to half a millimetre, and its ends.
+/// One sigma of a long distance taped with care, mm: half a millimetre on two metres, and its ends.
 inline constexpr double kTapedDistanceMm = 1.0;
 
 struct DistanceForScale {

@@ -32,14 +32,14 @@ TapedMarginal marginal(const HolesEstimate& frame,
 
 namespace {
 
-/// Fewest degrees of freedom that any set states of its noise.
+/// The fewest degrees of freedom of any set's stated noise.
 double noise_dof(const std::vector<BeltHoles>& sets) {
   double least = sets.front().set.noise_dof;
   for (const BeltHoles& set : sets) least = std::min(least, set.set.noise_dof);
   return least;
 }
 
-/// Of the logarithm of a scaled inverse chi square about one.
+/// Log density of a scaled inverse chi square about one.
 double log_prior(double factor, double dof) {
   return -dof * std::log(factor) - 0.5 * dof / (factor * factor);
 }
@@ -53,7 +53,7 @@ double extent_mm(const std::vector<model::MarkPoint>& marks) {
   return widest;
 }
 
-/// The likeliest noise on the grid, and what it is worth summed over the grid.
+/// The likeliest noise on the grid, and the evidence summed over the grid.
 struct Chosen {
   TapedNoise noise;
   double best = kMinusInfinity;
@@ -80,9 +80,10 @@ TapedNoise likeliest_noise(const HolesEstimate& frame,
   constexpr double kStep = 0.175;
   constexpr int kFirst = -3;
   constexpr int kLast = 8;
-  // From less than a tape reads to what belts do that stretch by half a hundredth.
+  // From below a tape's resolution to the effect of belts that stretch by half a per cent.
   constexpr double kSizesMm[] = {0.2, 0.4, 0.8, 1.6, 3.2, 6.4};
-  // Of the distance between the outermost holes: below a quarter nine holes tell nothing of it.
+  // Share of the distance between the outermost holes: below a quarter nine holes do not determine
+  // it.
   constexpr double kReaches[] = {0.25, 0.5, 1.0};
   const double extent = extent_mm(at.rows.marks);
   Chosen without;
@@ -105,7 +106,7 @@ TapedNoise likeliest_noise(const HolesEstimate& frame,
   return with.mean() - without.mean() > estimation::kSurfaceEvidence ? with.noise : without.noise;
 }
 
-/// Iterates with the noise as it is; false where it does not converge.
+/// Iterates with fixed noise; false if it does not converge.
 bool converge(const HolesEstimate& frame, const std::vector<BeltHoles>& sets, TapedState& state) {
   const auto there = frame.converged(
       state.frame, taped_covariance(sets, state.rows, state.noise, state.counting));
@@ -118,7 +119,7 @@ bool converge(const HolesEstimate& frame, const std::vector<BeltHoles>& sets, Ta
   return true;
 }
 
-/// The worst distance beyond kBadDistanceSigmas; empty where all fit.
+/// The worst distance beyond kBadDistanceSigmas; empty if all fit.
 std::optional<std::size_t> worst_of(const HolesEstimate& frame,
                                     const std::vector<BeltHoles>& sets,
                                     const TapedState& state) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Anchors and taped holes at rest: the noise and the displacement that the distances make likeliest, and which
-/// distances are rejected. (1) to (3) of belts_and_holes.hpp. Private to grid/belts.
+/// The converged anchors and taped holes: the likeliest noise and displacement, and the rejected
+/// distances. (1) to (3) of belts_and_holes.hpp. Private to grid/belts.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@
 
 namespace chaintrue::grid::belts {
 
-/// Where the fit stands.
+/// The state of the fit.
 struct TapedState {
   FrameState frame;
   TapedRows rows;
@@ -33,8 +33,7 @@ struct TapedMarginal {
   [[nodiscard]] double left_out_mm(Eigen::Index k) const {
     return (inverse.row(k) * residual_mm)(0) / inverse(k, k);
   }
-  /// The tape's own and that of what the others predict; what kept a rejected distance from
-  /// counting is no part of it.
+  /// The tape's variance plus that of the prediction, without what was added for rejection.
   [[nodiscard]] double left_out_sigma_mm(Eigen::Index k) const {
     const double added = counting[as_size(k)] ? 0.0 : kRejectedMm2;
     return std::sqrt(1.0 / inverse(k, k) - added);
@@ -47,7 +46,7 @@ struct TapedMarginal {
                                      const TapedNoise& noise,
                                      const std::vector<bool>& counting);
 
-/// Empty where it does not converge, or a third of the distances are not enough to reject.
+/// Empty if it does not converge, or if rejecting a third of the distances is not enough.
 [[nodiscard]] std::optional<TapedState> converged_state(const HolesEstimate& frame,
                                                         const std::vector<BeltHoles>& sets);
 

@@ -30,7 +30,8 @@ ToolDisplacement::ToolDisplacement(DisplacementParts parts) : parts_(std::move(p
     throw precondition(
         "{} displacements of {} places over {} mm", parts_.at_mm.size(), count, parts_.reach_mm);
   }
-  // Two holes at one place are one; a ten-thousandth of the size is below any tape.
+  // Keeps K positive definite for two holes at one place; a ten-thousandth of the size is below any
+  // tape.
   constexpr double kSamePlace = 1e-8;
   Eigen::MatrixXd kernel = displacement_kernel(parts_.places, parts_.places, parts_.reach_mm);
   kernel.diagonal().array() += kSamePlace;

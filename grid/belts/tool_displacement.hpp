@@ -6,8 +6,8 @@
 ///   k(r) = (1 + u + u^2 / 3) exp(-u),   u = sqrt(5) r / reach                               (1)
 ///   d(q) = sum_i k(|q - q_i|) w_i,      K w = d at the places                               (2)
 ///
-/// Each axis by itself; far from all places it falls to nothing, and size^2 (1 - k' K^-1 k) is what
-/// stays uncertain given what is known at the places.
+/// Each axis is independent; far from all places the field tends to zero, and size^2 (1 - k' K^-1
+/// k) is the remaining variance given the values at the places.
 ///
 /// Source: C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equations
 /// 4.17 for (1) and 2.25 for (2).
@@ -40,10 +40,10 @@ struct DisplacementParts {
 /// Immutable, thread safe.
 class ToolDisplacement {
  public:
-  /// \throws std::invalid_argument where `at_mm` is not of the places.
+  /// \throws std::invalid_argument if `at_mm` does not fit the places.
   explicit ToolDisplacement(DisplacementParts parts);
   [[nodiscard]] Eigen::Vector2d at(model::MarkPoint mark) const;
-  /// Of each axis, in addition to what is uncertain at the places themselves.
+  /// Of each axis, in addition to the uncertainty at the places.
   [[nodiscard]] double own_variance_mm2(model::MarkPoint mark) const;
   [[nodiscard]] const DisplacementParts& parts() const { return parts_; }
 

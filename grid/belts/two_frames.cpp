@@ -9,18 +9,18 @@
 namespace chaintrue::grid {
 namespace {
 
-/// Frames of real machines contradict themselves by less.
+/// Real frames have smaller residuals.
 constexpr double kOneFrameMm = 3.0;
-/// Nor does one of two agree with itself worse.
+/// Each of two frames has at most this residual.
 constexpr double kMostOfAFrameMm = 15.0;
-/// An anchor that stands elsewhere; one that gave way moves by millimetres.
+/// An anchor that was relocated; one that gave way moves by millimetres.
 constexpr double kStandsElsewhereMm = 25.0;
-/// Two frames agree each with itself so many times better than both together.
+/// Each of two frames fits this many times better than both together.
 constexpr double kBetterApart = 4.0;
-/// As many points of a part tell a frame as well as all.
+/// This many points determine a frame as well as all do.
 constexpr std::size_t kMostOfAPart = 24;
 
-/// Points from `first` to before `end`, every so manieth with the two ends.
+/// Points from `first` to before `end`, evenly thinned, both ends kept.
 MeasuredBelts evenly_of(const MeasuredBelts& belts, std::size_t first, std::size_t end) {
   MeasuredBelts part = belts;
   part.distances.clear();

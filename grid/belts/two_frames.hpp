@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Two frames in one list of places: the first so many make one frame, the others another.
+/// Detects two frames in one list of places: the first points belong to one, the rest to another.
 ///
 /// \code
 ///   if (const auto first = second_frame_begins(belts)) say("from point", *first + 1);
@@ -14,7 +14,7 @@
 
 namespace chaintrue::grid {
 
-/// The first point of the second frame, where all points together make none and either part makes one.
+/// The first point of the second frame, if all points together fit no frame and each part fits one.
 /// Both parts have kFewestBeltPoints or more.
 [[nodiscard]] std::optional<std::size_t> second_frame_begins(const MeasuredBelts& belts);
 
